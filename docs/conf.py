@@ -41,4 +41,5 @@ copybutton_prompt_text = "$ "
 
 def setup(app):
     """Write the pages that follow from the program before Sphinx looks for them."""
-    app.connect("builder-inited", lambda app: write_pages(Path(app.srcdir)))
+    # Before autosummary looks for the names
+    app.connect("builder-inited", lambda app: write_pages(Path(app.srcdir)), priority=100)
