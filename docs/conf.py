@@ -41,5 +41,5 @@ copybutton_prompt_text = "$ "
 
 def setup(app):
     """Write the pages that follow from the program before Sphinx looks for them."""
-    # Before autosummary looks for the names
-    app.connect("builder-inited", lambda app: write_pages(Path(app.srcdir)), priority=100)
+    # Before the pages are looked for, so that autosummary finds the names
+    app.connect("config-inited", lambda app, config: write_pages(Path(app.srcdir)))
