@@ -1,28 +1,41 @@
 !> The command line: which case, and what to do with it.
 module dondolo_arguments
    use dondolo_error, only : error_type, raise_input
+   use dondolo_example, only : example_names
+   use dondolo_front_door, only : python_commands
    use dondolo_job_group, only : task_names
    use dondolo_threads, only : largest_threads
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_text, only : join, to_text
+   use dondolo_text, only : join, replaced, to_text
    implicit none
    private
 
-   public :: arguments_type, read_arguments
+   public :: arguments_type, read_arguments, option_names
+
+   !> Every option, in the order of the help page
+   character(len=*), parameter :: option_names(*) = [character(len=12) :: '--check', '--walls', '--merge', '--status', &
+      & '--template', '--example', '--benchmark', '--completion', '--threads', '--quiet', '--version', '--help']
+
+   !> Shells that --completion knows
+   character(len=*), parameter :: shell_names(*) = [character(len=4) :: 'bash', 'zsh']
 
    !> Where an error sends the user
    character(len=*), parameter :: see_help = ' (dondolo --help lists the options)'
 
    !> What the command line asks for
    type :: arguments_type
-      !> 'run', 'check', 'merge', 'status', 'template', 'benchmark', 'version' or 'help'
+      !> 'run', 'check', 'merge', 'status', 'template', 'example', 'benchmark', 'completion', 'version', 'help' or 'python'
       character(len=:), allocatable :: action
       !> Path of the case; of 'status' the output
       character(len=:), allocatable :: case_file
       !> Task of the template
       character(len=:), allocatable :: task
+      !> Name of the example, or of the shell of the completion
+      character(len=:), allocatable :: name
+      !> Words of a command that Python carries out
+      type(lines_type) :: command
       !> Length of a measurement of the benchmark [s]
       real(wp) :: seconds = 1.0_wp
       !> Number of threads; not allocated: the case's
@@ -50,6 +63,16 @@ contains
       arguments%action = 'run'
       arguments%task = 'stripes'
       i = 1
+      call get_argument(1, word)
+      if (any(word == python_commands)) then
+         arguments%action = 'python'
+         do i = 1, command_argument_count()
+            call get_argument(i, word)
+            call arguments%command%add(word)
+         end do
+         return
+      end if
+      if (word == 'run') i = 2
       do while (i <= command_argument_count())
          call get_argument(i, word)
          i = i + 1
@@ -64,6 +87,12 @@ contains
          else if (word == '--template' .or. index(word, '--template=') == 1) then
             call set_action('template')
             if (.not. allocated(error)) call take_task(word, i, arguments, error)
+         else if (word == '--example' .or. index(word, '--example=') == 1) then
+            call set_action('example')
+            if (.not. allocated(error)) call take_name(word, i, example_names, arguments, error)
+         else if (word == '--completion' .or. index(word, '--completion=') == 1) then
+            call set_action('completion')
+            if (.not. allocated(error)) call take_name(word, i, shell_names, arguments, error)
          else if (word == '--benchmark' .or. index(word, '--benchmark=') == 1) then
             call set_action('benchmark')
             if (.not. allocated(error)) call take_seconds(word, i, arguments, error)
@@ -74,8 +103,8 @@ contains
          else if (word == '--threads' .or. index(word, '--threads=') == 1) then
             call take_threads(word, i, arguments, error)
          else if (index(word, '-') == 1) then
-            call raise_input(error, word//': no such option; there are --check, --walls, --merge, --status, --template, '// &
-               & '--benchmark, --threads, --quiet, --version, --help')
+            call raise_input(error, word//': no such option; there are '// &
+               & trim(replaced(join(option_names), '''', '')))
          else if (len(word) == 0) then
             call raise_input(error, 'the name of the case is empty'//see_help)
          else if (allocated(arguments%case_file) .and. any(arguments%action == ['merge ', 'status'])) then
@@ -91,8 +120,8 @@ contains
          if (.not. allocated(arguments%case_file)) call raise_input(error, 'no case given: dondolo CASE.nml'//see_help)
       else if (arguments%action == 'status' .and. .not. allocated(arguments%case_file)) then
          call raise_input(error, 'no output given: dondolo --status OUTPUT'//see_help)
-      else if (allocated(arguments%case_file) .and. arguments%action == 'template') then
-         call raise_input(error, arguments%case_file//': --template takes no case, it prints one')
+      else if (allocated(arguments%case_file) .and. any(arguments%action == ['template', 'example '])) then
+         call raise_input(error, arguments%case_file//': --'//arguments%action//' takes no case, it prints one')
       else if (allocated(arguments%case_file) .and. arguments%action == 'benchmark') then
          call raise_input(error, arguments%case_file//': --benchmark takes no case, it has its own')
       end if
@@ -142,6 +171,30 @@ contains
          call raise_input(error, '--template '//task//': the task must be one of '//join(task_names))
       end if
    end subroutine take_task
+
+   !> The name that --example or --completion asks for: `--example=name`, or the next word
+   subroutine take_name(word, i, names, arguments, error)
+      !> The option as it was typed
+      character(len=*), intent(in) :: word
+      !> Number of the next argument
+      integer, intent(inout) :: i
+      !> Names that are known
+      character(len=*), intent(in) :: names(:)
+      !> What the command line asks for
+      type(arguments_type), intent(inout) :: arguments
+      !> No such name
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: name
+
+      call take_value(word, i, name)
+      if (.not. allocated(name)) name = ''
+      if (any(name == names) .and. len(name) > 0) then
+         arguments%name = name
+      else
+         call raise_input(error, trim('--'//arguments%action//' '//name)//': must be one of '//join(names))
+      end if
+   end subroutine take_name
 
    !> The length of a measurement: `--benchmark=seconds`, or the next word if there is one
    subroutine take_seconds(word, i, arguments, error)

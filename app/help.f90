@@ -10,16 +10,26 @@ module dondolo_help
    character(len=*), parameter :: page(*) = [character(len=110) :: &
       & 'dondolo: fragility of masonry walls that rock and overturn in earthquakes', &
       & '', &
-      & '   dondolo CASE.nml             run a case and write its result files', &
+      & '   dondolo CASE.nml             run a case and write its result files; also dondolo run CASE.nml', &
       & '   dondolo --check CASE.nml     check the case and all its files, say what would run, run nothing', &
       & '   dondolo --walls A:B CASE.nml run rows A to B of a population only, into a file of counts', &
       & '   dondolo --merge CASE.nml COUNTS ...', &
       & '                                merge part files and write the result files', &
       & '   dondolo --status OUTPUT ...  from another terminal: who runs, how far, what time is left', &
       & '   dondolo --template [TASK]    print a commented case for a task: stripes (default), history, typology', &
+      & '   dondolo --example NAME       print a ready case, parapet for example, that finds its records anywhere', &
       & '   dondolo --benchmark [S]      measure the speed on 1, 2, 4 ... threads, S seconds (1) each on one', &
+      & '   dondolo --completion SHELL   print the completion for bash or zsh: eval "$(dondolo --completion bash)"', &
       & '   dondolo --version            print the version, and the build variant for this processor', &
       & '   dondolo --help               print this page', &
+      & '', &
+      & 'Commands of the Python package, where it is installed (dondolo plot --help says more of each):', &
+      & '   dondolo plot PREFIX          draw the figures of a run from its result files', &
+      & '   dondolo report PREFIX        write a report of a run: one HTML file; with --pdf, PDF', &
+      & '   dondolo xlsx PREFIX          write its tables into a workbook of Excel or LibreOffice', &
+      & '   dondolo nrml PREFIX          write its curves for OpenQuake', &
+      & '   dondolo records CATALOGUE    print a table of the records of a catalogue', &
+      & '   dondolo catalogue FOLDER     make a catalogue of the accelerograms in a folder', &
       & '', &
       & 'Options of a run or a benchmark:', &
       & '   --threads N   number of threads instead of the case''s, most of a benchmark; 0: all, or OMP_NUM_THREADS', &

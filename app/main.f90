@@ -4,6 +4,9 @@ program dondolo_main
    use dondolo_arguments, only : arguments_type, read_arguments
    use dondolo_benchmark, only : run_benchmark
    use dondolo_case, only : case_type
+   use dondolo_completion, only : print_completion
+   use dondolo_example, only : print_example
+   use dondolo_front_door, only : hand_over
    use dondolo_read_case, only : read_case
    use dondolo_error, only : error_type, raise_failure, status_failure, status_input, status_missing
    use dondolo_help, only : print_help
@@ -43,6 +46,14 @@ program dondolo_main
       write (output_unit, '(a)') 'dondolo '//dondolo_version_text, 'build variant '//trim(build_variant())
    case ('template')
       call print_template(arguments%task)
+   case ('example')
+      call print_example(arguments%name, error)
+      if (allocated(error)) call give_up(error)
+   case ('completion')
+      call print_completion(arguments%name)
+   case ('python')
+      call hand_over(arguments%command, error)
+      if (allocated(error)) call give_up(error)
    case ('benchmark')
       call check_variant(error)
       if (allocated(error)) call give_up(error)

@@ -393,13 +393,58 @@ check "template: defaults of history" same out/history_history.csv long.csv
 cd "$work" || exit 1
 rm -rf template
 
+mkdir example
+cd example || exit 1
+for case in "$root"/data/cases/*.nml; do
+   name=$(basename "$case" .nml)
+   run --example "$name"
+   check "example $name: exit code" equal "$rc" 0
+   check "example $name: paths are absolute" lacks ../stdout "'../"
+   cp ../stdout "$name.nml"
+   run --check --quiet "$name.nml"
+   check "example $name: finds its files anywhere" equal "$rc" 0
+done
+run --example parapet
+cp ../stdout parapet.nml
+run run --quiet parapet.nml
+check "run CASE: as CASE" test "$rc" = 0 -a -s out/parapet_fragility.csv
+cd "$work" || exit 1
+rm -rf example
+
 # --- options -------------------------------------------------------------------------------------------------------
 
 run --help
 check "help: exit code" equal "$rc" 0
-for option in --check --template --benchmark --threads --quiet --version --help; do
-   check "help: $option" contains stdout -- "$option"
+for option in --check --walls --merge --status --template --example --benchmark --completion --threads --quiet --version --help; do
+   check "help: $option" contains stdout "$option"
+   check "unknown option: $option is offered" grep -q -- " $option" <("$exe" --fast 2>&1)
 done
+for shell in bash zsh; do
+   run --completion $shell
+   check "completion $shell: exit code" equal "$rc" 0
+   check "completion $shell: ends as it should" equal "$(tail -n 1 stdout)" 'complete -o filenames -F _dondolo dondolo'
+done
+# complete_word WORD...: what bash offers for the last word of a command line
+complete_word() {
+   bash -c '. <("$1" --completion bash); shift; COMP_WORDS=(dondolo "$@"); COMP_CWORD=$#; _dondolo; echo "${COMPREPLY[*]}"' - "$exe" "$@"
+}
+check "completion: options" equal "$(complete_word --ex)" --example
+check "completion: commands" equal "$(complete_word re)" 'report records'
+check "completion: examples" equal "$(complete_word --example pin)" pinnacle
+# Commands that Python carries out, and the line where there is no Python with the package
+mkdir alone
+cp "$exe" alone/dondolo
+for command in plot report xlsx nrml records catalogue; do
+   check "$command: in the help" grep -q "^   dondolo $command " <("$exe" --help)
+   said=$(PATH=/nowhere alone/dondolo $command nothing 2>&1)
+   check "$command without Python: exit code" equal $? 1
+   check "$command without Python: one line" contains <(echo "$said") "dondolo: $command needs the Python package dondolo"
+   if [ -x "$(dirname "$exe")/python3" ]; then
+      run $command
+      check "$command: Python answers" contains stderr "dondolo $command"
+   fi
+done
+rm -rf alone
 before=$(listing)
 run --benchmark 0.01 --threads 2
 check "benchmark: exit code" equal "$rc" 0
@@ -474,13 +519,18 @@ refused "negative threads" '--threads -1: must be an integer' --threads -1 good.
 refused "empty threads" '--threads : must be an integer' --threads= good.nml
 refused "template of a task that does not exist" "--template walls: the task must be one of 'history'" --template walls
 refused "two actions" '--version: cannot go together with --check' --check --version
+refused "example that does not exist" "--example barn: must be one of 'facade'" --example barn
+refused "example without a name" "--example: must be one of 'facade'" --example
+refused "example with a case" '--example takes no case' good.nml --example parapet
+refused "completion of an unknown shell" "--completion fish: must be one of 'bash', 'zsh'" --completion fish
+refused "run without a case" 'no case given' run
 refused "template with a case" '--template takes no case' good.nml --template
 refused "benchmark with a case" '--benchmark takes no case' good.nml --benchmark
 refused "benchmark of no length" '--benchmark 0: must be a length of a measurement between 0.001 and 60 s' --benchmark 0
 refused "benchmark of a case" '--benchmark good.nml: must be a length' --benchmark good.nml
 refused "benchmark without its length" '--benchmark : must be a length' --benchmark=
 refused "no such case" 'none.nml: no such file' none.nml
-refused "a folder for a case" 'records: is a folder, must be a namelist file' records
+refused "a folder for a case" 'records: is a folder, must be a namelist file' ./records
 : >empty.nml
 refused "empty file" 'empty.nml: the file is empty' empty.nml
 echo '! nothing' >comment.nml

@@ -58,7 +58,7 @@ def truth(study):
             "the restitution represent a real wall is a separate question."
         ),
         *paragraph(
-            "The tables of [test/reference](../test/reference) contain the EDP of every history to 20 digits. "
+            "The tables of `test/reference` contain the EDP of every history to 20 digits. "
             "`./run reference` compiles the same sources in real128 (33 digits) and runs them at a tolerance at "
             "which even the most amplified error is small. The change of an EDP when that tolerance is relaxed "
             "a hundredfold bounds the error of the table."

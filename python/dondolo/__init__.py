@@ -35,6 +35,7 @@ from dondolo.exchange.fragility_model import DiscreteFragility, FragilityModel, 
 from dondolo.exchange.mean_functions import nrml_functions
 from dondolo.exchange.nrml import write_nrml
 from dondolo.exchange.results import StoredResults, read_results
+from dondolo.exchange.workbook import write_workbook
 from dondolo.populations.bootstrap import TypologyBootstrap
 from dondolo.populations.curve import Group, PopulationCurve
 from dondolo.populations.study import typology
@@ -44,6 +45,7 @@ from dondolo.populations.weakest_hinge import HingeSearch, weakest_hinge
 from dondolo.records import pulses
 from dondolo.records.building import Building
 from dondolo.records.codes import Site, ec8_spectrum, ntc_spectrum
+from dondolo.records.examples import example_records
 from dondolo.records.intensity import intensity_table
 from dondolo.records.reading import read_catalogue, read_record, read_records
 from dondolo.records.record import Record
@@ -129,6 +131,7 @@ __all__ = [
     "compare_designs",
     "compare_intensities",
     "ec8_spectrum",
+    "example_records",
     "facade",
     "fit_fragility",
     "incremental",
@@ -157,6 +160,7 @@ __all__ = [
     "uncertain_wall",
     "weakest_hinge",
     "write_nrml",
+    "write_workbook",
 ]
 # Names of walls stand where the walls do
 __all__ += _walls

@@ -49,7 +49,8 @@ def main(arguments: list[str] | None = None) -> int:
 
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
-        prog="python -m dondolo",
+        # The executable hands its commands over by -c.
+        prog="dondolo" if sys.argv[0] == "-c" else "python -m dondolo",
         description="dondolo: fragility of masonry walls that rock and overturn in earthquakes. "
         "Analyses are run by the executable, dondolo --help, or in Python.",
     )
@@ -75,7 +76,7 @@ def _parser() -> argparse.ArgumentParser:
     plot.set_defaults(run=_plot)
     report = commands.add_parser(
         "report",
-        help="write a report of a run: one HTML file",
+        help="write a report of a run: one HTML file, or PDF",
         description="Write a report of a run from its CSV files, those of the executable or of "
         "Typology.write_results: one HTML file with figures, tables, inputs, checks and versions, which opens offline.",
     )
@@ -88,6 +89,16 @@ def _parser() -> argparse.ArgumentParser:
         metavar="FILE",
     )
     report.set_defaults(run=_report)
+    report.add_argument("--pdf", action="store_true", help="PDF, printed by Chromium or WeasyPrint, PREFIX_report.pdf")
+    workbook = commands.add_parser(
+        "xlsx",
+        help="write the tables of a run into a workbook",
+        description="Write all tables of a run into one workbook of Excel or LibreOffice: a sheet a table, and one of "
+        "the case. Needs openpyxl.",
+    )
+    workbook.add_argument("prefix", help="what the names of the result files begin with, for example out/parapet")
+    workbook.add_argument("-o", "--output", help="the workbook; PREFIX_tables.xlsx if left out", metavar="FILE")
+    workbook.set_defaults(run=_workbook)
     nrml = commands.add_parser(
         "nrml",
         help="write the curves of a run for OpenQuake",
@@ -140,9 +151,18 @@ def _report(options: argparse.Namespace) -> None:
     import matplotlib
 
     matplotlib.use("agg")
-    path = options.output or f"{options.prefix}_report.html"
+    path = options.output or f"{options.prefix}_report.{'pdf' if options.pdf else 'html'}"
+    if options.pdf and not path.lower().endswith(".pdf"):
+        raise dd.InputError(f"--output {path}: must end in .pdf with --pdf")
     hazard = None if options.hazard is None else dd.HazardCurve.from_csv(options.hazard)
     dd.report(dd.read_results(options.prefix), path, hazard=hazard)
+    print(f"written: {path}")
+
+
+def _workbook(options: argparse.Namespace) -> None:
+    """Write the tables of a run into a workbook."""
+    path = options.output or f"{options.prefix}_tables.xlsx"
+    dd.write_workbook(options.prefix, path)
     print(f"written: {path}")
 
 

@@ -7,6 +7,7 @@ import functools
 import importlib
 import importlib.util
 import inspect
+import json
 import pkgutil
 import pydoc
 import re
@@ -27,7 +28,9 @@ def test_versions(root):
     fpm = tomllib.loads((root / "fpm.toml").read_text())["version"]
     python = tomllib.loads((root / "pyproject.toml").read_text())["project"]["version"]
     meson = re.search(r"version: '([^']+)'", (root / "meson.build").read_text()).group(1)
-    assert dd.__version__ == fpm == python == meson
+    citation = re.search(r"^version: (.+)$", (root / "CITATION.cff").read_text(), re.M).group(1)
+    zenodo = json.loads((root / ".zenodo.json").read_text())["version"]
+    assert dd.__version__ == fpm == python == meson == citation == zenodo
 
 
 def test_fortran_sources(root):

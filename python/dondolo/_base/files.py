@@ -137,17 +137,19 @@ def check_replaced(path: Any, mark: str, kind: str) -> None:
     path : path
         The file.
     mark : str
-        What stands near the beginning of every file of the kind.
+        What is near the beginning or the end of every file of the kind.
     kind : str
         What it is, for the message.
     """
     target = as_file("path", path)
     try:
-        with target.open(encoding="utf-8", errors="replace") as file:
-            start = file.read(500)
+        with target.open("rb") as file:
+            ends = file.read(500)
+            file.seek(max(target.stat().st_size - 500, 0))
+            ends += file.read(500)
     except FileNotFoundError:
         return
     except OSError as error:
         raise DondoloError(f"{target}: cannot be written: {error.strerror}") from error
-    if mark not in start:
+    if mark.encode() not in ends:
         raise InputError(f"{target}: exists, and is no {kind} of dondolo")

@@ -113,7 +113,7 @@ def load(path: str | os.PathLike[str]) -> Any:
     Parameters
     ----------
     path : path
-        The file, *.npz. The tables of a run, of `Typology.write_results` too, are read by `read_results`.
+        The file, ``*.npz``. The tables of a run, of `Typology.write_results` too, are read by `read_results`.
 
     Returns
     -------

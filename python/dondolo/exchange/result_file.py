@@ -102,6 +102,10 @@ class ResultFile:
     def __contains__(self, name: str) -> bool:
         return name in self._columns
 
+    def __iter__(self) -> Iterator[str]:
+        """Names of the columns."""
+        return iter(self._columns)
+
     def __len__(self) -> int:
         return len(self._lines)
 

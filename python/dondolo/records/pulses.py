@@ -44,7 +44,7 @@ def one_sine(amplitude: float, frequency: float, *, error: float = 1e-5) -> Reco
     Notes
     -----
     Type A of Makris and Roussos (2000); the pulse of Zhang and Makris (2001). A chord over h leaves its function by at
-    most h^2/8 max |a''|, which sets the time step.
+    most h^2/8 ``max |a''|``, which sets the time step.
     """
     return _harmonic(np.sin, "one_sine", amplitude, frequency, error)
 
@@ -94,7 +94,8 @@ def ricker(amplitude: float, frequency: float, *, error: float = 1e-5) -> Record
 
     Notes
     -----
-    Ricker (1943); as a pulse for rocking blocks: Vassiliou and Makris (2011). max |a''| = 6 (pi frequency)^2 amplitude.
+    Ricker (1943); as a pulse for rocking blocks: Vassiliou and Makris (2011).
+    ``max |a''|`` = 6 (pi frequency)^2 amplitude.
     """
     from scipy.special import lambertw
 

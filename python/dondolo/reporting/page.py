@@ -27,6 +27,7 @@ from dondolo.reporting import inputs, typology, wall
 from dondolo.reporting.code_check import code_check
 from dondolo.reporting.content import BETA, THETA, Symbol, date_in_words
 from dondolo.reporting.numerals import NONE, whole
+from dondolo.reporting.pdf import write_pdf
 from dondolo.reporting.risk import risk_facts
 from dondolo.reporting.run import Run, run_of
 from dondolo.risk.hazard import HazardCurve
@@ -55,14 +56,15 @@ def report(
     check: CodeCheck | None = None,
     title: str | None = None,
 ) -> None:
-    """Write a report of a run: one HTML file that opens offline, appears whole or not at all, and prints on A4.
+    """Write a report of a run: one file that appears whole or not at all, HTML that opens offline, or PDF on A4.
 
     Parameters
     ----------
     results : StoredResults, Results, Typology, Stripes or Response
         What `read_results`, `run_case`, `typology`, `multiple_stripe` or `simulate` gave. Files know most of a run.
     path : path
-        The file; its folder must exist. An earlier report is replaced, any other file is not.
+        The file; its folder must exist. One that ends in ``.pdf`` is printed by Chromium or WeasyPrint. An earlier
+        report is replaced, any other file is not.
     hazard : HazardCurve, optional
         Of the site: adds the annual frequency of collapse with its bounds and deaggregation.
     check : CodeCheck, optional
@@ -75,7 +77,8 @@ def report(
     InputError
         Nothing that a report can be made of; a hazard curve of another intensity measure; a file that is no report.
     DondoloError
-        The file cannot be written; with a hazard curve, there is no fragility curve.
+        The file cannot be written; with a hazard curve, there is no fragility curve; for PDF, neither Chromium nor
+        WeasyPrint is here.
 
     Notes
     -----
@@ -115,7 +118,10 @@ def report(
         version=version,
         made=date_in_words(datetime.now().astimezone()),
     )
-    tables.write_lines(path, [text.rstrip("\n")])
+    if os.fspath(path).lower().endswith(".pdf"):
+        write_pdf(path, text, f"{_GENERATOR} {version}")
+    else:
+        tables.write_lines(path, [text.rstrip("\n")])
 
 
 def _environment() -> Environment:

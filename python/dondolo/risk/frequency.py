@@ -214,7 +214,7 @@ class Risk(Shown, Saved):
         return not isinstance(self.fragility, (Fragility, MeanCurve))
 
     def density(self, x: ArrayLike) -> Any:
-        """Deaggregation: what intensities contribute to the frequency, P(C | x) |dH/d(ln x)|.
+        """Deaggregation: what intensities contribute to the frequency, ``P(C | x) |dH/d(ln x)|``.
 
         Parameters
         ----------

@@ -1,0 +1,69 @@
+!> What --example prints: a ready case that finds its files wherever it is saved.
+module dondolo_example
+   use, intrinsic :: iso_fortran_env, only : int64, output_unit
+   use dondolo_error, only : error_type, raise_missing
+   use dondolo_process, only : own_folder
+   use dondolo_text_file, only : read_text_file, text_file_type
+   implicit none
+   private
+
+   public :: example_names, print_example
+
+   !> The cases in data/cases
+   character(len=*), parameter :: example_names(*) = [character(len=19) :: &
+      & 'facade', 'facade_hinges', 'facade_strip', 'facades', 'gable', 'garden_wall', 'historic_centre', 'history', &
+      & 'parapet', 'parapet_on_building', 'pinnacle', 'population', 'tied_facade', 'two_block']
+
+   !> How the cases say that they run from the repository
+   character(len=*), parameter :: from_repository = 'from the root of the repository: dondolo data/cases/'
+
+   !> Bytes of a case, more than any has
+   integer(int64), parameter :: longest = 1000000_int64
+
+contains
+
+   !> Print a ready case. Its paths, relative to the folder of the cases, become absolute
+   subroutine print_example(name, error)
+      !> One of `example_names`
+      character(len=*), intent(in) :: name
+      !> The examples are not installed
+      type(error_type), allocatable, intent(out) :: error
+
+      type(text_file_type) :: text
+      character(len=:), allocatable :: folder, file, line
+      logical :: found
+      integer :: i
+
+      call own_folder(folder)
+      ! bin and share are side by side.
+      folder = folder(:max(index(folder, '/', back=.true.), 1))//'share/dondolo/'
+      file = folder//'cases/'//name//'.nml'
+      inquire (file=file, exist=found)
+      if (.not. found) then
+         call raise_missing(error, '--example: '//file//': no such file; the examples come with an installation by pip')
+         return
+      end if
+      call read_text_file(file, text, error, longest)
+      if (allocated(error)) return
+      do i = 1, text%lines()
+         line = text%line(i)
+         call substitute(line, from_repository, 'dondolo ')
+         call substitute(line, '''../', ''''//folder)
+         write (output_unit, '(a)') line
+      end do
+   end subroutine print_example
+
+   !> Put something else in the place of a part, where a line has it
+   pure subroutine substitute(line, part, by)
+      !> Line
+      character(len=:), allocatable, intent(inout) :: line
+      !> Part to look for, and what to put in its place
+      character(len=*), intent(in) :: part, by
+
+      integer :: at
+
+      at = index(line, part)
+      if (at > 0) line = line(:at - 1)//by//line(at + len(part):)
+   end subroutine substitute
+
+end module dondolo_example

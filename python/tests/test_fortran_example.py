@@ -1,0 +1,36 @@
+"""The example of a Fortran program that uses dondolo, compiled with the library of the build and run."""
+
+import re
+import shutil
+import subprocess
+
+import pytest
+
+import dondolo as dd
+
+
+@pytest.mark.slow
+def test_program_with_dondolo(root, records, wall, tmp_path):
+    libraries = sorted((root / "build-python/src").glob("**/libdondolo*.a"))
+    if not libraries or shutil.which("gfortran") is None:
+        pytest.skip("needs gfortran and the build of ./run setup")
+    modules = [f"-I{library}.p" for library in libraries]
+    program = tmp_path / "median"
+    source = root / "docs/examples/fpm/app/main.f90"
+    archives = ["-Wl,--start-group", *libraries, "-Wl,--end-group"]
+    subprocess.run(
+        ["gfortran", "-fopenmp", *modules, source, *archives, "-llapack", "-lblas", "-o", program],
+        check=True,
+        cwd=tmp_path,
+    )
+    said = subprocess.run([program, root / "data/records/synthetic44.csv"], capture_output=True, text=True, check=True)
+    theta, beta = map(float, re.findall(r"= *([\d.]+)", said.stdout))
+    curve = dd.multiple_stripe(wall, records, levels=[0.4, 0.6, 0.8, 1.0, 1.2], progress=False).fit()
+    assert (theta, beta) == (pytest.approx(curve.theta, abs=6e-4), pytest.approx(curve.beta, abs=6e-4))
+
+
+def test_the_manifest_uses_the_repository(root):
+    """The path of the dependency leads to dondolo's own manifest."""
+    example = root / "docs/examples/fpm"
+    path = re.search(r'path = "([^"]+)"', (example / "fpm.toml").read_text()).group(1)
+    assert (example / path).resolve() == root

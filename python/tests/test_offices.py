@@ -1,0 +1,138 @@
+"""What offices work with: tables with decimal commas, workbooks, reports as PDF; installed examples and commands."""
+
+import shutil
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+import dondolo as dd
+
+RECORD = "tempo (s);acc (m/s2)\n" + "".join(
+    f"{0.01 * i:.2f};{3.0 * np.sin(0.2 * i):.6f}\n".replace(".", ",") for i in range(400)
+)
+TABLES = {
+    "records.csv": "file;dt_s;units\nr.csv;0,01;m/s2\n",
+    "r.csv": RECORD,
+    "walls.csv": "name;mechanism;height;thickness\nsommità;one_sided;3,25;0,25\npiano terra;one_sided;1;0,5\n",
+    "hazard.csv": "ag (g);return_period\n0,05;30\n0,1;100\n0,25;475\n0,5;2475\n",
+}
+
+
+def as_excel(text, encoding):
+    """A file as a spreadsheet saves it: CRLF, and a byte order mark where the encoding has one."""
+    return text.replace("\n", "\r\n").encode(encoding)
+
+
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16"])
+def test_tables_with_decimal_commas(encoding, tmp_path):
+    for name, text in TABLES.items():
+        (tmp_path / name).write_bytes(as_excel(text, encoding))
+    with pytest.warns(dd.DondoloWarning, match="semicolons, decimal commas"):
+        (record,) = dd.read_catalogue(tmp_path / "records.csv")
+    assert record.dt == 0.01
+    assert np.allclose(record.acceleration, 3.0 * np.sin(0.2 * np.arange(400)), atol=1e-6, rtol=0.0)
+    with pytest.warns(dd.DondoloWarning, match="semicolons, decimal commas"):
+        population = dd.read_population(tmp_path / "walls.csv")
+    first, second = population.walls
+    assert (first.name, first.height, first.thickness) == ("sommità", 3.25, 0.25)
+    assert (second.height, second.thickness) == (1.0, 0.5)
+    with pytest.warns(dd.DondoloWarning, match="ag is taken for the PGA|semicolons, decimal commas"):
+        hazard = dd.HazardCurve.from_csv(tmp_path / "hazard.csv")
+    assert np.allclose(hazard.annual_frequency, 1.0 / np.array([30.0, 100.0, 475.0, 2475.0]), rtol=1e-12)
+
+
+def test_what_is_ambiguous_is_refused(tmp_path):
+    table = tmp_path / "walls.csv"
+    table.write_text("name;mechanism;height;thickness\na;one_sided;1.800;1,800\n")
+    with pytest.raises(dd.InputError, match="height"):
+        dd.read_population(table)
+    # One thousand, or one?
+    table.write_text("name;mechanism;height;thickness\na;one_sided;1.000;0,5\n")
+    with pytest.raises(dd.InputError, match="with a decimal comma as elsewhere in the table and no point"):
+        dd.read_population(table)
+    table.write_bytes("name;mechanism;height;thickness\nà;one_sided;3;0,25\n".encode("cp1252"))
+    with pytest.raises(dd.InputError, match="save it as UTF-8"):
+        dd.read_population(table)
+
+
+@pytest.fixture
+def run(executable, tmp_path, root):
+    """Result files of a wall whose name looks like a formula."""
+    (tmp_path / "case.nml").write_text(
+        "&job output = 'wall' / &wall name = '=1+1' mechanism = 'one_sided' height = 1.5 thickness = 0.25 /\n"
+        f"&records catalogue = '{root}/data/records/synthetic44.csv' / &stripes levels = 0.6, 0.8, 1.0, 1.2 /\n"
+    )
+    subprocess.run([executable, "--quiet", "case.nml"], cwd=tmp_path, check=True, capture_output=True)
+    return tmp_path / "wall"
+
+
+def test_workbook(run):
+    openpyxl = pytest.importorskip("openpyxl")
+    path = run.with_name("wall_tables.xlsx")
+    dd.write_workbook(run, path)
+    book = openpyxl.load_workbook(path)
+    stored = dd.read_results(run)
+    assert book.sheetnames == ["case", *(name.name[1:].removesuffix(".csv") for name in stored.run.files)]
+    titles, *rows = book["histories"].iter_rows(values_only=True)
+    column = titles.index("edp")
+    assert [row[column] for row in rows] == pytest.approx(stored.stripes.edp.ravel().tolist(), rel=1e-15)
+    # A name is no formula, and no number in a text
+    cell = next(cell for row in book["walls"].iter_rows() for cell in row if cell.value == "=1+1")
+    assert cell.data_type == "s"
+    dd.write_workbook(run, path)
+    path.write_text("notes of the office")
+    with pytest.raises(dd.InputError, match="is no workbook of dondolo"):
+        dd.write_workbook(run, path)
+
+
+def test_no_openpyxl(run, monkeypatch):
+    monkeypatch.setitem(sys.modules, "openpyxl", None)
+    with pytest.raises(dd.DondoloError, match="openpyxl is not installed"):
+        dd.write_workbook(run, run.with_name("wall.xlsx"))
+
+
+def test_report_as_pdf_needs_a_printer(run, monkeypatch):
+    monkeypatch.setattr(shutil, "which", lambda name: None)
+    monkeypatch.setitem(sys.modules, "weasyprint", None)
+    path = run.with_name("report.pdf")
+    with pytest.raises(dd.DondoloError, match="needs Chromium or WeasyPrint"):
+        dd.report(dd.read_results(run), path)
+    assert list(run.parent.glob("report*")) == []
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(shutil.which("chromium") is None, reason="Chromium is not installed")
+def test_report_as_pdf(run):
+    path = run.with_name("report.pdf")
+    dd.report(dd.read_results(run), path)
+    data = path.read_bytes()
+    assert data.startswith(b"%PDF")
+    assert data.rstrip().endswith(f"% dondolo report {dd.__version__}".encode())
+    # An earlier report is replaced, another PDF is not.
+    dd.report(dd.read_results(run), path)
+    if shutil.which("pdftotext") is not None:
+        text = subprocess.run(["pdftotext", path, "-"], capture_output=True, text=True, check=True).stdout
+        pages, text = text.count("\f"), text.replace(" ", "")
+        assert [f"{page}/{pages}" in text for page in range(1, pages + 1)] == [True] * pages
+    path.write_bytes(b"%PDF-1.4 of somebody else")
+    with pytest.raises(dd.InputError, match="is no report of dondolo"):
+        dd.report(dd.read_results(run), path)
+
+
+def test_example_records(records):
+    installed = dd.example_records()
+    assert [one.name for one in installed] == [one.name for one in records]
+    assert all(np.array_equal(a.acceleration, b.acceleration) for a, b in zip(installed, records, strict=True))
+
+
+def test_commands_are_those_of_the_executable(executable):
+    """The executable hands over every command of `python -m dondolo`, and no other."""
+    script = subprocess.run([executable, "--completion", "bash"], capture_output=True, text=True, check=True).stdout
+    line = next(line for line in script.splitlines() if '" run ' in line)
+    offered = line.split('" run ')[1].split('"')[0].split()
+    from dondolo.__main__ import _parser
+
+    (commands,) = (action.choices for action in _parser()._actions if action.choices)
+    assert sorted(offered) == sorted(commands)

@@ -1,0 +1,44 @@
+/* What processes need of the system: the path of their own program, and to become another one. */
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+#ifdef __APPLE__
+#include <mach-o/dyld.h>
+#endif
+
+/* The absolute path of the program that runs, without links; empty if the system does not tell */
+void dondolo_own_path(char *path, size_t room)
+{
+   char *real = NULL;
+#ifdef __APPLE__
+   char given[4096];
+   uint32_t size = sizeof given;
+
+   if (_NSGetExecutablePath(given, &size) == 0)
+      real = realpath(given, NULL);
+#else
+   real = realpath("/proc/self/exe", NULL);
+#endif
+   if (real != NULL && strlen(real) < room)
+      strcpy(path, real);
+   else
+      path[0] = '\0';
+   free(real);
+}
+
+/* Become another program, with its name and arguments in words that a NUL ends each. Returns only if there is none. */
+void dondolo_become(char *words, int count)
+{
+   char **arguments = calloc((size_t)count + 1, sizeof *arguments);
+
+   if (arguments == NULL)
+      return;
+   for (int i = 0; i < count; i++) {
+      arguments[i] = words;
+      words += strlen(words) + 1;
+   }
+   execvp(arguments[0], arguments);
+   free(arguments);
+}

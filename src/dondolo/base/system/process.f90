@@ -1,0 +1,64 @@
+!> The process itself: where its program is, and how it becomes another one.
+module dondolo_process
+   use, intrinsic :: iso_c_binding, only : c_char, c_int, c_null_char, c_size_t
+   use dondolo_lines, only : lines_type
+   implicit none
+   private
+
+   public :: own_folder, become
+
+   interface
+
+      !> Path of the program; see process.c
+      subroutine c_own_path(path, room) bind(c, name='dondolo_own_path')
+         import :: c_char, c_size_t
+         !> Room for the path
+         character(kind=c_char), intent(out) :: path(*)
+         !> Bytes of the room
+         integer(c_size_t), value :: room
+      end subroutine c_own_path
+
+      !> Become another program; see process.c
+      subroutine c_become(words, count) bind(c, name='dondolo_become')
+         import :: c_char, c_int
+         !> Name and arguments, each with a NUL at its end
+         character(kind=c_char), intent(inout) :: words(*)
+         !> Number of words
+         integer(c_int), value :: count
+      end subroutine c_become
+
+   end interface
+
+contains
+
+   !> The folder of the program that runs, without links
+   subroutine own_folder(folder)
+      !> Absolute path without a slash at the end; empty if the system does not tell
+      character(len=:), allocatable, intent(out) :: folder
+
+      ! PATH_MAX of Linux and macOS is 4096 or less
+      integer, parameter :: room = 8192
+      character(kind=c_char, len=room) :: path
+
+      path = c_null_char
+      call c_own_path(path, int(room, c_size_t))
+      folder = path(:index(path, c_null_char) - 1)
+      folder = folder(:max(index(folder, '/', back=.true.) - 1, 0))
+   end subroutine own_folder
+
+   !> Become another program. It returns only if there is no such program.
+   subroutine become(words)
+      !> Name of the program, searched in PATH if it has no slash, and its arguments
+      type(lines_type), intent(in) :: words
+
+      character(kind=c_char, len=:), allocatable :: joined
+      integer :: i
+
+      joined = ''
+      do i = 1, words%count
+         joined = joined//words%line(i)%text//c_null_char
+      end do
+      call c_become(joined, int(words%count, c_int))
+   end subroutine become
+
+end module dondolo_process
