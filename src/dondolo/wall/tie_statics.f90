@@ -19,7 +19,7 @@ contains
    !> Acceleration of the rigid-plastic mechanism: all ties at their largest force, the wall at rest [m/s2]
    pure function plastic_acceleration(mechanism) result(a)
       class(mechanism_type), intent(in) :: mechanism
-      !> [G(0) - Q(0) + sum F_y X(0)]/L(0)
+      !> [G(0) - Q(0) + sum F_y X(0)]/L(0), friction among the forces
       real(wp) :: a
 
       real(wp) :: j, c, g, l, load
@@ -77,7 +77,7 @@ contains
       logical, intent(out) :: is_broken(:)
 
       ! A load that loses its seat ends a history at less than the limit that is its EDP.
-      associate (ties => mechanism%restraints, peak => min(edp, mechanism%unseating/mechanism%capacity))
+      associate (ties => mechanism%restraints(:mechanism%ties), peak => min(edp, mechanism%unseating/mechanism%capacity))
          ! A division by the capacity made the EDP; the same division keeps the order of the rotations to the bit.
          is_broken = peak >= ties%fracture/mechanism%capacity
          elongation = ties%set(peak*mechanism%capacity)
