@@ -9,7 +9,7 @@ module dondolo_tie_statics
    implicit none
    private
 
-   public :: greatest_acceleration, plastic_acceleration, ties_after
+   public :: greatest_acceleration, hold_plastic, plastic_acceleration, ties_after
 
    !> Parts of the rotation between two events in which a maximum is looked for
    integer, parameter :: parts = 64
@@ -31,6 +31,24 @@ contains
          a = a + (sum(ties%strength*lever(ties%edge, ties%e, ties%f, 0.0_wp)) - mechanism%preload)/l
       end associate
    end function plastic_acceleration
+
+   !> Hold a wall as design has it at a rotation that it is pushed to for the first time: all ties that are not broken by then
+   !> at their largest force, and what is left of the friction
+   pure subroutine hold_plastic(wall, q)
+      !> Has ties
+      class(mechanism_type), intent(inout) :: wall
+      !> Rotation; that at which a tie breaks is one of those at which it holds [rad]
+      real(wp), intent(in) :: q
+
+      !> Rotations that differ by this part are the same
+      real(wp), parameter :: same = 1.0e-9_wp
+      real(wp), dimension(size(wall%restraints)) :: force, stiffness
+      integer :: mode(size(wall%restraints))
+
+      mode = merge(broken, flowing, q > wall%restraints%fracture*(1.0_wp + same))
+      call wall%restraints%pull(mode, 0.0_wp, force, stiffness)
+      call wall%hold(force, stiffness)
+   end subroutine hold_plastic
 
    !> Greatest acceleration that the wall withstands at any rotation up to its capacity, pushed out for the first time [m/s2]
    pure function greatest_acceleration(mechanism) result(a)
