@@ -1,4 +1,4 @@
-"""Friction of transverse walls: its force, its effect at rest and in motion against an integration of its own, refusals."""
+"""Friction of transverse walls: its force, its effect at rest and in motion against another integration, refusals."""
 
 import matplotlib
 import numpy as np
@@ -33,7 +33,7 @@ BARE = dd.OneSidedWall(3.0, 0.25, density=DENSITY)
 class Reference:
     """The wall of 3 m by 0.25 m and friction, by SciPy's Runge-Kutta method of eighth order from event to event.
 
-    At rest, moving outwards where it has not been with friction, moving freely, or held by friction at its largest rotation.
+    At rest, moving outwards with friction where it has not been, moving freely, or held by friction where it turned.
     """
 
     def __init__(self, force, travel, samples, dt):
@@ -251,8 +251,8 @@ def test_what_the_executable_says(run, tmp_path):
     words = ", ".join(f"{name} = {value}" for name, value in OVERLAP.items())
     case = tmp_path / "case.nml"
     case.write_text(
-        f"&job task = 'stripes' output = '{tmp_path}/out' /\n&wall mechanism = 'one_sided', height = 3, thickness = 0.25, "
-        f"density = {DENSITY}, {words} /\n&records catalogue = 'records.csv' /\n&stripes levels = 0.2, 0.6 /\n"
+        f"&job task = 'stripes' output = '{tmp_path}/out' /\n&wall mechanism = 'one_sided', height = 3, "
+        f"thickness = 0.25, density = {DENSITY}, {words} /\n&records catalogue = 'records.csv' /\n&stripes levels = 0.2, 0.6 /\n"
     )
     plan = run("--check", case).stdout
     assert "2318 N/m of transverse walls, 1 m high, gone at 0.11" in plan

@@ -110,8 +110,9 @@ class DesignComparison(Shown, Saved):
         Returns
         -------
         ndarray of two Axes
-            Probability of collapse against intensity, with what each stands by the nonlinear check of SLV where there
-            is one and the measure is PGA; and the ratios with their intervals, beside those of the static accelerations.
+            Probability of collapse against intensity, with what each stands by the nonlinear check of SLV where
+            there is one and the measure is PGA; and the ratios with their intervals, beside those of the static
+            accelerations.
         """
         from dondolo.retrofit.plots import draw_designs
 
