@@ -252,7 +252,8 @@ def test_what_the_executable_says(run, tmp_path):
     case = tmp_path / "case.nml"
     case.write_text(
         f"&job task = 'stripes' output = '{tmp_path}/out' /\n&wall mechanism = 'one_sided', height = 3, "
-        f"thickness = 0.25, density = {DENSITY}, {words} /\n&records catalogue = 'records.csv' /\n&stripes levels = 0.2, 0.6 /\n"
+        f"thickness = 0.25, density = {DENSITY}, {words} /\n"
+        "&records catalogue = 'records.csv' /\n&stripes levels = 0.2, 0.6 /\n"
     )
     plan = run("--check", case).stdout
     assert "2318 N/m of transverse walls, 1 m high, gone at 0.11" in plan
