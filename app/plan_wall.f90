@@ -64,7 +64,7 @@ contains
          if (size(input%list('load')) > 0) text = '  loads '//rounded(sum(input%list('load')))//' N/m'
          if (size(input%list('thrust')) > 0) text = trim(text)//'  thrusts '//rounded(sum(input%list('thrust')))//' N/m'
          if (size(input%list('tie_height')) > 0) text = trim(text)//'  ties '//rounded(sum( &
-            & wall%mechanism%restraints%strength))//' N/m'
+            & wall%mechanism%restraints(:wall%mechanism%ties)%strength))//' N/m'
          if (input%number('overburden') > 0.0_wp) then
             half = 0.5_wp*input%number('thickness')
             text = '  load '//rounded(input%number('overburden'))//' N/m'
@@ -146,6 +146,11 @@ contains
 
       do i = 1, size(wall%mechanism%restraints)
          associate (tie => wall%mechanism%restraints(i))
+            if (tie%is_friction) then
+               call print_line('friction', rounded(tie%strength)//' N/m of transverse walls, '//rounded(tie%edge + tie%f)// &
+                  & ' m high, gone at '//trim(rotation(tie%fracture)))
+               cycle
+            end if
             call print_line('tie', 'stiffness '//rounded(tie%stiffness)//' N/m per m, at rest '//rounded(tie%preload)// &
                & ' N/m, yields at '//rounded(tie%strength)//' N/m and '//trim(rotation(tie%yield))//', breaks at '// &
                & trim(rotation(tie%fracture)))

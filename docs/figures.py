@@ -35,6 +35,7 @@ def main() -> None:
     mechanisms()
     bearing()
     ties()
+    interlocking()
     processing()
     pulses()
     overturning()
@@ -126,6 +127,41 @@ def ties():
     axes[1].set(xlabel="elongation from rest D [mm]", ylabel="force T [kN/m]", ylim=(-0.4, 10.5))
     axes[1].set_title("one of them: out, back, and out again", loc="left")
     figure.savefig(figures / "ties.png", dpi=100)
+
+
+def interlocking():
+    """Draw a wall that interlocks with transverse walls, and its restoring moment the first time and later."""
+    bare = dd.OneSidedWall(3.0, 0.25, name="bare")
+    wall = dd.OneSidedWall(
+        3.0,
+        0.25,
+        interlock_overlap=0.12,
+        interlock_course=0.10,
+        interlock_thickness=0.25,
+        interlock_spacing=5.0,
+        name="interlocking wall",
+    )
+    figure, axes = new_axes(1, 2, (9.0, 4.4), width_ratios=(1.0, 1.5))
+    wall.plot(axes[0], rotation=0.02)
+    axes[0].set_title("rotated by 0.02 rad", loc="left")
+    q = np.linspace(0.0, wall.capacity_angle, 200)
+    moments = [one.terms(q).restoring_moment - one.terms(q).load_force for one in (wall, bare)]
+    axes[1].plot(q, moments[0] / 1e3, color=style.BLUE, linewidth=1.8, label="the first time")
+    axes[1].plot(q, moments[1] / 1e3, color=style.BLACK, linewidth=1.0, linestyle=":", label="without friction")
+    turns = 0.02
+    first, later = (np.interp(turns, q, each) / 1e3 for each in moments)
+    back = q < turns
+    axes[1].plot(
+        [*q[back], turns, turns],
+        [*moments[1][back] / 1e3, later, first],
+        color=style.RED,
+        linewidth=1.6,
+        linestyle="--",
+        label="back from 0.02 rad, and out again",
+    )
+    axes[1].set(xlabel="rotation q [rad]", ylabel="restoring moment [kN m/m]", xlim=(0.0, None), ylim=(0.0, None))
+    axes[1].legend(loc="upper right")
+    figure.savefig(figures / "interlocking.png", dpi=100)
 
 
 def processing():

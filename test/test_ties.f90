@@ -442,7 +442,7 @@ contains
       call check(.not. form%exists, 'lanes do not know ties')
       solver%engine = 'lanes'
       call check_history(solver, wall%mechanism, .false., error)
-      call check_error(error, 'engine = ''lanes'': does not know ties; must be ''auto'' or ''rk45''', 'lanes')
+      call check_error(error, 'engine = ''lanes'': knows neither ties nor interlock_overlap; must be ''auto'' or ''rk45''', 'lanes')
    end subroutine test_engines
 
    subroutine test_wrong_input()

@@ -23,6 +23,7 @@ designs = {
     "three ties, strain 10 %": dd.OneSidedWall(9.0, 0.5, tie_strain=0.10, **ties),
 }
 levels = [0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0, 1.2, 1.5, 2.0]
-found = dd.compare_designs(designs, records, levels)
+site = dd.Site(ag=0.2, f0=2.5, tc_star=0.35, soil="B")
+found = dd.compare_designs(designs, records, levels, site=site)
 print(found.to_frame().to_string())
 found.plot()[0].figure.savefig(out / "which_tie.png")

@@ -40,6 +40,63 @@ def test_numbers_of_a_wall():
         check.value("linear", "SLV", "capacity")
 
 
+def test_ties():
+    """Ties hold with their yield force up to their fracture, where d_SLV ends if they carry more than half."""
+    tie = {"tie_height": 8.5, "tie_area": 5e-5, "tie_length": 8.0, "tie_preload": 3e7}
+    wall = dd.OneSidedWall(9.0, 0.5, **tie)
+    check = dd.check_ntc(wall, SITE)
+    expected = {
+        ("mechanism", "alpha_0"): 0.269496985943,
+        ("mechanism", "mass_ratio"): 1.0,
+        ("mechanism", "d_0"): 0.249615088301,
+        ("mechanism", "tie_fracture"): 0.0840890919475,
+        ("nonlinear", "displacement"): 0.0840890919475,
+        ("nonlinear", "period"): 1.13427057916,
+        ("nonlinear", "demand"): 0.0704453989486,
+        ("nonlinear", "capacity_ag"): 0.238735512,
+        ("linear", "capacity_ag"): 0.3327123283,
+    }
+    for (method, quantity), value in expected.items():
+        assert check.value(method, "SLV", quantity) == pytest.approx(
+            value, rel=1e-9 if quantity == "capacity_ag" else 1e-11
+        )
+    bare = dd.check_ntc(dd.OneSidedWall(9.0, 0.5), SITE)
+    # The tie is broken by then.
+    assert check.value("nonlinear", "SLC", "acceleration") == pytest.approx(
+        bare.value("nonlinear", "SLC", "acceleration"), rel=1e-12
+    )
+    # One of three that carry a third each does not end it, and those that hold beyond 0.4 d_0 do not either.
+    weak = {**tie, "tie_height": [8.5, 8.5, 8.5], "tie_strain": [0.005, 0.1, 0.1]}
+    several = dd.check_ntc(dd.OneSidedWall(9.0, 0.5, **weak), SITE)
+    assert several.value("nonlinear", "SLV", "displacement") == pytest.approx(
+        0.4 * expected["mechanism", "d_0"], rel=1e-11
+    )
+    with pytest.raises(dd.InputError, match="the check has none"):
+        several.value("mechanism", "", "tie_fracture")
+    with pytest.raises(dd.InputError, match="the check has none"):
+        bare.value("mechanism", "", "tie_fracture")
+
+
+def test_interlocking():
+    """Friction F (1 - D/l) of transverse walls at a third of the height."""
+    wall = dd.OneSidedWall(
+        3.0, 0.25, interlock_overlap=0.2, interlock_course=0.1, interlock_thickness=0.3, interlock_spacing=4.0
+    )
+    check = dd.check_ntc(wall, SITE)
+    weight = 1800.0 * 9.81
+    force = 0.4 * 30 * 31 * 0.1 * 0.2 * 0.577 * 0.3 * weight / 4.0
+    moved = 0.75 * weight * 1.5
+    assert check.value("mechanism", "", "alpha_0") == pytest.approx(0.25 / 3.0 + force / moved, rel=1e-12)
+    q = np.arcsin(check.value("nonlinear", "SLV", "displacement") / 1.5)
+    slid = np.sin(q) + 0.25 * (1.0 - np.cos(q))
+    lever = 1.5 * np.cos(q) + 0.125 * np.sin(q)
+    alpha = (0.125 * np.cos(q) - 1.5 * np.sin(q)) / lever + force * (1.0 - slid / 0.2) * (
+        np.cos(q) + 0.25 * np.sin(q)
+    ) / (0.75 * weight * lever)
+    assert check.value("nonlinear", "SLV", "acceleration") == pytest.approx(alpha * 9.81 / 1.35, rel=1e-11)
+    assert check.value("mechanism", "", "d_0") == pytest.approx(dd.check_ntc(WALL, SITE).value("mechanism", "", "d_0"))
+
+
 def test_a_building():
     building = dd.Building(period=0.3, damping=0.05, participation=9.0 / 7.0)
     check = dd.check_ntc(dd.OneSidedWall(1.5, 0.25, building=building), SITE)

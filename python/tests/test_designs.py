@@ -66,6 +66,23 @@ def test_ties(few):
     assert found.ratio[1] > 1.0
 
 
+def test_checks_beside(designs, few, tmp_path):
+    site = dd.Site(ag=0.2, f0=2.5, tc_star=0.35, soil="B")
+    found = dd.compare_designs(designs, few, LEVELS, site=site, progress=False)
+    for wall, check in zip(designs.values(), found.checks, strict=True):
+        assert check.rows == dd.check_ntc(wall, site).rows
+    table = found.to_frame()
+    assert table.nonlinear_slv.tolist() == [check.capacities["nonlinear", "SLV"] for check in found.checks]
+    assert table.linear_slv[1] > table.linear_slv[0]
+    assert "as it stands, check" in repr(found)
+    left, _ = found.plot()
+    marks = [line for line in left.lines if line.get_marker() == "v"]
+    assert [line.get_xdata()[0] for line in marks] == table.nonlinear_slv.tolist()
+    found.save(tmp_path / "designs.npz")
+    assert dd.load(tmp_path / "designs.npz").checks[1].rows == found.checks[1].rows
+    assert dd.compare_designs(designs, few, LEVELS, progress=False).checks == ()
+
+
 def test_shown_drawn_and_saved(found, tmp_path):
     assert "thicker $t$ theta" in repr(found)
     assert "steel 4 kg/m" in repr(found)

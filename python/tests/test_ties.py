@@ -116,7 +116,7 @@ def test_what_the_executable_says(run, tmp_path, facade, record):
     plan = run("--check", case).stdout
     assert "first motion at 0.09121 g, greatest static acceleration 0.2688 g, rigid-plastic 0.2695 g" in plan
     ran = run(case)
-    assert "wall 'facade' has ties: the engine rk45 computes their histories" in ran.stdout + ran.stderr
+    assert "wall 'facade' has ties or friction: the engine rk45 computes their histories" in ran.stdout + ran.stderr
     lines = [line for line in (tmp_path / "out_ties.csv").read_text().splitlines() if not line.startswith("#")]
     assert lines[0].split(",")[3:8] == ["im_level", "tie", "histories", "yielded", "broken"]
     assert [line.split(",")[6:8] for line in lines[1:]] == [["1", "0"], ["1", "1"]]
@@ -150,7 +150,7 @@ def test_refusals(change, sentence):
 
 
 def test_lanes_and_check_decline(facade, record):
-    with pytest.raises(dd.InputError, match="does not know ties"):
+    with pytest.raises(dd.InputError, match="knows neither ties nor interlock_overlap"):
         dd.multiple_stripe(facade, [record], [0.5], solver=dd.Solver(engine="lanes"), progress=False)
 
 

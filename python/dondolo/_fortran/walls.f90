@@ -108,7 +108,7 @@ contains
       if (.not. allocated(error)) then
          do i = 1, n
             call ties_after(people(1)%mechanism, edp(i), elongation(:, i), is_broken)
-            energy(:, i) = people(1)%mechanism%restraints%strength*elongation(:, i)
+            energy(:, i) = people(1)%mechanism%restraints(:k)%strength*elongation(:, i)
             broken(:, i) = merge(1, 0, is_broken)
          end do
       end if

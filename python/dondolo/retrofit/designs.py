@@ -18,14 +18,19 @@ from dondolo.analysis.request import Polarity
 from dondolo.analysis.solver import Solver
 from dondolo.analysis.stripe_runs import multiple_stripe
 from dondolo.analysis.stripes import Stripes
+from dondolo.checks.ntc import CodeCheck, check_ntc
 from dondolo.curves.comparison import Comparison, compare
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import InputError
+from dondolo.records.codes import Site
 from dondolo.records.record import Record, as_records
 from dondolo.walls.wall import Wall
 
 if TYPE_CHECKING:
     from dondolo.figures.style import Panels
+
+# Checks that are shown beside the curves: method and limit state
+_CHECKS = (("linear", "SLV"), ("nonlinear", "SLV"))
 
 # Of steel [kg/m3]
 _DENSITY = 7850.0
@@ -52,6 +57,8 @@ class DesignComparison(Shown, Saved):
         Italian code is proportional to.
     confidence : float
         Of the intervals.
+    checks : tuple of CodeCheck
+        The kinematic check of each at the site, by `check_ntc`; empty without a site.
     """
 
     names: tuple[str, ...]
@@ -61,6 +68,7 @@ class DesignComparison(Shown, Saved):
     steel: FloatArray
     alpha_0: FloatArray
     confidence: float
+    checks: tuple[CodeCheck, ...] = ()
 
     @property
     def im(self) -> str:
@@ -102,7 +110,8 @@ class DesignComparison(Shown, Saved):
         Returns
         -------
         ndarray of two Axes
-            Probability of collapse against intensity; and the ratios with their intervals, beside those of the static
+            Probability of collapse against intensity, with what each stands by the nonlinear check of SLV where
+            there is one and the measure is PGA; and the ratios with their intervals, beside those of the static
             accelerations.
         """
         from dondolo.retrofit.plots import draw_designs
@@ -128,6 +137,11 @@ class DesignComparison(Shown, Saved):
             "gain_per_kg": self.gain_per_kg,
             "alpha_0": self.alpha_0,
             "static_ratio": self.static_ratio,
+            **{
+                f"{method}_{state.lower()}": [check.capacities[method, state] for check in self.checks]
+                for method, state in _CHECKS
+                if self.checks
+            },
         }
 
     def _facts(self) -> list[tuple[str, str]]:
@@ -141,6 +155,9 @@ class DesignComparison(Shown, Saved):
             if np.isfinite(steel):
                 text += f", steel {steel:.3g} kg/m"
             facts.append((name, text))
+        for name, check in zip(self.names, self.checks, strict=False):
+            stood = ", ".join(f"{' '.join(key)} {check.capacities[key]:.4g} g" for key in _CHECKS)
+            facts.append((f"{name}, check", f"stands a_g S of {stood}"))
         return facts
 
 
@@ -153,6 +170,7 @@ def compare_designs(
     im: str = "pga",
     polarity: Polarity = "as_recorded",
     confidence: float = 0.95,
+    site: Site | None = None,
     solver: Solver | None = None,
     threads: int = 0,
     progress: bool = True,
@@ -176,6 +194,8 @@ def compare_designs(
         As for `multiple_stripe`.
     confidence : float
         Of the intervals.
+    site : Site, optional
+        Where the wall stands: every design is checked there by `check_ntc`, with its own defaults.
 
     Returns
     -------
@@ -184,7 +204,7 @@ def compare_designs(
     Raises
     ------
     InputError
-        No designs, names without a design, and what `multiple_stripe` refuses.
+        No designs, names without a design, and what `multiple_stripe` and, with a site, `check_ntc` refuse.
     Interrupted
         Ctrl-C.
 
@@ -209,6 +229,7 @@ def compare_designs(
     several = as_records(records)
     tails(confidence)
     masses = _masses(designs, steel)
+    checks = () if site is None else tuple(check_ntc(wall, site) for wall in walls)
     grids = [levels[name] if isinstance(levels, Mapping) else levels for name in _known(designs, levels, "levels")]
     stripes = tuple(
         multiple_stripe(
@@ -225,6 +246,7 @@ def compare_designs(
         steel=masses,
         alpha_0=np.array([wall.plastic_acceleration / wall.gravity for wall in walls]),
         confidence=float(confidence),
+        checks=checks,
     )
 
 

@@ -2,7 +2,7 @@
 
 Shapes tell them apart without colour: arrows down are loads, filled with a mass that the wall moves and open without
 one, arrows to the side are thrusts, squares are masses that are pushed alone, zigzags are springs, dashed lines with a
-plate are ties.
+plate are ties, teeth behind the wall are stones that interlock with transverse walls.
 """
 
 from __future__ import annotations
@@ -65,6 +65,8 @@ def draw_loads(ax: Axes, wall: Wall, rotation: float, now: Shape) -> None:
         _spring(ax, wall, _place(wall, depth, height, rotation), size, _with_prefix(stiffness, "N/m²"))
     for height, depth, area in _things(wall, "tie_height", "depth", "area"):
         _tie(ax, _place(wall, depth or 0.0, height, rotation), size, f"tie {1e4 * area:.3g} cm²/m")
+    if overlap := getattr(wall, "interlock_overlap", None):
+        _teeth(ax, wall, overlap, rotation)
     for stiffness, depth, bottom, top in _things(wall, "bed", "depth", "bottom", "top"):
         for height in np.linspace(bottom, top, 5):
             words = f"{_with_prefix(stiffness, 'N/m³')}" if height == bottom else ""
@@ -77,6 +79,18 @@ def _tie(ax: Axes, at: Points, size: float, text: str) -> None:
     ax.plot(*zip(behind, at, strict=True), color=style.BLACK, linewidth=1.4, linestyle=(0, (6, 2, 1, 2)), zorder=5)
     ax.plot([at[0], at[0]], [at[1] - 0.25 * size, at[1] + 0.25 * size], color=style.BLACK, linewidth=3.0, zorder=5)
     _words(ax, behind, text, (0, 3))
+
+
+def _teeth(ax: Axes, wall: Wall, overlap: float, rotation: float) -> None:
+    """Stones that overlap those of a transverse wall; every tooth is several courses where they would not be seen."""
+    step = wall.height / min(24, max(2, int(wall.height / wall.interlock_course)))  # type: ignore[attr-defined]
+    for bottom in np.arange(0.0, wall.height - 1.5 * step, 2.0 * step):
+        inner = _inner_face(wall, bottom + 0.5 * step)
+        corners = [(inner, bottom), (inner + overlap, bottom), (inner + overlap, bottom + step), (inner, bottom + step)]
+        places = [_place(wall, depth, height, rotation) for depth, height in corners]
+        ax.fill(*np.transpose(places), facecolor=style.BRICK, edgecolor=style.BLACK, linewidth=0.8, zorder=3)
+    at = _place(wall, _inner_face(wall, wall.height / 3.0) + overlap, wall.height / 3.0, rotation)
+    _words(ax, at, "friction", (-4, -4), ha="right")
 
 
 def _things(wall: Wall, what: str, *more: str) -> list[tuple[Any, ...]]:

@@ -181,6 +181,16 @@ class OneSidedWall(BlockWall):
         Strain of each tie at which it or its anchorage breaks, 0.02 if not given.
     tie_anchor_force : float or sequence of float, optional
         Force per metre of wall at which each anchor gives way at once; none if not given [N/m].
+    interlock_overlap : float, optional
+        Length by which stones of the wall overlap those of transverse walls, whose friction holds it [m].
+    interlock_course : float, optional
+        Height of a course there [m].
+    interlock_thickness : float, optional
+        Thickness of a transverse wall [m].
+    interlock_spacing : float, optional
+        Distance of two transverse walls [m].
+    interlock_friction : float, optional
+        Coefficient of friction in the overlaps, 0.577 if not given.
 
     Raises
     ------
@@ -228,6 +238,11 @@ class OneSidedWall(BlockWall):
     tie_preload: Values = None
     tie_strain: Values = None
     tie_anchor_force: Values = None
+    interlock_overlap: float | None = None
+    interlock_course: float | None = None
+    interlock_thickness: float | None = None
+    interlock_spacing: float | None = None
+    interlock_friction: float | None = None
     leaves: float | None = None
     hinge_level: InitVar[float | Sequence[float] | None] = None
     hinge_at: InitVar[Literal["storeys"] | None] = None

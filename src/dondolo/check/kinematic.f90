@@ -5,16 +5,20 @@
 !> denominator, whatever inertia the time histories give a load. X and Y are the horizontal and vertical levers of
 !> dondolo_loaded_block, H thrusts; springs, and thrusts that decay, enter through the restoring moment:
 !>
-!>     alpha(q) = [sum P Y - sum H X ...]/sum (P + Q) X           alpha_0 = alpha(0)                      C8.7.1.1
+!>     alpha(q) = [sum P Y - sum H X + sum T X ...]/sum (P + Q) X      alpha_0 = alpha(0)                 C8.7.1.1
 !>     M* = [sum (P + Q) z]^2/[g sum (P + Q) z^2]                 e* = g M*/sum (P + Q)                   C8.7.1.5
 !>     a = alpha g/(e* FC)                                                                                C8.7.1.3
 !>     d = d_C sum (P + Q) z^2/[z_C sum (P + Q) z]                d_C = z_C sin q                         C8.7.1.4
+!>
+!> Ties hold with their largest force up to the rotation at which they break, and friction of transverse walls with what is left
+!> of it; alpha vanishes at the capacity of the wall without them, since they do not act up to collapse.
 !>
 !> The masonry is one block: a point at its centroid C, as the Circolare has it.
 module dondolo_kinematic
    use dondolo_error, only : error_type, problems_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
+   use dondolo_tie_statics, only : hold_plastic
    use dondolo_wall, only : wall_type
    use dondolo_wall_body, only : read_wall_body, wall_body_type
    implicit none
@@ -34,6 +38,8 @@ module dondolo_kinematic
       real(wp) :: end_displacement = 0.0_wp
       !> Displacement at which a load loses its seat [m]; huge: none does
       real(wp) :: unseating = huge(1.0_wp)
+      !> Displacement at which ties break that carry more than half of the greatest multiplier [m]; huge: none do
+      real(wp) :: tie_fracture = huge(1.0_wp)
       !> Gravity [m/s2]
       real(wp) :: gravity = 0.0_wp
       !> Of each mode of the building that the wall stands on: period [s], damping ratio, and participation times shape at the
@@ -82,10 +88,6 @@ contains
       call read_wall_body(wall%input, wall%gravity, problems, body)
       call problems%raise(error)
       if (allocated(error)) return
-      if (size(body%actions%ties) > 0) then
-         call raise_input(error, 'tie_height: the kinematic check does not know ties; leave out &check, or the ties')
-         return
-      end if
       if (.not. wall%mechanism%capacity < right_angle) then
          call raise_input(error, 'spring: holds the wall up to a rotation of 90 degrees; the kinematic check ends before')
          return
@@ -124,7 +126,38 @@ contains
       kinematic%multiplier = kinematic%multiplier_at(0.0_wp)
       kinematic%end_displacement = kinematic%displacement(wall%mechanism%capacity)
       if (wall%mechanism%unseating < right_angle) kinematic%unseating = kinematic%displacement(wall%mechanism%unseating)
+      call find_tie_fracture(kinematic)
    end subroutine new_kinematic
+
+   !> The displacement at which ties break that carry more than half of the greatest multiplier
+   pure subroutine find_tie_fracture(kinematic)
+      type(kinematic_type), intent(inout) :: kinematic
+
+      !> Parts of the rotation up to the end at which the greatest multiplier is looked for
+      integer, parameter :: parts = 64
+      !> Loss that matters / greatest multiplier; and how little beyond its fracture a tie is seen to be broken
+      real(wp), parameter :: half = 0.5_wp, beyond = 1.0e-8_wp
+      real(wp) :: greatest, loss
+      integer :: i
+
+      associate (mechanism => kinematic%mechanism, last => kinematic%end_rotation())
+         if (mechanism%ties == 0) return
+         greatest = maxval([(kinematic%multiplier_at(last*real(i, wp)/real(parts, wp)), i=0, parts)])
+         do i = 1, mechanism%ties
+            associate (q => mechanism%restraints(i)%fracture)
+               if (.not. q < last) cycle
+               greatest = max(greatest, kinematic%multiplier_at(q))
+            end associate
+         end do
+         do i = 1, mechanism%ties
+            associate (q => mechanism%restraints(i)%fracture)
+               if (.not. q < last) cycle
+               loss = kinematic%multiplier_at(q) - kinematic%multiplier_at(q*(1.0_wp + beyond))
+               if (loss > half*greatest) kinematic%tie_fracture = min(kinematic%tie_fracture, kinematic%displacement(q))
+            end associate
+         end do
+      end associate
+   end subroutine find_tie_fracture
 
    !> Multiplier alpha at a rotation
    pure real(wp) function multiplier_at(self, q) result(multiplier)
@@ -132,9 +165,16 @@ contains
       !> Rotation [rad]
       real(wp), intent(in) :: q
 
+      class(mechanism_type), allocatable :: held
       real(wp) :: j, c, g, l, load
 
-      call self%mechanism%terms(q, j, c, g, l, load)
+      if (allocated(self%mechanism%restraints)) then
+         allocate (held, source=self%mechanism)
+         call hold_plastic(held, q)
+         call held%terms(q, j, c, g, l, load)
+      else
+         call self%mechanism%terms(q, j, c, g, l, load)
+      end if
       multiplier = (g - load)/(self%edge*self%weight + cos(q)*self%weight_f + sin(q)*self%weight_e)
    end function multiplier_at
 

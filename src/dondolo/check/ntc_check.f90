@@ -3,7 +3,8 @@
 !>
 !>     SLD, linear      a_Z <= a_0*, a_0* = alpha_0 g/(e* FC)                                        C8.7.1.8
 !>     SLV, linear      a_g = q times that of the linear check that starts the mechanism, q = 2
-!>     SLV, nonlinear   d_SLV = 0.4 d_0*, T = 1.68 pi sqrt(d/a(d)), xi = 8 %                         C8.7.1.10
+!>     SLV, nonlinear   d_SLV = 0.4 d_0* or where ties break that carry more than half of the greatest a,
+!>                      T = 1.68 pi sqrt(d/a(d)), xi = 8 %                                           C8.7.1.10
 !>     SLC, nonlinear   d_SLC = 0.6 d_0* or where a load loses its seat, T = 1.56 pi sqrt(d/a(d)), xi = 10 %   C8.7.1.11
 !>     dynamic          no history beyond d_0*, mean of the largest d at most d_SLV or d_SLC         C8.7.1.2.1.9
 !>
@@ -122,6 +123,8 @@ contains
       call sheet%add('mechanism', '', 'mass_ratio', kinematic%mass_ratio, 'C8.7.1.5')
       call sheet%add('mechanism', '', 'a_0', kinematic%capacity(0.0_wp, input%confidence), 'C8.7.1.3')
       call sheet%add('mechanism', '', 'd_0', kinematic%end_displacement, 'C8.7.1.4')
+      if (kinematic%tie_fracture < huge(1.0_wp)) call sheet%add('mechanism', '', 'tie_fracture', kinematic%tie_fracture, &
+         & 'C8.7.1.4')
    end subroutine put_mechanism
 
    !> Put a linear check: of SLD, or of SLV with the behaviour factor
@@ -163,6 +166,7 @@ contains
       integer, intent(in) :: state
 
       d = shares(state)*kinematic%end_displacement
+      if (state == 2) d = min(d, kinematic%tie_fracture)
       if (state == 3) d = min(d, kinematic%unseating)
    end function capacity_displacement
 

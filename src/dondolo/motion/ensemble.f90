@@ -148,7 +148,7 @@ contains
       constants = new_lane_constants(mechanism, solver, is_shaken)
       if (constants%form%exists) return
       if (allocated(mechanism%restraints)) then
-         call raise_input(error, 'engine = ''lanes'': does not know ties; must be ''auto'' or ''rk45''')
+         call raise_input(error, 'engine = ''lanes'': knows neither ties nor interlock_overlap; must be ''auto'' or ''rk45''')
          return
       end if
       call raise_input(error, 'engine = ''lanes'': cannot follow this wall up to its edp_limit; '// &

@@ -1,4 +1,4 @@
-!> What acts on a wall besides its own weight: loads, masses that it pushes, thrusts, springs and ties, per metre of wall length.
+!> What acts on a wall besides its own weight: loads, masses that it pushes, thrusts, springs, ties and friction, per metre of wall.
 !>
 !> Places are a depth behind the outer face of the base and a height above the base (docs/theory.md, section 2).
 module dondolo_carried
@@ -49,7 +49,7 @@ module dondolo_carried
       type(thrust_type), allocatable :: thrusts(:)
       !> Springs
       type(spring_type), allocatable :: springs(:)
-      !> Ties
+      !> Ties, then friction
       type(tie_type), allocatable :: ties(:)
       !> Depth u of the hinge behind the outer face [m]
       real(wp) :: hinge = 0.0_wp

@@ -6,7 +6,7 @@
 !>
 !> Every term is a sum over points that is linear or quadratic in e and f, so that a few sums made once hold any number of
 !> things; only a thrust that decays is asked one by one. A tie is a thrust inwards and a spring, as long as it neither
-!> yields nor breaks nor becomes slack: `hold` changes those sums.
+!> yields nor breaks nor becomes slack, and so is friction, whose spring pushes: `hold` changes those sums.
 module dondolo_loaded_block
    use dondolo_carried, only : actions_type, spring_type
    use dondolo_error, only : error_type, raise_input
@@ -14,7 +14,7 @@ module dondolo_loaded_block
    use dondolo_mechanism, only : mechanism_type
    use dondolo_rigid_body, only : rigid_body_type
    use dondolo_text, only : rounded, to_text
-   use dondolo_tie, only : elastic
+   use dondolo_tie, only : elastic, flowing
    use dondolo_travel, only : lever, rotation_after, travel, versine
    implicit none
    private
@@ -57,6 +57,8 @@ module dondolo_loaded_block
       type(sums_type) :: dead, thrust, spring
       !> Thrusts and stiffnesses without the ties
       type(sums_type) :: free_thrust, free_spring
+      !> Are there stiffnesses? Those of ties and of friction may cancel in some of the sums
+      logical :: is_sprung = .false.
       !> Thrusts that decay
       type(fading_type), allocatable :: fading(:)
    contains
@@ -166,6 +168,7 @@ contains
       do i = 1, size(actions%springs)
          call add_spring(mechanism%spring, actions%springs(i), actions)
       end do
+      mechanism%is_sprung = mechanism%spring%w > 0.0_wp
       call check_rest(mechanism, body, actions, error)
       if (.not. allocated(error)) call find_capacity(mechanism, error)
       if (allocated(error)) return
@@ -182,14 +185,17 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       real(wp), dimension(size(actions%ties)) :: force, stiffness
+      integer, allocatable :: mode(:)
       integer :: at
 
       mechanism%restraints = actions%ties
+      mechanism%ties = count(.not. actions%ties%is_friction)
       mechanism%free_thrust = mechanism%thrust
       mechanism%free_spring = mechanism%spring
       associate (ties => mechanism%restraints)
          mechanism%preload = sum(ties%preload*lever(ties%edge, ties%e, ties%f, 0.0_wp))
-         call ties%pull(elastic, 0.0_wp, force, stiffness)
+         mode = merge(flowing, elastic, ties%is_friction)
+         call ties%pull(mode, 0.0_wp, force, stiffness)
       end associate
       call mechanism%hold(force, stiffness)
       associate (ties => mechanism%restraints)
@@ -209,6 +215,7 @@ contains
 
       self%thrust = self%free_thrust
       self%spring = self%free_spring
+      self%is_sprung = self%free_spring%w > 0.0_wp .or. any(abs(stiffness) > 0.0_wp)
       do i = 1, size(force)
          associate (tie => self%restraints(i))
             call self%thrust%add(-force(i), tie%e, tie%f)
@@ -274,7 +281,7 @@ contains
          g = self%gravity*(whole%y(s, k) + lifted%y(s, k))
          l = whole%x(a, s, k) + pushed%x(a, s, k)
          load = self%thrust%x(a, s, k) - self%dead%y(s, k)
-         if (spring%w > 0.0_wp) then
+         if (self%is_sprung) then
             v = versine(q)
             load = load - (a*q*spring%x(a, s, k) + s*(a*spring%f + k*spring%ff + s*spring%fe) &
                & + v*(a*spring%e + k*spring%fe + s*spring%ee))
@@ -306,7 +313,7 @@ contains
          t = versine(q)
          v = self%gravity*(self%whole%x(a, s, k) + self%lifted%x(a, s, k)) + self%dead%x(a, s, k) &
             & - (r*thrust%w + s*thrust%f + t*thrust%e)
-         if (spring%w > 0.0_wp) v = v + 0.5_wp*(r**2*spring%w + s**2*spring%ff + t**2*spring%ee) &
+         if (self%is_sprung) v = v + 0.5_wp*(r**2*spring%w + s**2*spring%ff + t**2*spring%ee) &
             & + r*s*spring%f + r*t*spring%e + s*t*spring%fe
       end associate
       do i = 1, size(self%fading)

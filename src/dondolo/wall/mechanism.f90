@@ -27,9 +27,11 @@ module dondolo_mechanism
       real(wp) :: lowest = -huge(1.0_wp), highest = huge(1.0_wp)
       !> Rotation at which a load loses its seat, which counts as collapse [rad]; huge: none does
       real(wp) :: unseating = huge(1.0_wp)
-      !> Ties; not allocated: none. As built no tie has yielded, and terms and potential are those of a wall that its ties
-      !> hold with T_0 + k D; `hold` puts other forces in their place
+      !> Ties, then friction; not allocated: none. As built no tie has yielded, and terms and potential are those of a wall
+      !> that its ties hold with T_0 + k D and friction with F (1 - D/D_u); `hold` puts other forces in their place
       type(tie_type), allocatable :: restraints(:)
+      !> How many of them are ties
+      integer :: ties = 0
       !> Moment of the ties at rest, as built [N m]
       real(wp) :: preload = 0.0_wp
    contains

@@ -1,17 +1,20 @@
 !> A tie that holds a wall back: linear up to its yield force, then plastic up to a strain at which it breaks. It cannot push.
 !>
 !> Its elongation D(q) only grows with the rotation, and it yields only in tension, thus only at a new largest D: its plastic
-!> set and whether it is broken follow from the largest rotation so far, q_m, alone (docs/theory.md, section 2).
+!> set and whether it is broken follow from the largest rotation so far, q_m, alone (docs/theory.md, section 2). So does what
+!> is left of friction that resists only a motion to new rotations: it is a tie that flows from the start, with a force that
+!> falls, and is slack on every way back.
 module dondolo_tie
    use dondolo_kinds, only : wp
    use dondolo_travel, only : lever, rotation_after, travel
    implicit none
    private
 
-   public :: tie_type, tie_input_type, new_tie
+   public :: tie_type, tie_input_type, new_friction, new_tie
    public :: elastic, flowing, slack, broken
 
-   !> Modes of a tie, in each of which its force is smooth: T_0 + k (D - D_p), F_y, none for the time being, none any more
+   !> Modes of a tie, in each of which its force is smooth: T_0 + k (D - D_p), F_y (of friction less with D), none for the time
+   !> being, none any more
    integer, parameter :: elastic = 1, flowing = 2, slack = 3, broken = 4
 
    !> A tie as a user describes it
@@ -38,6 +41,8 @@ module dondolo_tie
       real(wp) :: yield_travel = 0.0_wp, fracture_travel = 0.0_wp
       !> Rotations at which it does [rad]; huge: never
       real(wp) :: yield = huge(1.0_wp), fracture = huge(1.0_wp)
+      !> Is it friction, F_y (1 - D/D_u) at new rotations and nothing on the way back?
+      logical :: is_friction = .false.
    contains
       !> Plastic elongation D_p
       procedure :: set
@@ -70,6 +75,28 @@ contains
       tie%yield = rotation_after(edge, tie%e, tie%f, tie%yield_travel)
       tie%fracture = rotation_after(edge, tie%e, tie%f, tie%fracture_travel)
    end function new_tie
+
+   !> Make a friction that resists only a motion to new rotations
+   pure function new_friction(depth, height, force, travelled, hinge, edge) result(tie)
+      !> Where it acts: depth behind the outer face and height above the base [m]
+      real(wp), intent(in) :: depth, height
+      !> Force at rest [N/m], and travel over which it falls to nothing [m]
+      real(wp), intent(in) :: force, travelled
+      !> Depth of the hinge, and radius of the edge [m]
+      real(wp), intent(in) :: hinge, edge
+      type(tie_type) :: tie
+
+      tie%is_friction = .true.
+      tie%e = depth - hinge
+      tie%f = height - edge
+      tie%edge = edge
+      tie%preload = force
+      tie%strength = force
+      tie%yield_travel = 0.0_wp
+      tie%fracture_travel = travelled
+      tie%yield = 0.0_wp
+      tie%fracture = rotation_after(edge, tie%e, tie%f, travelled)
+   end function new_friction
 
    !> Plastic elongation D_p after a largest rotation; of a broken tie that at which it broke [m]
    elemental real(wp) function set(self, largest)
@@ -116,6 +143,7 @@ contains
          stiffness = self%stiffness
       case (flowing)
          force = self%strength
+         if (self%is_friction) stiffness = -self%strength/self%fracture_travel
       end select
    end subroutine pull
 

@@ -9,7 +9,7 @@ module dondolo_tie_statics
    implicit none
    private
 
-   public :: greatest_acceleration, plastic_acceleration, ties_after
+   public :: greatest_acceleration, hold_plastic, plastic_acceleration, ties_after
 
    !> Parts of the rotation between two events in which a maximum is looked for
    integer, parameter :: parts = 64
@@ -19,7 +19,7 @@ contains
    !> Acceleration of the rigid-plastic mechanism: all ties at their largest force, the wall at rest [m/s2]
    pure function plastic_acceleration(mechanism) result(a)
       class(mechanism_type), intent(in) :: mechanism
-      !> [G(0) - Q(0) + sum F_y X(0)]/L(0)
+      !> [G(0) - Q(0) + sum F_y X(0)]/L(0), friction among the forces
       real(wp) :: a
 
       real(wp) :: j, c, g, l, load
@@ -31,6 +31,24 @@ contains
          a = a + (sum(ties%strength*lever(ties%edge, ties%e, ties%f, 0.0_wp)) - mechanism%preload)/l
       end associate
    end function plastic_acceleration
+
+   !> Hold a wall as design has it at a rotation that it is pushed to for the first time: all ties that are not broken by then
+   !> at their largest force, and what is left of the friction
+   pure subroutine hold_plastic(wall, q)
+      !> Has ties
+      class(mechanism_type), intent(inout) :: wall
+      !> Rotation; that at which a tie breaks is one of those at which it holds [rad]
+      real(wp), intent(in) :: q
+
+      !> Rotations that differ by this part are the same
+      real(wp), parameter :: same = 1.0e-9_wp
+      real(wp), dimension(size(wall%restraints)) :: force, stiffness
+      integer :: mode(size(wall%restraints))
+
+      mode = merge(broken, flowing, q > wall%restraints%fracture*(1.0_wp + same))
+      call wall%restraints%pull(mode, 0.0_wp, force, stiffness)
+      call wall%hold(force, stiffness)
+   end subroutine hold_plastic
 
    !> Greatest acceleration that the wall withstands at any rotation up to its capacity, pushed out for the first time [m/s2]
    pure function greatest_acceleration(mechanism) result(a)
@@ -77,7 +95,7 @@ contains
       logical, intent(out) :: is_broken(:)
 
       ! A load that loses its seat ends a history at less than the limit that is its EDP.
-      associate (ties => mechanism%restraints, peak => min(edp, mechanism%unseating/mechanism%capacity))
+      associate (ties => mechanism%restraints(:mechanism%ties), peak => min(edp, mechanism%unseating/mechanism%capacity))
          ! A division by the capacity made the EDP; the same division keeps the order of the rotations to the bit.
          is_broken = peak >= ties%fracture/mechanism%capacity
          elongation = ties%set(peak*mechanism%capacity)

@@ -3,6 +3,7 @@ module dondolo_wall_body
    use dondolo_carried, only : actions_type, carried_type, spring_type, thrust_type
    use dondolo_error, only : problems_type
    use dondolo_hinge_depth, only : check_hinge, read_hinge_depth
+   use dondolo_interlocking, only : read_interlocking
    use dondolo_kinds, only : wp
    use dondolo_property, only : name_length, number_of_words, word_of
    use dondolo_rigid_body, only : body_of_sections, faces_at, rigid_body_type, same, section_type
@@ -100,6 +101,7 @@ contains
       call read_hinge(input, gravity, problems, wall)
       call check_places(input, problems, wall)
       call read_ties(input, wall%sections, wall%actions%hinge, wall%actions%edge, problems, wall%actions%ties)
+      call read_interlocking(input, wall%sections, gravity, wall%actions%hinge, wall%actions%edge, problems, wall%actions%ties)
       if (problems%count > before) return
       if (input%has('mass')) call take_inertia(input, problems, wall)
       if (input%word('mechanism') == 'free_standing') call check_symmetry(input, problems, wall)
@@ -155,7 +157,8 @@ contains
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
 
-      character(len=*), parameter :: names(6) = [character(len=12) :: 'load', 'inertia_mass', 'thrust', 'spring', 'bed', 'mass']
+      character(len=*), parameter :: names(7) = [character(len=17) :: 'load', 'inertia_mass', 'thrust', 'spring', 'bed', &
+         & 'mass', 'interlock_overlap']
       real(wp) :: leaves
       integer :: i
 

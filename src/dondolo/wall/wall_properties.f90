@@ -178,6 +178,20 @@ module dondolo_wall_properties
       &   largest=1.0e9_wp, usual_least=100.0_wp, usual_most=1.0e6_wp, if_less='is it in kN/m?', &
       &   if_more='is it per metre of wall?', example='6.0e3', &
       &   meaning='force per metre of wall at which each anchor gives way at once; none if not given'), &
+      & property_type('interlock_overlap', unit='m', owners=one_sided, optional=.true., positive=.true., &
+      &   largest=10.0_wp, usual_most=1.0_wp, if_more='is it in centimetres?', example='0.12', &
+      &   meaning='length by which stones of the wall overlap those of transverse walls, whose friction holds it'), &
+      & property_type('interlock_course', unit='m', owners=one_sided, optional=.true., positive=.true., &
+      &   smallest=1.0e-3_wp, largest=1.0e3_wp, usual_most=1.0_wp, if_more='is it in centimetres?', example='0.10', &
+      &   meaning='height of a course there'), &
+      & property_type('interlock_thickness', unit='m', owners=one_sided, optional=.true., positive=.true., &
+      &   largest=10.0_wp, usual_most=3.0_wp, if_more='is it in centimetres?', example='0.25', &
+      &   meaning='thickness of a transverse wall'), &
+      & property_type('interlock_spacing', unit='m', owners=one_sided, optional=.true., positive=.true., &
+      &   smallest=0.1_wp, largest=1.0e3_wp, usual_most=50.0_wp, if_more='is it in centimetres?', example='5.0', &
+      &   meaning='distance of two transverse walls'), &
+      & property_type('interlock_friction', owners=one_sided, optional=.true., positive=.true., largest=2.0_wp, &
+      &   example='0.577', meaning='coefficient of friction in the overlaps, 0.577 if not given'), &
       & property_type('hinge', default=0.5_wp, smallest=0.01_wp, largest=0.99_wp, owners=two_block, &
       &   meaning='height of the intermediate hinge / height of the wall'), &
       & property_type('restitution', is_text, word='default', checked_by_owner=.true., column='restitution_model', &

@@ -84,7 +84,7 @@ contains
       if (.not. allocated(error)) call choose_records(namelist, case, runs, error)
       if (allocated(error)) return
       if (case%job%task == 'stripes') then
-         if (allocated(case%wall%mechanism%restraints)) call note_ties(case, 'wall '''//case%wall%name()//''' has ties')
+         if (allocated(case%wall%mechanism%restraints)) call note_ties(case, 'wall '''//case%wall%name()//''' has ties or friction')
       end if
       if (case%job%task == 'typology') then
          call survey(case, rows, error)
@@ -115,7 +115,7 @@ contains
       if (allocated(error)) return
       if (len(case%survey%note) > 0) call case%notes%add(case%survey%note)
       if (case%survey%tied > 0) call note_ties(case, to_text(case%survey%tied)//' of '//to_text(case%survey%rows)// &
-         & ' rows have ties, wall '''//case%survey%first_tied//''' the first')
+         & ' rows have ties or friction, wall '''//case%survey%first_tied//''' the first')
       case%survey%is_part = present(rows)
       if (.not. present(rows) .or. case%survey%last == range(2)) return
       note = '--walls '//to_text(range(1))//':'//to_text(range(2))//': the population has '// &
@@ -134,7 +134,7 @@ contains
       character(len=*), intent(in) :: which
 
       if (case%solver%solver%engine == 'auto') call case%notes%add(which//': the engine rk45 computes their histories, '// &
-         & 'lanes does not know ties')
+         & 'lanes knows neither')
    end subroutine note_ties
 
    !> Check that the groups suit the task

@@ -49,7 +49,7 @@ module dondolo_survey
       type(fingerprint_type) :: fingerprint, walls_fingerprint
       !> How many values each property of a wall has at most
       integer, allocatable :: lengths(:)
-      !> Rows of walls with ties, and the name of the first
+      !> Rows of walls with ties or friction, and the name of the first
       integer :: tied = 0
       character(len=:), allocatable :: first_tied
       !> How the table was read, where there is something to say of it, else empty

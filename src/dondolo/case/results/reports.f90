@@ -51,7 +51,7 @@ contains
       case ('stripes')
          names = [character(len=15) :: '_walls.csv', '_histories.csv', '_stripes.csv', '_fragility.csv', &
             & run_suffix]
-         if (allocated(case%wall%mechanism%restraints)) names = [names(:size(names) - 1), [character(len=15) :: '_ties.csv', &
+         if (case%wall%mechanism%ties > 0) names = [names(:size(names) - 1), [character(len=15) :: '_ties.csv', &
             & run_suffix]]
          if (allocated(case%check)) names = [names(:size(names) - 1), [character(len=15) :: '_check.csv', run_suffix]]
       case default

@@ -232,7 +232,7 @@ contains
       if (allocated(error)) return
       call make_wall_cells(member%wall, case%job%spreadsheet_safe, cells)
       do j = 1, size(plan%levels)
-         do i = 1, size(member%wall%mechanism%restraints)
+         do i = 1, member%wall%mechanism%ties
             call make_tie_row(cells, plan%im, plan%levels(j), member%wall%mechanism, i, &
                & pack(row%response(:, j), plan%ran(:, j)), line)
             call files%line(line)

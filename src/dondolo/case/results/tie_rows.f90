@@ -33,8 +33,8 @@ contains
       !> Row
       character(len=:), allocatable, intent(out) :: row
 
-      real(wp) :: elongation(size(mechanism%restraints), size(response)), share
-      logical :: broken(size(mechanism%restraints), size(response))
+      real(wp) :: elongation(mechanism%ties, size(response)), share
+      logical :: broken(mechanism%ties, size(response))
       integer :: yields, breaks, i
 
       do i = 1, size(response)

@@ -2,6 +2,7 @@
 !>
 !> In each mode of its ties the motion is smooth. Modes change only at rotations that are known beforehand, levels, and where
 !> a motion outwards ends; what the ties remember is the largest rotation at which one did (docs/theory.md, section 4).
+!> Friction is one of them, which flows whenever the wall goes where it has not been.
 module dondolo_grip
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
@@ -56,7 +57,8 @@ contains
       self%exists = allocated(wall%restraints)
       if (.not. self%exists) return
       ties = size(wall%restraints)
-      allocate (self%mode(ties), source=elastic)
+      allocate (self%mode(ties))
+      self%mode = merge(flowing, elastic, wall%restraints%is_friction)
       allocate (self%set(ties), self%slack_below(ties), source=0.0_wp)
       allocate (self%time_of_yield(ties), self%time_of_fracture(ties), source=never)
       if (q > 0.0_wp) call self%cross(wall, q, .true., 0.0_wp)
@@ -112,9 +114,16 @@ contains
       self%reached = max(self%reached, q)
       do i = 1, size(self%mode)
          if (self%mode(i) /= flowing) cycle
-         self%mode(i) = elastic
-         self%set(i) = wall%restraints(i)%set(q)
-         self%slack_below(i) = wall%restraints(i)%slack_below(self%set(i))
+         if (wall%restraints(i)%is_friction) then
+            ! A wall that has not moved at all is still held.
+            if (.not. self%reached > 0.0_wp) cycle
+            self%mode(i) = slack
+            self%slack_below(i) = self%reached
+         else
+            self%mode(i) = elastic
+            self%set(i) = wall%restraints(i)%set(q)
+            self%slack_below(i) = wall%restraints(i)%slack_below(self%set(i))
+         end if
          self%changed = .true.
       end do
       call self%take_hold(wall)
@@ -140,13 +149,13 @@ contains
       !> Of each tie
       type(tie_response_type), allocatable, intent(out) :: response(:)
 
-      allocate (response(size(self%mode)))
-      associate (ties => wall%restraints)
+      allocate (response(wall%ties))
+      associate (ties => wall%restraints(:wall%ties))
          response%plastic_elongation = ties%set(peak)
          response%energy = ties%strength*response%plastic_elongation
          response%broken = peak >= ties%fracture
-         response%time_of_yield = self%time_of_yield
-         response%time_of_fracture = self%time_of_fracture
+         response%time_of_yield = self%time_of_yield(:wall%ties)
+         response%time_of_fracture = self%time_of_fracture(:wall%ties)
       end associate
    end subroutine responses
 

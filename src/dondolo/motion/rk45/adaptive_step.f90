@@ -17,6 +17,7 @@ module dondolo_adaptive_step
    private
 
    public :: motion_type, advance
+   public :: most_stalled
 
    !> Evaluations of the terms in a step, the first of which the step before has done
    integer, parameter :: stages = 6
@@ -39,6 +40,9 @@ module dondolo_adaptive_step
       type(grip_type) :: grip
       !> Levels in a row that were reached without any time passing
       integer :: stalled = 0
+      !> Does friction hold it where it is, and how often was it released in this sample interval?
+      logical :: sticks = .false.
+      integer :: released = 0
       !> Scaled error of the last accepted step
       real(wp) :: last_error = 1.0e-4_wp
       !> Steps taken, and evaluations of the terms

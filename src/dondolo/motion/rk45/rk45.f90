@@ -6,7 +6,7 @@ module dondolo_rk45
    use, intrinsic :: iso_c_binding, only : c_int
    use dondolo_adaptive_step, only : advance, motion_type
    use dondolo_dormand_prince, only : angular_acceleration, excitation_type
-   use dondolo_events, only : impact, level_above, level_below, limit_reached, turning
+   use dondolo_events, only : impact, level_above, level_below, limit_reached, no_event, turning
    use dondolo_grip, only : grip_type
    use dondolo_held_tail, only : held_motion
    use dondolo_history, only : starting_acceleration
@@ -18,6 +18,7 @@ module dondolo_rk45
    use dondolo_rest, only : new_rest
    use dondolo_solver, only : solver_type
    use dondolo_step_limits, only : longest_step
+   use dondolo_stick, only : look_for_stick, stay
    use dondolo_tail, only : tail_type
    use dondolo_wall_constants, only : new_wall_constants, wall_constants_type
    use dondolo_work, only : work_type
@@ -188,7 +189,12 @@ contains
             ending = broken_off
             return
          end if
-         call advance(wall, constants, record%dt, motion, event, sample_reached)
+         if (motion%sticks) then
+            event = no_event
+            call stay(wall, constants%solver%steps_per_sample, record%dt, motion, sample_reached)
+         else
+            call advance(wall, constants, record%dt, motion, event, sample_reached)
+         end if
          select case (event)
          case (impact)
             call bounce(wall, constants, record, motion, ending, trace)
@@ -226,6 +232,7 @@ contains
          ! A tie flows outwards only; rounding may end such a motion unseen.
          if (.not. (event == turning .or. (motion%grip%flows .and. motion%v < 0.0_wp))) return
          call motion%grip%turn(wall, motion%peak)
+         if (event == turning .and. size(wall%restraints) > wall%ties) call look_for_stick(wall, motion)
       end select
       motion%f = angular_acceleration(wall, motion%excitation, motion%time, motion%q, motion%v)
    end subroutine change_ties
@@ -254,6 +261,7 @@ contains
 
       motion%interval = motion%interval + 1
       motion%time = 0.0_wp
+      motion%released = 0
       call enter_interval(constants, record, motion)
       if (present(trace)) call add_row(motion, record, trace)
    end subroutine next_interval
