@@ -3,6 +3,7 @@
 !>
 !> Section 3.3 of Nale et al. The histories of a wall run together, on several threads (dondolo_ensemble).
 module dondolo_stripes
+   use dondolo_certificate, only : certified_type
    use dondolo_ensemble, only : ensemble_type, run_ensemble
    use dondolo_error, only : error_type
    use dondolo_floors, only : floors_type
@@ -19,7 +20,7 @@ module dondolo_stripes
    implicit none
    private
 
-   public :: stripes_type, multiple_stripe, plan_stripes, planned_work, run_histories, run_part, histories_of
+   public :: stripes_type, multiple_stripe, plan_stripes, planned_work, run_histories, run_part, histories_of, take_motions
 
    !> Memory that a history of the plan takes while it is run, once or twice [bytes]
    real(wp), parameter :: bytes_of_history = 110.0_wp, bytes_of_two_runs = 160.0_wp
@@ -40,6 +41,8 @@ module dondolo_stripes
       real(wp), allocatable :: scale(:, :)
       !> Responses (histories, levels), of those that do not run without collapse
       type(response_type), allocatable :: response(:, :)
+      !> How they are certified (histories, levels); not allocated: they are not
+      type(certified_type), allocatable :: certified(:, :)
       !> What was computed for them
       type(work_type) :: work
    contains
