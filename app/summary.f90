@@ -4,6 +4,7 @@ module dondolo_summary
    use dondolo_case, only : case_type
    use dondolo_certificate, only : in_double, in_quadruple, not_computable
    use dondolo_check_lines, only : print_check, print_verdicts
+   use dondolo_error_estimate, only : runs_of_estimate
    use dondolo_fit_lines, only : bar, fractiles, make_head, print_fit, print_population_errors
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
@@ -111,7 +112,7 @@ contains
 
       call results%name_engines(engines)
       histories = results%work%histories
-      if (case%solver%solver%estimate_error) histories = histories/2
+      if (case%solver%solver%estimate_error) histories = histories/runs_of_estimate
       if (results%resumed > 0) then
          write (output_unit, '(a)') to_text(histories)//' histories, those of '//counted(results%resumed, 'row')// &
             & ' by an earlier run, engine '//engines
@@ -126,7 +127,7 @@ contains
          write (output_unit, '(a)') 'never moved: '//trim(share(work%still, work%histories))//' histories; rocking: '// &
             & trim(share(work%rocked, work%intervals))//' sample intervals'
          if (case%solver%solver%estimate_error) write (output_unit, '(a)') &
-            & '(to estimate errors every history was run a second time, with halved steps)'
+            & '(to estimate errors every history was run twice more)'
       end associate
    end subroutine print_work
 
@@ -171,7 +172,7 @@ contains
          end do
          if (case%solver%solver%estimate_error) then
             if (response%collapsed .and. .not. response%edp_error > 0.0_wp) then
-               write (output_unit, '(a)') 'with halved steps it collapses too'
+               write (output_unit, '(a)') 'twice more it collapses too'
             else
                write (output_unit, '(a)') 'estimated error of the EDP: '//rounded(response%edp_error)
             end if

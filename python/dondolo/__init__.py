@@ -14,6 +14,7 @@
 from dondolo._fortran.library import build_variant
 from dondolo._fortran.library import constants as _constants
 from dondolo._storage.saved import load
+from dondolo.analysis.certificate import Certified, certify
 from dondolo.analysis.cloud import Cloud, cloud
 from dondolo.analysis.efficiency import IntensityComparison, compare_intensities
 from dondolo.analysis.incremental import FirstCollapseFragility, Incremental, incremental
@@ -70,6 +71,7 @@ __all__ = [
     "Boundary",
     "Building",
     "Case",
+    "Certified",
     "Choice",
     "Cloud",
     "CodeCheck",
@@ -120,6 +122,7 @@ __all__ = [
     "build_variant",
     "check_dynamic",
     "check_ntc",
+    "certify",
     "cloud",
     "compare",
     "compare_designs",

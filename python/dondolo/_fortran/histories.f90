@@ -25,7 +25,7 @@ module histories
    implicit none
    private
 
-   public :: certify, simulate, run_scaled, warn_of_motion, warn_of_errors
+   public :: certify, is_doubtful, simulate, run_scaled, warn_of_motion, warn_of_errors
 
 contains
 
@@ -213,6 +213,26 @@ contains
       end if
       call report(error, stat, message)
    end subroutine certify
+
+   !> Do estimated errors leave a doubt about EDPs, or about collapses?
+   subroutine is_doubtful(edp, edp_error, n, edp_limit, doubt, stat, message)
+      integer(c_int), intent(in) :: n
+      real(c_double), intent(in) :: edp(n), edp_error(n), edp_limit
+      integer(c_int), intent(out) :: doubt(n), stat
+      character(len=2048), intent(out) :: message
+      type(response_type), allocatable :: responses(:)
+      type(error_type), allocatable :: error
+
+      doubt = 0
+      call check_room(error, histories=real(n, c_double))
+      if (.not. allocated(error)) then
+         allocate (responses(n))
+         responses%edp = edp
+         responses%edp_error = edp_error
+         doubt = merge(1, 0, responses%is_doubtful(edp_limit))
+      end if
+      call report(error, stat, message)
+   end subroutine is_doubtful
 
    !> What the executable would warn of, of a wall and a record, before it runs one motion
    subroutine warn_of_motion(walls, record, pga, fall, sent, stat, message)

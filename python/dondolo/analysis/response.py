@@ -228,7 +228,7 @@ class Response(Shown, Saved):
         if self.edp_error is not None:
             both = self.collapsed and self.edp_error == 0.0
             fact = (
-                ("with halved steps", "collapses too")
+                ("twice more", "collapses too")
                 if both
                 else ("estimated error of the EDP", f"{self.edp_error:.2g}")
             )
@@ -290,7 +290,7 @@ def simulate(
     history : bool
         Keep the time history?
     estimate_error : bool
-        Run it a second time with halved steps, to estimate the error of the EDP?
+        Run it twice more, to estimate the error of the EDP?
 
     Returns
     -------

@@ -22,8 +22,8 @@ module dondolo_stripes
 
    public :: stripes_type, multiple_stripe, plan_stripes, planned_work, run_histories, run_part, histories_of, take_motions
 
-   !> Memory that a history of the plan takes while it is run, once or twice [bytes]
-   real(wp), parameter :: bytes_of_history = 110.0_wp, bytes_of_two_runs = 160.0_wp
+   !> Memory that a history of the plan takes while it is run, once or three times [bytes]
+   real(wp), parameter :: bytes_of_history = 110.0_wp, bytes_of_three_runs = 210.0_wp
 
    !> Result of a multiple stripe analysis
    type :: stripes_type
@@ -89,7 +89,7 @@ contains
       stripes%levels = study%levels
       call choose_polarities(study, wall, stripes%record, stripes%polarity)
       associate (histories => size(stripes%record), levels => size(stripes%levels))
-         call check_room(merge(bytes_of_two_runs, bytes_of_history, study%solver%estimate_error) &
+         call check_room(merge(bytes_of_three_runs, bytes_of_history, study%solver%estimate_error) &
             & *real(histories, wp)*real(levels, wp), error)
          if (.not. allocated(error)) call study%check_scales(wall, error)
          if (allocated(error)) return

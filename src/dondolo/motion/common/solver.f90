@@ -11,7 +11,7 @@ module dondolo_solver
    implicit none
    private
 
-   public :: solver_type, check_solver, check_limit, refined, perturbed
+   public :: solver_type, check_solver, check_limit, refined
    public :: solver_properties, take_solver, put_solver, engine_names
 
    !> Names of the engines; 'auto' takes the one that suits the task
@@ -28,7 +28,7 @@ module dondolo_solver
       real(wp) :: atol = 1.0e-10_wp
       !> Rotation / capacity at which the wall has collapsed
       real(wp) :: edp_limit = 1.0_wp
-      !> Run every history a second time, to estimate the error of its EDP?
+      !> Run every history twice more, to estimate the error of its EDP?
       logical :: estimate_error = .false.
       !> Are histories whose error leaves a doubt to be run again in 33 digits?
       logical :: certify = .false.
@@ -60,7 +60,7 @@ module dondolo_solver
       & property_type('edp_limit', default=standard%edp_limit, positive=.true., &
       &   meaning='rotation / capacity rotation that counts as collapse'), &
       & property_type('estimate_error', is_logical, owners=with_edps, changes_results=.false., &
-      &   meaning='how far is each EDP off? Takes two to three times as long'), &
+      &   meaning='how far is each EDP off? Takes about four times as long'), &
       & property_type('certify', is_logical, owners=stripes_only, changes_results=.false., &
       &   meaning='estimate errors, and run every history that they leave in doubt again in 33 digits?'), &
       & gravity_property]
@@ -155,17 +155,6 @@ contains
       other%atol = factor*solver%atol
       other%steps_per_sample = 2*solver%steps_per_sample
    end function refined
-
-   !> Factor on a record that differs by as much as all rounding of a history comes to: what it changes tells what
-   !> rounding may have changed, where that is more than the steps do
-   elemental real(wp) function perturbed(scale)
-      !> Factor
-      real(wp), intent(in) :: scale
-
-      real(wp), parameter :: units_in_the_last_place = 8.0_wp
-
-      perturbed = scale*(1.0_wp + units_in_the_last_place*epsilon(scale))
-   end function perturbed
 
    !> Check that a mechanism can reach the limit rotation
    subroutine check_limit(solver, mechanism, error)
