@@ -96,7 +96,7 @@ def run_again(stripes: Stripes, records: Sequence[Record], threads: int, progres
     places = np.argwhere(doubt)
     # A few at a time, so that Ctrl-C and the bar are heard
     with progress_bar(len(places), progress, "certificates", "history") as bar:
-        for first in range(0, max(len(places), 1), _BLOCK):
+        for first in range(0, len(places), _BLOCK):
             here = slice(first, first + _BLOCK)
             rows = tuple(places[here].T)
             with stoppable():
