@@ -60,7 +60,7 @@ module dondolo_solver
       & property_type('edp_limit', default=standard%edp_limit, positive=.true., &
       &   meaning='rotation / capacity rotation that counts as collapse'), &
       & property_type('estimate_error', is_logical, owners=with_edps, changes_results=.false., &
-      &   meaning='how far is each EDP off? Takes about four times as long'), &
+      &   meaning='how far is each EDP off? Takes about three times as long'), &
       & property_type('certify', is_logical, owners=stripes_only, changes_results=.false., &
       &   meaning='estimate errors, and run every history that they leave in doubt again in 33 digits?'), &
       & gravity_property]
