@@ -178,6 +178,7 @@ contains
       type(wall_type), pointer :: people(:)
       type(suite_type), pointer :: records, motions
       type(floors_type), target :: own
+      type(ensemble_type) :: ensemble
       type(certificate_type), allocatable :: certificates(:)
       type(error_type), allocatable :: error
       integer :: i
@@ -201,8 +202,11 @@ contains
       end do
       if (.not. allocated(error)) call find_motions(people(1), records, threads, own, motions, error)
       if (.not. allocated(error)) then
-         call certify_histories(certificates, people(1), motions%records, record, scale, &
-            & double_edp, edp_limit, threads, error)
+         ensemble%record = record
+         ensemble%scale = scale
+         allocate (ensemble%response(k))
+         ensemble%response%edp = double_edp
+         call certify_histories(certificates, people(1), motions%records, ensemble, edp_limit, threads, error)
       end if
       if (.not. allocated(error)) then
          status = certificates%status

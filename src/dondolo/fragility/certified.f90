@@ -2,6 +2,7 @@
 !> comes to there (docs/certification.md).
 module dondolo_certified
    use dondolo_certificate, only : certificate_type, certified_type, certify_histories, in_double, not_computable
+   use dondolo_ensemble, only : ensemble_type
    use dondolo_error, only : error_type
    use dondolo_floors, only : floors_type
    use dondolo_fragility, only : fit_fragility, fragility_type
@@ -35,8 +36,7 @@ contains
       type(floors_type), pointer :: floors
       type(suite_type), pointer :: motions
       logical, allocatable :: doubtful(:, :)
-      integer, allocatable :: record(:)
-      real(wp), allocatable :: scale(:)
+      type(ensemble_type) :: ensemble
       integer :: i, j, k, place
 
       associate (response => stripes%response)
@@ -45,11 +45,12 @@ contains
          stripes%certified%lowest = response%edp
          stripes%certified%highest = response%edp
          doubtful = stripes%ran .and. response%is_doubtful(study%solver%edp_limit)
-         record = pack(spread(stripes%record, 2, size(stripes%levels)), doubtful)
-         scale = pack(spread(real(stripes%polarity, wp), 2, size(stripes%levels))*stripes%scale, doubtful)
+         ensemble%record = pack(spread(stripes%record, 2, size(stripes%levels)), doubtful)
+         ensemble%scale = pack(spread(real(stripes%polarity, wp), 2, size(stripes%levels))*stripes%scale, doubtful)
+         ensemble%response = pack(response, doubtful)
          call take_motions(study, wall, study%threads, own, floors, place, motions)
-         call certify_histories(certificates, wall, motions%records, record, scale, pack(response%edp, doubtful), &
-            & study%solver%edp_limit, study%threads, error, progress)
+         call certify_histories(certificates, wall, motions%records, ensemble, study%solver%edp_limit, study%threads, &
+            & error, progress)
          if (place > 0) call floors%give_back(place)
          if (allocated(error)) return
          k = 0

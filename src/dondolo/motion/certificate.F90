@@ -2,13 +2,14 @@
 !> the record one unit in the last place stronger and weaker (docs/certification.md).
 module dondolo_certificate
    use, intrinsic :: iso_c_binding, only : c_int
+   use dondolo_ensemble, only : ensemble_type
    use dondolo_error, only : error_type, raise_failure, raise_input
    use dondolo_interrupt, only : look_for_interrupt
    use dondolo_kinds, only : wp
    use dondolo_property, only : is_list, is_text, is_words
    use dondolo_queue, only : progress_interface, queue_type
 #ifdef DONDOLO_QUADRUPLE
-   use dondolo_quadruple_wall, only : quadruple_record_type, quadruple_wall_type
+   use dondolo_quadruple_wall, only : quadruple_record_type, quadruple_response_type, quadruple_wall_type
 #endif
    use dondolo_record, only : record_type
    use dondolo_response, only : largest_sure_error, response_type
@@ -69,17 +70,14 @@ contains
    end subroutine check_certificates
 
    !> Certify histories of one wall
-   subroutine certify_histories(certificates, wall, records, record, scale, edp, edp_limit, threads, error, progress)
+   subroutine certify_histories(certificates, wall, records, ensemble, edp_limit, threads, error, progress)
       !> Certificates, one for each history
       type(certificate_type), allocatable, intent(out) :: certificates(:)
       type(wall_type), intent(in) :: wall
       !> Accelerograms
       type(record_type), intent(in) :: records(:)
-      !> Record of each history, and the factor on it
-      integer, intent(in) :: record(:)
-      real(wp), intent(in) :: scale(:)
-      !> Its EDP in double precision
-      real(wp), intent(in) :: edp(:)
+      !> The histories, with their EDPs in double precision
+      type(ensemble_type), intent(in) :: ensemble
       !> Rotation / capacity at which the wall has collapsed
       real(wp), intent(in) :: edp_limit
       !> Number of threads; 0: all that OpenMP gives
@@ -95,16 +93,17 @@ contains
       integer(c_int) :: interrupted
       integer :: i
 
-      allocate (certificates(size(record)))
+      allocate (certificates(size(ensemble%record)))
       call new_quadruple_wall(exact, wall, error)
       if (allocated(error)) return
-      call queue%announce(size(record), progress)
-      !$omp parallel do schedule(dynamic) num_threads(team_of(threads, size(record))) default(none) &
-      !$omp & private(interrupted) shared(certificates, exact, records, record, scale, edp, edp_limit, queue)
-      do i = 1, size(record)
+      call queue%announce(size(certificates), progress)
+      !$omp parallel do schedule(dynamic) num_threads(team_of(threads, size(certificates))) default(none) &
+      !$omp & private(interrupted) shared(certificates, exact, records, ensemble, edp_limit, queue)
+      do i = 1, size(certificates)
          call look_for_interrupt(interrupted)
          if (interrupted == 1) cycle
-         call certify(exact, records(record(i)), scale(i), edp(i), edp_limit, certificates(i))
+         call certify(exact, records(ensemble%record(i)), ensemble%scale(i), ensemble%response(i)%edp, edp_limit, &
+            & certificates(i))
          call queue%report()
       end do
       !$omp end parallel do
@@ -218,8 +217,10 @@ contains
          !> What happens
          type(response_type), intent(out) :: response
 
-         call wall%simulate(exact, factor, rtol, edp_limit, response%edp, response%collapsed, response%impacts, &
-            & response%time_of_peak)
+         type(quadruple_response_type) :: result
+
+         call wall%simulate(exact, factor, rtol, edp_limit, result)
+         response = response_type(result%edp, result%collapsed, result%impacts, result%time_of_peak)
       end subroutine run
 
       !> Do two runs agree?

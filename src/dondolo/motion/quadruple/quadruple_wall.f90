@@ -15,7 +15,7 @@ module dondolo_quadruple_wall
    implicit none
    private
 
-   public :: quadruple_wall_type, quadruple_record_type
+   public :: quadruple_wall_type, quadruple_record_type, quadruple_response_type
 
    !> A wall in 33 digits
    type :: quadruple_wall_type
@@ -44,6 +44,18 @@ module dondolo_quadruple_wall
       !> Take one in double precision
       procedure :: take
    end type quadruple_record_type
+
+   !> Result of a history, as response_type has it
+   type :: quadruple_response_type
+      !> Largest rotation / capacity
+      real(real64) :: edp = 0.0_real64
+      !> Did it reach the limit?
+      logical :: collapsed = .false.
+      !> Impacts before the end of the record
+      integer :: impacts = 0
+      !> Time of the largest rotation, or of reaching the limit [s]
+      real(real64) :: time_of_peak = 0.0_real64
+   end type quadruple_response_type
 
 contains
 
@@ -115,7 +127,7 @@ contains
    end subroutine take
 
    !> The motion under an accelerogram, at a relative tolerance and an absolute one of a hundredth of it
-   pure subroutine simulate(self, record, scale, rtol, edp_limit, edp, collapsed, impacts, time_of_peak)
+   pure subroutine simulate(self, record, scale, rtol, edp_limit, result)
       class(quadruple_wall_type), intent(in) :: self
       type(quadruple_record_type), intent(in) :: record
       !> Factor on it, negative to reverse its polarity
@@ -124,14 +136,7 @@ contains
       real(real64), intent(in) :: rtol
       !> Rotation / capacity at which the wall has collapsed
       real(real64), intent(in) :: edp_limit
-      !> Largest rotation / capacity
-      real(real64), intent(out) :: edp
-      !> Did it reach the limit?
-      logical, intent(out) :: collapsed
-      !> Impacts before the end of the record
-      integer, intent(out) :: impacts
-      !> Time of the largest rotation, or of reaching the limit [s]
-      real(real64), intent(out) :: time_of_peak
+      type(quadruple_response_type), intent(out) :: result
 
       type(solver_type) :: solver
       type(response_type) :: response
@@ -140,10 +145,8 @@ contains
       solver%atol = 0.01_wp*solver%rtol
       solver%edp_limit = real(edp_limit, wp)
       call simulate_rk45(self%wall%mechanism, record%record, real(scale, wp), solver, response)
-      edp = real(response%edp, real64)
-      collapsed = response%collapsed
-      impacts = response%impacts
-      time_of_peak = real(response%time_of_peak, real64)
+      result = quadruple_response_type(real(response%edp, real64), response%collapsed, response%impacts, &
+         & real(response%time_of_peak, real64))
    end subroutine simulate
 
 end module dondolo_quadruple_wall
