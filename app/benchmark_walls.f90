@@ -82,14 +82,15 @@ contains
       type(case_type), intent(in) :: case
       type(wall_type), intent(in) :: wall
 
-      !> Of each degree of the polynomials a and b with four derivatives, and of all the rest
-      integer, parameter :: each_degree = 20, others = 195
+      !> Of each degree of the polynomials a and b with four derivatives, and of all the rest; the same of a harmonic form
+      integer, parameter :: each_degree = 20, others = 175, each_of_harmonic = 2, others_of_harmonic = 221
       type(normal_form_type) :: form
 
       associate (mechanism => wall%mechanism)
          form = new_normal_form(mechanism, case%solver%solver%edp_limit*mechanism%capacity)
       end associate
       operations_per_step = each_degree*form%degree + others
+      if (form%is_harmonic) operations_per_step = each_of_harmonic*form%degree + others_of_harmonic
    end function operations_per_step
 
 end module dondolo_benchmark_walls

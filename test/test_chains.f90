@@ -11,7 +11,7 @@ program test_chains
    use dondolo_random, only : new_random, random_type
    use dondolo_record, only : record_type
    use dondolo_response, only : response_type, trace_type
-   use dondolo_rest, only : new_rest, rest_type
+   use dondolo_rest, only : bounce_type, new_rest, rest_type
    use dondolo_rk45, only : simulate_rk45
    use dondolo_wall, only : wall_type
    use dondolo_wall_constants, only : new_wall_constants, wall_constants_type
@@ -170,11 +170,13 @@ contains
       real(wp), intent(in), optional :: vertical(:)
       type(record_type) :: record
       real(wp) :: opening
+      integer :: stopper
 
       opening = -2.0_wp*rest%moment/rest%lever
       record = accelerogram([a, opening, opening], dt)
       if (present(vertical)) record%vertical = [vertical, 0.0_wp, 0.0_wp]
-      finds_rest = rest%chain_ends(record, 1.0_wp, 1, 0.0_wp, 1.0_wp, speed, huge(dt))
+      stopper = 0
+      call rest%chain_ends(record, 1.0_wp, bounce_type(1, 0.0_wp, 1.0_wp, speed, huge(dt)), stopper, finds_rest)
    end function finds_rest
 
    !> Random accelerograms that keep all moments positive: where the rule finds rest, with not a bit of time to

@@ -57,12 +57,17 @@ def _parser() -> argparse.ArgumentParser:
     commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
     plot = commands.add_parser(
         "plot",
-        help="draw the figures of a run",
-        description="Draw the figures of a run from its CSV files, those of the executable or of "
+        help="draw the figures of runs",
+        description="Draw the figures of one or several runs from their CSV files, those of the executable or of "
         "Typology.write_results: the histories, the curve and the damage states of a wall, the curves of a population, "
         "or a motion and the wall at its peak.",
     )
-    plot.add_argument("prefix", help="what the names of the result files begin with, for example out/parapet")
+    plot.add_argument(
+        "prefixes",
+        nargs="+",
+        help="what the names of the result files begin with, for example out/parapet",
+        metavar="PREFIX",
+    )
     plot.add_argument(
         "--format", default="png", help="png (default), pdf, svg, or any other that Matplotlib writes", metavar="FORMAT"
     )
@@ -161,17 +166,27 @@ def _nrml(options: argparse.Namespace) -> None:
 
 
 def _plot(options: argparse.Namespace) -> None:
-    """Draw whatever the result files hold, beside them."""
+    """Draw whatever the result files of runs hold, beside them."""
     import matplotlib
 
     matplotlib.use("agg")
-    results = dd.read_results(options.prefix)
+    for prefix in options.prefixes:
+        _plot_run(prefix, options.format, options.animate)
+
+
+def _plot_run(prefix: str, kind: str, animate: bool) -> None:
+    """Draw whatever the result files of a run hold."""
+
+    def save(name: str, draw: Callable[[], Any]) -> None:
+        _save(f"{prefix}_{name}.{kind}", kind, draw)
+
+    results = dd.read_results(prefix)
     if results.response is not None:
         motion = results.response
-        _save(options, "history", lambda: motion.plot()[0])
-        _save(options, "wall", motion.plot_peak)
-        if options.animate:
-            path = f"{options.prefix}_motion.gif"
+        save("history", lambda: motion.plot()[0])
+        save("wall", motion.plot_peak)
+        if animate:
+            path = f"{prefix}_motion.gif"
             with whole_file(path) as part:
                 # Pillow chooses the format by the name.
                 image = part.with_name(part.name + ".gif")
@@ -183,36 +198,35 @@ def _plot(options: argparse.Namespace) -> None:
             print(f"drawn: {path}")
     if results.stripes is not None and results.fragility is not None:
         stripes = results.stripes
-        _save(options, "stripes", stripes.plot)
-        _save(options, "fragility", results.fragility.plot)
+        save("stripes", stripes.plot)
+        save("fragility", results.fragility.plot)
         if results.edp_thresholds:
             how: dict[str, Any] = {"edp_thresholds": results.edp_thresholds, "states": results.states}
-            _save(options, "damage_states", lambda: stripes.plot_damage_states(**how))
+            save("damage_states", lambda: stripes.plot_damage_states(**how))
     if results.typology is not None:
         people = results.typology
-        _save(options, "typology", people.plot)
+        save("typology", people.plot)
         if len(people.groups) > 1:
-            _save(options, "combination", people.plot_combination)
+            save("combination", people.plot_combination)
         for of in people.groups:
             if of.mechanism != "all" and not of.group and len(people.groups) > 1:
-                _save(options, f"typology_{of.mechanism}", people[of.mechanism].plot)
+                save(f"typology_{of.mechanism}", people[of.mechanism].plot)
         if any(of.group for of in people.groups):
-            _save(options, "groups", people.plot_groups)
+            save("groups", people.plot_groups)
         if len(people.edp_thresholds) > 1:
-            _save(options, "damage_states", people.plot_damage_states)
+            save("damage_states", people.plot_damage_states)
 
 
-def _save(options: argparse.Namespace, name: str, draw: Callable[[], Any]) -> None:
+def _save(path: str, kind: str, draw: Callable[[], Any]) -> None:
     """Draw a figure into a file, which appears whole or not at all."""
     import matplotlib.pyplot as plt
 
     figure = draw().figure
-    path = f"{options.prefix}_{name}.{options.format}"
     try:
         with whole_file(path) as part:
-            figure.savefig(part, format=options.format)
+            figure.savefig(part, format=kind)
     except ValueError as error:
-        raise dd.InputError(f"--format {options.format}: {str(error).splitlines()[0]}") from None
+        raise dd.InputError(f"--format {kind}: {str(error).splitlines()[0]}") from None
     finally:
         plt.close(figure)
     print(f"drawn: {path}")

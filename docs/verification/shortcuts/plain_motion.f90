@@ -11,7 +11,7 @@ module plain_motion
    use dondolo_mechanism, only : mechanism_type
    use dondolo_record, only : record_type
    use dondolo_response, only : response_type
-   use dondolo_rest, only : new_rest, rest_type
+   use dondolo_rest, only : bounce_type, new_rest, rest_type
    use dondolo_solver, only : solver_type
    use dondolo_step_limits, only : shortest_motion
    use dondolo_tail, only : free_motion, tail_type
@@ -312,6 +312,7 @@ contains
       type(motion_type), intent(inout) :: motion
 
       real(wp) :: ground, moment
+      integer :: stopper
 
       motion%q = 0.0_wp
       motion%v = mechanism%restitution*abs(motion%v)
@@ -323,9 +324,12 @@ contains
             ground = ground_acceleration(scene%record, motion%interval, motion%time)
             moment = rest%inward_moment(motion%side, ground)
             motion%resting = motion%v == 0.0_wp
-            if (moment > 0.0_wp .and. .not. motion%resting) motion%resting = &
-               & 2.0_wp*motion%v*rest%inertia/moment <= shortest_motion*scene%record%dt .or. &
-               & rest%chain_ends(scene%record, 1.0_wp, motion%interval, motion%time, motion%side, motion%v, motion%peak)
+            if (moment > 0.0_wp .and. .not. motion%resting) then
+               motion%resting = 2.0_wp*motion%v*rest%inertia/moment <= shortest_motion*scene%record%dt
+               stopper = 0
+               if (.not. motion%resting) call rest%chain_ends(scene%record, 1.0_wp, &
+                  & bounce_type(motion%interval, motion%time, motion%side, motion%v, motion%peak), stopper, motion%resting)
+            end if
          end if
       end associate
       if (motion%resting) motion%v = 0.0_wp

@@ -260,17 +260,31 @@ def check_threads(threads: int) -> int:
     return as_count("threads", threads, 0, int(row.largest))
 
 
+class _NoBar:
+    """A progress bar that is not wanted."""
+
+    def __enter__(self) -> _NoBar:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        pass
+
+    def update(self, count: int) -> None:
+        """More is done."""
+
+
 def progress_bar(total: int, wanted: bool, label: str, unit: str, initial: int = 0) -> Any:
     """A progress bar, hidden where stderr is neither a terminal nor a notebook's. `initial` are done already."""
+    if not wanted:
+        return _NoBar()
     # None: hidden unless stderr is a terminal. A notebook's is none, and shows the bar all the same.
-    hidden = False if hasattr(builtins, "get_ipython") else None
     return _bar()(
         total=total,
         desc=label,
         unit=f" {unit}",
         unit_scale=True,
         initial=initial,
-        disable=hidden if wanted else True,
+        disable=False if hasattr(builtins, "get_ipython") else None,
         leave=False,
     )
 

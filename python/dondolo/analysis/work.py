@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import astuple, dataclass, fields
+from dataclasses import dataclass
 
 from dondolo._storage.saved import part_of_results
 
@@ -44,12 +44,12 @@ class Work:
     @classmethod
     def total(cls, parts: Iterable[Work]) -> Work:
         """The sum of counts."""
-        return cls.of(map(sum, zip(astuple(cls()), *map(astuple, parts), strict=True)))
+        return cls.of(map(sum, zip(*(vars(part).values() for part in (cls(), *parts)), strict=True)))
 
     @classmethod
     def of(cls, counts: Iterable[int]) -> Work:
         """Counts in the order of the fields."""
-        return cls(**{field.name: int(count) for field, count in zip(fields(cls), counts, strict=True)})
+        return cls(**dict(zip(cls.__dataclass_fields__, map(int, counts), strict=True)))
 
     def __str__(self) -> str:
         return (

@@ -10,7 +10,6 @@ module dondolo_stripes
    use dondolo_kinds, only : wp
    use dondolo_memory, only : check_room
    use dondolo_queue, only : progress_interface
-   use dondolo_record, only : record_type
    use dondolo_response, only : response_type
    use dondolo_rest, only : new_rest, rest_type
    use dondolo_study, only : study_type
@@ -117,48 +116,24 @@ contains
       type(floors_type), pointer :: floors
       type(suite_type), pointer :: motions
       type(rest_type) :: rest
-      real(wp) :: trigger, high
       integer :: i, j, place
-      logical :: moves
+      logical :: stays
 
       call take_motions(study, wall, study%threads, own, floors, place, motions)
       rest = new_rest(wall%mechanism)
-      trigger = rest%trigger()
-      high = merge(trigger, huge(trigger), rest%two_sided)
       do j = 1, size(stripes%levels)
          do i = 1, size(stripes%record)
             if (.not. stripes%ran(i, j)) cycle
             associate (record => stripes%record(i), set => motions%set)
                work%histories = work%histories + 1
                work%intervals = work%intervals + set%length(record) - 1
-               if (allocated(motions%records(record)%vertical)) then
-                  moves = starts(rest, motions%records(record), stripes%polarity(i)*stripes%scale(i, j))
-                  if (.not. moves) work%still = work%still + 1
-                  cycle
-               end if
-               ! The wall moves as soon as a sample lies outside what it can bear at rest.
-               if (set%next_outside(record, 1, real(stripes%polarity(i), wp)*stripes%scale(i, j), -trigger, high) &
-                  & > set%length(record)) work%still = work%still + 1
+               stays = rest%stays(motions%records(record), set, record, real(stripes%polarity(i), wp)*stripes%scale(i, j))
+               if (stays) work%still = work%still + 1
             end associate
          end do
       end do
       if (place > 0) call floors%give_back(place)
    end function planned_work
-
-   !> Does a record with a vertical component move a wall?
-   pure logical function starts(rest, record, scale)
-      type(rest_type), intent(in) :: rest
-      type(record_type), intent(in) :: record
-      !> Factor on it
-      real(wp), intent(in) :: scale
-
-      real(wp) :: time, side
-      integer :: interval
-
-      interval = 1
-      time = 0.0_wp
-      call rest%next_start(record, scale, interval, time, side, starts)
-   end function starts
 
    !> Run the histories of a plan, or some of them; those that run are numbered stripe by stripe, from the lowest level
    subroutine run_histories(stripes, wall, study, threads, first, last, progress)

@@ -11,6 +11,7 @@ module dondolo_ensemble
    use dondolo_mechanism, only : mechanism_type
    use dondolo_queue, only : progress_interface, queue_type
    use dondolo_response, only : response_type
+   use dondolo_rest, only : new_rest, rest_type
    use dondolo_rk45, only : simulate_rk45
    use dondolo_solver, only : solver_type
    use dondolo_suite, only : suite_type
@@ -87,14 +88,16 @@ contains
       type(work_type), intent(inout) :: work
 
       type(lane_constants_type) :: constants
+      type(rest_type) :: rest
       type(work_type) :: own
       character(len=16) :: variant
       integer :: number
 
       variant = build_variant()
       if (solver%engine /= 'rk45') constants = new_lane_constants(mechanism, solver, suite%has_vertical())
+      if (.not. constants%form%exists) rest = new_rest(mechanism)
       !$omp parallel num_threads(team_of(threads, size(queue%record))) default(none) private(own, number) &
-      !$omp & shared(variant, constants, mechanism, suite, solver, queue, work)
+      !$omp & shared(variant, constants, rest, mechanism, suite, solver, queue, work)
       own = work_type()
       if (constants%form%exists) then
          call simulate_variant(variant, mechanism, constants, suite%records, suite%set, queue, own)
@@ -102,8 +105,13 @@ contains
          do
             number = queue%next()
             if (number == 0) exit
-            call simulate_rk45(mechanism, suite%records(queue%record(number)), queue%scale(number), solver, &
-               & queue%response(number), work=own)
+            associate (record => queue%record(number), scale => queue%scale(number))
+               if (rest%stays(suite%records(record), suite%set, record, scale)) then
+                  call own%add(work_type(histories=1, still=1, intervals=suite%set%length(record) - 1))
+               else
+                  call simulate_rk45(mechanism, suite%records(record), scale, solver, queue%response(number), work=own)
+               end if
+            end associate
             call queue%report()
          end do
       end if

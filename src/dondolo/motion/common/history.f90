@@ -5,7 +5,7 @@ module dondolo_history
    use dondolo_mechanism, only : mechanism_type
    use dondolo_record, only : record_type
    use dondolo_response, only : response_type
-   use dondolo_rest, only : rest_type
+   use dondolo_rest, only : bounce_type, rest_type
    use dondolo_step_limits, only : shortest_motion
    use dondolo_tail, only : free_motion, tail_type
    use dondolo_wall_constants, only : wall_constants_type
@@ -35,6 +35,8 @@ module dondolo_history
       !> Instant at which it last began to rock: sample interval, and time in it [s]
       integer, private :: start_interval = 0
       real(wp), private :: start_time = 0.0_wp
+      !> Sample that stops a chain of bounces, from the last look at one
+      integer, private :: stopper = 0
    contains
       !> Rocking begins now
       procedure :: begin_rocking
@@ -167,8 +169,8 @@ contains
       ! A chain must not rise beyond its bounds. Where it has many bounces only some impacts look at it, since each look
       ! may go through the whole record.
       if (at_rest .or. energy > moment*min(rest%height, self%peak)) return
-      if (modulo(self%impacts, rest%bounces_per_look) == 0) at_rest = &
-         & rest%chain_ends(record, self%scale, self%interval, self%time, self%side, speed, self%peak)
+      if (modulo(self%impacts, rest%bounces_per_look) == 0) call rest%chain_ends(record, self%scale, &
+         & bounce_type(self%interval, self%time, self%side, speed, self%peak), self%stopper, at_rest)
    end subroutine settle
 
    !> Add the free motion of a wall that still rocks when the record ends

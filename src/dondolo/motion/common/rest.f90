@@ -6,10 +6,22 @@ module dondolo_rest
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_record, only : record_type
+   use dondolo_record_set, only : record_set_type
    implicit none
    private
 
-   public :: rest_type, new_rest
+   public :: bounce_type, rest_type, new_rest
+
+   !> A wall just after an impact
+   type :: bounce_type
+      !> Sample interval, which may lie beyond the record, and time since its first sample [s]
+      integer :: interval
+      real(wp) :: time
+      !> Side of the wall, and its speed [rad/s]
+      real(wp) :: side, speed
+      !> Largest rotation so far, which a chain of bounces must not exceed [rad]
+      real(wp) :: peak
+   end type bounce_type
 
    !> A wall near q = 0
    type :: rest_type
@@ -40,12 +52,12 @@ module dondolo_rest
       procedure :: trigger
       !> When rocking begins
       procedure :: next_start
+      !> Does it never begin under a record?
+      procedure :: stays
       !> Moment that pushes the wall back to rest
       procedure :: inward_moment
       !> Does a chain of bounces end at rest, whatever happens in between?
       procedure :: chain_ends
-      !> Lower bounds of the inward moments within the height of a chain
-      procedure, private :: least_moments
    end type rest_type
 
    !> Largest relative change of the terms within the height of a chain
@@ -59,7 +71,7 @@ module dondolo_rest
    real(wp), parameter :: tiny_height = 1.0e-12_wp
 
    !> Part by which the speed of a chain may fall from one look to the next, and most bounces between them
-   real(wp), parameter :: speed_per_look = 3.0e-3_wp, most_bounces = 1.0e3_wp
+   real(wp), parameter :: speed_per_look = 0.1_wp, most_bounces = 1.0e3_wp
 
 contains
 
@@ -223,6 +235,35 @@ contains
 
    end subroutine next_start_of_both
 
+   !> Does a wall at rest stay so under a whole record? Blocks of samples that cannot move it are passed over
+   pure logical function stays(self, record, set, number, scale)
+      class(rest_type), intent(in) :: self
+      type(record_type), intent(in) :: record
+      !> Records joined, and the number of this one among them
+      type(record_set_type), intent(in) :: set
+      integer, intent(in) :: number
+      !> Factor on it
+      real(wp), intent(in) :: scale
+
+      real(wp) :: threshold, time, side
+      integer :: sample
+      logical :: found
+
+      threshold = self%trigger()
+      if (allocated(record%vertical)) then
+         sample = set%next_outside_of_both(number, 1, scale, threshold, self%vertical_lever/self%lever, self%two_sided)
+         stays = sample > set%length(number)
+         if (stays) return
+         sample = max(1, sample - 1)
+         time = 0.0_wp
+         call self%next_start(record, scale, sample, time, side, found)
+         stays = .not. found
+      else
+         stays = set%next_outside(number, 1, scale, -threshold, merge(threshold, huge(threshold), self%two_sided)) &
+            & > set%length(number)
+      end if
+   end function stays
+
    !> Does the chain of bounces after an impact end at rest, whatever happens in between?
    !>
    !> While every inward moment stays positive the energy E = 1/2 J q'^2 + U of a flight grows only as that
@@ -233,38 +274,41 @@ contains
    !>
    !> with a_1, a_2 the least inward decelerations of the side now active and of the other (the same one for a
    !> one-sided wall). If the moments stay positive for that long the wall ends at rest, and cannot start before.
-   pure function chain_ends(self, record, scale, interval, time, side, speed, peak) result(ends)
+   !>
+   !> A sample at which a moment is not positive stops any chain, whatever its side and speed. It is kept, since most
+   !> looks at a chain fail at the same sample: the next one need not go there again.
+   pure subroutine chain_ends(self, record, scale, bounce, stopper, ends)
       class(rest_type), intent(in) :: self
       !> The accelerogram; zero after its last sample
       type(record_type), intent(in) :: record
       !> Factor on it
       real(wp), intent(in) :: scale
-      !> Sample interval of the impact; may lie beyond the record
-      integer, intent(in) :: interval
-      !> Its time since the first sample of the interval [s]
-      real(wp), intent(in) :: time
-      !> Side after the impact
-      real(wp), intent(in) :: side
-      !> Speed w after the impact [rad/s]
-      real(wp), intent(in) :: speed
-      !> Largest rotation so far, which the chain must not exceed [rad]
-      real(wp), intent(in) :: peak
+      !> The impact that begins the chain
+      type(bounce_type), intent(in) :: bounce
+      !> The sample that stopped the last look at a chain of this history; no later one is known if it has passed
+      integer, intent(inout) :: stopper
       !> True only if it is certain
-      logical :: ends
+      logical, intent(out) :: ends
 
       real(wp) :: push, weight, here, other, here_next, other_next, least_here, least_other, growth, elapsed, energy, highest
       integer :: i
 
       ends = .false.
-      associate (a => record%acceleration, dt => record%dt, n => size(record%acceleration), e => self%restitution)
+      associate (a => record%acceleration, dt => record%dt, n => size(record%acceleration), e => self%restitution, &
+         & interval => bounce%interval, time => bounce%time, side => bounce%side)
          growth = 1.0_wp
          elapsed = -time
-         energy = 0.5_wp*margin*self%inertia*speed**2
-         highest = min(self%height, peak)
+         energy = 0.5_wp*margin*self%inertia*bounce%speed**2
+         highest = min(self%height, bounce%peak)
          push = 0.0_wp
          if (interval < n) push = side*scale*self%lever*(a(interval) + (a(interval + 1) - a(interval))*(time/dt))
          weight = self%vertical_lever*abs(scale)*record%vertical_at(interval, time)
-         call self%least_moments(push, weight, here, other)
+         call least_moments(self, push, weight, here, other)
+         ! Would it be over before the sample that stops it, if its moments were no less than now?
+         if (stopper > interval) then
+            if (8.0_wp*energy*self%inertia*(other + e*here)**2 &
+               & > (((real(stopper - 1 - interval, wp)*dt - time)*(1.0_wp - e**2))*here*other)**2) return
+         end if
          least_here = here
          least_other = other
          do i = min(interval, n), n
@@ -272,12 +316,13 @@ contains
             if (i < n) push = side*scale*self%lever*a(i + 1)
             weight = 0.0_wp
             if (i < n .and. allocated(record%vertical)) weight = self%vertical_lever*abs(scale)*record%vertical(i + 1)
-            call self%least_moments(push, weight, here_next, other_next)
+            call least_moments(self, push, weight, here_next, other_next)
+            if (.not. min(here_next, other_next) > 0.0_wp) stopper = i + 1
             least_here = min(least_here, here_next)
             least_other = min(least_other, other_next)
             if (.not. min(least_here, least_other) > 0.0_wp) return
-            if (here_next > here) growth = growth*max(here_next/here, other_next/other)
-            if (here_next <= here .and. other_next > other) growth = growth*(other_next/other)
+            ! Without a branch, which no processor could foresee
+            growth = growth*max(1.0_wp, here_next/here, other_next/other)
             if (energy*growth > highest*min(least_here, least_other) .or. growth > largest_growth) return
             elapsed = elapsed + dt
             ! The square of duration <= elapsed, without a quotient
@@ -288,11 +333,11 @@ contains
          end do
          ends = .true.
       end associate
-   end function chain_ends
+   end subroutine chain_ends
 
    !> Lower bounds of the inward moments of the side now active and of the other, within the height of a chain
    pure subroutine least_moments(self, push, weight, here, other)
-      class(rest_type), intent(in) :: self
+      type(rest_type), intent(in) :: self
       !> Inward moment of the ground on the side now active [N m]
       real(wp), intent(in) :: push
       !> Inward moment of vertical ground acceleration on either side [N m]

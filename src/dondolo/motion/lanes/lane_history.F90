@@ -10,7 +10,7 @@ module dondolo_lane_history
    use dondolo_kinds, only : wp
    use dondolo_lane_constants, only : lane_constants_type
    use dondolo_lane_state, only : event_possible, lane_width, lanes_type, step_too_long
-   use dondolo_lane_series, only : allowed_step, find_first, rate, value
+   use dondolo_lane_series, only : allowed_part, find_first, rate, value
    use dondolo_mechanism, only : mechanism_type
    use dondolo_normal_form, only : y_limit
    use dondolo_queue, only : queue_type
@@ -79,28 +79,30 @@ contains
       type(lane_batch_type), intent(inout) :: batch
       integer, intent(in) :: i
 
-      real(wp) :: y, v, d(0:9), h
+      real(wp) :: y, d(0:9), part, h
       integer :: event
 
       associate (lanes => batch%lanes, history => batch%history(i), constants => batch%constants)
          if (lanes%flag(i) >= event_possible) then
-            d = [lanes%y(i), lanes%v(i), lanes%series(i, :)]
-            d(2) = starting_acceleration(d(0), d(1), d(2))
-            h = lanes%step(i)
-            if (lanes%flag(i) == step_too_long) then
-               h = allowed_step(d, h, smallest_step*lanes%dt(i), constants%form%fifth(lanes%u(i), lanes%heavier(i)), &
-                  & constants%solver%rtol, constants%atol)
-               if (h < lanes%step(i)) then
-                  lanes%next_span(i) = h
-                  lanes%span(i) = h
+            associate (step => lanes%step(i))
+               d = [lanes%y(i), lanes%v(i)*step, lanes%series(i, :)]
+               d(2) = starting_acceleration(d(0), d(1), d(2))
+               part = 1.0_wp
+               if (lanes%flag(i) == step_too_long) then
+                  part = allowed_part(d, step, smallest_step*lanes%dt(i), &
+                     & constants%form%fifth(lanes%u(i), lanes%heavier(i)), constants%solver%rtol, constants%atol)
+                  if (part < 1.0_wp) then
+                     lanes%next_span(i) = part*step
+                     lanes%span(i) = part*step
+                  end if
                end if
-            end if
-            event = no_event
-            if (h > shortest_motion*lanes%dt(i)) call find_first(d, lanes%peak(i), h, event)
-            y = value(d, h)
-            v = rate(d, h)
-            lanes%y(i) = y
-            lanes%v(i) = v
+               event = no_event
+               if (part*step > shortest_motion*lanes%dt(i)) call find_first(d, lanes%peak(i), part, event)
+               h = part*step
+               y = value(d, part)
+               lanes%y(i) = y
+               if (h > 0.0_wp) lanes%v(i) = rate(d, part)/step
+            end associate
             if (event == no_event .and. .not. lanes%time(i) + h < lanes%dt(i)) then
                call next_sample(lanes, i, batch%set)
             else

@@ -8,7 +8,7 @@ module dondolo_lane_kernel
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_kinds, only : wp
    use dondolo_lane_state, only : event_possible, lane_width, lanes_type, record_over, step_taken, step_too_long
-   use dondolo_normal_form, only : degrees, normal_form_type, y_limit
+   use dondolo_normal_form, only : degrees, harmonic_degrees, normal_form_type, y_limit
    implicit none
    private
 
@@ -33,7 +33,19 @@ contains
 
       ! Whole vectors, so that a lane's arithmetic does not depend on its place
       rounded = min(lane_width, (active + 7)/8*8)
-      if (form%is_shaken) then
+      if (form%is_harmonic .and. form%is_shaken) then
+         if (form%degree == harmonic_degrees(1)) then
+            call step_shaken_harmonic_10(lanes, rounded, form, samples, verticals, rtol, atol)
+         else
+            call step_shaken_harmonic_16(lanes, rounded, form, samples, verticals, rtol, atol)
+         end if
+      else if (form%is_harmonic) then
+         if (form%degree == harmonic_degrees(1)) then
+            call step_harmonic_10(lanes, rounded, form, samples, rtol, atol)
+         else
+            call step_harmonic_16(lanes, rounded, form, samples, rtol, atol)
+         end if
+      else if (form%is_shaken) then
          if (form%degree == degrees(1)) then
             call step_shaken_8(lanes, rounded, form, samples, verticals, rtol, atol)
          else if (form%degree == degrees(2)) then
@@ -72,9 +84,31 @@ contains
 #define LANE_STEP step_32
 #define LANE_DEGREE 32
 #include "lane_step.inc"
-#define LANE_SHAKEN
 #undef LANE_STEP
 #undef LANE_DEGREE
+#define LANE_HARMONIC
+#define LANE_STEP step_harmonic_10
+#define LANE_DEGREE 10
+#include "lane_step.inc"
+#undef LANE_STEP
+#undef LANE_DEGREE
+#define LANE_STEP step_harmonic_16
+#define LANE_DEGREE 16
+#include "lane_step.inc"
+#undef LANE_STEP
+#undef LANE_DEGREE
+#define LANE_SHAKEN
+#define LANE_STEP step_shaken_harmonic_10
+#define LANE_DEGREE 10
+#include "lane_step.inc"
+#undef LANE_STEP
+#undef LANE_DEGREE
+#define LANE_STEP step_shaken_harmonic_16
+#define LANE_DEGREE 16
+#include "lane_step.inc"
+#undef LANE_STEP
+#undef LANE_DEGREE
+#undef LANE_HARMONIC
 #define LANE_STEP step_shaken_8
 #define LANE_DEGREE 8
 #include "lane_step.inc"
@@ -93,5 +127,7 @@ contains
 #define LANE_STEP step_shaken_32
 #define LANE_DEGREE 32
 #include "lane_step.inc"
+#undef LANE_STEP
+#undef LANE_DEGREE
 
 end module dondolo_lane_kernel

@@ -1,4 +1,4 @@
-!> The motion within one step of a lane, a power series in time, and the first event in it.
+!> The motion within one step of a lane, a power series in the part x of the step that has passed, and the first event in it.
 module dondolo_lane_series
    use dondolo_events, only : find_event, impact, no_event, turning
    use dondolo_kinds, only : wp
@@ -6,9 +6,9 @@ module dondolo_lane_series
    implicit none
    private
 
-   public :: allowed_step, find_first, rate, value
+   public :: allowed_part, find_first, rate, value
 
-   !> Part of the step that the tolerance allows by the last terms of a series
+   !> Part that is taken of what the tolerance allows by the last terms of a series
    real(wp), parameter :: safety = 0.9_wp
 
    !> Relative change after which an iteration of second or third order has nothing left to gain
@@ -19,14 +19,12 @@ module dondolo_lane_series
 
 contains
 
-   !> A step that is as short as the tolerance asks for; the loop over lanes judges steps in the same way
-   pure real(wp) function allowed_step(d, step, shortest, fifth, rtol, atol) result(h)
+   !> The part of a step that the tolerance allows; the loop over lanes judges steps in the same way
+   pure real(wp) function allowed_part(d, step, shortest, fifth, rtol, atol) result(x)
       !> The series of the motion
       real(wp), intent(in) :: d(0:9)
-      !> Step [s]
-      real(wp), intent(in) :: step
-      !> Shortest step to try [s]
-      real(wp), intent(in) :: shortest
+      !> Step, and the shortest to try [s]
+      real(wp), intent(in) :: step, shortest
       !> Bound of the fifth derivative of y''/5! by y [1/s2]
       real(wp), intent(in) :: fifth
       !> Tolerances of the velocity: relative, and absolute [1/s]
@@ -34,200 +32,200 @@ contains
 
       real(wp) :: error, tolerance
 
-      h = step
-      do while (h > shortest)
-         tolerance = rtol*max(abs(d(1)), abs(rate(d, h))) + atol
-         error = (7.0_wp*abs(d(7)) + h*(8.0_wp*abs(d(8)) + h*9.0_wp*abs(d(9))))*h**6 &
-            & + fifth*h*(abs(d(1))*h + abs(d(2))*h**2)**5
+      x = 1.0_wp
+      do while (x*step > shortest)
+         tolerance = rtol*max(abs(d(1)), abs(rate(d, x))) + atol*step
+         error = (7.0_wp*abs(d(7)) + x*(8.0_wp*abs(d(8)) + x*9.0_wp*abs(d(9))))*x**6 &
+            & + fifth*step**2*x*(abs(d(1))*x + abs(d(2))*x**2)**5
          if (error < tolerance) return
-         h = max(0.2_wp*h, safety*h*(tolerance/error)**(1.0_wp/6.0_wp))
+         x = max(0.2_wp*x, safety*x*(tolerance/error)**(1.0_wp/6.0_wp))
       end do
-   end function allowed_step
+   end function allowed_part
 
    !> The first event of a step: at once where the motion is of a simple shape, else from its Bernstein form
-   pure subroutine find_first(d, peak, h, event)
+   pure subroutine find_first(d, peak, x, event)
       !> The series of the motion
       real(wp), intent(in) :: d(0:9)
       !> Largest y so far
       real(wp), intent(in) :: peak
-      !> In: the step; out: the time of the event [s]
-      real(wp), intent(inout) :: h
+      !> In: where the step ends; out: the place of the event
+      real(wp), intent(inout) :: x
       !> The event
       integer, intent(out) :: event
 
-      real(wp) :: y, v, fastest, most_bent, turn, x, b(0:9)
+      real(wp) :: y, v, fastest, most_bent, turn, highest, place, b(0:9)
 
       event = no_event
-      y = value(d, h)
+      y = value(d, x)
       ! A start: y''' > 0 rules.
       if (d(0) == 0.0_wp .and. d(1) == 0.0_wp .and. y < y_limit .and. &
-         & d(3) > 4.0_wp*h*(abs(d(4)) + h*(abs(d(5)) + h*abs(d(6))))) return
-      v = rate(d, h)
+         & d(3) > 4.0_wp*x*(abs(d(4)) + x*(abs(d(5)) + x*abs(d(6))))) return
+      v = rate(d, x)
       ! y' and y'' exceed the larger of their ends by no more than their second derivatives allow.
-      fastest = max(d(1), v) + h**2*(0.75_wp*abs(d(3)) + h*(3.0_wp*abs(d(4)) + h*8.0_wp*abs(d(5))))
-      most_bent = max(2.0_wp*d(2), bend(d, h)) &
-         & + h**2*(3.0_wp*abs(d(4)) + h*16.0_wp*(abs(d(5)) + h*3.0_wp*abs(d(6))))
+      fastest = max(d(1), v) + x**2*(0.75_wp*abs(d(3)) + x*(3.0_wp*abs(d(4)) + x*8.0_wp*abs(d(5))))
+      most_bent = max(2.0_wp*d(2), bend(d, x)) &
+         & + x**2*(3.0_wp*abs(d(4)) + x*16.0_wp*(abs(d(5)) + x*3.0_wp*abs(d(6))))
       if (fastest < 0.0_wp) then
          ! It falls all the way.
          if (y > 0.0_wp) return
          event = impact
-         h = time_of_zero(d, h)
+         x = place_of_zero(d, x)
          return
       end if
       if (most_bent < 0.0_wp .and. d(1) > 0.0_wp .and. v < 0.0_wp) then
          ! It rises and then falls.
-         turn = time_of_turn(d, h)
-         x = value(d, turn)
-         if (x < y_limit) then
-            if (x > peak) then
+         turn = place_of_turn(d, x)
+         highest = value(d, turn)
+         if (highest < y_limit) then
+            if (highest > peak) then
                event = turning
-               h = turn
+               x = turn
             else if (y <= 0.0_wp) then
                event = impact
-               h = time_of_zero(d, h)
+               x = place_of_zero(d, x)
             end if
             return
          end if
       end if
-      b = bernstein(d, h)
+      b = bernstein(d, x)
       if (maxval(b) <= peak .and. b(9) < 0.0_wp .and. count(b(:8) > 0.0_wp .and. b(1:) <= 0.0_wp) == 1 &
          & .and. .not. any(b(:8) < 0.0_wp .and. b(1:) > 0.0_wp)) then
          ! One change of sign: it falls to zero once.
          event = impact
-         h = time_of_zero(d, h)
+         x = place_of_zero(d, x)
       else
-         call find_event(b, peak, y_limit, event, x)
-         if (event /= no_event) h = x*h
+         call find_event(b, peak, y_limit, event, place)
+         if (event /= no_event) x = place*x
       end if
    end subroutine find_first
 
-   !> When a motion that falls all the way, or rises and then falls, is at zero: Halley's method, in a bracket
-   pure real(wp) function time_of_zero(d, h) result(t)
+   !> Where a motion that falls all the way, or rises and then falls, is at zero: Halley's method, in a bracket
+   pure real(wp) function place_of_zero(d, last) result(x)
       !> The series of the motion
       real(wp), intent(in) :: d(0:9)
-      !> A time after it [s]
-      real(wp), intent(in) :: h
+      !> A place after it
+      real(wp), intent(in) :: last
 
       real(wp) :: before, after, y, v, slowness, change
       integer :: iteration
 
       before = 0.0_wp
-      after = h
+      after = last
       ! From the zero of the parabola at the start
-      t = sqrt(max(0.0_wp, d(1)**2 - 4.0_wp*d(0)*d(2)))
+      x = sqrt(max(0.0_wp, d(1)**2 - 4.0_wp*d(0)*d(2)))
       if (d(1) < 0.0_wp) then
-         t = 2.0_wp*d(0)/(t - d(1))
+         x = 2.0_wp*d(0)/(x - d(1))
       else if (d(2) < 0.0_wp) then
-         t = -(d(1) + t)/(2.0_wp*d(2))
+         x = -(d(1) + x)/(2.0_wp*d(2))
       end if
-      if (.not. (t > 0.0_wp .and. t < h)) t = h
+      if (.not. (x > 0.0_wp .and. x < last)) x = last
       do iteration = 1, most_iterations
-         y = value(d, t)
-         v = rate(d, t)
+         y = value(d, x)
+         v = rate(d, x)
          if (y > 0.0_wp) then
-            before = t
+            before = x
          else
-            after = t
+            after = x
          end if
          change = huge(change)
          if (v < 0.0_wp) then
             slowness = 1.0_wp/v
             change = -y*slowness
-            change = change*(1.0_wp - 0.5_wp*change*bend(d, t)*slowness)
+            change = change*(1.0_wp - 0.5_wp*change*bend(d, x)*slowness)
          end if
-         t = t + change
-         if (abs(change) <= third_order*t) exit
-         if (.not. (t > before .and. t < after)) t = 0.5_wp*(before + after)
+         x = x + change
+         if (abs(change) <= third_order*x) exit
+         if (.not. (x > before .and. x < after)) x = 0.5_wp*(before + after)
       end do
-      t = min(max(t, 0.0_wp), h)
-   end function time_of_zero
+      x = min(max(x, 0.0_wp), last)
+   end function place_of_zero
 
-   !> When a motion that rises and then falls turns: Newton's method, in a bracket
-   pure real(wp) function time_of_turn(d, h) result(t)
+   !> Where a motion that rises and then falls turns: Newton's method, in a bracket
+   pure real(wp) function place_of_turn(d, last) result(x)
       !> The series of the motion
       real(wp), intent(in) :: d(0:9)
-      !> A time after it [s]
-      real(wp), intent(in) :: h
+      !> A place after it
+      real(wp), intent(in) :: last
 
       real(wp) :: before, after, v, change
       integer :: iteration
 
       before = 0.0_wp
-      after = h
-      t = h*d(1)/(d(1) - rate(d, h))
+      after = last
+      x = last*d(1)/(d(1) - rate(d, last))
       do iteration = 1, most_iterations
-         v = rate(d, t)
+         v = rate(d, x)
          if (v > 0.0_wp) then
-            before = t
+            before = x
          else
-            after = t
+            after = x
          end if
-         change = -v/bend(d, t)
-         t = t + change
-         if (abs(change) <= second_order*t) exit
-         if (.not. (t > before .and. t < after)) t = 0.5_wp*(before + after)
+         change = -v/bend(d, x)
+         x = x + change
+         if (abs(change) <= second_order*x) exit
+         if (.not. (x > before .and. x < after)) x = 0.5_wp*(before + after)
       end do
-      t = min(max(t, 0.0_wp), h)
-   end function time_of_turn
+      x = min(max(x, 0.0_wp), last)
+   end function place_of_turn
 
    !> A series. Estrin's scheme here and below: half the waiting of Horner's
-   pure real(wp) function value(d, t)
-      !> Coefficients of 1, t, t^2, ...
+   pure real(wp) function value(d, x)
+      !> Coefficients of 1, x, x^2, ...
       real(wp), intent(in) :: d(0:9)
-      !> Time [s]
-      real(wp), intent(in) :: t
+      !> Part of the step
+      real(wp), intent(in) :: x
 
-      real(wp) :: t2, t4
+      real(wp) :: x2, x4
 
-      t2 = t*t
-      t4 = t2*t2
-      value = (d(0) + t*d(1)) + t2*(d(2) + t*d(3)) + t4*((d(4) + t*d(5)) + t2*(d(6) + t*d(7)) + t4*(d(8) + t*d(9)))
+      x2 = x*x
+      x4 = x2*x2
+      value = (d(0) + x*d(1)) + x2*(d(2) + x*d(3)) + x4*((d(4) + x*d(5)) + x2*(d(6) + x*d(7)) + x4*(d(8) + x*d(9)))
    end function value
 
    !> Rate of change of a series
-   pure real(wp) function rate(d, t)
-      !> Coefficients of 1, t, t^2, ...
+   pure real(wp) function rate(d, x)
+      !> Coefficients of 1, x, x^2, ...
       real(wp), intent(in) :: d(0:9)
-      !> Time [s]
-      real(wp), intent(in) :: t
+      !> Part of the step
+      real(wp), intent(in) :: x
 
-      real(wp) :: t2, t4
+      real(wp) :: x2, x4
 
-      t2 = t*t
-      t4 = t2*t2
-      rate = (d(1) + 2.0_wp*d(2)*t) + t2*(3.0_wp*d(3) + 4.0_wp*d(4)*t) &
-         & + t4*((5.0_wp*d(5) + 6.0_wp*d(6)*t) + t2*(7.0_wp*d(7) + 8.0_wp*d(8)*t) + t4*(9.0_wp*d(9)))
+      x2 = x*x
+      x4 = x2*x2
+      rate = (d(1) + 2.0_wp*d(2)*x) + x2*(3.0_wp*d(3) + 4.0_wp*d(4)*x) &
+         & + x4*((5.0_wp*d(5) + 6.0_wp*d(6)*x) + x2*(7.0_wp*d(7) + 8.0_wp*d(8)*x) + x4*(9.0_wp*d(9)))
    end function rate
 
    !> Second derivative of a series, up to what matters for the next step of an iteration
-   pure real(wp) function bend(d, t)
-      !> Coefficients of 1, t, t^2, ...
+   pure real(wp) function bend(d, x)
+      !> Coefficients of 1, x, x^2, ...
       real(wp), intent(in) :: d(0:9)
-      !> Time [s]
-      real(wp), intent(in) :: t
+      !> Part of the step
+      real(wp), intent(in) :: x
 
-      real(wp) :: t2
+      real(wp) :: x2
 
-      t2 = t*t
-      bend = (2.0_wp*d(2) + 6.0_wp*d(3)*t) + t2*((12.0_wp*d(4) + 20.0_wp*d(5)*t) + t2*(30.0_wp*d(6)))
+      x2 = x*x
+      bend = (2.0_wp*d(2) + 6.0_wp*d(3)*x) + x2*((12.0_wp*d(4) + 20.0_wp*d(5)*x) + x2*(30.0_wp*d(6)))
    end function bend
 
-   !> Bernstein coefficients of a series over a step
-   pure function bernstein(d, h) result(b)
-      !> Coefficients of 1, t, t^2, ...
+   !> Bernstein coefficients of a series over a part of the step
+   pure function bernstein(d, x) result(b)
+      !> Coefficients of 1, x, x^2, ...
       real(wp), intent(in) :: d(0:)
-      !> The step [s]
-      real(wp), intent(in) :: h
+      !> The part
+      real(wp), intent(in) :: x
       !> Coefficients
       real(wp) :: b(0:ubound(d, 1))
 
       integer :: j, k, n
 
-      ! Differences at 0 are d_k h^k/binomial(n, k); summing them gives the coefficients.
+      ! Differences at 0 are d_k x^k/binomial(n, k); summing them gives the coefficients.
       n = ubound(d, 1)
       b(0) = 1.0_wp
       do k = 1, n
-         b(k) = b(k - 1)*h*real(k, wp)/real(n - k + 1, wp)
+         b(k) = b(k - 1)*x*real(k, wp)/real(n - k + 1, wp)
       end do
       b = b*d
       do k = n, 1, -1

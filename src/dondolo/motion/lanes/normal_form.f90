@@ -10,6 +10,9 @@
 !>
 !> A, B and D are smooth: polynomials in z, which runs from -1 at rest to 1 at the limit rotation, hold them to rounding,
 !> and one branch-free loop serves every mechanism. Lengths are in halves of x at the limit, y = z + 1.
+!>
+!> Those of one rigid body that turns about a fixed point are harmonic: e cos(w z) + f sin(w z), with w the rotation at
+!> z = 1 less that at z = 0. Two short polynomials in z^2 then serve all of them and all their derivatives.
 module dondolo_normal_form
    use dondolo_chebyshev, only : as_powers, chebyshev_integral, chebyshev_nodes, chebyshev_series, chebyshev_value
    use dondolo_kinds, only : wp
@@ -18,11 +21,15 @@ module dondolo_normal_form
    private
 
    public :: normal_form_type, new_normal_form
-   public :: degrees, highest_degree
+   public :: degrees, highest_degree, harmonic_degrees, highest_harmonic
 
    !> Degrees of the polynomials to choose from: a slender block, most walls, the rest, walls that lift heavy masses
    integer, parameter :: degrees(4) = [8, 14, 22, 32]
    integer, parameter :: highest_degree = degrees(4)
+
+   !> Degrees of the polynomials of cos(w z): up to a slender block, and up to one of w = pi/4
+   integer, parameter :: harmonic_degrees(2) = [10, 16]
+   integer, parameter :: highest_harmonic = harmonic_degrees(2)
 
    !> Highest degree whose powers keep the rounding of the series that they are made of
    integer, parameter :: highest_full = degrees(3)
@@ -33,6 +40,9 @@ module dondolo_normal_form
    !> Coefficients that rounding alone may leave, relative to the largest value
    real(wp), parameter :: noise = 10.0_wp*epsilon(1.0_wp)
 
+   !> What the polynomials of a harmonic form may leave out, relative to the largest value
+   real(wp), parameter :: rounding = 0.25_wp*epsilon(1.0_wp)
+
    !> Least limit / capacity, so that powers of its inverse stay finite
    real(wp), parameter :: least_limit = 1.0e-20_wp
 
@@ -40,7 +50,9 @@ module dondolo_normal_form
    type :: normal_form_type
       !> Do polynomials hold its terms to rounding? Those of ties they do not. If not, the rest is undefined
       logical :: exists = .false.
-      !> Their degree, one of `degrees`
+      !> Are its terms harmonic?
+      logical :: is_harmonic = .false.
+      !> Degree of the polynomials: one of `harmonic_degrees`, else of `degrees`
       integer :: degree = 0
       !> y'' = a(z) + b(z) u: coefficients of 1, z, z^2, ... [1/s2] and [1/m]
       real(wp) :: a(0:highest_degree) = 0.0_wp, b(0:highest_degree) = 0.0_wp
@@ -49,7 +61,11 @@ module dondolo_normal_form
       !> Is there vertical motion? Then y'' has a term d(z) v_g''/g more, with the same bound [1/s2]
       logical :: is_shaken = .false.
       real(wp) :: d(0:highest_degree) = 0.0_wp, fifth_d = 0.0_wp
-      !> x at y = 1 [rad]
+      !> Of a harmonic form: amplitudes e of the cosine and f of the sine in a, b and d, and the coefficients of
+      !> 1, z^2, z^4, ... in cos(w z) and in sin(w z)/z
+      real(wp) :: even(3) = 0.0_wp, odd(3) = 0.0_wp
+      real(wp) :: cosine(0:highest_harmonic/2) = 0.0_wp, sine(0:highest_harmonic/2 - 1) = 0.0_wp
+      !> x at y = 1 [rad]; w of a harmonic form
       real(wp) :: unit = 0.0_wp
       !> Are x and q the same?
       logical, private :: is_identity = .false.
@@ -109,6 +125,8 @@ contains
       a = a/form%unit
       b = b/form%unit
       d = d/form%unit
+      if (form%is_identity) call find_harmonic_form(form, z, a, b, d)
+      if (form%is_harmonic) return
       needed = max(degree_of(chebyshev_series(a)), degree_of(chebyshev_series(b)))
       if (form%is_shaken) needed = max(needed, degree_of(chebyshev_series(d)))
       form%exists = needed <= highest_degree
@@ -144,6 +162,77 @@ contains
          d(i) = -g/(stretch(i)*inertia)
       end do
    end subroutine sample
+
+   !> The harmonic form, if it is one to rounding
+   pure subroutine find_harmonic_form(form, z, a, b, d)
+      !> The form; its unit is given
+      type(normal_form_type), intent(inout) :: form
+      !> Nodes, and the terms there
+      real(wp), intent(in) :: z(:), a(:), b(:), d(:)
+
+      logical :: are_harmonic(3)
+      integer :: k, n
+
+      associate (w => form%unit)
+         call find_amplitudes(w*z, a, form%even(1), form%odd(1), are_harmonic(1))
+         call find_amplitudes(w*z, b, form%even(2), form%odd(2), are_harmonic(2))
+         call find_amplitudes(w*z, d, form%even(3), form%odd(3), are_harmonic(3))
+         do k = size(harmonic_degrees), 1, -1
+            n = harmonic_degrees(k)
+            if (last_term(w, n) > rounding) exit
+            form%degree = n
+         end do
+         form%is_harmonic = all(are_harmonic) .and. form%degree > 0
+         if (.not. form%is_harmonic) return
+         form%exists = .true.
+         form%fifth_a = hypot(form%even(1), form%odd(1))*w**5/120.0_wp
+         form%fifth_b = hypot(form%even(2), form%odd(2))*w**5/120.0_wp
+         if (form%is_shaken) form%fifth_d = hypot(form%even(3), form%odd(3))*w**5/120.0_wp
+         form%cosine(0) = 1.0_wp
+         form%sine(0) = w
+         do k = 1, form%degree/2
+            form%cosine(k) = -form%cosine(k - 1)*w**2/real((2*k - 1)*2*k, wp)
+            if (k < form%degree/2) form%sine(k) = -form%sine(k - 1)*w**2/real(2*k*(2*k + 1), wp)
+         end do
+         n = form%degree
+         form%a(0:n:2) = form%even(1)*form%cosine(:n/2)
+         form%a(1:n - 1:2) = form%odd(1)*form%sine(:n/2 - 1)
+         form%b(0:n:2) = form%even(2)*form%cosine(:n/2)
+         form%b(1:n - 1:2) = form%odd(2)*form%sine(:n/2 - 1)
+         if (.not. form%is_shaken) return
+         form%d(0:n:2) = form%even(3)*form%cosine(:n/2)
+         form%d(1:n - 1:2) = form%odd(3)*form%sine(:n/2 - 1)
+      end associate
+   end subroutine find_harmonic_form
+
+   !> What a sine loses by the degree n of the cosine beside it, relative to its value at 2 w: w^n/(2 (n + 1)!)
+   pure real(wp) function last_term(w, n)
+      !> Largest angle [rad]
+      real(wp), intent(in) :: w
+      !> Degree
+      integer, intent(in) :: n
+
+      integer :: k
+
+      last_term = 0.5_wp
+      do k = 2, n + 1
+         last_term = last_term*w/real(k, wp)
+      end do
+   end function last_term
+
+   !> Amplitudes of a harmonic function: at nodes that lie evenly about zero its two parts are orthogonal
+   pure subroutine find_amplitudes(angles, values, even, odd, is_harmonic)
+      !> Angles w z [rad], and the function there
+      real(wp), intent(in) :: angles(:), values(:)
+      !> Amplitudes of the cosine and of the sine
+      real(wp), intent(out) :: even, odd
+      !> Is it harmonic?
+      logical, intent(out) :: is_harmonic
+
+      even = sum(values*cos(angles))/sum(cos(angles)**2)
+      odd = sum(values*sin(angles))/sum(sin(angles)**2)
+      is_harmonic = all(abs(even*cos(angles) + odd*sin(angles) - values) <= noise*maxval(abs(values)))
+   end subroutine find_amplitudes
 
    !> Degree beyond which a series is nothing but rounding
    pure integer function degree_of(series)
