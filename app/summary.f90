@@ -2,13 +2,15 @@
 module dondolo_summary
    use, intrinsic :: iso_fortran_env, only : int64, output_unit
    use dondolo_case, only : case_type
+   use dondolo_certificate, only : in_double, in_quadruple, not_computable
    use dondolo_check_lines, only : print_check, print_verdicts
+   use dondolo_error_estimate, only : runs_of_estimate
    use dondolo_fit_lines, only : bar, fractiles, make_head, print_fit, print_population_errors
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_plan_wall, only : print_wall
    use dondolo_restitution, only : published_factors
-   use dondolo_results, only : results_type
+   use dondolo_results, only : results_type, row_counts_type
    use dondolo_source_rows, only : make_model_sentence, make_source_sentence
    use dondolo_text, only : counted, right, rounded, to_text
    use dondolo_tie_rows, only : make_tie_sentence
@@ -143,7 +145,7 @@ contains
 
       call results%name_engines(engines)
       histories = results%work%histories
-      if (case%solver%solver%estimate_error) histories = histories/2
+      if (case%solver%solver%estimate_error) histories = histories/runs_of_estimate
       if (results%resumed > 0) then
          write (output_unit, '(a)') to_text(histories)//' histories, those of '//counted(results%resumed, 'row')// &
             & ' by an earlier run, engine '//engines
@@ -158,7 +160,7 @@ contains
          write (output_unit, '(a)') 'never moved: '//trim(share(work%still, work%histories))//' histories; rocking: '// &
             & trim(share(work%rocked, work%intervals))//' sample intervals'
          if (case%solver%solver%estimate_error) write (output_unit, '(a)') &
-            & '(to estimate errors every history was run a second time, with halved steps)'
+            & '(to estimate errors every history was run twice more)'
       end associate
    end subroutine print_work
 
@@ -203,7 +205,7 @@ contains
          end do
          if (case%solver%solver%estimate_error) then
             if (response%collapsed .and. .not. response%edp_error > 0.0_wp) then
-               write (output_unit, '(a)') 'with halved steps it collapses too'
+               write (output_unit, '(a)') 'twice more it collapses too'
             else
                write (output_unit, '(a)') 'estimated error of the EDP: '//rounded(response%edp_error)
             end if
@@ -241,9 +243,28 @@ contains
       end do
       if (size(results%row%curve) > 1) write (output_unit, '(a)', advance='no') 'collapse: '
       call print_fit(case, results%row%curve(size(results%row%curve)))
-      if (case%solver%solver%estimate_error) write (output_unit, '(a)') 'estimated errors of the EDP: at most '// &
-         & rounded(maxval(results%row%response%edp_error))
+      if (case%solver%solver%certify) then
+         call print_certificates(results%row)
+      else if (case%solver%solver%estimate_error) then
+         write (output_unit, '(a)') 'estimated errors of the EDP: at most '// &
+            & rounded(maxval(results%row%response%edp_error))
+      end if
    end subroutine print_stripes
+
+   !> Print how the histories are certified
+   subroutine print_certificates(row)
+      !> The stripes of the one wall
+      type(row_counts_type), intent(in) :: row
+
+      write (output_unit, '(a)') 'certified: '//to_text(count(row%certified%status == in_double))// &
+         & ' histories in double precision, '//to_text(count(row%certified%status == in_quadruple))// &
+         & ' in 33 digits, '//to_text(count(row%certified%status == not_computable))// &
+         & ' not computable from this input'
+      if (any(row%certified%status == not_computable) .and. all(row%theta_bounds > 0.0_wp)) then
+         write (output_unit, '(a)') 'whatever becomes of the last: theta between '//rounded(row%theta_bounds(1))//' and '// &
+            & rounded(row%theta_bounds(2))
+      end if
+   end subroutine print_certificates
 
    !> Print the curves of a population
    subroutine print_curves(case, results)

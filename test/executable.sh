@@ -322,8 +322,8 @@ cp out/deep/wall_histories.csv plain.csv
 good_case | sed 's/edp_limit = 1.0/estimate_error = .true./' >estimate.nml
 run estimate.nml
 check "estimated errors: printed" contains "$work/stdout" "estimated errors of the EDP: at most "
-check "estimated errors: everything runs twice" contains out/deep/wall_histories.csv '# work: histories = 80, '
-check "estimated errors: the summary says so" contains "$work/stdout" 'every history was run a second time'
+check "estimated errors: everything runs three times" contains out/deep/wall_histories.csv '# work: histories = 120, '
+check "estimated errors: the summary says so" contains "$work/stdout" 'every history was run twice more'
 check "estimated errors: a column" equal "$(header out/deep/wall_histories.csv | awk -F, '{ print $NF }')" edp_error
 check "estimated errors: all else the same" diff <(grep -v '^#' plain.csv) \
    <(grep -v '^#' out/deep/wall_histories.csv | sed 's/,[^,]*$//')

@@ -2,6 +2,7 @@
 !> neighbours, order, threads.
 program test_lanes
    use checks, only : check, check_close, finish, suite
+   use dondolo_error_estimate, only : estimated_error, other_run, runs_of_estimate
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_random, only : new_random, random_type
@@ -9,7 +10,7 @@ program test_lanes
    use dondolo_response, only : response_type
    use dondolo_rk45, only : simulate_rk45
    use dondolo_simulate, only : simulate
-   use dondolo_solver, only : perturbed, refined, solver_type
+   use dondolo_solver, only : solver_type
    use dondolo_text, only : to_text
    use dondolo_wall, only : wall_type
    use dondolo_work, only : work_type
@@ -565,13 +566,14 @@ contains
       end do
    end subroutine test_counts
 
-   !> The estimated error is the difference from the run with other steps, and changes nothing
+   !> The estimated error is that of the other two runs, and changes nothing
    subroutine test_estimate()
       type(wall_type) :: wall
       type(record_type) :: record
-      type(solver_type) :: solver
-      type(response_type) :: response, estimated, other
-      integer :: i, m
+      type(solver_type) :: solver, other_solver
+      type(response_type) :: response, estimated, others(runs_of_estimate - 1)
+      real(wp) :: other_scale
+      integer :: i, k, m
 
       call suite('estimated error')
       record = accelerogram([(sin(0.2_wp*i)*cos(0.031_wp*i), i=1, 500)], 0.01_wp)
@@ -580,11 +582,15 @@ contains
          do i = 1, 5
             solver = solver_type()
             call run_alone(wall%mechanism, record, i*1.3_wp, solver, response)
-            call run_alone(wall%mechanism, record, perturbed(i*1.3_wp), refined(solver), other)
+            do k = 1, size(others)
+               call other_run(k, solver, i*1.3_wp, other_solver, other_scale)
+               call run_alone(wall%mechanism, record, other_scale, other_solver, others(k))
+            end do
             solver%estimate_error = .true.
             call run_alone(wall%mechanism, record, i*1.3_wp, solver, estimated)
             call check(is_same(response, estimated) .and. response%edp_error == 0.0_wp, 'the result is the same')
-            call check(estimated%edp_error == abs(response%edp - other%edp), 'the difference')
+            call check(estimated%edp_error == estimated_error(response, others(1), others(2), &
+               & wall%mechanism%frequency_parameter(), 1.0_wp), 'the differences')
          end do
       end do
    end subroutine test_estimate

@@ -176,8 +176,8 @@ contains
          call check(100*count(wrong) <= size(wrong), to_text(count(wrong))//' of '//to_text(size(wrong))// &
             & ' EDPs are off by more than 1e-6, one in a hundred may be')
          call check(all(response%is_ill_conditioned() .or. .not. wrong), 'the estimate marks every one of them')
-         call check(.not. any(response%is_ill_conditioned() .and. &
-            & abs(response%edp - exact%edp) < 0.1_wp*largest_error), 'it does not cry wolf')
+         call check(50*count(response%is_ill_conditioned() .and. abs(response%edp - exact%edp) < 0.1_wp*largest_error) &
+            & <= size(wrong), 'it cries wolf at two in a hundred at most')
          call check(all(abs(response%edp - exact%edp) <= 2.0_wp*response%edp_error + 1.0e-9_wp), &
             & 'no error is more than twice its estimate')
          ! A collapse in slow motion, or a wall that hardly moves, says little of the time.

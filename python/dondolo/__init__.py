@@ -14,6 +14,7 @@
 from dondolo._fortran.library import build_variant
 from dondolo._fortran.library import constants as _constants
 from dondolo._storage.saved import load
+from dondolo.analysis.certificate import Certified, certify
 from dondolo.analysis.cloud import Cloud, cloud
 from dondolo.analysis.efficiency import IntensityComparison, compare_intensities
 from dondolo.analysis.incremental import FirstCollapseFragility, Incremental, incremental
@@ -74,6 +75,7 @@ __all__ = [
     "Boundary",
     "Building",
     "Case",
+    "Certified",
     "Choice",
     "Cloud",
     "CodeCheck",
@@ -124,6 +126,7 @@ __all__ = [
     "Work",
     "__version__",
     "build_variant",
+    "certify",
     "check_dynamic",
     "check_ntc",
     "cloud",

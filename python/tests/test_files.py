@@ -170,7 +170,7 @@ def damaged(executable, root, tmp_path_factory):
         ("history", "history", "rotation_rad", "rotation", "no column 'rotation_rad'"),
         ("history", "history", r"^0\.0*E\+00,", "nan,", r"line \d+: time_s = 'nan': must be a number"),
         ("parapet", "run.json", r'"steps": ', '"leaps": ', "work: .*unexpected keyword argument 'leaps'"),
-        ("parapet", "histories", r"^parapet,.*\n", "", r"\d+ rows: must be \d+, the histories of the run"),
+        ("parapet", "histories", r"^parapet,.*\n", "", r"\d+ rows: are not the \d+ histories of the run"),
         ("population", "stripes", r"^parapet brick low,.*\n", "", r"\d+ rows: must be 24 x 1 x 12, one for each wall"),
         ("population", "walls", ",one_sided,", ",arch,", r"line \d+: mechanism = 'arch': must be one of 'one_sided'"),
         (

@@ -146,7 +146,7 @@ def test_estimated_error(wall, sine, step):
 
 
 def test_tightest_tolerances_are_doubted_too(wall, sine):
-    """Where rounding rules, the second run still takes other steps."""
+    """Where rounding rules, the other runs still take other steps."""
     tightest = dd.simulate(wall, sine, 2.0, solver=dd.Solver(rtol=2.3e-15, atol=1e-17), estimate_error=True)
     assert 0.0 < tightest.edp_error < 1e-9
 
@@ -157,4 +157,4 @@ def test_a_history_in_doubt_is_warned_of(wall, records):
         dd.simulate(wall, record, 0.8 * 9.81 / record.peak_acceleration, estimate_error=True, history=False)
     collapse = dd.simulate(wall, record, 10.0 * 9.81 / record.peak_acceleration, estimate_error=True, history=False)
     assert collapse.collapsed
-    assert "with halved steps collapses too" in repr(collapse)
+    assert "twice more collapses too" in repr(collapse)

@@ -53,7 +53,7 @@ contains
          parcel%integers = [size(members), size(case%stripes%levels), size(case%suite%records), &
             & size(case%stripes%thresholds), case%job%threads, case%history%record, 0, 0, 0]
          parcel%reals = [case%solver%solver%rtol, case%solver%solver%atol, case%solver%solver%edp_limit, &
-            & merge(1.0_c_double, 0.0_c_double, case%solver%solver%estimate_error), scale, case%stripes%levels, &
+            & count([case%solver%solver%estimate_error, case%solver%solver%certify])*1.0_c_double, scale, case%stripes%levels, &
             & case%stripes%thresholds]
          call parcel%lines%add(case%job%task)
          call parcel%lines%add(case%job%title)

@@ -2,6 +2,7 @@
 module histories
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_boundary, only : as_solver, check_room, check_scale, report, unpack_response
+   use dondolo_certificate, only : certificate_type, certify_histories
    use dondolo_ensemble, only : check_engine, ensemble_type, run_ensemble
    use dondolo_error, only : error_type
    use dondolo_floors, only : check_floor, floors_type
@@ -24,7 +25,7 @@ module histories
    implicit none
    private
 
-   public :: simulate, run_scaled, warn_of_motion, warn_of_errors
+   public :: certify, is_doubtful, simulate, run_scaled, warn_of_motion, warn_of_errors
 
 contains
 
@@ -163,6 +164,79 @@ contains
       end if
       call report(error, stat, message)
    end subroutine run_scaled
+
+   !> Certify k histories of one wall: each has its record (numbered from 1), its factor and its EDP in double precision
+   subroutine certify(walls, suite, record, scale, double_edp, k, edp_limit, threads, &
+         & status, edp, collapsed, impacts, time_of_peak, edp_error, lowest, highest, stat, message)
+      !f2py threadsafe
+      integer(c_int64_t), intent(in) :: walls, suite
+      integer(c_int), intent(in) :: k, threads, record(k)
+      real(c_double), intent(in) :: scale(k), double_edp(k), edp_limit
+      real(c_double), intent(out) :: edp(k), time_of_peak(k), edp_error(k), lowest(k), highest(k)
+      integer(c_int), intent(out) :: status(k), collapsed(k), impacts(k), stat
+      character(len=2048), intent(out) :: message
+      type(wall_type), pointer :: people(:)
+      type(suite_type), pointer :: records, motions
+      type(floors_type), target :: own
+      type(ensemble_type) :: ensemble
+      type(certificate_type), allocatable :: certificates(:)
+      type(error_type), allocatable :: error
+      integer :: i
+
+      status = 0
+      edp = 0
+      collapsed = 0
+      impacts = 0
+      time_of_peak = 0
+      edp_error = 0
+      lowest = 0
+      highest = 0
+      call check_room(error, histories=real(k, c_double))
+      if (.not. allocated(error)) call check_threads(threads, error)
+      if (.not. allocated(error)) call find_walls(walls, people, error)
+      if (.not. allocated(error)) call find_suite(suite, records, error)
+      if (.not. allocated(error)) call check_limit(solver_type(edp_limit=edp_limit), people(1)%mechanism, error)
+      do i = 1, k
+         if (allocated(error)) exit
+         call check_scale(records, record(i), scale(i), error)
+      end do
+      if (.not. allocated(error)) call find_motions(people(1), records, threads, own, motions, error)
+      if (.not. allocated(error)) then
+         ensemble%record = record
+         ensemble%scale = scale
+         allocate (ensemble%response(k))
+         ensemble%response%edp = double_edp
+         call certify_histories(certificates, people(1), motions%records, ensemble, edp_limit, threads, error)
+      end if
+      if (.not. allocated(error)) then
+         status = certificates%status
+         lowest = certificates%lowest
+         highest = certificates%highest
+         call unpack_response(certificates%response, edp, collapsed, impacts, time_of_peak, edp_error)
+         call check_interrupt(error)
+      end if
+      call report(error, stat, message)
+   end subroutine certify
+
+   !> Do estimated errors leave a doubt about EDPs, or about collapses?
+   subroutine is_doubtful(edp, edp_error, n, edp_limit, doubt, stat, message)
+      integer(c_int), intent(in) :: n
+      real(c_double), intent(in) :: edp(n), edp_error(n), edp_limit
+      integer(c_int), intent(out) :: doubt(n), stat
+      character(len=2048), intent(out) :: message
+      type(response_type), allocatable :: responses(:)
+      type(error_type), allocatable :: error
+
+      doubt = 0
+      call check_room(error, histories=real(n, c_double))
+      if (.not. allocated(error)) then
+         allocate (responses(n))
+         responses%edp = edp
+         responses%edp_error = edp_error
+         doubt = merge(1, 0, responses%is_doubtful(edp_limit))
+      end if
+      call report(error, stat, message)
+   end subroutine is_doubtful
 
    !> What the executable would warn of, of a wall and a record, before it runs one motion
    subroutine warn_of_motion(walls, record, pga, fall, sent, stat, message)

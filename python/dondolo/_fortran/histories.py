@@ -5,11 +5,12 @@ from __future__ import annotations
 import functools
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dondolo._base.arguments import FloatArray, as_number
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
-from dondolo._fortran.library import constants, receive, unpack_warnings
+from dondolo._fortran.library import check, constants, receive, unpack_warnings
 from dondolo.errors import DondoloWarning
 
 
@@ -39,6 +40,13 @@ def settings(
 def _default_settings() -> FloatArray:
     default = constants()
     return np.array([default.rtol, default.atol, default.edp_limit, 0.0, 0.0])
+
+
+def is_doubtful(edp: FloatArray, edp_error: FloatArray, edp_limit: float) -> NDArray[np.bool_]:
+    """Whether estimated errors leave a doubt about EDPs, or about collapses."""
+    doubt, stat, message = _core.histories.is_doubtful(edp.ravel(), edp_error.ravel(), edp_limit)
+    check(stat, message)
+    return np.asarray(doubt == 1).reshape(edp.shape)
 
 
 def warnings_of_motion(wall: Handle, record: str, pga: float, fall: float) -> list[DondoloWarning]:

@@ -227,11 +227,7 @@ class Response(Shown, Saved):
         ]
         if self.edp_error is not None:
             both = self.collapsed and self.edp_error == 0.0
-            fact = (
-                ("with halved steps", "collapses too")
-                if both
-                else ("estimated error of the EDP", f"{self.edp_error:.2g}")
-            )
+            fact = ("twice more", "collapses too") if both else ("estimated error of the EDP", f"{self.edp_error:.2g}")
             facts.insert(4, fact)
         for number, (elongation, energy, broken) in enumerate(zip(*self.ties, strict=True), 1):
             end = "broken" if broken else "stretched for good" if elongation > 0.0 else "as it was"
@@ -290,7 +286,7 @@ def simulate(
     history : bool
         Keep the time history?
     estimate_error : bool
-        Run it a second time with halved steps, to estimate the error of the EDP?
+        Run it twice more, to estimate the error of the EDP?
 
     Returns
     -------

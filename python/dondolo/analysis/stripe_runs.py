@@ -13,6 +13,7 @@ from dondolo._base.arguments import as_count, instance_of, one_of
 from dondolo._fortran.histories import warnings_of_errors
 from dondolo._fortran.library import warn
 from dondolo.analysis.auto_levels import FEWEST, next_level, rounded
+from dondolo.analysis.certificate import run_again
 from dondolo.analysis.request import Outcome, Pace, Plan, Polarity, Request, new_request, progress_bar
 from dondolo.analysis.solver import Solver
 from dondolo.analysis.stripe_sets import in_matrix, stack
@@ -35,6 +36,7 @@ def multiple_stripe(
     polarity: Polarity = "as_recorded",
     solver: Solver | None = None,
     estimate_error: bool = False,
+    certify: bool = False,
     threads: int = 0,
     progress: bool = True,
 ) -> Stripes:
@@ -63,7 +65,9 @@ def multiple_stripe(
     solver : Solver, optional
         How the motions are integrated.
     estimate_error : bool
-        Run every history a second time with halved steps, to estimate the error of its EDP?
+        Run every history twice more, to estimate the error of its EDP?
+    certify : bool
+        Estimate errors, and run every history that they leave in doubt again in 33 digits? See `certify`.
     threads : int
         Number of threads; 0: all (OMP_NUM_THREADS is honoured). Results do not depend on it.
     progress : bool
@@ -102,11 +106,11 @@ def multiple_stripe(
         one_of("levels", levels, ("auto",))
         if isinstance(records, Mapping) or getattr(records, "level", None) is not None:
             raise InputError("levels = 'auto': the records have levels of their own")
-        request = new_request((wall,), records, [1.0], im, polarity, solver, threads, estimate_error)
-        return _auto(request, budget, progress)
+        request = new_request((wall,), records, [1.0], im, polarity, solver, threads, estimate_error or certify)
+        return _finished(_auto(request, budget, progress), request, certify, progress)
     if budget is not None:
         raise InputError(f"budget = {budget!r}: only with levels = 'auto'")
-    request = new_request((wall,), records, levels, im, polarity, solver, threads, estimate_error)
+    request = new_request((wall,), records, levels, im, polarity, solver, threads, estimate_error or certify)
     try:
         plan = request.plan()
     except KeyboardInterrupt:
@@ -114,9 +118,7 @@ def multiple_stripe(
     warn(plan.warnings)
     outcome, interrupted = request.run(plan.histories, progress, wall.name)
     if not interrupted:
-        stripes = _stripes(request, plan, outcome, len(request.levels))
-        warn(_warnings(stripes))
-        return stripes
+        return _finished(_stripes(request, plan, outcome, len(request.levels)), request, certify, progress)
     complete = int(np.searchsorted(np.cumsum(plan.ran.sum(axis=1)), outcome.done, side="right"))
     partial = _stripes(request, plan, outcome, complete) if complete else None
     raise Interrupted(f"interrupted: {complete} of {len(request.levels)} stripes are complete", partial)
@@ -167,6 +169,13 @@ def _auto(request: Request, budget: int | None, progress: bool) -> Stripes:
         raise Interrupted(text, stack(parts) if parts else None)
     stripes = stack(parts)
     warn(at(stripes.levels).plan().warnings)
+    return stripes
+
+
+def _finished(stripes: Stripes, request: Request, certify: bool, progress: bool) -> Stripes:
+    """The stripes, certified if they are to be, with the warnings of their errors."""
+    if certify:
+        stripes = run_again(stripes, request.records, request.threads, progress)
     warn(_warnings(stripes))
     return stripes
 

@@ -23,6 +23,9 @@ _MATRICES = {
     "time_of_peak": np.nan,
     "scale": np.nan,
     "edp_error": np.nan,
+    "status": 0,
+    "edp_lowest": np.nan,
+    "edp_highest": np.nan,
     "uplift": False,
     "ran": False,
 }
@@ -75,6 +78,8 @@ def join(one: Stripes, other: Stripes) -> Stripes:
         raise InputError("stripes: were run with other polarities: must be the same")
     if (one.edp_error is None) != (other.edp_error is None):
         raise InputError("stripes: only one has estimated errors")
+    if (one.status is None) != (other.status is None):
+        raise InputError("stripes: only one is certified")
     if (one.uplift is None) != (other.uplift is None):
         raise InputError("stripes: only one has vertical motion")
     names = [part.record_names[: part.n_records] for part in (one, other)]

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray
 from dondolo._storage import tables
+from dondolo.analysis.certificate import Certified
 from dondolo.analysis.request import polarity_names
 from dondolo.walls.wall import Wall
 
@@ -37,6 +38,10 @@ def histories_table(stripes: Stripes) -> tables.Table:
     }
     if stripes.edp_error is not None:
         table["edp_error"] = stripes.edp_error[ran]
+    if stripes.status is not None and stripes.edp_lowest is not None and stripes.edp_highest is not None:
+        table["status"] = [Certified(status).name.lower() for status in stripes.status[ran]]
+        table["edp_lowest"] = stripes.edp_lowest[ran]
+        table["edp_highest"] = stripes.edp_highest[ran]
     return table
 
 

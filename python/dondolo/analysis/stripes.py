@@ -79,6 +79,11 @@ class Stripes(Shown, Saved):
         What was computed, and what was not, by the runs that the stripes come from.
     edp_error : ndarray, shape (levels, histories), or None
         Estimated errors of `edp`; None unless asked for.
+    status : ndarray of int, shape (levels, histories), or None
+        How each history is certified, a `Certified`; None unless asked for.
+    edp_lowest, edp_highest : ndarray, shape (levels, histories), or None
+        EDPs between which the last digit of the input decides, equal but for `Certified.NOT_COMPUTABLE`; None unless
+        certified.
     uplift : ndarray of bool, shape (levels, histories), or None
         Whether the ground accelerates downwards by g or more at some instant, as `Response.uplift`; None without
         vertical motion.
@@ -105,6 +110,9 @@ class Stripes(Shown, Saved):
     edp_limit: float
     work: Work
     edp_error: FloatArray | None = None
+    status: np.ndarray[Any, np.dtype[np.int32]] | None = None
+    edp_lowest: FloatArray | None = None
+    edp_highest: FloatArray | None = None
     uplift: np.ndarray[Any, np.dtype[np.bool_]] | None = None
     events: tuple[str, ...] = ()
     checksums: tuple[str, ...] = ()
@@ -150,6 +158,21 @@ class Stripes(Shown, Saved):
     def fraction(self) -> FloatArray:
         """Fraction of collapses in each stripe, shape (levels,)."""
         return self.collapses / self.histories
+
+    @property
+    def theta_bounds(self) -> tuple[float, float]:
+        """Theta if all histories collapse that are not computable and may, and if none of them does.
+
+        NaN where there is no curve; only of certified stripes.
+        """
+        if self.edp_lowest is None or self.edp_highest is None:
+            raise InputError("theta_bounds: only of certified stripes")
+        counts = ((edp >= self.edp_limit).sum(axis=1) for edp in (self.edp_highest, self.edp_lowest))
+        low, high = (
+            fit(self.levels, each.astype(np.float64), self.histories.astype(np.float64), im=self.im, wall=self.wall)
+            for each in counts
+        )
+        return low.theta, high.theta
 
     @property
     def broken_ties(self) -> FloatArray:

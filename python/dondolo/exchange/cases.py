@@ -48,7 +48,7 @@ class Case:
     states : {'separate', 'ordinal'}
         How their curves are fitted, as `Stripes.fit_damage_states`.
     rtol, atol, edp_limit : float
-    estimate_error : bool
+    estimate_error, certify : bool
     threads : int
     record_index : int
         Which record a time history is of, from 0.
@@ -75,6 +75,7 @@ class Case:
     atol: float
     edp_limit: float
     estimate_error: bool
+    certify: bool
     threads: int
     record_index: int
     scale: float
@@ -107,7 +108,7 @@ class Case:
             "solver": how,
         }
         if self.task == "stripes":
-            ensemble["estimate_error"] = self.estimate_error
+            ensemble |= {"estimate_error": self.estimate_error, "certify": self.certify}
             stripes = multiple_stripe(self.population[0], self.records, self.levels, **ensemble)
             curves = [stripes.fit()]
             if self.states == "ordinal":
@@ -168,7 +169,7 @@ def read_case(path: str | os.PathLike[str]) -> Case:
     """
     parcel = receive(*_core.cases.read_case(as_path(path)))
     walls, levels, records, thresholds, threads, record = (int(value) for value in parcel.integers[:6])
-    rtol, atol, edp_limit, estimate_error, scale = (float(value) for value in parcel.reals[:5])
+    rtol, atol, edp_limit, second_runs, scale = (float(value) for value in parcel.reals[:5])
     task, title, output, im, polarity, engine, states, soil, topography = parcel.lines[:9]
     counts = parcel.integers[6:9]
     hazard = 5 + levels + thresholds
@@ -200,7 +201,8 @@ def read_case(path: str | os.PathLike[str]) -> Case:
         rtol=rtol,
         atol=atol,
         edp_limit=edp_limit,
-        estimate_error=estimate_error == 1.0,
+        estimate_error=second_runs > 0.0,
+        certify=second_runs == 2.0,
         threads=threads,
         record_index=record - 1,
         scale=scale,

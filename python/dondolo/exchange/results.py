@@ -17,6 +17,7 @@ from dondolo._fortran.buildings import BUILDING_NAMES
 from dondolo._fortran.checks import SheetRow
 from dondolo._fortran.walls import WALL_EXTRAS, WALL_LISTS, WALL_PROPERTIES, WALL_TEXTS, WALL_WORDS
 from dondolo._storage.run_file import HistoryResult, RunFile, read_run_file
+from dondolo.analysis.certificate import Certified
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import States, Stripes
 from dondolo.analysis.work import Work
@@ -273,16 +274,23 @@ def _stripes(
     ran[row, column] = True
     if np.count_nonzero(ran) < len(table):
         raise ValueError(f"{len(table)} rows: a record is a duplicate at a level")
-    # To estimate errors every history runs twice.
-    histories = work.histories // (2 if "edp_error" in table else 1)
-    if len(table) != histories:
-        raise ValueError(f"{len(table)} rows: must be {histories}, the histories of the run")
+    # To estimate errors every history runs several times.
+    if work.histories % len(table) or ("edp_error" not in table and work.histories != len(table)):
+        raise ValueError(f"{len(table)} rows: are not the {work.histories} histories of the run")
 
     def matrix(values: Any) -> Any:
         found = np.full(ran.shape, np.nan if values.dtype.kind == "f" else 0, dtype=values.dtype)
         found[row, column] = values
         return found
 
+    certified: dict[str, Any] = {}
+    if "status" in table:
+        numbers = [Certified[word.upper()] for word in table.texts("status")]
+        certified = {
+            "status": matrix(np.asarray(numbers, dtype=np.int32)),
+            "edp_lowest": matrix(table.numbers("edp_lowest")),
+            "edp_highest": matrix(table.numbers("edp_highest")),
+        }
     return Stripes(
         wall=wall,
         im=table.texts("im")[0],
@@ -301,6 +309,7 @@ def _stripes(
         edp_limit=edp_limit,
         work=work,
         edp_error=matrix(table.numbers("edp_error")) if "edp_error" in table else None,
+        **certified,
     )
 
 

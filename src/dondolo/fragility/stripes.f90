@@ -3,6 +3,7 @@
 !>
 !> Section 3.3 of Nale et al. The histories of a wall run together, on several threads (dondolo_ensemble).
 module dondolo_stripes
+   use dondolo_certificate, only : certified_type
    use dondolo_ensemble, only : ensemble_type, run_ensemble
    use dondolo_error, only : error_type
    use dondolo_floors, only : floors_type
@@ -18,10 +19,10 @@ module dondolo_stripes
    implicit none
    private
 
-   public :: stripes_type, multiple_stripe, plan_stripes, planned_work, run_histories, run_part, histories_of
+   public :: stripes_type, multiple_stripe, plan_stripes, planned_work, run_histories, run_part, histories_of, take_motions
 
-   !> Memory that a history of the plan takes while it is run, once or twice [bytes]
-   real(wp), parameter :: bytes_of_history = 110.0_wp, bytes_of_two_runs = 160.0_wp
+   !> Memory that a history of the plan takes while it is run, once or three times [bytes]
+   real(wp), parameter :: bytes_of_history = 110.0_wp, bytes_of_three_runs = 210.0_wp
 
    !> Result of a multiple stripe analysis
    type :: stripes_type
@@ -39,6 +40,8 @@ module dondolo_stripes
       real(wp), allocatable :: scale(:, :)
       !> Responses (histories, levels), of those that do not run without collapse
       type(response_type), allocatable :: response(:, :)
+      !> How they are certified (histories, levels); not allocated: they are not
+      type(certified_type), allocatable :: certified(:, :)
       !> What was computed for them
       type(work_type) :: work
    contains
@@ -85,7 +88,7 @@ contains
       stripes%levels = study%levels
       call choose_polarities(study, wall, stripes%record, stripes%polarity)
       associate (histories => size(stripes%record), levels => size(stripes%levels))
-         call check_room(merge(bytes_of_two_runs, bytes_of_history, study%solver%estimate_error) &
+         call check_room(merge(bytes_of_three_runs, bytes_of_history, study%solver%estimate_error) &
             & *real(histories, wp)*real(levels, wp), error)
          if (.not. allocated(error)) call study%check_scales(wall, error)
          if (allocated(error)) return

@@ -3,6 +3,7 @@
 !> It is the same for all walls of a population, and for one wall alone: who runs many walls makes it once.
 module dondolo_study
    use dondolo_catalogue, only : record_rows_type
+   use dondolo_certificate, only : check_certificates
    use dondolo_ensemble, only : check_engine
    use dondolo_error, only : error_type, raise_input
    use dondolo_floors, only : check_floor, floors_type
@@ -111,6 +112,7 @@ contains
       if (.not. allocated(error)) call check_limit(self%solver, wall%mechanism, error)
       if (.not. allocated(error)) call check_engine(self%solver, wall%mechanism, error, &
          & self%suite%has_vertical())
+      if (self%solver%certify .and. .not. allocated(error)) call check_certificates(wall, error)
       if (.not. allocated(error) .and. allocated(wall%building)) call check_floor(wall%building, self%suite, error)
    end subroutine check
 

@@ -4,6 +4,7 @@
 !> to the bit for any number of threads and any grouping.
 module dondolo_ensemble
    use dondolo_error, only : error_type, raise_input
+   use dondolo_error_estimate, only : estimated_error, other_run, runs_of_estimate
    use dondolo_kinds, only : wp
    use dondolo_lane_constants, only : lane_constants_type, new_lane_constants
    use dondolo_lane_variants, only : build_variant, check_variant, first_variant, simulate_variant
@@ -12,7 +13,7 @@ module dondolo_ensemble
    use dondolo_response, only : response_type
    use dondolo_rest, only : new_rest, rest_type
    use dondolo_rk45, only : simulate_rk45
-   use dondolo_solver, only : perturbed, refined, solver_type
+   use dondolo_solver, only : solver_type
    use dondolo_suite, only : suite_type
    use dondolo_threads, only : team_of
    use dondolo_work, only : work_type
@@ -49,15 +50,28 @@ contains
       procedure(progress_interface), optional :: progress
 
       type(queue_type) :: queue
+      type(solver_type) :: other_solver
+      type(response_type), allocatable :: stronger(:)
+      real(wp), allocatable :: scale(:)
+      integer :: i, k
 
-      call queue%announce(merge(2, 1, solver%estimate_error)*size(ensemble%record), progress)
+      call queue%announce(merge(runs_of_estimate, 1, solver%estimate_error)*size(ensemble%record), progress)
       call queue%fill(ensemble%record, ensemble%scale)
       call run_queue(queue, mechanism, suite, solver, threads, ensemble%work)
       call move_alloc(queue%response, ensemble%response)
       if (.not. solver%estimate_error) return
-      call queue%fill(ensemble%record, perturbed(ensemble%scale))
-      call run_queue(queue, mechanism, suite, refined(solver), threads, ensemble%work)
-      ensemble%response%edp_error = abs(queue%response%edp - ensemble%response%edp)
+      scale = ensemble%scale
+      do k = 1, runs_of_estimate - 1
+         if (k > 1) call move_alloc(queue%response, stronger)
+         other_solver = solver
+         do i = 1, size(scale)
+            call other_run(k, solver, ensemble%scale(i), other_solver, scale(i))
+         end do
+         call queue%fill(ensemble%record, scale)
+         call run_queue(queue, mechanism, suite, other_solver, threads, ensemble%work)
+      end do
+      ensemble%response%edp_error = estimated_error(ensemble%response, stronger, queue%response, &
+         & mechanism%frequency_parameter(), solver%edp_limit)
    end subroutine run_ensemble
 
    !> Run every history in a queue

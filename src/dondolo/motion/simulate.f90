@@ -1,17 +1,18 @@
 !> The motion of a wall under an accelerogram, and how far its result can be trusted.
 !>
 !> Rocking amplifies errors, in a few histories by more than 10^8, and nothing in a step's own error tells which.
-!> So the history is run once more with halved steps, which leave about a 32nd of the error of a fifth-order method:
-!> the difference tells the size of the error of the first run, and is no bound (docs/theory.md, section 5).
+!> So the history is run twice more, with a slightly stronger and a slightly weaker record, one of them with halved steps:
+!> the differences tell the size of the error of the first run, and are no bound (dondolo_error_estimate).
 module dondolo_simulate
    use dondolo_ensemble, only : check_engine, ensemble_type, run_ensemble
    use dondolo_error, only : error_type, raise_input
+   use dondolo_error_estimate, only : estimated_error, other_run, runs_of_estimate
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_record, only : record_type
    use dondolo_response, only : response_type, trace_type
    use dondolo_rk45, only : simulate_rk45
-   use dondolo_solver, only : perturbed, refined, solver_type
+   use dondolo_solver, only : solver_type
    use dondolo_suite, only : new_suite, suite_type
    implicit none
    private
@@ -32,7 +33,10 @@ contains
       !> Time history, until rest or 10 s past the end of the record; computed only if present
       type(trace_type), intent(inout), optional :: trace
 
-      type(response_type) :: other
+      type(response_type) :: others(runs_of_estimate - 1)
+      type(solver_type) :: other_solver
+      real(wp) :: other_scale
+      integer :: k
       type(ensemble_type) :: ensemble
       type(suite_type) :: suite
       type(record_type), allocatable :: records(:)
@@ -48,8 +52,11 @@ contains
       end if
       call simulate_rk45(mechanism, record, scale, solver, response, trace)
       if (.not. solver%estimate_error) return
-      call simulate_rk45(mechanism, record, perturbed(scale), refined(solver), other)
-      response%edp_error = abs(other%edp - response%edp)
+      do k = 1, size(others)
+         call other_run(k, solver, scale, other_solver, other_scale)
+         call simulate_rk45(mechanism, record, other_scale, other_solver, others(k))
+      end do
+      response%edp_error = estimated_error(response, others(1), others(2), mechanism%frequency_parameter(), solver%edp_limit)
    end subroutine simulate
 
    !> Check that an engine can compute one history

@@ -1,5 +1,6 @@
 !> The rows of the result tables, as lines of text.
 module dondolo_report_rows
+   use dondolo_certificate, only : certified_type, status_names
    use dondolo_clustered, only : parameter_intervals
    use dondolo_csv_row, only : text_cell
    use dondolo_fragility, only : fragility_type
@@ -17,6 +18,7 @@ module dondolo_report_rows
 
    public :: make_wall_head, make_wall_row, stripes_head, make_stripes_row, fragility_head, make_fragility_row
    public :: union_head, make_union_row
+   public :: certified_head, make_certified_cells
    public :: typology_head, make_typology_row, history_head, make_history_row, make_wall_cells
 
    !> Names of the columns of each table
@@ -31,9 +33,19 @@ module dondolo_report_rows
       & 'fractile_50,fractile_84,beta_walls,beta_records,saturation,edp_threshold,'//error_columns, &
       & union_head = 'wall,group,mechanisms,im,im_level,histories,collapses,fraction,independent_fraction,'// &
       & 'edp_threshold,theta,beta,se_ln_theta,se_beta,status,errors,clusters,independent_theta,independent_beta', &
+      & certified_head = ',status,edp_lowest,edp_highest', &
       & history_head = 'wall,mechanism,record,polarity,im,im_level,scale,edp,collapsed,impacts,time_of_peak_s'
 
 contains
+
+   !> How a history is certified
+   pure subroutine make_certified_cells(certified, cells)
+      type(certified_type), intent(in) :: certified
+      !> Cells that follow those of its error
+      character(len=:), allocatable, intent(out) :: cells
+
+      cells = ','//trim(status_names(certified%status))//','//to_table(certified%lowest)//','//to_table(certified%highest)
+   end subroutine make_certified_cells
 
    !> Name and mechanism of a wall
    pure subroutine make_wall_cells(wall, is_safe, cells)

@@ -1,9 +1,11 @@
 !> What comes of a case.
 module dondolo_results
+   use dondolo_certificate, only : certified_type
    use dondolo_check_rows, only : verdicts_type
    use dondolo_check_sheet, only : sheet_type
    use dondolo_ensemble, only : name_engines
    use dondolo_fragility, only : fragility_type
+   use dondolo_kinds, only : wp
    use dondolo_population_counts, only : population_counts_type
    use dondolo_response, only : response_type, trace_type
    use dondolo_sensitivity, only : sensitivity_type
@@ -36,6 +38,10 @@ module dondolo_results
    type, extends(stripe_counts_type) :: row_counts_type
       !> All its histories (histories, levels), if they are kept
       type(response_type), allocatable :: response(:, :)
+      !> How they are certified, if they are (histories, levels)
+      type(certified_type), allocatable :: certified(:, :)
+      !> Then: least and greatest theta of the outcomes that the last digit of the input decides; 0: no curve
+      real(wp) :: theta_bounds(2) = 0.0_wp
    end type row_counts_type
 
    !> Results of a case; what its task does not make stays empty

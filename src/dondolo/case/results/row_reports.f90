@@ -6,8 +6,8 @@ module dondolo_row_reports
    use dondolo_csv_row, only : text_cell
    use dondolo_error, only : error_type, raise_failure
    use dondolo_population, only : member_type, population_reader_type
-   use dondolo_report_rows, only : fragility_head, history_head, make_fragility_row, make_history_row, &
-      & make_stripes_row, make_wall_cells, make_wall_head, make_wall_row, stripes_head
+   use dondolo_report_rows, only : certified_head, fragility_head, history_head, make_certified_cells, make_fragility_row, &
+      & make_history_row, make_stripes_row, make_wall_cells, make_wall_head, make_wall_row, stripes_head
    use dondolo_result_files, only : result_files_type
    use dondolo_results, only : results_type, row_counts_type
    use dondolo_row_result, only : row_result_type
@@ -125,11 +125,10 @@ contains
          call make_wall_head(list_lengths(case), case%survey%has_facades, line)
          call files%line(line)
       case ('_histories.csv')
-         if (case%solver%solver%estimate_error) then
-            call files%line(history_head//',edp_error')
-         else
-            call files%line(history_head)
-         end if
+         line = history_head
+         if (case%solver%solver%estimate_error) line = line//',edp_error'
+         if (case%solver%solver%certify) line = line//certified_head
+         call files%line(line)
       case ('_stripes.csv')
          call files%line(stripes_head)
       case ('_fragility.csv')
@@ -193,7 +192,7 @@ contains
 
       type(study_type) :: study
       type(stripes_type) :: plan
-      character(len=:), allocatable :: cells, line, last
+      character(len=:), allocatable :: cells, line, last, certified
       integer :: i, j
 
       call case%make_study(study)
@@ -205,6 +204,10 @@ contains
          do i = 1, size(plan%record)
             if (.not. plan%ran(i, j)) cycle
             if (case%solver%solver%estimate_error) last = ','//to_table(row%response(i, j)%edp_error)
+            if (case%solver%solver%certify) then
+               call make_certified_cells(row%certified(i, j), certified)
+               last = last//certified
+            end if
             call make_history_row(cells, text_cell(case%suite%records(plan%record(i))%name, &
                & case%job%spreadsheet_safe), plan%polarity(i), plan%im, &
                & plan%levels(j), plan%scale(i, j), row%response(i, j), line)

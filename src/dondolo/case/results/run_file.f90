@@ -4,6 +4,7 @@ module dondolo_run_file
    use, intrinsic :: iso_fortran_env, only : compiler_version, int64
    use dondolo_building, only : building_type
    use dondolo_case, only : case_type
+   use dondolo_certificate, only : status_names
    use dondolo_checksum, only : crc32_length, crc32_of_file, crc32_of_reals
    use dondolo_clustered, only : confidence, correction, fewest_clusters
    use dondolo_clusters, only : cluster_label
@@ -256,6 +257,14 @@ contains
       do i = 1, size(counts)
          call json%put(trim(work_names(i)), counts(i))
       end do
+      call json%close_object()
+      if (.not. allocated(results%row%certified)) return
+      call json%open_object('certified')
+      do i = 1, size(status_names)
+         call json%put(trim(status_names(i)), count(results%row%certified%status == i))
+      end do
+      call json%put('theta_lowest', results%row%theta_bounds(1))
+      call json%put('theta_highest', results%row%theta_bounds(2))
       call json%close_object()
    end subroutine put_counts
 

@@ -2,6 +2,7 @@
 !> written here.
 module dondolo_run_case
    use dondolo_case, only : case_type
+   use dondolo_certified, only : certify_stripes, theta_bounds
    use dondolo_check_case, only : check_stripes
    use dondolo_check_rows, only : check_wall
    use dondolo_error, only : error_type, raise_failure
@@ -156,6 +157,10 @@ contains
       call case%make_study(study, team)
       call multiple_stripe(stripes, case%wall, study, error, progress)
       if (.not. allocated(error)) call check_interrupt(error)
+      if (study%solver%certify .and. .not. allocated(error)) then
+         call certify_stripes(stripes, case%wall, study, error, progress)
+         if (.not. allocated(error)) call check_interrupt(error)
+      end if
       if (.not. allocated(error)) call results%row%of(stripes, study%thresholds, study%suite%clusters, &
          & case%stripes%states == 'ordinal', error)
       if (allocated(error)) return
@@ -170,6 +175,10 @@ contains
          if (.not. allocated(error)) call check_stripes(case, stripes, results%check, error, team)
          if (.not. allocated(error)) call check_interrupt(error)
          if (allocated(error)) return
+      end if
+      if (allocated(stripes%certified)) then
+         call theta_bounds(stripes, study%solver%edp_limit, results%row%theta_bounds(1), results%row%theta_bounds(2))
+         call move_alloc(stripes%certified, results%row%certified)
       end if
       call move_alloc(stripes%response, results%row%response)
    end subroutine run_stripes

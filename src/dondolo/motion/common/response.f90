@@ -32,6 +32,8 @@ module dondolo_response
       procedure :: is_ill_conditioned
       !> Is it in doubt whether the wall collapses?
       procedure :: is_unsure
+      !> Is either?
+      procedure :: is_doubtful
    end type response_type
 
    !> Time of what has not happened
@@ -94,6 +96,16 @@ contains
       is_unsure = self%edp_error > 0.0_wp .and. &
          & (self%edp + safety*self%edp_error >= edp_limit .or. self%edp_error > saturated*edp_limit)
    end function is_unsure
+
+   !> Is the EDP in doubt, or whether the wall collapses?
+   elemental logical function is_doubtful(self, edp_limit)
+      !> Result with its estimated error
+      class(response_type), intent(in) :: self
+      !> Rotation / capacity at which the wall has collapsed
+      real(wp), intent(in) :: edp_limit
+
+      is_doubtful = self%is_ill_conditioned() .or. self%is_unsure(edp_limit)
+   end function is_doubtful
 
    !> Add a row; that after an impact is marked by its caller
    pure subroutine add(self, time, acceleration, rotation, velocity, side)

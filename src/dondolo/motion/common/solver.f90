@@ -11,7 +11,7 @@ module dondolo_solver
    implicit none
    private
 
-   public :: solver_type, check_solver, check_limit, refined, perturbed
+   public :: solver_type, check_solver, check_limit, refined
    public :: solver_properties, take_solver, put_solver, engine_names
 
    !> Names of the engines; 'auto' takes the one that suits the task
@@ -28,8 +28,10 @@ module dondolo_solver
       real(wp) :: atol = 1.0e-10_wp
       !> Rotation / capacity at which the wall has collapsed
       real(wp) :: edp_limit = 1.0_wp
-      !> Run every history a second time, to estimate the error of its EDP?
+      !> Run every history twice more, to estimate the error of its EDP?
       logical :: estimate_error = .false.
+      !> Are histories whose error leaves a doubt to be run again in 33 digits?
+      logical :: certify = .false.
       !> Are only collapses wanted, and no EDPs? The engine lanes then leaves out what only peaks need
       logical :: collapses_only = .false.
       !> Least number of steps from sample to sample, and from an event to the next sample
@@ -43,8 +45,12 @@ module dondolo_solver
    character(len=choices_length), parameter :: with_edps(most_choices) = &
       & reshape([character(len=choices_length) :: 'history', 'stripes'], [most_choices], pad=blank)
 
+   !> Tasks that count outcomes and keep every EDP
+   character(len=choices_length), parameter :: stripes_only(most_choices) = &
+      & reshape([character(len=choices_length) :: 'stripes'], [most_choices], pad=blank)
+
    !> What a user can set; gravity, which walls have, stands among it for all walls of a case
-   type(property_type), target, protected :: solver_properties(6) = [ &
+   type(property_type), target, protected :: solver_properties(7) = [ &
       & property_type('engine', is_text, word=standard%engine, meaning='engine; ''auto'' takes the one that suits the task', &
       &   choices=reshape(engine_names, [most_choices], pad=blank)), &
       & property_type('rtol', default=standard%rtol, smallest=10.0_wp*epsilon(1.0_wp), largest=1.0e-2_wp, &
@@ -54,7 +60,9 @@ module dondolo_solver
       & property_type('edp_limit', default=standard%edp_limit, positive=.true., &
       &   meaning='rotation / capacity rotation that counts as collapse'), &
       & property_type('estimate_error', is_logical, owners=with_edps, changes_results=.false., &
-      &   meaning='how far is each EDP off? Takes two to three times as long'), &
+      &   meaning='how far is each EDP off? Takes about three times as long'), &
+      & property_type('certify', is_logical, owners=stripes_only, changes_results=.false., &
+      &   meaning='estimate errors, and run every history that they leave in doubt again in 33 digits?'), &
       & gravity_property]
 
 contains
@@ -70,7 +78,8 @@ contains
       solver%rtol = settings%number('rtol')
       solver%atol = settings%number('atol')
       solver%edp_limit = settings%number('edp_limit')
-      solver%estimate_error = settings%holds('estimate_error')
+      solver%certify = settings%holds('certify')
+      solver%estimate_error = solver%certify .or. settings%holds('estimate_error')
    end subroutine take_solver
 
    !> Say settings as a user would
@@ -85,6 +94,7 @@ contains
       call settings%set('atol', solver%atol)
       call settings%set('edp_limit', solver%edp_limit)
       call settings%set('estimate_error', solver%estimate_error)
+      call settings%set('certify', solver%certify)
    end subroutine put_solver
 
    !> Check the ranges of the settings
@@ -145,17 +155,6 @@ contains
       other%atol = factor*solver%atol
       other%steps_per_sample = 2*solver%steps_per_sample
    end function refined
-
-   !> Factor on a record that differs by as much as all rounding of a history comes to: what it changes tells what
-   !> rounding may have changed, where that is more than the steps do
-   elemental real(wp) function perturbed(scale)
-      !> Factor
-      real(wp), intent(in) :: scale
-
-      real(wp), parameter :: units_in_the_last_place = 8.0_wp
-
-      perturbed = scale*(1.0_wp + units_in_the_last_place*epsilon(scale))
-   end function perturbed
 
    !> Check that a mechanism can reach the limit rotation
    subroutine check_limit(solver, mechanism, error)

@@ -1,0 +1,125 @@
+"""Certified stripes: histories that double precision may not tell, run again in 33 digits."""
+
+from __future__ import annotations
+
+import dataclasses
+import enum
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dondolo._fortran import _core
+from dondolo._fortran.histories import is_doubtful
+from dondolo._fortran.library import check, stoppable
+from dondolo.analysis.request import check_threads, progress_bar
+from dondolo.errors import InputError
+from dondolo.records.record import Record
+from dondolo.records.record_set import records_at_levels
+from dondolo.records.suite import upload
+from dondolo.walls.wall import upload as upload_walls
+
+if TYPE_CHECKING:
+    from dondolo.analysis.stripes import Stripes
+
+
+# What a run in 33 digits replaces, in the order in which Fortran gives it
+_REPLACED = ("edp", "collapsed", "impacts", "time_of_peak", "edp_error")
+_BLOCK = 16
+
+
+class Certified(enum.IntEnum):
+    """How a history is certified."""
+
+    #: Its estimated error leaves no doubt.
+    DOUBLE = 1
+    #: Two runs in 33 digits agree, and the last digit of the input changes nothing.
+    QUADRUPLE = 2
+    #: The last digit of the input decides what happens.
+    NOT_COMPUTABLE = 3
+
+
+def certify(
+    stripes: Stripes,
+    records: Record | Iterable[Record] | Mapping[float, Record | Iterable[Record]],
+    *,
+    threads: int = 0,
+    progress: bool = True,
+) -> Stripes:
+    """Run every history whose estimated error leaves a doubt again in 33 digits.
+
+    Parameters
+    ----------
+    stripes : Stripes
+        Stripes with estimated errors.
+    records : Record, iterable of Record, RecordSet, or mapping of float to these
+        The accelerograms that they were run with.
+    threads : int
+        Number of threads; 0: all (OMP_NUM_THREADS is honoured). Results do not depend on it.
+    progress : bool
+        Show a progress bar in a terminal or notebook.
+
+    Returns
+    -------
+    Stripes
+        The same with `status`, `edp_lowest` and `edp_highest`. Histories that were run again have the EDP, the
+        flag, the impacts, the time of the peak and the error of that run.
+
+    Raises
+    ------
+    InputError
+        Stripes without estimated errors, other records, or a build without quadruple precision.
+
+    Notes
+    -----
+    A history is in doubt if its estimated error exceeds 1e-6, or may turn the outcome. It is run at a relative
+    tolerance of 1e-12, 1e-14, 1e-16 and 1e-18 until two neighbours agree to 1e-7, and then with factors on its record
+    one unit in the last place smaller and greater (docs/certification.md).
+    """
+    if stripes.edp_error is None:
+        raise InputError("stripes: have no estimated errors: must be run with estimate_error = True")
+    team = check_threads(threads)
+    return run_again(stripes, _records_of(stripes, records), team, progress)
+
+
+def run_again(stripes: Stripes, records: Sequence[Record], threads: int, progress: bool) -> Stripes:
+    """The same of the records themselves, in the order of the stripes."""
+    assert stripes.edp_error is not None
+    ran = stripes.ran
+    status = np.where(ran, np.int32(Certified.DOUBLE), np.int32(0)).astype(np.int32)
+    fields: dict[str, Any] = {name: getattr(stripes, name).copy() for name in _REPLACED}
+    lowest, highest = stripes.edp.copy(), stripes.edp.copy()
+    doubt = ran & is_doubtful(stripes.edp, stripes.edp_error, stripes.edp_limit)
+    numbers = (stripes.record_index[np.nonzero(doubt)[1]] + 1).astype(np.int32)
+    factors = (stripes.scale * stripes.polarity)[doubt]
+    wall, suite = upload_walls((stripes.wall,)).number, upload(tuple(records)).number
+    places = np.argwhere(doubt)
+    # A few at a time, so that Ctrl-C and the bar are heard
+    with progress_bar(len(places), progress, "certificates", "history") as bar:
+        for first in range(0, len(places), _BLOCK):
+            here = slice(first, first + _BLOCK)
+            rows = tuple(places[here].T)
+            with stoppable():
+                kind, *values, low, high, stat, message = _core.histories.certify(
+                    wall, suite, numbers[here], factors[here], stripes.edp[rows], stripes.edp_limit, threads
+                )
+            check(stat, message)
+            status[rows], lowest[rows], highest[rows] = kind, low, high
+            for name, value in zip(_REPLACED, values, strict=True):
+                fields[name][rows] = value
+            bar.update(len(places[here]))
+    fields |= {"status": status, "edp_lowest": lowest, "edp_highest": highest}
+    for value in fields.values():
+        value.flags.writeable = False
+    return dataclasses.replace(stripes, **fields)
+
+
+def _records_of(stripes: Stripes, records: Any) -> list[Record]:
+    """The records that stripes were run with, in their order."""
+    found = {(record.name, record.checksum): record for record in records_at_levels(records, stripes.levels)[0]}
+    several = []
+    for key in zip(stripes.record_names[: stripes.n_records], stripes.checksums, strict=True):
+        if key not in found:
+            raise InputError(f"records: '{key[0]}' is not there, or is another one than in the stripes")
+        several.append(found[key])
+    return several

@@ -1,0 +1,238 @@
+!> Certificates: histories that double precision may not tell, run again in 33 digits until two tolerances agree, and with
+!> the record one unit in the last place stronger and weaker (docs/certification.md).
+module dondolo_certificate
+   use, intrinsic :: iso_c_binding, only : c_int
+   use dondolo_ensemble, only : ensemble_type
+   use dondolo_error, only : error_type, raise_failure, raise_input
+   use dondolo_interrupt, only : look_for_interrupt
+   use dondolo_kinds, only : wp
+   use dondolo_property, only : is_list, is_text, is_words
+   use dondolo_queue, only : progress_interface, queue_type
+#ifdef DONDOLO_QUADRUPLE
+   use dondolo_quadruple_wall, only : quadruple_record_type, quadruple_response_type, quadruple_wall_type
+#endif
+   use dondolo_record, only : record_type
+   use dondolo_response, only : largest_sure_error, response_type
+   use dondolo_threads, only : team_of
+   use dondolo_wall, only : wall_type
+   use dondolo_wall_properties, only : wall_properties
+   implicit none
+   private
+
+   public :: certificate_type, certified_type, certify_histories, check_certificates
+   public :: in_double, in_quadruple, not_computable, status_names
+
+   !> How a history is certified: its estimated error is small; two runs in 33 digits agree; the last digit of the input
+   !> decides
+   integer, parameter :: in_double = 1, in_quadruple = 2, not_computable = 3
+   character(len=14), parameter :: status_names(3) = [character(len=14) :: 'double', 'quadruple', 'not_computable']
+
+   !> Relative tolerances of the runs in 33 digits; each is compared with the one before
+   real(wp), parameter :: rtols(*) = [1.0e-12_wp, 1.0e-14_wp, 1.0e-16_wp, 1.0e-18_wp]
+
+   !> EDPs of two runs that agree differ by less
+   real(wp), parameter :: agreement = 1.0e-7_wp
+
+   !> Largest difference of the capacities of a wall in both precisions, relative: they are the same wall
+   real(wp), parameter :: same_wall = 1.0e-10_wp
+
+   !> How a history is certified
+   type :: certified_type
+      !> One of the above; 0: it was not run
+      integer :: status = 0
+      !> EDPs between which the last digit of the input decides; equal but for `not_computable`
+      real(wp) :: lowest = 0.0_wp, highest = 0.0_wp
+   end type certified_type
+
+   !> Certificate of one history that was run in 33 digits
+   type, extends(certified_type) :: certificate_type
+      !> What happens. Its error is the difference of the two runs, or that of the bounds
+      type(response_type) :: response
+   end type certificate_type
+
+contains
+
+   !> Check that certificates can be given
+   subroutine check_certificates(wall, error)
+      type(wall_type), intent(in) :: wall
+      !> This build has no quadruple precision, or the wall is not the same in it
+      type(error_type), allocatable, intent(out) :: error
+
+#ifdef DONDOLO_QUADRUPLE
+      type(quadruple_wall_type) :: exact
+
+      call new_quadruple_wall(exact, wall, error)
+#else
+      call raise_input(error, 'certify: this build has no quadruple precision; meson makes one that has')
+      associate (unused => wall)
+      end associate
+#endif
+   end subroutine check_certificates
+
+   !> Certify histories of one wall
+   subroutine certify_histories(certificates, wall, records, ensemble, edp_limit, threads, error, progress)
+      !> Certificates, one for each history
+      type(certificate_type), allocatable, intent(out) :: certificates(:)
+      type(wall_type), intent(in) :: wall
+      !> Accelerograms
+      type(record_type), intent(in) :: records(:)
+      !> The histories, with their EDPs in double precision
+      type(ensemble_type), intent(in) :: ensemble
+      !> Rotation / capacity at which the wall has collapsed
+      real(wp), intent(in) :: edp_limit
+      !> Number of threads; 0: all that OpenMP gives
+      integer, intent(in) :: threads
+      !> As of check_certificates
+      type(error_type), allocatable, intent(out) :: error
+      !> Progress callback
+      procedure(progress_interface), optional :: progress
+
+#ifdef DONDOLO_QUADRUPLE
+      type(quadruple_wall_type) :: exact
+      type(queue_type) :: queue
+      integer(c_int) :: interrupted
+      integer :: i
+
+      allocate (certificates(size(ensemble%record)))
+      call new_quadruple_wall(exact, wall, error)
+      if (allocated(error)) return
+      call queue%announce(size(certificates), progress)
+      !$omp parallel do schedule(dynamic) num_threads(team_of(threads, size(certificates))) default(none) &
+      !$omp & private(interrupted) shared(certificates, exact, records, ensemble, edp_limit, queue)
+      do i = 1, size(certificates)
+         call look_for_interrupt(interrupted)
+         if (interrupted == 1) cycle
+         call certify(exact, records(ensemble%record(i)), ensemble%scale(i), ensemble%response(i)%edp, edp_limit, &
+            & certificates(i))
+         call queue%report()
+      end do
+      !$omp end parallel do
+#else
+      allocate (certificates(0))
+      call check_certificates(wall, error)
+#endif
+   end subroutine certify_histories
+
+#ifdef DONDOLO_QUADRUPLE
+   !> The same wall in 33 digits
+   subroutine new_quadruple_wall(exact, wall, error)
+      type(quadruple_wall_type), intent(out) :: exact
+      type(wall_type), intent(in) :: wall
+      !> It is not the same
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: message
+      integer :: k
+
+      do k = 1, size(wall_properties)
+         associate (property => wall_properties(k), input => wall%input)
+            if (.not. input%has(property%name)) cycle
+            if (property%kind == is_text .or. property%kind == is_words) then
+               call exact%say(property%name, input%word(property%name))
+            else if (property%kind == is_list) then
+               call exact%say(property%name, input%list(property%name))
+            else
+               call exact%say(property%name, input%number(property%name))
+            end if
+         end associate
+      end do
+      call exact%build(wall%gravity, message)
+      if (allocated(message)) then
+         call raise_failure(error, 'certify: in quadruple precision, '//message)
+      else if (.not. abs(exact%capacity() - wall%mechanism%capacity) <= same_wall*wall%mechanism%capacity) then
+         call raise_failure(error, 'certify: wall '''//wall%name()//''' is another one in quadruple precision')
+      end if
+   end subroutine new_quadruple_wall
+
+   !> Certify a history
+   subroutine certify(wall, record, scale, edp, edp_limit, certificate)
+      type(quadruple_wall_type), intent(in) :: wall
+      type(record_type), intent(in) :: record
+      !> Factor on it
+      real(wp), intent(in) :: scale
+      !> Its EDP in double precision
+      real(wp), intent(in) :: edp
+      !> Rotation / capacity at which the wall has collapsed
+      real(wp), intent(in) :: edp_limit
+      type(certificate_type), intent(out) :: certificate
+
+      type(quadruple_record_type) :: exact
+      type(response_type) :: wider, other
+      integer :: i, k
+
+      if (allocated(record%vertical)) then
+         call exact%take(record%dt, record%acceleration, record%vertical)
+      else
+         call exact%take(record%dt, record%acceleration)
+      end if
+      associate (response => certificate%response, lowest => certificate%lowest, highest => certificate%highest)
+         call run(scale, rtols(1), response)
+         do i = 2, size(rtols)
+            ! Before the last tolerance, which costs most: does the last digit of the input decide?
+            if (i == size(rtols)) call try_neighbours(rtols(i - 1))
+            if (highest - lowest > largest_sure_error) exit
+            wider = response
+            call run(scale, rtols(i), response)
+            if (are_alike(response, wider, agreement)) exit
+         end do
+         response%edp_error = abs(response%edp - wider%edp)
+         ! Where all the rounding of double precision changes nothing, that of the input does not either.
+         if (i < size(rtols) .and. abs(response%edp - edp) > agreement) call try_neighbours(rtols(i))
+         if (i > size(rtols)) then
+            lowest = min(lowest, response%edp, wider%edp)
+            highest = max(highest, response%edp, wider%edp)
+         end if
+         if (highest - lowest > largest_sure_error) then
+            certificate%status = not_computable
+            response%edp_error = highest - lowest
+         else
+            certificate%status = in_quadruple
+            lowest = response%edp
+            highest = response%edp
+         end if
+      end associate
+
+   contains
+
+      !> Widen the bounds by the history and those with factors one unit in the last place smaller and greater
+      subroutine try_neighbours(rtol)
+         !> Relative tolerance
+         real(wp), intent(in) :: rtol
+
+         certificate%lowest = certificate%response%edp
+         certificate%highest = certificate%response%edp
+         do k = -1, 1, 2
+            call run(nearest(scale, real(k, wp)), rtol, other)
+            certificate%lowest = min(certificate%lowest, other%edp)
+            certificate%highest = max(certificate%highest, other%edp)
+         end do
+      end subroutine try_neighbours
+
+      !> One run
+      subroutine run(factor, rtol, response)
+         !> Factor on the record
+         real(wp), intent(in) :: factor
+         !> Relative tolerance
+         real(wp), intent(in) :: rtol
+         !> What happens
+         type(response_type), intent(out) :: response
+
+         type(quadruple_response_type) :: result
+
+         call wall%simulate(exact, factor, rtol, edp_limit, result)
+         response = response_type(result%edp, result%collapsed, result%impacts, result%time_of_peak)
+      end subroutine run
+
+      !> Do two runs agree?
+      pure logical function are_alike(one, other, difference)
+         type(response_type), intent(in) :: one, other
+         !> Largest difference of their EDPs
+         real(wp), intent(in) :: difference
+
+         are_alike = (one%collapsed .eqv. other%collapsed) .and. abs(one%edp - other%edp) <= difference
+      end function are_alike
+
+   end subroutine certify
+#endif
+
+end module dondolo_certificate
