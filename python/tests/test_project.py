@@ -104,6 +104,20 @@ def test_rooms_of_motion(root):
                 assert home[name][0] in known[room], f"{path.name} uses {name}"
 
 
+def test_quadruple_sources(root):
+    """Every module that depends on the precision is compiled a second time if one that is uses it."""
+    text = (root / "src/dondolo/motion/quadruple/meson.build").read_text()
+    listed = re.search(r"files\((.*?)\)", text, re.S).group(1)
+    twice = {f"dondolo_{Path(name).stem}" for name in re.findall(r"'([^']+)'", listed)}
+    uses = {
+        f"dondolo_{path.stem}": set(re.findall(r"^\s+use (dondolo_\w+)", path.read_text(), re.M))
+        for path in root.glob("src/dondolo/**/*.[fF]90")
+    }
+    needed = set().union(*(uses[name] for name in twice))
+    assert len(twice) > 40
+    assert {name for name in needed - twice if "dondolo_kinds" in uses[name]} == set()
+
+
 def boundary(root):
     """The sources that f2py reads."""
     listed = re.search(r"modules = files\((.*?)\)", (root / "python/meson.build").read_text(), re.S).group(1)
