@@ -4,6 +4,7 @@ program test_case
    use dondolo_case, only : case_type
    use dondolo_read_case, only : read_case
    use dondolo_error, only : error_type, status_input
+   use dondolo_error_estimate, only : runs_of_estimate
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_namelist, only : namelist_type, read_namelist
@@ -408,7 +409,7 @@ contains
          & 'and nothing is computed')
       case%solver%solver%estimate_error = .true.
       call run_case(case, results, error)
-      call check(results%work%histories == 4, 'an estimate of errors runs everything twice')
+      call check(results%work%histories == 2*runs_of_estimate, 'an estimate of errors runs everything twice more')
    end subroutine test_work
 
    !> Result files appear whole or not at all

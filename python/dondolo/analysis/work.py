@@ -13,7 +13,7 @@ from dondolo._storage.saved import part_of_results
 class Work:
     """Counts that show that nothing is integrated that a result does not need.
 
-    They do not depend on the number of threads. With estimated errors every history is run twice and counts twice;
+    They do not depend on the number of threads. With estimated errors every history is run and counts three times;
     after Ctrl-C they are those of all that was computed.
 
     Attributes

@@ -37,7 +37,7 @@ def write_pdf(path: str | os.PathLike[str], html: str, mark: str) -> None:
     browser = next(filter(None, map(shutil.which, _BROWSERS)), None)
     with whole_file(path) as part, tempfile.TemporaryDirectory() as folder:
         page = Path(folder) / "report.html"
-        page.write_text(html, encoding="utf-8")
+        _write_page(page, html)
         if browser is not None:
             _print_by_browser(browser, page, part)
         else:
@@ -46,6 +46,12 @@ def write_pdf(path: str | os.PathLike[str], html: str, mark: str) -> None:
             raise DondoloError(f"{os.fspath(path)}: {browser or 'WeasyPrint'} has not printed the report as PDF")
         with part.open("a", encoding="ascii") as file:
             file.write(f"% {mark}\n")
+
+
+def _write_page(path: Path, html: str) -> None:
+    """Write the page where a program reads it."""
+    with whole_file(path) as part:
+        part.write_text(html, encoding="utf-8")
 
 
 def _print_by_browser(browser: str, page: Path, part: Path) -> None:

@@ -7,6 +7,7 @@ module dondolo_certified
    use dondolo_floors, only : floors_type
    use dondolo_fragility, only : fit_fragility, fragility_type
    use dondolo_kinds, only : wp
+   use dondolo_memory, only : check_room
    use dondolo_queue, only : progress_interface
    use dondolo_stripes, only : stripes_type, take_motions
    use dondolo_study, only : study_type
@@ -17,6 +18,9 @@ module dondolo_certified
 
    public :: certify_stripes, theta_bounds
 
+   !> Memory that a certified history takes [bytes]
+   real(wp), parameter :: bytes_of_certified = 200.0_wp
+
 contains
 
    !> Certify the histories of stripes
@@ -26,7 +30,7 @@ contains
       type(wall_type), intent(in) :: wall
       !> What it was tried with
       type(study_type), intent(in) :: study
-      !> As of check_certificates
+      !> As of check_certificates; or lack of memory
       type(error_type), allocatable, intent(out) :: error
       !> Hears how far the work is
       procedure(progress_interface), optional :: progress
@@ -39,6 +43,8 @@ contains
       type(ensemble_type) :: ensemble
       integer :: i, j, k, place
 
+      call check_room(bytes_of_certified*real(size(stripes%response), wp), error)
+      if (allocated(error)) return
       associate (response => stripes%response)
          allocate (stripes%certified(size(response, 1), size(response, 2)))
          stripes%certified%status = merge(in_double, 0, stripes%ran)

@@ -64,7 +64,8 @@ contains
          if (stronger%impacts /= one%impacts .or. weaker%impacts /= one%impacts) error = 1.0_wp
          error = merge(error*edp_limit, 0.0_wp, error > certain)
       else
-         error = of_changes(stronger%edp - one%edp, one%edp - weaker%edp)
+         ! No EDP is off by more than all that there is, though the second difference may be.
+         error = min(edp_limit, of_changes(stronger%edp - one%edp, one%edp - weaker%edp))
       end if
 
    contains
