@@ -40,6 +40,7 @@ module dondolo_help
       & '   &wall         the wall (tasks stripes and history)', &
       & '   &building     the building whose motion shakes it, if it does not stand on the ground', &
       & '   &population   a table of walls (task typology)', &
+      & '   &uncertainty  what of one wall is uncertain, instead of a table of walls (task typology)', &
       & '   &records      the catalogue of accelerograms', &
       & '   &stripes      the intensity measure and its levels (tasks stripes and typology)', &
       & '   &solver       tolerances and the rotation that counts as collapse', &

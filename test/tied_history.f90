@@ -133,7 +133,9 @@ contains
       character(len=*), intent(in) :: what
 
       associate (of => mechanism%restraints, edp => response%edp)
-         call check(all(ties%broken .eqv. edp >= of%fracture/mechanism%capacity), what//': what breaks')
+         ! A tie that never breaks has a fracture beyond all numbers.
+         call check(all(ties%broken .eqv. edp >= min(of%fracture, huge(edp)*mechanism%capacity)/mechanism%capacity), &
+            & what//': what breaks')
          call check(all(ties%broken .eqv. ties%time_of_fracture >= 0.0_wp), what//': times of fracture')
          call check(all(ties%time_of_yield < 0.0_wp .or. ties%plastic_elongation >= 0.0_wp), what//': what yields')
          call check(all(ties%plastic_elongation <= 0.0_wp .or. ties%time_of_yield >= 0.0_wp), what//': times of yield')

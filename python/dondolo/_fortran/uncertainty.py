@@ -10,6 +10,7 @@ import numpy as np
 from dondolo._base.arguments import FloatArray
 from dondolo._fortran import _core
 from dondolo._fortran.library import check, receive
+from dondolo.errors import DondoloError
 
 
 class Sensitivity(NamedTuple):
@@ -32,6 +33,8 @@ class PublishedFactor(NamedTuple):
 
 def sensitivity(values: FloatArray, outcome: FloatArray) -> Sensitivity:
     """Which of several independent quantities (samples, quantities) an outcome (samples,) owes its scatter to."""
+    if len(outcome) == 0:
+        raise DondoloError("no sample has a curve: there is nothing to tell its scatter from")
     indices, rest, stat, message = _core.uncertainty.sensitivity(np.asfortranarray(values), outcome)
     check(stat, message)
     rows = indices.T.copy()

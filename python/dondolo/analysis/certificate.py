@@ -76,7 +76,7 @@ def certify(
     tolerance of 1e-12, 1e-14, 1e-16 and 1e-18 until two neighbours agree to 1e-7, and then with factors on its record
     one unit in the last place smaller and greater (docs/certification.md).
     """
-    if stripes.edp_error is None:
+    if getattr(stripes, "edp_error", None) is None:
         raise InputError("stripes: have no estimated errors: must be run with estimate_error = True")
     team = check_threads(threads)
     return run_again(stripes, _records_of(stripes, records), team, progress)

@@ -279,7 +279,8 @@ contains
 
       if (case%job%task == 'typology' .and. case%solver%solver%estimate_error) then
          group = namelist%group('solver')
-         call group%refuse('estimate_error', 'only for task = ''stripes'' and ''history'', which keep every EDP', error)
+         call group%refuse(trim(merge('certify       ', 'estimate_error', case%solver%solver%certify)), &
+            & 'only for task = ''stripes'' and ''history'', which keep every EDP', error)
          return
       end if
       group = namelist%group('stripes')
