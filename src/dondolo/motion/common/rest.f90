@@ -276,7 +276,8 @@ contains
    !> one-sided wall). If the moments stay positive for that long the wall ends at rest, and cannot start before.
    !>
    !> A sample at which a moment is not positive stops any chain, whatever its side and speed. It is kept, since most
-   !> looks at a chain fail at the same sample: the next one need not go there again.
+   !> looks at a chain fail at the same sample: the next one need not go there again. Where ties change it stays true, since
+   !> they only lose force at rest; and a look that fails in vain costs time alone.
    pure subroutine chain_ends(self, record, scale, bounce, stopper, ends)
       class(rest_type), intent(in) :: self
       !> The accelerogram; zero after its last sample
