@@ -37,7 +37,8 @@ contains
       if (constants%form%exists) then
          constants%atol = solver%atol*mechanism%frequency_parameter()*mechanism%capacity/constants%form%unit
       end if
-      if (.not. solver%collapses_only) return
+      ! Ties remember every peak.
+      if (.not. solver%collapses_only .or. constants%form%is_held) return
       constants%first_peak = y_limit
       constants%first_rotation = constants%limit
    end function new_lane_constants

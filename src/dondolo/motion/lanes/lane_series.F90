@@ -6,7 +6,7 @@ module dondolo_lane_series
    implicit none
    private
 
-   public :: allowed_part, find_first, rate, value
+   public :: allowed_part, bernstein, find_first, rate, value
 
    !> Part that is taken of what the tolerance allows by the last terms of a series
    real(wp), parameter :: safety = 0.9_wp

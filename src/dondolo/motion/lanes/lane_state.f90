@@ -2,6 +2,7 @@
 module dondolo_lane_state
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_kinds, only : wp
+   use dondolo_normal_form, only : highest_held
    implicit none
    private
 
@@ -41,6 +42,10 @@ module dondolo_lane_state
       real(wp) :: step(lane_width) = 0.0_wp, series(lane_width, 2:9) = 0.0_wp
       !> What became of the last step
       integer(int64) :: flag(lane_width) = step_taken
+      !> Of walls with ties: coefficients of a with the forces that they have at present, the bound of its fifth derivative,
+      !> and the nearest y above and below at which these forces change
+      real(wp) :: a(lane_width, 0:highest_held) = 0.0_wp, fifth_a(lane_width) = 0.0_wp
+      real(wp) :: above(lane_width) = huge(1.0_wp), below(lane_width) = 0.0_wp
    end type lanes_type
 
 end module dondolo_lane_state
