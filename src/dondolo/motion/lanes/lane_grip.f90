@@ -3,8 +3,7 @@
 !> What the ties do is decided by the rules that all engines share (dondolo_grip). Here their levels become values of y, and
 !> their forces the polynomial a of the lane (dondolo_normal_form).
 module dondolo_lane_grip
-   use dondolo_bernstein, only : nowhere
-   use dondolo_events, only : find_level, level_above, level_below
+   use dondolo_events, only : level_above
    use dondolo_grip, only : grip_type
    use dondolo_held_tail, only : held_motion
    use dondolo_kinds, only : wp
@@ -29,8 +28,8 @@ module dondolo_lane_grip
    contains
       !> The start of a history
       procedure :: begin
-      !> A level that is reached in a step
-      procedure :: find
+      !> Are levels looked for?
+      procedure :: heed
       !> A level is crossed
       procedure :: cross
       !> A motion outwards ends
@@ -42,7 +41,7 @@ module dondolo_lane_grip
       procedure, private :: take_hold
    end type lane_grip_type
 
-   !> Levels are not looked for in the step after this many in a row that took no time: the wall balances on one of them
+   !> Levels in a row, none of which took time, after which a step goes on without them
    integer, parameter :: most_stalled = 8
 
 contains
@@ -64,29 +63,15 @@ contains
       call self%take_hold(constants, lanes, i)
    end subroutine begin
 
-   !> Find the first level that is crossed in a step before its first event
-   pure subroutine find(self, lanes, i, b, event, place)
+   !> Are levels looked for in the next step? Not after many in a row that took no time: the wall balances on one of them
+   pure subroutine heed(self, heeds)
       class(lane_grip_type), intent(inout) :: self
-      !> The lanes, and the one
-      type(lanes_type), intent(in) :: lanes
-      integer, intent(in) :: i
-      !> Bernstein coefficients of y up to that event, or to the end of the step
-      real(wp), intent(in) :: b(0:)
-      !> The first event; out: the level, if that comes before it
-      integer, intent(inout) :: event
-      !> Part of the way up to the level; unchanged if there is none
-      real(wp), intent(inout) :: place
+      !> Are they?
+      logical, intent(out) :: heeds
 
-      real(wp) :: x
-
-      if (self%stalled >= most_stalled) then
-         self%stalled = 0
-         return
-      end if
-      x = nowhere
-      call find_level(b, lanes%above(i), merge(lanes%below(i), -huge(1.0_wp), lanes%below(i) > 0.0_wp), event, x)
-      if (x < nowhere) place = x
-   end subroutine find
+      heeds = self%stalled < most_stalled
+      if (.not. heeds) self%stalled = 0
+   end subroutine heed
 
    !> Cross a level
    pure subroutine cross(self, constants, lanes, i, event, time, took_time)

@@ -10,8 +10,8 @@ module dondolo_lane_history
    use dondolo_kinds, only : wp
    use dondolo_lane_constants, only : lane_constants_type
    use dondolo_lane_grip, only : lane_grip_type
-   use dondolo_lane_state, only : event_possible, lane_width, lanes_type, step_too_long
-   use dondolo_lane_series, only : allowed_part, bernstein, find_first, rate, value
+   use dondolo_lane_state, only : event_possible, lane_width, lanes_type, part_if_held, step_too_long
+   use dondolo_lane_series, only : allowed_part, find_first, find_first_level, rate, value
    use dondolo_mechanism, only : mechanism_type
    use dondolo_normal_form, only : y_limit
    use dondolo_queue, only : queue_type
@@ -88,7 +88,8 @@ contains
       type(lane_batch_type), intent(inout) :: batch
       integer, intent(in) :: i
 
-      real(wp) :: y, d(0:9), part, place, h
+      real(wp) :: y, d(0:9), part, h
+      logical :: heeds
       integer :: event
 
       associate (lanes => batch%lanes, history => batch%history(i), constants => batch%constants)
@@ -98,7 +99,7 @@ contains
                d(2) = starting_acceleration(d(0), d(1), d(2))
                part = 1.0_wp
                if (lanes%flag(i) == step_too_long) then
-                  part = allowed_part(d, step, smallest_step*lanes%dt(i), &
+                  part = allowed_part(d, step, smallest_step*lanes%dt(i), merge(part_if_held, 1.0_wp, constants%form%is_held), &
                      & constants%form%fifth(lanes%fifth_a(i), lanes%u(i), lanes%heavier(i)), constants%solver%rtol, constants%atol)
                   if (part < 1.0_wp) then
                      lanes%next_span(i) = part*step
@@ -109,9 +110,8 @@ contains
                if (part*step > shortest_motion*lanes%dt(i)) then
                   call find_first(d, lanes%peak(i), part, event)
                   if (allocated(batch%grips)) then
-                     place = 1.0_wp
-                     call batch%grips(i)%find(lanes, i, bernstein(d, part), event, place)
-                     part = place*part
+                     call batch%grips(i)%heed(heeds)
+                     if (heeds) call find_first_level(d, lanes%below(i), lanes%above(i), part, event)
                   end if
                end if
                h = part*step

@@ -7,7 +7,8 @@
 module dondolo_lane_kernel
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_kinds, only : wp
-   use dondolo_lane_state, only : event_possible, lane_width, lanes_type, record_over, step_taken, step_too_long
+   use dondolo_lane_state, only : event_possible, lane_width, lanes_type, part_if_held, record_over, step_taken, &
+      & step_too_long
    use dondolo_normal_form, only : degrees, harmonic_degrees, held_degrees, normal_form_type, y_limit
    implicit none
    private

@@ -6,12 +6,16 @@ module dondolo_lane_state
    implicit none
    private
 
-   public :: lanes_type, lane_width
+   public :: lanes_type, lane_width, part_if_held
    public :: step_taken, record_over, event_possible, step_too_long
 
    !> Number of lanes: two vectors at least, so that one computes while the other waits for its own results; no more, so
    !> that threads at the end of their work still have full ones
    integer, parameter :: lane_width = 16
+
+   !> Part of the last three terms of a step that counts as its error where ties hold the wall. It vibrates on them, and
+   !> the first term that is left out is (w h)^3/504 of the first of these three, less than 1/4000 where w h < 1/2
+   real(wp), parameter :: part_if_held = 1.0e-2_wp
 
    !> What becomes of a step: it is taken; it is taken, and the record is over; it is not taken, since something may
    !> happen in it, or since it is too long for the tolerance
