@@ -6,6 +6,7 @@ module dondolo_reports
    use dondolo_error, only : add_place, error_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
+   use dondolo_property, only : find_property
    use dondolo_report_rows, only : make_typology_row, make_union_row, typology_head, union_head
    use dondolo_result_files, only : check_output, result_files_type, run_suffix
    use dondolo_results, only : results_type
@@ -18,6 +19,7 @@ module dondolo_reports
    use dondolo_warning_sentence, only : warning_sentences
    use dondolo_work, only : work_names
    use dondolo_unions, only : union_type
+   use dondolo_wall_properties, only : wall_properties
    implicit none
    private
 
@@ -58,6 +60,9 @@ contains
          names = [character(len=15) :: '_walls.csv', '_stripes.csv', '_fragility.csv', '_typology.csv', &
             & run_suffix]
          if (case%job%histories) names = [character(len=15) :: '_walls.csv', '_histories.csv', names(2:)]
+         if (case%survey%lengths(find_property(wall_properties, 'tie_height')) > 0) then
+            names = [names(:size(names) - 1), [character(len=15) :: '_ties.csv', run_suffix]]
+         end if
          if (case%survey%walls < case%survey%rows) names = [names(:size(names) - 1), [character(len=15) :: '_unions.csv', &
             & run_suffix]]
          if (allocated(case%check)) names = [names(:size(names) - 1), [character(len=15) :: '_checks.csv', run_suffix]]

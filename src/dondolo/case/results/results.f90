@@ -11,6 +11,7 @@ module dondolo_results
    use dondolo_sensitivity, only : sensitivity_type
    use dondolo_store, only : store_type
    use dondolo_stripe_counts, only : stripe_counts_type
+   use dondolo_tie_tallies, only : tie_tally_type
    use dondolo_typology, only : typology_type
    use dondolo_unions, only : unions_type
    use dondolo_warning, only : warnings_type
@@ -38,6 +39,8 @@ module dondolo_results
    type, extends(stripe_counts_type) :: row_counts_type
       !> All its histories (histories, levels), if they are kept
       type(response_type), allocatable :: response(:, :)
+      !> What they do to the ties of the wall (ties, levels)
+      type(tie_tally_type), allocatable :: tallies(:, :)
       !> How they are certified, if they are (histories, levels)
       type(certified_type), allocatable :: certified(:, :)
       !> Then: least and greatest theta of the outcomes that the last digit of the input decides; 0: no curve

@@ -10,7 +10,7 @@ module dondolo_combine_rows
    use dondolo_results, only : results_type, shown_rows
    use dondolo_row_result, only : row_result_type
    use dondolo_sensitivity, only : new_sensitivity
-   use dondolo_study, only : study_type
+   use dondolo_study, only : runs_of, study_type
    use dondolo_typology, only : combine_population, typology_type
    use dondolo_unite_rows, only : unite_rows
    use dondolo_warnings, only : fit_warning_type, warn_of_records
@@ -122,9 +122,9 @@ contains
       integer :: g, i, j, k, state, wall
 
       part = 0.0_wp
+      runs = runs_of(study)
       do j = 1, size(runs, 2)
          do i = 1, size(runs, 1)
-            runs(i, j) = study%runs(i, j)
             g = study%suite%clusters(i)
             if (runs(i, j)) part(j, g) = part(j, g) + 1.0_wp/real(size(runs, 1), wp)
          end do
