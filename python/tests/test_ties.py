@@ -114,6 +114,8 @@ def test_broken_ties_of_populations(run, tmp_path, facade, record):
     assert all(np.array_equal(*both) for both in zip(curves.broken_ties, shares, strict=True))
     assert curves.broken_ties[0].max() > 0.0
     assert np.unique(curves.broken_ties[2]).size > 1
+    alone = dd.typology(walls, [record], levels, **arguments)
+    assert all(np.array_equal(*both) for both in zip(alone.broken_ties, shares, strict=True))
     again = dd.typology(walls, [record], levels, checkpoint=tmp_path / "rows", edp_thresholds=[0.2], **arguments)
     again.save(tmp_path / "curves.npz")
     for other in (again, dd.load(tmp_path / "curves.npz"), curves.at(0.2), curves.at(1.0)):

@@ -3,6 +3,7 @@ module dondolo_reports
    use, intrinsic :: iso_fortran_env, only : compiler_version, int64
    use dondolo_case, only : case_type
    use dondolo_check_sheet, only : sheet_head
+   use dondolo_design_rows, only : design_head, make_design_row
    use dondolo_error, only : add_place, error_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
@@ -65,6 +66,7 @@ contains
          end if
          if (case%survey%walls < case%survey%rows) names = [names(:size(names) - 1), [character(len=15) :: '_unions.csv', &
             & run_suffix]]
+         if (case%designs) names = [names(:size(names) - 1), [character(len=15) :: '_designs.csv', run_suffix]]
          if (allocated(case%check)) names = [names(:size(names) - 1), [character(len=15) :: '_checks.csv', run_suffix]]
          if (allocated(case%uncertainty)) names = [names(:size(names) - 1), [character(len=15) :: '_sources.csv', run_suffix]]
       end select
@@ -114,6 +116,8 @@ contains
          call write_typology(case, results, files)
       else if (name == '_unions.csv') then
          call write_unions(case, results, files)
+      else if (name == '_designs.csv') then
+         call write_designs(case, results, files)
       else if (name == '_sources.csv') then
          call write_sources(case, results, files)
       else if (name == '_check.csv') then
@@ -223,6 +227,23 @@ contains
          end do
       end do
    end subroutine write_unions
+
+   !> Designs of one wall, each beside the first
+   subroutine write_designs(case, results, files)
+      type(case_type), intent(in) :: case
+      type(results_type), intent(in) :: results
+      type(result_files_type), intent(inout) :: files
+
+      character(len=:), allocatable :: line
+      integer :: i
+
+      call files%line(design_head)
+      do i = 1, size(results%designs)
+         call make_design_row(results%designs(i), results%designs(1), case%stripes%scaling%name, case%job%spreadsheet_safe, &
+            & line)
+         call files%line(line)
+      end do
+   end subroutine write_designs
 
    !> The uncertain properties of a wall with variants
    subroutine write_sources(case, results, files)

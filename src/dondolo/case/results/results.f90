@@ -3,6 +3,7 @@ module dondolo_results
    use dondolo_certificate, only : certified_type
    use dondolo_check_rows, only : verdicts_type
    use dondolo_check_sheet, only : sheet_type
+   use dondolo_designs, only : design_type
    use dondolo_ensemble, only : name_engines
    use dondolo_fragility, only : fragility_type
    use dondolo_kinds, only : wp
@@ -61,6 +62,8 @@ module dondolo_results
       !> Of the same histories: walls with several mechanisms, and behind them the means over the population and its groups:
       !> task 'typology'
       type(unions_type) :: unions
+      !> The walls as designs of one wall, in the order of rows; not allocated: they are none
+      type(design_type), allocatable :: designs(:)
       !> Sobol indices of a wall with variants, or why there are none; neither where there are no variants
       type(sensitivity_type), allocatable :: sensitivity
       character(len=:), allocatable :: no_sensitivity
