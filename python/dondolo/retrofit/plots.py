@@ -65,19 +65,18 @@ def draw_designs(found: DesignComparison, ax: Iterable[Any] | None) -> style.Pan
         color=style.RED,
         label="by forces: static acceleration, ties at yield",
     )
-    for row, ratio, (least, most) in zip(rows[1:], found.ratio[1:], found.ratio_interval[1:], strict=True):
+    known = [*found.static_ratio, *high[shown], 1.0]
+    limit = 1.15 * float(max(known))
+    for row, ratio, least, most in zip(rows[1:], found.ratio[1:], low[1:], high[1:], strict=True):
         if np.isfinite(ratio):
+            # Above the interval, and within the axes
+            at, side = (least, "left") if least < 0.5 * limit else (most, "right")
             factor = f"\u00d7 {ratio:.2f} ({least:.2f} to {most:.2f})"
-            right.annotate(factor, (ratio, row), (0, 7), textcoords="offset points", ha="center", va="bottom")
+            right.annotate(factor, (at, row), (0, 6), textcoords="offset points", ha=side, va="bottom")
     for row, ratio in zip(rows[1:], found.static_ratio[1:], strict=True):
+        factor = f"\u00d7 {ratio:.2f}"
         right.annotate(
-            f"\u00d7 {ratio:.2f}",
-            (ratio, row),
-            (0, -9),
-            textcoords="offset points",
-            ha="center",
-            va="top",
-            color=style.RED,
+            factor, (ratio, row), (0, -7), textcoords="offset points", ha="center", va="top", color=style.RED
         )
     for name, row, mass in zip(found.names, rows, found.steel, strict=True):
         text = f"{name}\n{mass:.3g} kg/m of steel" if np.isfinite(mass) and mass > 0.0 else name
@@ -93,7 +92,7 @@ def draw_designs(found: DesignComparison, ax: Iterable[Any] | None) -> style.Pan
         )
     right.set_yticks([])
     right.set_ylim(-0.6, len(found.names) - 0.4)
-    right.set_xlim(left=0.0)
+    right.set_xlim(0.0, limit)
     right.set_xlabel(f"ratio to '{found.names[0]}'", parse_math=False)
     style.legend(right, loc="upper center", bbox_to_anchor=(0.5, -0.18))
     return axes
