@@ -116,14 +116,11 @@ contains
       real(wp) :: series(0:nodes - 1), inertia, target
       integer :: i, iteration, needed, kept
 
-      if (limit < least_limit*mechanism%capacity) return
+      ! Friction can hold a wall out, which the engine lanes does not know.
+      if (limit < least_limit*mechanism%capacity .or. mechanism%has_friction()) return
       allocate (wall, source=mechanism)
-      if (allocated(wall%restraints)) then
-         ! Friction can hold a wall out, which the engine lanes does not know.
-         if (any(wall%restraints%is_friction)) return
-         form%is_held = .true.
-         call wall%hold(0.0_wp*wall%restraints%preload, 0.0_wp*wall%restraints%preload)
-      end if
+      form%is_held = allocated(wall%restraints)
+      if (form%is_held) call wall%hold(spread(0.0_wp, 1, size(wall%restraints)), spread(0.0_wp, 1, size(wall%restraints)))
       if (present(is_shaken)) form%is_shaken = is_shaken
       form%limit = limit
       z = chebyshev_nodes(nodes)

@@ -237,8 +237,7 @@ contains
          if (.not. (event == turning .or. (motion%grip%flows .and. motion%v < 0.0_wp))) return
          call motion%grip%turn(wall, motion%peak)
          ! Not where a motion inwards has ended: it goes on outwards until it is where friction has not been overcome before.
-         if (event == turning .and. .not. motion%f > 0.0_wp .and. size(wall%restraints) > wall%ties) &
-            & call look_for_stick(wall, motion)
+         if (event == turning .and. .not. motion%f > 0.0_wp .and. wall%has_friction()) call look_for_stick(wall, motion)
       end select
       motion%f = angular_acceleration(wall, motion%excitation, motion%time, motion%q, motion%v)
    end subroutine change_ties
