@@ -114,18 +114,13 @@ contains
       call survey_population(case%survey, case%population_path(), study, case%solver%gravity, range, error, case%facade)
       if (allocated(error)) return
       if (len(case%survey%note) > 0) call case%notes%add(case%survey%note)
-<<<<<<< HEAD
-      if (case%survey%tied > 0) call note_ties(case, to_text(case%survey%tied)//' of '//to_text(case%survey%rows)// &
-         & ' rows have ties or friction, wall '''//case%survey%first_tied//''' the first')
+      if (case%survey%rubbing > 0) call note_friction(case, to_text(case%survey%rubbing)//' of '// &
+         & to_text(case%survey%rows)//' rows have interlock_overlap, wall '''//case%survey%first_rubbing//''' the first')
       if (case%designs .and. (case%survey%rows < 2 .or. case%survey%walls < case%survey%rows)) then
          call raise_input(error, case%population_path()//': has '//to_text(case%survey%walls)//' walls in '// &
             & to_text(case%survey%rows)//' rows: designs = .true. needs two designs at least, each a wall of one row')
          return
       end if
-=======
-      if (case%survey%rubbing > 0) call note_friction(case, to_text(case%survey%rubbing)//' of '// &
-         & to_text(case%survey%rows)//' rows have interlock_overlap, wall '''//case%survey%first_rubbing//''' the first')
->>>>>>> main
       case%survey%is_part = present(rows)
       if (.not. present(rows) .or. case%survey%last == range(2)) return
       note = '--walls '//to_text(range(1))//':'//to_text(range(2))//': the population has '// &
