@@ -232,6 +232,8 @@ contains
       select case (event)
       case (level_above, level_below)
          call motion%grip%cross(wall, motion%q, event == level_above, time_of(motion, record))
+         ! A motion outwards that ends just there goes back without what flows.
+         if (motion%grip%flows .and. motion%v < 0.0_wp) call motion%grip%turn(wall, motion%peak)
       case default
          ! A tie flows outwards only; rounding may end such a motion unseen.
          if (.not. (event == turning .or. (motion%grip%flows .and. motion%v < 0.0_wp))) return
