@@ -80,7 +80,7 @@ def scaling(rows):
     """Draw time against threads, walls, levels, length and sampling of the records; memory against histories."""
     panels = (
         ("threads", "threads", "speed-up"),
-        ("walls", "walls", "time per wall / of one"),
+        ("records", "records", "time per record / of the fewest"),
         ("levels", "levels", "time per level / of the fewest"),
         ("shocks", "length of the records", "time / of the shortest"),
         ("samples", "samples for one of the record", "time / of one"),
@@ -99,7 +99,7 @@ def scaling(rows):
             else:
                 own = [row for row in rows if row["kind"] == kind]
                 size, value = (np.array([row[what] for row in own]) for what in ("size", "value"))
-                if kind in ("walls", "levels"):
+                if kind in ("records", "levels"):
                     value = value / size / (value[0] / size[0])
                 elif kind != "memory":
                     value = value / value[0]
