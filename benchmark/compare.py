@@ -69,7 +69,7 @@ def main():
     results, turns = compare(executable, records, quick)
     write_results(OUT / "programs.csv", results)
     write_rounds(OUT / "rounds.csv", turns)
-    measure(executable, OUT / "scaling.csv", 1 if quick else 5)
+    measure(executable, OUT / "scaling.csv", 1 if quick else 3)
     (OUT / "machine.txt").write_text("\n".join(machine()) + "\n", encoding="utf-8")
     if not quick:
         page.write(OUT)

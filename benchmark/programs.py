@@ -68,8 +68,9 @@ PEERS = [
     Peer(
         "heyoka",
         (PYTHON, FOLDER / "peers" / "heyoka_taylor.py"),
-        {"scalar": (1e-9, 1e-12, 1e-15), "batch": (1e-9, 1e-12, 1e-15)},
+        {"scalar": (1e-9, 1e-15), "batch": (1e-9, 1e-15)},
         "heyoka from PyPI, for this processor and Python",
+        repeats=2,
         holds="its loop in Python and the steps of its library, compiled before; *own* the steps alone",
     ),
     Peer(
@@ -77,6 +78,7 @@ PEERS = [
         (PYTHON, FOLDER / "peers" / "numbalsoda_ivp.py"),
         {"dop853": FEW, "lsoda": FEW},
         "numbalsoda from PyPI",
+        repeats=2,
     ),
     Peer(
         "SciPy",
