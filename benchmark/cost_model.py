@@ -1,12 +1,13 @@
 """How the time of an analysis grows: a few constants fitted to the measured times, with what they leave unexplained."""
 
 import numpy as np
+from scipy.optimize import nnls
 
 
 def of_call(rows):
     """Seconds of a call of multiple_stripe: a + b records + c histories, by least squares of the relative errors.
 
-    Returns a, b and c, and the largest relative error of a measurement that was fitted.
+    Returns a, b and c, none of them negative, and the largest relative error of a measurement that was fitted.
     """
     own = [row for row in rows if row["kind"] in ("records", "levels")]
     # Of records the size is their number; levels ran with all records.
@@ -15,7 +16,7 @@ def of_call(rows):
     histories = np.array([row["histories"] for row in own])
     seconds = np.array([row["value"] for row in own])
     terms = np.column_stack([np.ones(len(own)), records, histories]) / seconds[:, None]
-    constants, *_ = np.linalg.lstsq(terms, np.ones(len(own)), rcond=None)
+    constants, _ = nnls(terms, np.ones(len(own)))
     return constants, float(np.abs(terms @ constants - 1.0).max())
 
 
@@ -34,4 +35,4 @@ def serial_share(rows):
         return None
     # t(n)/t(1) = s + (1 - s)/n
     drop = 1.0 - 1.0 / threads
-    return float(drop @ (seconds / seconds[0] - 1.0 / threads) / (drop @ drop))
+    return max(0.0, float(drop @ (seconds / seconds[0] - 1.0 / threads) / (drop @ drop)))

@@ -52,9 +52,9 @@ def programs(results, turns, machine):
             "Every program computes the same motion (theory.md, sections 1 to 4): accelerograms linear between their "
             "samples, rocking from the exact crossing of the trigger, impacts, the rule that ends a chain of bounces, "
             "the peak at q' = 0, and the motion after the record by its energy. Programs in the same language share "
-            "all source except the integration. All run on one core, in a process that is warm: reading, compilation "
-            "and a first call are over before the clock starts. Times are medians of several repeats where a program "
-            "is not too slow for them."
+            "all source except the integration. All run on one core, in a warm process: reading and compilation "
+            "are over before the clock starts. Times are medians of several repeats where a program is not too slow "
+            "for them."
         ),
         *bullets(METHODS),
         *table(["program", "its time holds"], [[peer.name, peer.holds] for peer in (DONDOLO, *PEERS)]),
@@ -116,9 +116,10 @@ def ratios(results, turns):
         *paragraph(
             f"For each program the cheapest setting with at most {100 * SHARE:g} % of the EDPs with an error above "
             f"1e-6 and at most {many(WRONG, 'wrong flag')}, or, if there is none, its most accurate setting. These "
-            f"settings ran in turns, {many(rounds, 'round')}; a program that takes more than {SLOW:g} s ran in the "
-            "first only. The last columns are the times relative to those of dondolo's engines in the same round, at "
-            "their defaults and at a tight tolerance: median, and in brackets the least and the largest of the rounds."
+            f"settings ran in turns, {many(rounds, 'round')}, the second of two calls each; a program that takes more "
+            f"than {SLOW:g} s ran in the first only. The last columns are the times relative to those of dondolo's "
+            "engines in the same round, at their defaults and at a tight tolerance: median, and in brackets the least "
+            "and the largest of the rounds."
         ),
         *table(["program", "setting", "ms for all histories", "errors", "rounds", *heads], rows),
     ]
@@ -166,6 +167,10 @@ def speeds(results, turns):
             best = chosen(own)
             times = float(f"{ratio(turns, (best.name, best.setting), lanes)[0]:.2g}")
             factors.append(f"{times:g} times as fast as {program}")
+            if best.own > 0.0:
+                factors[-1] += (
+                    f" called from Python ({float(f'{times * best.own / best.seconds:.2g}'):g} of its own steps)"
+                )
     times = times_of(turns, *lanes).values()
     sentence = (
         f"{mine.histories} time histories of one wall under recorded motions take {statistics.median(times):.2g} ms "

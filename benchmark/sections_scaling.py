@@ -65,5 +65,5 @@ def model(rows):
         f"to {shocks:.2f} and with their sampling to {samples:.2f}."
     )
     if serial is not None:
-        text += f" By Amdahl's law {100 * max(serial, 0.0):.0f} % of a population are not divided among threads."
+        text += f" By Amdahl's law {100 * serial:.0f} % of a population are not divided among threads."
     return paragraph(text)
