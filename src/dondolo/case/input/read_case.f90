@@ -329,7 +329,7 @@ contains
       end if
       ! A factor that is not allocated is an argument that is not present
       call read_catalogue(beside(case%records_input%catalogue, case%file), records, error, note, rows, &
-         & case%records_input%vertical_factor)
+         & case%records_input%vertical_factor, case%job%threads)
       if (.not. allocated(error)) call check_room(bytes_of_sample*sum([(real(size(records(i)%acceleration), wp), &
          & i=1, size(records))]), error)
       if (allocated(error)) return
