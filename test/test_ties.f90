@@ -4,6 +4,7 @@
 !> 5e-5 m2/m and 8 m, 1.8e8 Pa, stressed to 3e7 Pa.
 program test_ties
    use checks, only : check, check_close, check_error, check_ok, finish, suite
+   use dondolo_ensemble, only : check_engine
    use dondolo_error, only : error_type
    use dondolo_grip, only : grip_type
    use dondolo_held_tail, only : held_motion
@@ -15,7 +16,6 @@ program test_ties
    use dondolo_response, only : response_type, tie_response_type, trace_type
    use dondolo_rest, only : new_rest, rest_type
    use dondolo_rk45, only : simulate_rk45
-   use dondolo_simulate, only : check_history
    use dondolo_solver, only : solver_type
    use dondolo_tail, only : tail_type
    use dondolo_tie_statics, only : greatest_acceleration, plastic_acceleration
@@ -441,7 +441,7 @@ contains
       form = new_normal_form(wall%mechanism, wall%mechanism%capacity)
       call check(.not. form%exists, 'lanes do not know ties')
       solver%engine = 'lanes'
-      call check_history(solver, wall%mechanism, .false., error)
+      call check_engine(solver, wall%mechanism, error)
       call check_error(error, 'engine = ''lanes'': knows neither ties nor interlock_overlap; must be ''auto'' or ''rk45''', 'lanes')
    end subroutine test_engines
 

@@ -1,7 +1,6 @@
 """Certified histories, and whether estimated errors find those that double precision does not tell."""
 
 import csv
-import os
 import subprocess
 import sys
 from dataclasses import replace
@@ -38,14 +37,6 @@ def hard(name):
 @pytest.fixture(scope="module")
 def synthetic():
     return {record.name: record for record in dd.read_catalogue(ROOT / "data" / "records" / "synthetic44.csv")}
-
-
-@pytest.fixture(scope="module")
-def recorded():
-    catalogue = Path(os.environ.get("DONDOLO_RECORDS", ROOT.parent / "shared/records")) / "italy44.csv"
-    if not catalogue.is_file():
-        pytest.skip("no recorded accelerograms here: DONDOLO_RECORDS names their folder")
-    return {record.name: record for record in dd.read_catalogue(catalogue)}
 
 
 def check_estimates(records, table, engine):
