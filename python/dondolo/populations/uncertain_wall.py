@@ -130,8 +130,9 @@ class UncertainWall(Shown, Saved):
 
     @property
     def theta(self) -> float:
-        """Median of the curve with its uncertain model: the geometric mean of the medians in the sample."""
-        return float(np.exp(np.nanmean(np.log(self.thetas))))
+        """Median of the curve with its uncertain model: the geometric mean of the medians in the sample; NaN if none."""
+        thetas = self.thetas
+        return float(np.exp(np.log(thetas[np.isfinite(thetas)]).mean())) if np.isfinite(thetas).any() else np.nan
 
     @property
     def beta_records(self) -> float:
