@@ -71,6 +71,41 @@ def test_estimates_find_hard_recorded_histories(recorded, engine):
     check_estimates(recorded, hard("recorded"), engine)
 
 
+def further(name):
+    """Histories of a table of further walls, as `hard`."""
+
+    def rows(path):
+        with open(path, newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+    walls = {}
+    for row in rows(TABLES / "walls.csv"):
+        one, kind = row.pop("name"), WALLS[row.pop("mechanism")]
+        said = {what: text if what in TEXTS else float(text) for what, text in row.items() if text}
+        walls[one] = kind(**said, name=one)
+    histories = []
+    for row in rows(TABLES / f"walls_{name}.csv"):
+        numbers = (float(row[what]) for what in ("scale", "edp", "edp_lowest", "edp_highest"))
+        histories.append((walls[row["wall"]], row["record"], *numbers, row["status"]))
+    return histories
+
+
+@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+@pytest.mark.parametrize(("engine", "least"), [("lanes", 1), ("rk45", 5)])
+def test_further_walls(synthetic, engine, least):
+    """Twelve walls: what is off is doubted. Every third history, and those that the last digit decides."""
+    table = further("synthetic")
+    assert len({wall for wall, *_ in table}) == 12
+    sample = [row for k, row in enumerate(table) if k % 3 == 0 or row[-1] == "not_computable"]
+    assert check_estimates(synthetic, sample, engine) >= least
+
+
+@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+@pytest.mark.parametrize("engine", ["lanes", "rk45"])
+def test_further_walls_under_recorded_motions(recorded, engine):
+    check_estimates(recorded, further("recorded")[::3], engine)
+
+
 @pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
 def test_certificates_are_those_of_the_table(synthetic):
     """Of the hard histories that 33 digits settle: the EDP of the table, whatever double precision says."""
