@@ -183,6 +183,11 @@ def test_levels_without_medians(executable, root, tmp_path):
         ("hinge = 'normal(0.6, 0.1'", None, "hinge = 'normal(0.6, 0.1': must be"),
         ("hinge = 'normal(0.6, x)'", None, "hinge = 'normal(0.6, x)': must be"),
         ("hinge = 'graziotti_2016'", None, "hinge = 'graziotti_2016': must be"),
+        (
+            "restitution_factor = 'graziotti_2016'",
+            lambda text: text.replace("'two_block'", "'one_sided'").replace(", hinge = 0.6", ""),
+            "restitution_factor = 'graziotti_2016': is of tests of mechanism = 'two_block'",
+        ),
         ("restitution_factor = 'nobody'", None, "or a published range: 'graziotti_2016', 'elgawady_2010'"),
         ("hinge = 'normal(nan, 0.1)'", None, "hinge = 'normal(nan, 0.1)': must be"),
         ("", lambda text: text.replace("seed = 3, ", "seed = 3"), "a property must have a distribution"),

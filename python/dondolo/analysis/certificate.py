@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from dondolo._base.arguments import as_flag
 from dondolo._fortran import _core
 from dondolo._fortran.histories import is_doubtful
 from dondolo._fortran.library import check, stoppable
@@ -82,6 +83,7 @@ def certify(
     if getattr(stripes, "edp_error", None) is None:
         raise InputError("stripes: have no estimated errors: must be run with estimate_error = True")
     team = check_threads(threads)
+    as_flag("progress", progress)
     return run_again(stripes, _records_of(stripes, records), team, progress)
 
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, as_number, instance_of
+from dondolo._base.arguments import FloatArray, as_flag, as_number, instance_of
 from dondolo._base.shown import Shown
 from dondolo._fortran import _core
 from dondolo._fortran.histories import warnings_of_errors, warnings_of_motion
@@ -311,6 +311,7 @@ def simulate(
     instance_of("wall", wall, Wall, "no wall")
     instance_of("record", record, Record, "no record")
     factor = as_number("scale", scale)
+    history, estimate_error = as_flag("history", history), as_flag("estimate_error", estimate_error)
     how = as_solver(solver)
     settings = how._settings(estimate_error)
     with stoppable():
