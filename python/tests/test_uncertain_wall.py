@@ -2,8 +2,6 @@
 
 import dataclasses
 import itertools
-
-import dataclasses
 import pickle
 
 import numpy as np
@@ -250,7 +248,7 @@ def test_plot(found):
         ),
         ({"restitution_factor": "nobody"}, "'nobody': must be a distribution; .*'graziotti_2016', 'elgawady_2010'"),
         ({"hinge": dd.Uniform(0.5, 1.5)}, "wall 'strip 00.*: hinge = .*: must lie between 0.01 and 0.99"),
-        ({"hinge": dd.Uniform(0.5, 0.6), "density": dd.Uniform(1.6e3, 2e3)}, "must be at least 16 for indices of 2"),
+        ({"hinge": dd.Uniform(0.5, 0.6), "density": dd.Uniform(1.6e3, 2e3)}, "count = 12: must be an integer, between 16"),
     ],
 )
 def test_refused(wall, records, sources, message):
