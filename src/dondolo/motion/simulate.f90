@@ -47,7 +47,7 @@ contains
       if (solver%engine /= 'rk45') constants = new_lane_constants(mechanism, solver, suite%has_vertical())
       if (constants%form%exists) then
          call trace_variant(mechanism, constants, record, scale, trace)
-         allocate (trace%ties(0))
+         if (.not. allocated(trace%ties)) allocate (trace%ties(0))
       else
          call simulate_rk45(mechanism, record, scale, solver, again, trace)
       end if

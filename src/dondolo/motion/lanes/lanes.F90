@@ -6,6 +6,7 @@
 module dondolo_lanes
    use dondolo_kinds, only : wp
    use dondolo_lane_constants, only : lane_constants_type
+   use dondolo_lane_grip, only : lane_grip_type
    use dondolo_lane_history, only : add_row, begin, begin_still, lane_batch_type, resolve
    use dondolo_lane_kernel, only : step_lanes
    use dondolo_lane_state, only : lane_width, step_taken
@@ -42,6 +43,7 @@ contains
       batch%records => records
       batch%set => set
       batch%queue => queue
+      if (constants%form%is_held) allocate (batch%grips(lane_width))
       active = 0
       do while (active < lane_width)
          if (.not. is_filled(active + 1)) exit
@@ -116,6 +118,7 @@ contains
       type(record_type), target :: records(2)
       type(record_set_type), target :: set
       type(queue_type), target :: queue
+      type(lane_grip_type), allocatable :: grip
       integer(kind(batch%lanes%next)) :: next
 
       records(1) = record
@@ -129,6 +132,7 @@ contains
       batch%set => set
       batch%queue => queue
       batch%trace => trace
+      if (constants%form%is_held) allocate (batch%grips(lane_width))
       call begin(batch, 1, 1)
       do while (.not. (batch%history(1)%over .or. trace%lacks_memory))
          next = batch%lanes%next(1)
@@ -138,17 +142,25 @@ contains
             call step_lanes(batch%lanes, 1, constants%form, set%samples, constants%solver%rtol, constants%atol)
          end if
          if (batch%lanes%next(1) > next) call add_row(batch, 1)
-         if (batch%lanes%flag(1) /= step_taken) call resolve(batch, 1)
-         if (batch%history(1)%over .and. rocks_on()) call begin_still(batch, 1, 2)
+         if (batch%lanes%flag(1) == step_taken) cycle
+         ! At its end a history looks ahead with its ties; the trace goes on from how they are now.
+         if (allocated(batch%grips)) grip = batch%grips(1)
+         call resolve(batch, 1)
+         if (.not. batch%history(1)%over .or. batch%history(1)%record /= 1) cycle
+         if (allocated(batch%grips)) call batch%grips(1)%responses(batch%history(1)%peak, trace%ties)
+         if (.not. rocks_on()) cycle
+         if (allocated(grip)) batch%grips(1) = grip
+         call begin_still(batch, 1, 2)
       end do
+      ! A wall that never moves has no step.
+      if (allocated(batch%grips) .and. .not. allocated(trace%ties)) call batch%grips(1)%responses(0.0_wp, trace%ties)
       call trace%trim_rows()
 
    contains
 
       !> Does the wall still rock as the accelerogram ends?
       pure logical function rocks_on()
-         rocks_on = batch%history(1)%record == 1 .and. batch%lanes%next(1) > batch%lanes%last(1) &
-            & .and. (batch%lanes%y(1) > 0.0_wp .or. batch%lanes%v(1) > 0.0_wp)
+         rocks_on = batch%lanes%next(1) > batch%lanes%last(1) .and. (batch%lanes%y(1) > 0.0_wp .or. batch%lanes%v(1) > 0.0_wp)
       end function rocks_on
 
    end subroutine trace_lanes
@@ -160,6 +172,7 @@ contains
       integer, intent(in) :: from, to
 
       batch%history(to) = batch%history(from)
+      if (allocated(batch%grips)) batch%grips(to) = batch%grips(from)
       associate (lanes => batch%lanes)
          lanes%y(to) = lanes%y(from)
          lanes%v(to) = lanes%v(from)
@@ -182,6 +195,10 @@ contains
          lanes%series(to, :) = lanes%series(from, :)
          lanes%step(to) = lanes%step(from)
          lanes%flag(to) = lanes%flag(from)
+         lanes%a(to, :) = lanes%a(from, :)
+         lanes%fifth_a(to) = lanes%fifth_a(from)
+         lanes%above(to) = lanes%above(from)
+         lanes%below(to) = lanes%below(from)
       end associate
    end subroutine move
 
