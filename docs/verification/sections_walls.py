@@ -47,9 +47,7 @@ def walls(folder):
     sets = motions(folder)
     records = {name: {one.name: one for one in dd.read_catalogue(each.catalogue)} for name, each in sets.items()}
     tables = {name: read_table(Path(TABLES) / f"walls_{name}.csv") for name in sets}
-    change = max(
-        float(row["edp_change"]) for rows in tables.values() for row in rows if row["status"] == "quadruple"
-    )
+    change = max(float(row["edp_change"]) for rows in tables.values() for row in rows if row["status"] == "quadruple")
     lines, total, off = [], {engine: np.zeros(4, dtype=int) for engine in ENGINES}, dict.fromkeys(ENGINES, 0)
     for name, wall in more_walls().items():
         mine = {where: [row for row in rows if row["wall"] == name] for where, rows in tables.items()}
@@ -72,20 +70,21 @@ def walls(folder):
         TITLE,
         "",
         *paragraph(
-            f"Twelve more walls ([walls.csv](../test/reference/walls.csv)): slender and squat, small and large, hinges at "
-            f"0.35 to 0.85 of the height with loads beside the axis, speeds after an impact of up to 0.995 of those before. "
-            f"Each runs under every second record of both sets with a random factor, {number} histories; their truth is in "
-            f"33 digits at relative tolerances of 1e-12 and 1e-14, tighter where these differ by more than 1e-7; the last two "
-            f"agree to {small(change)}, but for {unsettled} histories that the last digit of the factor decides. Columns of an engine have the wrong flags, the EDPs with "
-            "errors above 1e-6, how many of these the estimated error finds, and how many others it doubts; the largest "
-            "error is that of the histories that are computable."
+            "Twelve more walls ([walls.csv](../test/reference/walls.csv)): slender and squat, small and large, hinges "
+            "at 0.35 to 0.85 of the height with loads beside the axis, speeds after an impact of up to 0.995 of those "
+            "before. Each runs under every second record of both sets with a random factor, "
+            f"{number} histories; their truth is in 33 digits at relative tolerances of 1e-12 and 1e-14, tighter "
+            f"where these differ by more than 1e-7; the last two agree to {small(change)}, but for {unsettled} "
+            "histories that the last digit of the factor decides. Columns of an engine have the wrong flags, the EDPs "
+            "with errors above 1e-6, how many of these the estimated error finds, and how many others it doubts; the largest error is that "
+            "of the histories that are computable."
         ),
         *table(head, lines),
         *paragraph(
-            f"In all, lanes has {first[0]} wrong flags and {first[1]} EDPs off, {off['lanes']} of them computable, of which "
-            f"{first[2]} are found, with {first[3]} false alarms; rk45 {second[0]}, {second[1]}, {off['rk45']}, "
-            f"{second[2]} and {second[3]}. Every third history is in [test_certificates](../python/tests/test_certificates.py). "
-            "The tables are written by docs/verification/more_walls.py."
+            f"In all, lanes has {first[0]} wrong flags and {first[1]} EDPs off, {off['lanes']} of them computable, of "
+            f"which {first[2]} are found, with {first[3]} false alarms; rk45 {second[0]}, {second[1]}, {off['rk45']}, "
+            f"{second[2]} and {second[3]}. Every third history is in "
+            "[test_certificates](../python/tests/test_certificates.py). The tables are written by docs/verification/more_walls.py."
         ),
     ]
 

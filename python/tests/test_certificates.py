@@ -191,7 +191,9 @@ def test_executable(tmp_path, records):
         assert np.array_equal(getattr(mine, name), getattr(theirs, name)), name
     (state,) = json.loads((tmp_path / "result_run.json").read_text(encoding="utf-8"))["certified"]["states"]
     assert (state["theta_lowest"], state["theta_highest"]) == mine.theta_bounds
-    assert [state["fewest"], state["most"]] == [each.tolist() for each in mine.exceedance_bounds(state["edp_threshold"])]
+    assert [state["fewest"], state["most"]] == [
+        each.tolist() for each in mine.exceedance_bounds(state["edp_threshold"])
+    ]
     assert set(np.unique(theirs.status)) <= set(dd.Certified)
 
 

@@ -1,7 +1,7 @@
 """The condition of histories, which the estimated error reports, against central differences in 33 digits.
 
-A relative change x of a record changes the EDP by c x, c the condition. The estimate takes c from runs in double precision
-under records that are 512 eps stronger and weaker, and reports at least 8 eps c (docs/theory.md, section 5).
+A relative change x of a record changes the EDP by c x, c the condition. The estimate takes c from runs in double
+precision under records that are 512 eps stronger and weaker, and reports at least 8 eps c (docs/theory.md, section 5).
 """
 
 import csv

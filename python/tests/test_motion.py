@@ -156,7 +156,9 @@ def test_a_history_in_doubt_is_warned_of(wall, records):
     record = next(each for each in records if each.name == "18_l_aquila_2009_apr_07_m5.5_a")
     rk45 = dd.Solver(engine="rk45")
     with pytest.warns(dd.DondoloWarning, match="ill-conditioned: the estimated error of the EDP is 0.000"):
-        dd.simulate(wall, record, 0.8 * 9.81 / record.peak_acceleration, solver=rk45, estimate_error=True, history=False)
+        dd.simulate(
+            wall, record, 0.8 * 9.81 / record.peak_acceleration, solver=rk45, estimate_error=True, history=False
+        )
     collapse = dd.simulate(wall, record, 10.0 * 9.81 / record.peak_acceleration, estimate_error=True, history=False)
     assert collapse.collapsed
     assert "twice more collapses too" in repr(collapse)

@@ -24,9 +24,7 @@ def check_traces(wall, records, levels, **solver):
     for (i, j), scale in np.ndenumerate(stripes.scale * stripes.polarity):
         record = records[stripes.record_index[j]]
         for history in (True, False):
-            trace = dd.simulate(
-                wall, record, scale, history=history, estimate_error=True, solver=dd.Solver(**solver)
-            )
+            trace = dd.simulate(wall, record, scale, history=history, estimate_error=True, solver=dd.Solver(**solver))
             for name in OUTCOME:
                 assert getattr(trace, name) == getattr(stripes, name)[i, j], (name, i, j, history)
             if history:
@@ -93,6 +91,18 @@ def test_engines_move_alike(few):
                     assert np.array_equal(getattr(lanes, name), getattr(rk45, name)), name
                 unit = wall.capacity_angle
                 np.testing.assert_allclose(lanes.rotation, rk45.rotation, atol=1e-6 * unit)
+
+
+def test_traces_of_tied_walls(few):
+    """Ties yield, break and go on after the record: what they come to is that of `rk45`."""
+    wall = dd.OneSidedWall(3.0, 0.3, tie_height=2.5, tie_area=1e-5, tie_length=5.0)
+    traces = check_traces(wall, few[:4], [0.5, 1.0, 2.0])
+    assert any(trace.ties.broken[0] for trace in traces)
+    assert any(trace.ties.plastic_elongation[0] > 0.0 and not trace.ties.broken[0] for trace in traces)
+    for trace in traces:
+        other = dd.simulate(wall, trace.record, trace.scale, solver=dd.Solver(engine="rk45", rtol=1e-10, atol=1e-12))
+        assert trace.tie_times == pytest.approx(other.tie_times, abs=1e-4, nan_ok=True)
+        assert trace.ties.plastic_elongation == pytest.approx(other.ties.plastic_elongation, rel=1e-4, abs=1e-7)
 
 
 @pytest.mark.parametrize("factor", [1.1, 1.3, 1.4])

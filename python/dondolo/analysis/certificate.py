@@ -52,7 +52,8 @@ def certify(
     Parameters
     ----------
     stripes : Stripes
-        Stripes with estimated errors. Of those that an interrupted run left only the histories without a status are run.
+        Stripes with estimated errors. Of those that an interrupted run left only the histories without a status
+        are run.
     records : Record, iterable of Record, RecordSet, or mapping of float to these
         The accelerograms that they were run with.
     threads : int
@@ -71,7 +72,8 @@ def certify(
     InputError
         Stripes without estimated errors, other records, or a build without quadruple precision.
     Interrupted
-        Ctrl-C; its `partial` has all stripes, with a status of 0 for the histories in doubt that were not run again yet.
+        Ctrl-C; its `partial` has all stripes, with a status of 0 for the histories in doubt that were not run again
+        yet.
         `certify` of it goes on there. At most 16 histories that were at work are lost.
 
     Notes

@@ -305,8 +305,8 @@ def simulate(
 
     Notes
     -----
-    Equations (1) to (4) of Nale et al.; docs/theory.md, section 4. The engine is that of the stripes: EDP, flag, impacts and
-    estimated error are those that `multiple_stripe` gives this history, to the bit.
+    Equations (1) to (4) of Nale et al.; docs/theory.md, section 4. The engine is that of the stripes: EDP, flag,
+    impacts and estimated error are those that `multiple_stripe` gives this history, to the bit.
     """
     instance_of("wall", wall, Wall, "no wall")
     instance_of("record", record, Record, "no record")

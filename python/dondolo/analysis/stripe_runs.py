@@ -82,8 +82,8 @@ def multiple_stripe(
     InputError
         What cannot be run, with the sentence of the executable.
     Interrupted
-        Ctrl-C; its `partial` has the stripes that are complete; while histories are certified all stripes, with which `certify`
-        goes on.
+        Ctrl-C; its `partial` has the stripes that are complete; while histories are certified all stripes, with
+        which `certify` goes on.
 
     Warns
     -----

@@ -81,8 +81,8 @@ class Stripes(Shown, Saved):
     edp_error : ndarray, shape (levels, histories), or None
         Estimated errors of `edp`; None unless asked for.
     status : ndarray of int, shape (levels, histories), or None
-        How each history is certified, a `Certified`; None unless asked for. 0 for one that was not run, or whose doubt an
-        interrupted run has left.
+        How each history is certified, a `Certified`; None unless asked for. 0 for one that was not run, or whose doubt
+        an interrupted run has left.
     edp_lowest, edp_highest : ndarray, shape (levels, histories), or None
         EDPs between which the last digit of the input decides, equal but for `Certified.NOT_COMPUTABLE`; None unless
         certified.
@@ -192,13 +192,13 @@ class Stripes(Shown, Saved):
         InputError
             Stripes that are not certified, and as `fit_damage_states`.
         """
-        self._check_certified("state_bounds")
+        lowest, highest = self._check_certified("state_bounds")
         with silent():
             low, high = (
                 dataclasses.replace(self, edp=edp, collapsed=edp >= self.edp_limit).fit_damage_states(
                     edp_thresholds, states=states
                 )
-                for edp in (self.edp_highest, self.edp_lowest)
+                for edp in (highest, lowest)
             )
         return tuple((one.theta, other.theta) for one, other in zip(low, high, strict=True))
 
@@ -220,15 +220,15 @@ class Stripes(Shown, Saved):
         InputError
             Stripes that are not certified, and as `exceedances`.
         """
-        self._check_certified("exceedance_bounds")
-        fewest, most = (
-            dataclasses.replace(self, edp=edp).exceedances(edp_threshold) for edp in (self.edp_lowest, self.edp_highest)
-        )
+        bounds = self._check_certified("exceedance_bounds")
+        fewest, most = (dataclasses.replace(self, edp=edp).exceedances(edp_threshold) for edp in bounds)
         return fewest, most
 
-    def _check_certified(self, what: str) -> None:
+    def _check_certified(self, what: str) -> tuple[FloatArray, FloatArray]:
+        """The lowest and the highest EDPs."""
         if self.edp_lowest is None or self.edp_highest is None:
             raise InputError(f"{what}: only of certified stripes")
+        return self.edp_lowest, self.edp_highest
 
     @property
     def broken_ties(self) -> FloatArray:

@@ -60,8 +60,8 @@ class StoredResults(Shown):
     typology : Typology or None
         Task 'typology'.
     uncertain : UncertainWall or None
-        Of a case with a group &uncertainty: its typology, and what that owes to each source. Its `numbers` and `rest` are
-        NaN, since the files do not have them.
+        Of a case with a group &uncertainty: its typology, and what that owes to each source. Its `numbers` and `rest`
+        are NaN, since the files do not have them.
     check : CodeCheck or None
         Of a case with a group &check.
     run : RunFile

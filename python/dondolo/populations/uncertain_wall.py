@@ -130,7 +130,7 @@ class UncertainWall(Shown, Saved):
 
     @property
     def theta(self) -> float:
-        """Median of the curve with its uncertain model: the geometric mean of the medians in the sample; NaN if none."""
+        """Median of the curve with its uncertain model: the geometric mean of those in the sample; NaN if none."""
         thetas = self.thetas
         return float(np.exp(np.log(thetas[np.isfinite(thetas)]).mean())) if np.isfinite(thetas).any() else np.nan
 

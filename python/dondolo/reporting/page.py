@@ -62,7 +62,8 @@ def report(
     Parameters
     ----------
     results : StoredResults, Results, Typology, UncertainWall, Stripes or Response
-        What `read_results`, `run_case`, `typology`, `uncertain_wall`, `multiple_stripe` or `simulate` gave. Files know most of a run.
+        What `read_results`, `run_case`, `typology`, `uncertain_wall`, `multiple_stripe` or `simulate`
+        gave. Files know most of a run.
     path : path
         The file; its folder must exist. One that ends in ``.pdf`` is printed by Chromium or WeasyPrint. An earlier
         report is replaced, any other file is not.

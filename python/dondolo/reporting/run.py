@@ -116,7 +116,10 @@ def run_of(results: Any) -> Run:
         return _of_case(results)
     if isinstance(results, UncertainWall):
         run = run_of(results.typology)
-        run.uncertain, run.title = results, f"Fragility of {results.typology.walls[results._samples].name}, its model uncertain"
+        run.uncertain, run.title = (
+            results,
+            f"Fragility of {results.typology.walls[results._samples].name}, its model uncertain",
+        )
         return run
     if isinstance(results, Typology):
         walls = len(results.combined)

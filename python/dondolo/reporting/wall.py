@@ -151,7 +151,7 @@ def certificates(stripes: Stripes, curves: Sequence[Fragility], states: States) 
         ("lowest ", THETA): [parameter(low) for low, _ in bounds],
         ("greatest ", THETA): [parameter(high) for _, high in bounds],
     }
-    counts = [(kind.name.lower(), whole(np.count_nonzero(stripes.status == kind))) for kind in Certified]
+    counts = [(kind.name.lower(), whole(int(np.count_nonzero(stripes.status == kind)))) for kind in Certified]
     return {"counts": counts, "levels": Table.of(columns), "medians": Table.of(medians)}
 
 

@@ -8,6 +8,7 @@ module dondolo_simulate
    use dondolo_mechanism, only : mechanism_type
    use dondolo_record, only : record_type
    use dondolo_response, only : response_type, trace_type
+   use dondolo_rest, only : new_rest, rest_type
    use dondolo_rk45, only : simulate_rk45
    use dondolo_solver, only : solver_type
    use dondolo_suite, only : new_suite, suite_type
@@ -35,7 +36,19 @@ contains
       type(ensemble_type) :: ensemble
       type(suite_type) :: suite
       type(record_type), allocatable :: records(:)
+      type(rest_type) :: rest
+      real(wp) :: time, side
+      integer :: interval
+      logical :: found
 
+      if (.not. (present(trace) .or. solver%estimate_error)) then
+         ! A wall that never moves costs a look at the record and no more.
+         rest = new_rest(mechanism)
+         interval = 1
+         time = 0.0_wp
+         call rest%next_start(record, scale, interval, time, side, found)
+         if (.not. found) return
+      end if
       ensemble%record = [1]
       ensemble%scale = [scale]
       records = [record]
