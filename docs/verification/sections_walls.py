@@ -76,15 +76,16 @@ def walls(folder):
             f"{number} histories; their truth is in 33 digits at relative tolerances of 1e-12 and 1e-14, tighter "
             f"where these differ by more than 1e-7; the last two agree to {small(change)}, but for {unsettled} "
             "histories that the last digit of the factor decides. Columns of an engine have the wrong flags, the EDPs "
-            "with errors above 1e-6, how many of these the estimated error finds, and how many others it doubts; the largest error is that "
-            "of the histories that are computable."
+            "with errors above 1e-6, how many of these the estimated error finds, and how many others it doubts; the "
+            "largest error is that of the histories that are computable."
         ),
         *table(head, lines),
         *paragraph(
             f"In all, lanes has {first[0]} wrong flags and {first[1]} EDPs off, {off['lanes']} of them computable, of "
             f"which {first[2]} are found, with {first[3]} false alarms; rk45 {second[0]}, {second[1]}, {off['rk45']}, "
             f"{second[2]} and {second[3]}. Every third history is in "
-            "[test_certificates](../python/tests/test_certificates.py). The tables are written by docs/verification/more_walls.py."
+            "[test_certificates](../python/tests/test_certificates.py). The tables are written by "
+            "docs/verification/more_walls.py."
         ),
     ]
 

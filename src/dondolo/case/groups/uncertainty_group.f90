@@ -66,8 +66,9 @@ contains
          associate (name => uncertainty_properties(i)%name)
             if (.not. settings%has(trim(name))) cycle
             call new_distribution(one, trim(name), settings%word(trim(name)), error)
-            if (.not. allocated(error) .and. name == 'restitution_factor' .and. wall%has('mechanism')) &
-               & call check_published(settings%word(trim(name)), wall%word('mechanism'), error)
+            if (.not. allocated(error) .and. name == 'restitution_factor' .and. wall%has('mechanism')) then
+               call check_published(settings%word(trim(name)), wall%word('mechanism'), error)
+            end if
             call problems%take(error)
             sources = [sources, name]
             distributions = [distributions, one]
