@@ -246,7 +246,7 @@ contains
       if (size(results%row%curve) > 1) write (output_unit, '(a)', advance='no') 'collapse: '
       call print_fit(case, results%row%curve(size(results%row%curve)))
       if (case%solver%solver%certify) then
-         call print_certificates(results%row)
+         call print_certificates(case, results%row)
       else if (case%solver%solver%estimate_error) then
          write (output_unit, '(a)') 'estimated errors of the EDP: at most '// &
             & rounded(maxval(results%row%response%edp_error))
@@ -254,18 +254,28 @@ contains
    end subroutine print_stripes
 
    !> Print how the histories are certified
-   subroutine print_certificates(row)
+   subroutine print_certificates(case, row)
+      type(case_type), intent(in) :: case
       !> The stripes of the one wall
       type(row_counts_type), intent(in) :: row
+
+      character(len=:), allocatable :: state
+      integer :: k
 
       write (output_unit, '(a)') 'certified: '//to_text(count(row%certified%status == in_double))// &
          & ' histories in double precision, '//to_text(count(row%certified%status == in_quadruple))// &
          & ' in 33 digits, '//to_text(count(row%certified%status == not_computable))// &
          & ' not computable from this input'
-      if (any(row%certified%status == not_computable) .and. all(row%theta_bounds > 0.0_wp)) then
-         write (output_unit, '(a)') 'whatever becomes of the last: theta between '//rounded(row%theta_bounds(1))//' and '// &
-            & rounded(row%theta_bounds(2))
-      end if
+      if (.not. any(row%certified%status == not_computable)) return
+      do k = 1, size(row%bounds)
+         state = ''
+         if (k < size(row%bounds)) state = ' of EDP '//rounded(case%stripes%thresholds(k))
+         associate (bounds => row%bounds(k))
+            if (min(bounds%theta_lowest, bounds%theta_highest) > 0.0_wp) write (output_unit, '(a)') &
+               & 'whatever becomes of the last: theta'//state//' between '//rounded(bounds%theta_lowest)//' and '// &
+               & rounded(bounds%theta_highest)
+         end associate
+      end do
    end subroutine print_certificates
 
    !> Print the curves of a population

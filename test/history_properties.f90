@@ -125,6 +125,7 @@ contains
 
       solver = history%solver
       solver%estimate_error = .true.
+      solver%engine = 'rk45'
       call simulate(history%wall%mechanism, history%record, history%scale, solver, again)
       call check(is_same(again, response), what//': the same with an estimated error')
       call check(again%edp_error >= 0.0_wp .and. again%edp_error <= solver%edp_limit, what//': estimated error '// &

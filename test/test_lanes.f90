@@ -101,6 +101,7 @@ contains
          history%solver%estimate_error = .true.
          if (.not. runs_in_lanes(history%wall%mechanism, history%solver)) cycle
          call run_alone(history%wall%mechanism, history%record, history%scale, history%solver, lane)
+         history%solver%engine = 'rk45'
          call simulate(history%wall%mechanism, history%record, history%scale, history%solver, other)
          if (lane%is_ill_conditioned() .or. other%is_ill_conditioned()) cycle
          sure = sure + 1

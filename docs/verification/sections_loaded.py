@@ -167,8 +167,10 @@ def loaded(executable, records):
 def main():
     """Write the section into the page in place of what it had."""
     text = PAGE.read_text(encoding="utf-8")
-    before = text[: text.index(TITLE)] if TITLE in text else text.rstrip() + "\n\n"
-    PAGE.write_text(before + "\n".join(loaded(*sys.argv[1:3])).rstrip() + "\n", encoding="utf-8")
+    before, _, there = text.partition(TITLE)
+    _, mark, after = there.partition("\n## ")
+    section = "\n".join(loaded(*sys.argv[1:3])).rstrip() + "\n"
+    PAGE.write_text(before.rstrip() + "\n\n" + section + mark + after, encoding="utf-8")
 
 
 if __name__ == "__main__":

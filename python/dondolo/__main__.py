@@ -226,6 +226,8 @@ def _plot_run(prefix: str, kind: str, animate: bool) -> None:
     if results.typology is not None:
         people = results.typology
         save("typology", people.plot)
+        if (uncertain := results.uncertain) is not None:
+            save("uncertainty", lambda: uncertain.plot()[0])
         if len(people.groups) > 1:
             save("combination", people.plot_combination)
         for of in people.groups:

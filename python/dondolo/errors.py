@@ -97,6 +97,7 @@ class Interrupted(KeyboardInterrupt):
     ----------
     partial : Stripes, Typology or None
         The finished part as a result of its own: the complete stripes, or the complete walls; None if there are none.
+        While histories are certified: all stripes, with a status of 0 for those that are still in doubt.
 
     Examples
     --------

@@ -32,6 +32,15 @@ def records() -> list[dd.Record]:
 
 
 @pytest.fixture(scope="session")
+def recorded() -> dict[str, dd.Record]:
+    """Recorded accelerograms by their names, where there are any."""
+    catalogue = Path(os.environ.get("DONDOLO_RECORDS", ROOT.parent / "shared/records")) / "italy44.csv"
+    if not catalogue.is_file():
+        pytest.skip("no recorded accelerograms here: DONDOLO_RECORDS names their folder")
+    return {record.name: record for record in dd.read_catalogue(catalogue)}
+
+
+@pytest.fixture(scope="session")
 def few(records: list[dd.Record]) -> list[dd.Record]:
     """Some of them."""
     return records[::6]

@@ -1,7 +1,7 @@
 """Certified histories, and whether estimated errors find those that double precision does not tell."""
 
 import csv
-import os
+import json
 import subprocess
 import sys
 from dataclasses import replace
@@ -40,14 +40,6 @@ def synthetic():
     return {record.name: record for record in dd.read_catalogue(ROOT / "data" / "records" / "synthetic44.csv")}
 
 
-@pytest.fixture(scope="module")
-def recorded():
-    catalogue = Path(os.environ.get("DONDOLO_RECORDS", ROOT.parent / "shared/records")) / "italy44.csv"
-    if not catalogue.is_file():
-        pytest.skip("no recorded accelerograms here: DONDOLO_RECORDS names their folder")
-    return {record.name: record for record in dd.read_catalogue(catalogue)}
-
-
 def check_estimates(records, table, engine):
     """Errors above 1e-6 are estimated to a tenth at least or doubted, and no collapse is wrong without a doubt."""
     off = unnoticed = 0
@@ -77,6 +69,41 @@ def test_estimates_find_hard_histories(synthetic, engine):
 @pytest.mark.parametrize("engine", ["lanes", "rk45"])
 def test_estimates_find_hard_recorded_histories(recorded, engine):
     check_estimates(recorded, hard("recorded"), engine)
+
+
+def further(name):
+    """Histories of a table of further walls, as `hard`."""
+
+    def rows(path):
+        with open(path, newline="", encoding="utf-8") as file:
+            return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+    walls = {}
+    for row in rows(TABLES / "walls.csv"):
+        one, kind = row.pop("name"), WALLS[row.pop("mechanism")]
+        said = {what: text if what in TEXTS else float(text) for what, text in row.items() if text}
+        walls[one] = kind(**said, name=one)
+    histories = []
+    for row in rows(TABLES / f"walls_{name}.csv"):
+        numbers = (float(row[what]) for what in ("scale", "edp", "edp_lowest", "edp_highest"))
+        histories.append((walls[row["wall"]], row["record"], *numbers, row["status"]))
+    return histories
+
+
+@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+@pytest.mark.parametrize(("engine", "least"), [("lanes", 1), ("rk45", 5)])
+def test_further_walls(synthetic, engine, least):
+    """Twelve walls: what is off is doubted. Every third history, and those that the last digit decides."""
+    table = further("synthetic")
+    assert len({wall for wall, *_ in table}) == 12
+    sample = [row for k, row in enumerate(table) if k % 3 == 0 or row[-1] == "not_computable"]
+    assert check_estimates(synthetic, sample, engine) >= least
+
+
+@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+@pytest.mark.parametrize("engine", ["lanes", "rk45"])
+def test_further_walls_under_recorded_motions(recorded, engine):
+    check_estimates(recorded, further("recorded")[::3], engine)
 
 
 @pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
@@ -162,4 +189,94 @@ def test_executable(tmp_path, records):
     mine = dd.run_case(case, progress=False).stripes
     for name in ("status", "edp", "edp_lowest", "edp_highest", "edp_error"):
         assert np.array_equal(getattr(mine, name), getattr(theirs, name)), name
+    (state,) = json.loads((tmp_path / "result_run.json").read_text(encoding="utf-8"))["certified"]["states"]
+    assert (state["theta_lowest"], state["theta_highest"]) == mine.theta_bounds
+    assert [state["fewest"], state["most"]] == [
+        each.tolist() for each in mine.exceedance_bounds(state["edp_threshold"])
+    ]
     assert set(np.unique(theirs.status)) <= set(dd.Certified)
+
+
+@pytest.fixture(scope="module")
+def undecided(wall, records):
+    """Certified stripes, two of whose histories are made such that the last digit decides them."""
+    told = dd.multiple_stripe(wall, records, [0.5, 0.8, 1.2], certify=True, progress=False)
+    lowest, highest, status = told.edp.copy(), told.edp.copy(), told.status.copy()
+    survivor, other = np.flatnonzero(~told.collapsed[1] & (told.edp[1] < 0.4))[:2]
+    highest[1, survivor] = 1.0
+    highest[1, other] = 0.5
+    status[1, [survivor, other]] = dd.Certified.NOT_COMPUTABLE
+    return replace(told, edp_lowest=lowest, edp_highest=highest, status=status)
+
+
+@pytest.mark.parametrize("states", ["separate", "ordinal"])
+def test_bounds_of_damage_states(undecided, states):
+    """They are those of stripes with all histories in a state that may be, and with none."""
+    thresholds = [0.4, 1.0]
+    bounds = undecided.state_bounds(thresholds, states=states)
+    for edp, place in ((undecided.edp_highest, 0), (undecided.edp_lowest, 1)):
+        one = replace(undecided, edp=edp, collapsed=edp >= 1.0)
+        assert [each[place] for each in bounds] == [
+            curve.theta for curve in one.fit_damage_states(thresholds, states=states)
+        ]
+    assert all(low < high for low, high in bounds)
+    if states == "separate":
+        assert bounds[-1] == undecided.theta_bounds
+    for threshold, more in ((0.4, 2), (1.0, 1)):
+        fewest, most = undecided.exceedance_bounds(threshold)
+        assert fewest.tolist() == undecided.exceedances(threshold).tolist()
+        assert (most - fewest).tolist() == [0, more, 0]
+
+
+def test_bounds_need_certificates(wall, few):
+    plain = dd.multiple_stripe(wall, few, [0.4], progress=False)
+    with pytest.raises(dd.InputError, match="state_bounds: only of certified stripes"):
+        plain.state_bounds()
+    with pytest.raises(dd.InputError, match="exceedance_bounds: only of certified stripes"):
+        plain.exceedance_bounds(0.4)
+
+
+def test_the_plot_shows_the_bounds(undecided):
+    texts = [text.get_text() for text in undecided.plot().get_legend().get_texts()]
+    low, high = undecided.theta_bounds
+    assert "not computable (2): between these" in texts
+    assert f"certified: θ from {low:.5g} to {high:.5g} g" in texts
+
+
+def test_the_report_tells_how_histories_are_certified(undecided, tmp_path):
+    dd.report(undecided, tmp_path / "certified.html")
+    text = (tmp_path / "certified.html").read_text(encoding="utf-8")
+    assert "Certified histories" in text
+    assert "not_computable" in text
+    for value in undecided.theta_bounds:
+        assert f"{value:#.4g}" in text
+    counts = undecided.exceedance_bounds(1.0)
+    assert all(f"{each[1] / undecided.histories[1]:.3f}" in text for each in counts)
+
+
+def test_an_interrupted_run_goes_on(wall, few, replace_procedure, monkeypatch):
+    """Ctrl-C in 33 digits keeps what is certified, and certify runs the rest alone."""
+    told = dd.multiple_stripe(wall, few, [0.3, 0.4], estimate_error=True, progress=False)
+    doubted = replace(told, edp_error=np.where(told.collapsed, 0.0, 0.1))
+    whole = dd.certify(doubted, few, progress=False)
+    monkeypatch.setattr("dondolo.analysis.certificate._BLOCK", 3)
+    true, calls = dd._fortran._core.histories.certify, []
+
+    def certify(*arguments):
+        calls.append(len(arguments[2]))
+        if len(calls) == 3:
+            raise KeyboardInterrupt
+        return true(*arguments)
+
+    replace_procedure("histories.certify", certify)
+    number = int((~told.collapsed).sum())
+    assert number > 6
+    with pytest.raises(dd.Interrupted, match=f"interrupted: 6 of {number} histories in doubt are certified") as caught:
+        dd.certify(doubted, few, progress=False)
+    partial = caught.value.partial
+    assert (partial.status == 0).sum() == number - 6
+    assert list(partial.to_frame()["status"]).count("") == number - 6
+    again = dd.certify(partial, few, progress=False)
+    assert sum(calls[3:]) == number - 6
+    for name in ("status", "edp", "edp_lowest", "edp_highest", "edp_error"):
+        assert np.array_equal(getattr(again, name), getattr(whole, name)), name

@@ -1,7 +1,9 @@
 """The group &uncertainty: its sample, its table, what is refused, and Python on the same sample."""
 
 import csv
+import html
 import subprocess
+import sys
 
 import numpy as np
 import pytest
@@ -96,6 +98,45 @@ def test_python_on_the_same_sample(ran):
     assert f"theta of the wall as given {found.curves[60].theta:.4g}" in printed
 
 
+def test_results_read_back(ran):
+    """What the curve owes to each source, read back, drawn and reported."""
+    folder, _ = ran
+    rows = table(folder / "out_sources.csv")
+    found = dd.read_results(folder / "out").uncertain
+    assert found.sources == tuple(SAME)
+    for k, row in enumerate(rows):
+        assert found.distributions[k] == row["distribution"]
+        assert found.values[k].tolist() == [float(row[f"value_{share}"]) for share in (5, 50, 95)]
+        assert [curve.theta for curve in found.ends[k]] == [float(row["theta_5"]), float(row["theta_95"])]
+        assert (found.first[k], found.total[k]) == (float(row["first"]), float(row["total"]))
+        assert found.total_interval[k].tolist() == [float(row["total_low"]), float(row["total_high"])]
+    assert len(found.sample) == 60
+    assert found.as_given.theta == dd.read_results(folder / "out").typology.curves[60].theta
+    _, right = found.plot()
+    labels = [text.get_text() for text in right.get_yticklabels()]
+    assert [label.split("\n")[0] for label in labels if label.split("\n")[0] in SAME]
+    assert any(label.startswith("records") for label in labels)
+    assert not any(label.startswith("numbers") for label in labels)
+    command = [sys.executable, "-m", "dondolo"]
+    done = subprocess.run([*command, "plot", "out"], cwd=folder, capture_output=True, text=True, check=True)
+    assert "drawn: out_uncertainty.png" in done.stdout
+    subprocess.run([*command, "report", "out"], cwd=folder, capture_output=True, check=True)
+    page = (folder / "out_report.html").read_text(encoding="utf-8")
+    assert "Uncertainty of the model" in page
+    for row in rows:
+        assert row["distribution"] in html.unescape(page)
+        assert f"{float(row['theta_5']):#.4g}" in page
+    assert f"{found.beta_model:.3g}" in page
+
+
+def test_results_without_indices_read_back(executable, root, tmp_path):
+    run(executable, root, tmp_path, SOURCES, lambda text: text.replace("0.2, last = 3.0", "0.01, last = 0.1"))
+    found = dd.read_results(tmp_path / "out").uncertain
+    assert np.isnan(found.first).all()
+    dd.report(dd.read_results(tmp_path / "out"), tmp_path / "page.html")
+    assert "There are no indices" in (tmp_path / "page.html").read_text(encoding="utf-8")
+
+
 def test_same_bytes(ran, executable, root, tmp_path):
     """The same seed gives the same results, on one thread too; another seed another sample."""
 
@@ -142,6 +183,11 @@ def test_levels_without_medians(executable, root, tmp_path):
         ("hinge = 'normal(0.6, 0.1'", None, "hinge = 'normal(0.6, 0.1': must be"),
         ("hinge = 'normal(0.6, x)'", None, "hinge = 'normal(0.6, x)': must be"),
         ("hinge = 'graziotti_2016'", None, "hinge = 'graziotti_2016': must be"),
+        (
+            "restitution_factor = 'graziotti_2016'",
+            lambda text: text.replace("'two_block'", "'one_sided'").replace(", hinge = 0.6", ""),
+            "restitution_factor = 'graziotti_2016': is of tests of mechanism = 'two_block'",
+        ),
         ("restitution_factor = 'nobody'", None, "or a published range: 'graziotti_2016', 'elgawady_2010'"),
         ("hinge = 'normal(nan, 0.1)'", None, "hinge = 'normal(nan, 0.1)': must be"),
         ("", lambda text: text.replace("seed = 3, ", "seed = 3"), "a property must have a distribution"),

@@ -2,6 +2,7 @@
 
 import dataclasses
 import itertools
+import pickle
 
 import numpy as np
 import pytest
@@ -247,9 +248,63 @@ def test_plot(found):
         ),
         ({"restitution_factor": "nobody"}, "'nobody': must be a distribution; .*'graziotti_2016', 'elgawady_2010'"),
         ({"hinge": dd.Uniform(0.5, 1.5)}, "wall 'strip 00.*: hinge = .*: must lie between 0.01 and 0.99"),
-        ({"hinge": dd.Uniform(0.5, 0.6), "density": dd.Uniform(1.6e3, 2e3)}, "must be at least 16 for indices of 2"),
+        (
+            {"hinge": dd.Uniform(0.5, 0.6), "density": dd.Uniform(1.6e3, 2e3)},
+            "count = 12: must be an integer, between 16",
+        ),
     ],
 )
 def test_refused(wall, records, sources, message):
     with pytest.raises(dd.DondoloError, match=message):
         dd.uncertain_wall(wall, records, LEVELS, sources=sources, count=12, progress=False)
+
+
+@pytest.mark.parametrize(
+    ("given", "told"),
+    [
+        ("uniform(0.5, 0.6)", r"dd.Uniform\(0.5, 0.6\)"),
+        ("Triangular(0.5, 0.6, 0.75)", r"dd.Triangular\(0.5, 0.6, 0.75\)"),
+        ("lognormal(0.5, 0.1, 0.4, 0.7)", r"dd.Lognormal\(0.5, 0.1, low=0.4, high=0.7\)"),
+    ],
+)
+def test_texts_of_cases_are_refused_with_what_to_write(given, told):
+    with pytest.raises(dd.InputError, match=f"must be a distribution, here {told}; such texts are for cases"):
+        dd.uncertain_wall(dd.TwoBlockWall(3.0, 0.25), [], [0.5], sources={"hinge": given})
+
+
+def test_a_published_range_is_of_its_mechanism():
+    wall = dd.OneSidedWall(1.5, 0.25)
+    with pytest.raises(dd.InputError, match="'graziotti_2016': is of tests of two_block walls"):
+        dd.uncertain_wall(wall, [], [0.5], sources={"restitution_factor": "graziotti_2016"})
+
+
+def test_too_small_a_sample_is_refused_before_it_runs():
+    wall = dd.TwoBlockWall(3.0, 0.25)
+    sources = {"hinge": dd.Uniform(0.5, 0.6), "density": dd.Normal(1800.0, 90.0)}
+    with pytest.raises(dd.InputError, match="count = 15: must be an integer, between 16 and 10000"):
+        dd.uncertain_wall(wall, [], [0.5], sources=sources, count=15)
+
+
+def test_ends_must_be_named():
+    with pytest.raises(dd.InputError, match=r"must be named: low=0\.001, high=0\.05"):
+        dd.Lognormal(0.01, 0.4, 0.001, 0.05)
+    whole = dd.Lognormal(0.01, 0.4, low=0.001, high=0.05)
+    assert pickle.loads(pickle.dumps(whole)) == whole == dataclasses.replace(whole)
+
+
+def test_texts_are_no_flags(few, wall):
+    """Even 'no' would be true."""
+
+    def refused(name):
+        return pytest.raises(dd.InputError, match=f"{name} = 'no': must be True or False")
+
+    for name in ("certify", "estimate_error", "progress"):
+        with refused(name):
+            dd.multiple_stripe(wall, few, [0.4], **{name: "no"})
+    for name in ("history", "estimate_error"):
+        with refused(name):
+            dd.simulate(wall, few[0], **{name: "no"})
+    with refused("progress"):
+        dd.typology(dd.Population((wall,)), few, [0.2, 0.4], progress="no")
+    with refused("descending"):
+        dd.RecordSet(few).sort("pga", descending="no")

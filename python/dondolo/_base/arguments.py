@@ -34,6 +34,13 @@ def as_count(name: str, value: Any, least: int, most: int | None = None) -> int:
     return int(value)
 
 
+def as_flag(name: str, value: Any) -> bool:
+    """Turn what a user gives for yes or no into it; a text, of which even 'no' would be true, is refused."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise InputError(f"{name} = {value!r}: must be True or False")
+    return bool(value)
+
+
 def as_array(name: str, values: ArrayLike) -> FloatArray:
     """Turn what a user gives for a row of numbers into one."""
     try:

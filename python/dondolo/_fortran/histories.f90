@@ -13,7 +13,7 @@ module histories
    use dondolo_plausibility, only : wall_warning_type
    use dondolo_record, only : record_type
    use dondolo_response, only : response_type, trace_type
-   use dondolo_simulate, only : check_history, simulate_wall => simulate
+   use dondolo_simulate, only : simulate_wall => simulate
    use dondolo_solver, only : check_limit, check_solver, solver_type
    use dondolo_stripes, only : stripes_type
    use dondolo_suite, only : suite_type
@@ -57,8 +57,7 @@ contains
       solver = as_solver(engine, settings)
       if (.not. allocated(error)) call check_solver(solver, error)
       if (.not. allocated(error)) call check_limit(solver, people(1)%mechanism, error)
-      if (.not. allocated(error)) call check_history(solver, people(1)%mechanism, history == 1, error, &
-         & records%has_vertical())
+      if (.not. allocated(error)) call check_engine(solver, people(1)%mechanism, error, records%has_vertical())
       if (.not. allocated(error)) call check_scale(records, number, scale, error)
       if (.not. allocated(error)) call find_motions(people(1), records, 1, own, motions, error)
       if (.not. allocated(error)) then

@@ -7,7 +7,7 @@ import functools
 import numpy as np
 from numpy.typing import NDArray
 
-from dondolo._base.arguments import FloatArray, as_number
+from dondolo._base.arguments import FloatArray, as_flag, as_number
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
 from dondolo._fortran.library import check, constants, receive, unpack_warnings
@@ -22,6 +22,7 @@ def settings(
     collapses_only: bool = False,
 ) -> FloatArray:
     """rtol, atol and edp_limit, with Fortran's own defaults where there is None, and 1 or 0 for each of the others."""
+    estimate_error, collapses_only = as_flag("estimate_error", estimate_error), bool(collapses_only)
     if rtol is None and atol is None and edp_limit is None and not estimate_error and not collapses_only:
         return _default_settings()
     default = constants()
@@ -30,8 +31,8 @@ def settings(
             default.rtol if rtol is None else as_number("rtol", rtol),
             default.atol if atol is None else as_number("atol", atol),
             default.edp_limit if edp_limit is None else as_number("edp_limit", edp_limit),
-            float(bool(estimate_error)),
-            float(bool(collapses_only)),
+            float(estimate_error),
+            float(collapses_only),
         ]
     )
 

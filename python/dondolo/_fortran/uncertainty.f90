@@ -5,11 +5,11 @@ module uncertainty
    use dondolo_error, only : error_type
    use dondolo_parcel, only : parcel_type, send
    use dondolo_restitution, only : published_factors
-   use dondolo_sensitivity, only : new_sensitivity, sensitivity_type
+   use dondolo_sensitivity, only : new_sensitivity, sensitivity_type, smallest => smallest_sample
    implicit none
    private
 
-   public :: sensitivity, published
+   public :: sensitivity, published, smallest_sample
 
 contains
 
@@ -38,7 +38,15 @@ contains
       rest = found%rest
    end subroutine sensitivity
 
-   !> Published ranges of the factor on restitution: their limits as reals; name and source as lines
+   !> Fewest samples for the indices of some quantities
+   subroutine smallest_sample(quantities, samples)
+      integer(c_int), intent(in) :: quantities
+      integer(c_int), intent(out) :: samples
+
+      samples = smallest(int(quantities))
+   end subroutine smallest_sample
+
+   !> Published ranges of the factor on restitution: their limits as reals; name, mechanism (blank: any) and source as lines
    subroutine published(sent, stat, message)
       integer(c_int64_t), intent(out) :: sent(4)
       integer(c_int), intent(out) :: stat
@@ -50,6 +58,7 @@ contains
       do i = 1, size(published_factors)
          call parcel%add([published_factors(i)%low, published_factors(i)%high])
          call parcel%lines%add(trim(published_factors(i)%name))
+         call parcel%lines%add(trim(published_factors(i)%mechanism))
          call parcel%lines%add(trim(published_factors(i)%source))
       end do
       call send(parcel, error, sent, stat, message)

@@ -24,10 +24,11 @@ class Sensitivity(NamedTuple):
 
 
 class PublishedFactor(NamedTuple):
-    """A range of restitution_factor from tests."""
+    """A range of restitution_factor from tests, of a mechanism, or of any."""
 
     low: float
     high: float
+    mechanism: str
     source: str
 
 
@@ -41,6 +42,11 @@ def sensitivity(values: FloatArray, outcome: FloatArray) -> Sensitivity:
     return Sensitivity(rows[:, 0], rows[:, 1:3], rows[:, 3], rows[:, 4:6], float(rest))
 
 
+def smallest_sample(quantities: int) -> int:
+    """Fewest samples for the indices of some quantities."""
+    return int(_core.uncertainty.smallest_sample(quantities))
+
+
 @functools.cache
 def published_factors() -> dict[str, PublishedFactor]:
     """Ranges of restitution_factor from tests, by their names."""
@@ -48,6 +54,6 @@ def published_factors() -> dict[str, PublishedFactor]:
     limits = parcel.reals.reshape(-1, 2).tolist()
     lines = parcel.lines
     return {
-        name: PublishedFactor(low, high, source)
-        for name, source, (low, high) in zip(lines[::2], lines[1::2], limits, strict=True)
+        name: PublishedFactor(low, high, mechanism, source)
+        for name, mechanism, source, (low, high) in zip(lines[::3], lines[1::3], lines[2::3], limits, strict=True)
     }

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from dondolo._base.arguments import one_of
+from dondolo._base.arguments import as_flag, one_of
 from dondolo._base.files import whole_file
 from dondolo._fortran.library import constants
 from dondolo.errors import DondoloError
@@ -97,6 +97,7 @@ def csv_lines(
     spreadsheet_safe: bool = False,
 ) -> list[str]:
     """Lines of a table: comments, names of the columns, rows."""
+    as_flag("spreadsheet_safe", spreadsheet_safe)
     lines = [*(f"# {comment}" for comment in comments), ",".join(table)]
     rows = zip(*table.values(), strict=True)
     return lines + [",".join(cell(value, number, spreadsheet_safe) for value in row) for row in rows]

@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from dondolo._base.arguments import as_flag
 from dondolo._fortran import _core
 from dondolo._fortran.histories import is_doubtful
 from dondolo._fortran.library import check, stoppable
 from dondolo.analysis.request import check_threads, progress_bar
-from dondolo.errors import InputError
+from dondolo.errors import InputError, Interrupted
 from dondolo.records.record import Record
 from dondolo.records.record_set import records_at_levels
 from dondolo.records.suite import upload
@@ -51,7 +52,8 @@ def certify(
     Parameters
     ----------
     stripes : Stripes
-        Stripes with estimated errors.
+        Stripes with estimated errors. Of those that an interrupted run left only the histories without a status
+        are run.
     records : Record, iterable of Record, RecordSet, or mapping of float to these
         The accelerograms that they were run with.
     threads : int
@@ -69,6 +71,10 @@ def certify(
     ------
     InputError
         Stripes without estimated errors, other records, or a build without quadruple precision.
+    Interrupted
+        Ctrl-C; its `partial` has all stripes, with a status of 0 for the histories in doubt that were not run again
+        yet.
+        `certify` of it goes on there. At most 16 histories that were at work are lost.
 
     Notes
     -----
@@ -79,6 +85,7 @@ def certify(
     if getattr(stripes, "edp_error", None) is None:
         raise InputError("stripes: have no estimated errors: must be run with estimate_error = True")
     team = check_threads(threads)
+    as_flag("progress", progress)
     return run_again(stripes, _records_of(stripes, records), team, progress)
 
 
@@ -86,32 +93,48 @@ def run_again(stripes: Stripes, records: Sequence[Record], threads: int, progres
     """The same of the records themselves, in the order of the stripes."""
     assert stripes.edp_error is not None
     ran = stripes.ran
-    status = np.where(ran, np.int32(Certified.DOUBLE), np.int32(0)).astype(np.int32)
     fields: dict[str, Any] = {name: getattr(stripes, name).copy() for name in _REPLACED}
-    lowest, highest = stripes.edp.copy(), stripes.edp.copy()
-    doubt = ran & is_doubtful(stripes.edp, stripes.edp_error, stripes.edp_limit)
+    if stripes.status is None or stripes.edp_lowest is None or stripes.edp_highest is None:
+        doubt = ran & is_doubtful(stripes.edp, stripes.edp_error, stripes.edp_limit)
+        status = np.where(ran & ~doubt, np.int32(Certified.DOUBLE), np.int32(0)).astype(np.int32)
+        lowest, highest = stripes.edp.copy(), stripes.edp.copy()
+    else:
+        doubt = ran & (stripes.status == 0)
+        status, lowest, highest = stripes.status.copy(), stripes.edp_lowest.copy(), stripes.edp_highest.copy()
     numbers = (stripes.record_index[np.nonzero(doubt)[1]] + 1).astype(np.int32)
     factors = (stripes.scale * stripes.polarity)[doubt]
     wall, suite = upload_walls((stripes.wall,)).number, upload(tuple(records)).number
     places = np.argwhere(doubt)
+
+    def so_far() -> Stripes:
+        found = fields | {"status": status, "edp_lowest": lowest, "edp_highest": highest}
+        for value in found.values():
+            value.flags.writeable = False
+        return dataclasses.replace(stripes, **found)
+
+    done = 0
     # A few at a time, so that Ctrl-C and the bar are heard
     with progress_bar(len(places), progress, "certificates", "history") as bar:
-        for first in range(0, len(places), _BLOCK):
-            here = slice(first, first + _BLOCK)
-            rows = tuple(places[here].T)
-            with stoppable():
-                kind, *values, low, high, stat, message = _core.histories.certify(
-                    wall, suite, numbers[here], factors[here], stripes.edp[rows], stripes.edp_limit, threads
-                )
-            check(stat, message)
-            status[rows], lowest[rows], highest[rows] = kind, low, high
-            for name, value in zip(_REPLACED, values, strict=True):
-                fields[name][rows] = value
-            bar.update(len(places[here]))
-    fields |= {"status": status, "edp_lowest": lowest, "edp_highest": highest}
-    for value in fields.values():
-        value.flags.writeable = False
-    return dataclasses.replace(stripes, **fields)
+        try:
+            while done < len(places):
+                here = slice(done, done + _BLOCK)
+                rows = tuple(places[here].T)
+                with stoppable():
+                    kind, *values, low, high, stat, message = _core.histories.certify(
+                        wall, suite, numbers[here], factors[here], stripes.edp[rows], stripes.edp_limit, threads
+                    )
+                check(stat, message)
+                lowest[rows], highest[rows] = low, high
+                for name, value in zip(_REPLACED, values, strict=True):
+                    fields[name][rows] = value
+                # Last: what has a status is whole.
+                status[rows] = kind
+                done += len(places[here])
+                bar.update(len(places[here]))
+        except KeyboardInterrupt:
+            text = f"interrupted: {done} of {len(places)} histories in doubt are certified"
+            raise Interrupted(text, so_far()) from None
+    return so_far()
 
 
 def _records_of(stripes: Stripes, records: Any) -> list[Record]:

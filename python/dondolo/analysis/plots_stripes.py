@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from dondolo._fortran.records import blank_unit
+from dondolo.analysis.certificate import Certified
 from dondolo.analysis.incremental import Incremental
 from dondolo.analysis.stripe_sets import span
 from dondolo.analysis.stripes import Stripes
@@ -25,6 +27,7 @@ def draw_stripes(stripes: Stripes, ax: Axes | None) -> Axes:
     survives = stripes.ran & ~collapsed
     x = np.broadcast_to(levels[:, None], edp.shape)
     limit = stripes.edp_limit
+    _draw_bounds(stripes, ax)
     ax.plot(
         x[survives],
         edp[survives],
@@ -57,8 +60,30 @@ def draw_stripes(stripes: Stripes, ax: Axes | None) -> Axes:
     ax.set_xlabel(style.im_label(stripes.im))
     ax.set_ylabel("EDP = largest rotation / capacity")
     ax.set_title(stripes.wall.name, loc="left", parse_math=False)
-    style.legend(ax, loc="upper left", bbox_to_anchor=(0.0, 0.8))
+    if stripes.status is None:
+        style.legend(ax, loc="upper left", bbox_to_anchor=(0.0, 0.8))
+    else:
+        # Bounds may run through the whole figure.
+        style.legend(ax, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2)
     return ax
+
+
+def _draw_bounds(stripes: Stripes, ax: Axes) -> None:
+    """Of certified stripes: EDPs between which the last digit of the input decides, and what they make of theta."""
+    if stripes.status is None or stripes.edp_lowest is None or stripes.edp_highest is None:
+        return
+    rows, columns = np.nonzero(stripes.status == Certified.NOT_COMPUTABLE)
+    if len(rows):
+        lowest, highest = stripes.edp_lowest[rows, columns], stripes.edp_highest[rows, columns]
+        ax.vlines(stripes.levels[rows], lowest, highest, color=style.PURPLE, linewidth=2.0, zorder=1)
+        text = f"not computable ({len(rows)}): between these"
+        ax.plot(stripes.levels[rows], highest, "_", color=style.PURPLE, markersize=7, label=text)
+        ax.plot(stripes.levels[rows], lowest, "_", color=style.PURPLE, markersize=7)
+    low, high = stripes.theta_bounds
+    if np.isfinite([low, high]).all():
+        unit = blank_unit(stripes.im)
+        text = f"certified: θ = {low:.5g}{unit}" if low == high else f"certified: θ from {low:.5g} to {high:.5g}{unit}"
+        ax.axvspan(low, high, color=style.PURPLE, alpha=0.35, linewidth=1.0, label=text, zorder=0)
 
 
 def draw_damage_states(stripes: Stripes, ax: Axes | None, fits: Sequence[Fragility]) -> Axes:

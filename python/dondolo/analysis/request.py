@@ -16,7 +16,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dondolo._base.arguments import FloatArray, as_count
+from dondolo._base.arguments import FloatArray, as_count, as_flag
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
 from dondolo._fortran.library import as_text, check, properties, receive, stoppable, unpack_warnings
@@ -276,7 +276,7 @@ class _NoBar:
 
 def progress_bar(total: int, wanted: bool, label: str, unit: str, initial: int = 0) -> Any:
     """A progress bar, hidden where stderr is neither a terminal nor a notebook's. `initial` are done already."""
-    if not wanted:
+    if not as_flag("progress", wanted):
         return _NoBar()
     # None: hidden unless stderr is a terminal. A notebook's is none, and shows the bar all the same.
     return _bar()(

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, as_number, instance_of
+from dondolo._base.arguments import FloatArray, as_flag, as_number, instance_of
 from dondolo._base.shown import Shown
 from dondolo._fortran import _core
 from dondolo._fortran.histories import warnings_of_errors, warnings_of_motion
@@ -305,11 +305,13 @@ def simulate(
 
     Notes
     -----
-    Equations (1) to (4) of Nale et al.; docs/theory.md, section 4.
+    Equations (1) to (4) of Nale et al.; docs/theory.md, section 4. The engine is that of the stripes: EDP, flag,
+    impacts and estimated error are those that `multiple_stripe` gives this history, to the bit.
     """
     instance_of("wall", wall, Wall, "no wall")
     instance_of("record", record, Record, "no record")
     factor = as_number("scale", scale)
+    history, estimate_error = as_flag("history", history), as_flag("estimate_error", estimate_error)
     how = as_solver(solver)
     settings = how._settings(estimate_error)
     with stoppable():

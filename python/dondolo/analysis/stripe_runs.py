@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import as_count, instance_of, one_of
+from dondolo._base.arguments import as_count, as_flag, instance_of, one_of
 from dondolo._fortran.histories import warnings_of_errors
 from dondolo._fortran.library import warn
 from dondolo.analysis.auto_levels import FEWEST, next_level, rounded
@@ -82,7 +82,8 @@ def multiple_stripe(
     InputError
         What cannot be run, with the sentence of the executable.
     Interrupted
-        Ctrl-C; its `partial` has the stripes that are complete.
+        Ctrl-C; its `partial` has the stripes that are complete; while histories are certified all stripes, with
+        which `certify` goes on.
 
     Warns
     -----
@@ -102,6 +103,8 @@ def multiple_stripe(
     It ends early where the next level would scale a record beyond all measure.
     """
     instance_of("wall", wall, Wall, "no wall")
+    estimate_error, certify = as_flag("estimate_error", estimate_error), as_flag("certify", certify)
+    as_flag("progress", progress)
     if isinstance(levels, str):
         one_of("levels", levels, ("auto",))
         if isinstance(records, Mapping) or getattr(records, "level", None) is not None:

@@ -39,7 +39,7 @@ def histories_table(stripes: Stripes) -> tables.Table:
     if stripes.edp_error is not None:
         table["edp_error"] = stripes.edp_error[ran]
     if stripes.status is not None and stripes.edp_lowest is not None and stripes.edp_highest is not None:
-        table["status"] = [Certified(status).name.lower() for status in stripes.status[ran]]
+        table["status"] = [Certified(one).name.lower() if one else "" for one in stripes.status[ran]]
         table["edp_lowest"] = stripes.edp_lowest[ran]
         table["edp_highest"] = stripes.edp_highest[ran]
     return table

@@ -26,7 +26,7 @@ from dondolo.curves.damage_states import fit_states
 from dondolo.curves.fitting import fit
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.sample import Sample, cluster_labels, given_labels
-from dondolo.errors import InputError
+from dondolo.errors import InputError, silent
 from dondolo.walls.table import walls_table
 from dondolo.walls.ties import states_of_ties
 from dondolo.walls.wall import Wall, upload
@@ -34,6 +34,7 @@ from dondolo.walls.wall import Wall, upload
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+_Counts = np.ndarray[Any, np.dtype[np.int64]]
 _Table = Literal["histories", "stripes", "walls"]
 
 #: Fits of damage states: each on its own, or all with one dispersion
@@ -80,7 +81,8 @@ class Stripes(Shown, Saved):
     edp_error : ndarray, shape (levels, histories), or None
         Estimated errors of `edp`; None unless asked for.
     status : ndarray of int, shape (levels, histories), or None
-        How each history is certified, a `Certified`; None unless asked for.
+        How each history is certified, a `Certified`; None unless asked for. 0 for one that was not run, or whose doubt
+        an interrupted run has left.
     edp_lowest, edp_highest : ndarray, shape (levels, histories), or None
         EDPs between which the last digit of the input decides, equal but for `Certified.NOT_COMPUTABLE`; None unless
         certified.
@@ -165,14 +167,68 @@ class Stripes(Shown, Saved):
 
         NaN where there is no curve; only of certified stripes.
         """
+        self._check_certified("theta_bounds")
+        ((low, high),) = self.state_bounds([self.edp_limit])
+        return low, high
+
+    def state_bounds(
+        self, edp_thresholds: ArrayLike | None = None, *, states: States = "separate"
+    ) -> tuple[tuple[float, float], ...]:
+        """Bounds of theta of damage states, since some histories are not computable from their input.
+
+        Parameters
+        ----------
+        edp_thresholds, states
+            As for `fit_damage_states`.
+
+        Returns
+        -------
+        tuple of (float, float)
+            Of each state: theta if all histories reach it that are not computable and may, and if none of them does;
+            NaN where there is no curve.
+
+        Raises
+        ------
+        InputError
+            Stripes that are not certified, and as `fit_damage_states`.
+        """
+        lowest, highest = self._check_certified("state_bounds")
+        with silent():
+            low, high = (
+                dataclasses.replace(self, edp=edp, collapsed=edp >= self.edp_limit).fit_damage_states(
+                    edp_thresholds, states=states
+                )
+                for edp in (highest, lowest)
+            )
+        return tuple((one.theta, other.theta) for one, other in zip(low, high, strict=True))
+
+    def exceedance_bounds(self, edp_threshold: float) -> tuple[_Counts, _Counts]:
+        """Histories of each stripe that reach a threshold: bounds, since some are not computable from their input.
+
+        Parameters
+        ----------
+        edp_threshold : float
+            As for `exceedances`.
+
+        Returns
+        -------
+        fewest, most : ndarray of int, shape (levels,)
+            Without those that are not computable and may, and with all of them.
+
+        Raises
+        ------
+        InputError
+            Stripes that are not certified, and as `exceedances`.
+        """
+        bounds = self._check_certified("exceedance_bounds")
+        fewest, most = (dataclasses.replace(self, edp=edp).exceedances(edp_threshold) for edp in bounds)
+        return fewest, most
+
+    def _check_certified(self, what: str) -> tuple[FloatArray, FloatArray]:
+        """The lowest and the highest EDPs."""
         if self.edp_lowest is None or self.edp_highest is None:
-            raise InputError("theta_bounds: only of certified stripes")
-        counts = ((edp >= self.edp_limit).sum(axis=1) for edp in (self.edp_highest, self.edp_lowest))
-        low, high = (
-            fit(self.levels, each.astype(np.float64), self.histories.astype(np.float64), im=self.im, wall=self.wall)
-            for each in counts
-        )
-        return low.theta, high.theta
+            raise InputError(f"{what}: only of certified stripes")
+        return self.edp_lowest, self.edp_highest
 
     @property
     def broken_ties(self) -> FloatArray:

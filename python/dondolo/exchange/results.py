@@ -28,6 +28,7 @@ from dondolo.exchange.result_file import MixedError, ResultFile
 from dondolo.exchange.stored_errors import kept_errors
 from dondolo.populations.combination import combine
 from dondolo.populations.typology import Typology
+from dondolo.populations.uncertain_wall import UncertainWall
 from dondolo.records.building import building_from
 from dondolo.records.codes import Site
 from dondolo.records.record import Record
@@ -58,6 +59,9 @@ class StoredResults(Shown):
         Task 'stripes'.
     typology : Typology or None
         Task 'typology'.
+    uncertain : UncertainWall or None
+        Of a case with a group &uncertainty: its typology, and what that owes to each source. Its `numbers` and `rest`
+        are NaN, since the files do not have them.
     check : CodeCheck or None
         Of a case with a group &check.
     run : RunFile
@@ -70,6 +74,7 @@ class StoredResults(Shown):
     stripes: Stripes | None = None
     fragility: Fragility | None = None
     typology: Typology | None = None
+    uncertain: UncertainWall | None = None
     check: CodeCheck | None = None
 
     def _facts(self) -> list[tuple[str, str]]:
@@ -172,6 +177,11 @@ def _read(prefix: str, run: RunFile) -> StoredResults:
             stored = replace(stored, typology=_typology(table, population, work, run.warnings))
     if stored.typology is not None:
         stored = replace(stored, typology=_with_errors(stored.typology, prefix, run))
+    if stored.typology is not None and "uncertainty" in run.settings:
+        sources = ResultFile(prefix + "_sources.csv", run)
+        with sources.reading():
+            stored = replace(stored, uncertain=_uncertain(sources, stored.typology))
+        sources.check(run)
     walls.check(run)
     table.check(run)
     if task == "stripes" and "check" in run.settings:
@@ -327,6 +337,32 @@ def _typology(table: ResultFile, population: Population, work: Work, warnings: t
     im = table.texts("im")[0]
     result = combine(population, im, levels, thresholds, counts, histories, everyone, work)
     return replace(result, warnings=tuple(dict.fromkeys([*warnings, *result.warnings])))
+
+
+def _uncertain(table: ResultFile, typology: Typology) -> UncertainWall:
+    """What a wall with variants owes to each of its uncertain properties."""
+    if len(typology.walls) < 3 + 2 * len(table):
+        raise ValueError(f"{len(table)} rows: are too many sources for the {len(typology.walls)} walls of the run")
+
+    # What a curve that does not exist leaves is empty.
+    def numbers(name: str) -> Any:
+        return np.array([table.number(name, i) if cell else np.nan for i, cell in enumerate(table.texts(name))])
+
+    def several(*names: str) -> Any:
+        return np.array([numbers(name) for name in names]).T
+
+    return UncertainWall(
+        sources=tuple(table.texts("source")),
+        distributions=tuple(table.texts("distribution")),
+        values=several("value_5", "value_50", "value_95"),
+        typology=typology,
+        first=numbers("first"),
+        first_interval=several("first_low", "first_high"),
+        total=numbers("total"),
+        total_interval=several("total_low", "total_high"),
+        rest=np.nan,
+        numbers=(np.nan, np.nan),
+    )
 
 
 def _with_errors(typology: Typology, prefix: str, run: RunFile) -> Typology:

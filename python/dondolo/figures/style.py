@@ -21,6 +21,7 @@ Panels = NDArray[np.object_]
 # Okabe and Ito (2008), Color universal design
 BLUE = "#0072B2"
 RED = "#D55E00"
+PURPLE = "#CC79A7"
 BLACK = "#000000"
 GREY = "#8C8C8C"
 LIGHT = "#D9D9D9"

@@ -63,7 +63,7 @@ def _draw_tornado(found: UncertainWall, ax: Any) -> None:
         (
             f"{name}\n{low:.4g} to {high:.4g} {_UNITS[name]}".rstrip(),
             tuple(curve.theta for curve in ends),
-            f"{100.0 * share:.0f} %",
+            f"{100.0 * share:.0f} %" if np.isfinite(share) else "no index",
         )
         for name, (low, _, high), ends, share in zip(found.sources, found.values, found.ends, found.total, strict=True)
     ]
@@ -82,6 +82,10 @@ def _draw_tornado(found: UncertainWall, ax: Any) -> None:
             ax.annotate(
                 share, (max(at_low, at_high), row), (5, 0), textcoords="offset points", va="center", fontsize=8.5
             )
+    if not bars:
+        ax.set_axis_off()
+        ax.text(0.5, 0.5, "no medians", transform=ax.transAxes, ha="center")
+        return
     ax.axvline(middle.theta, color=style.BLUE, linestyle="--", linewidth=1.2, zorder=0)
     if found.as_given.has_fit:
         ax.axvline(found.as_given.theta, color=style.BLACK, linestyle=":", zorder=0)

@@ -14,7 +14,7 @@ from dondolo._base.arguments import FloatArray, as_count, instance_of
 from dondolo._base.shown import Shown
 from dondolo._fortran.buildings import BUILDING_NAMES
 from dondolo._fortran.records import blank_unit
-from dondolo._fortran.uncertainty import published_factors, sensitivity
+from dondolo._fortran.uncertainty import published_factors, sensitivity, smallest_sample
 from dondolo._fortran.walls import WALL_LISTS, WALL_NUMBERS
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
@@ -29,7 +29,7 @@ from dondolo.populations.curve import PopulationCurve
 from dondolo.populations.study import typology
 from dondolo.populations.typology import Typology
 from dondolo.records.record import Record
-from dondolo.walls.distributions import Distribution, Uniform
+from dondolo.walls.distributions import Distribution, Uniform, no_distribution
 from dondolo.walls.population import Population
 from dondolo.walls.sampling import draw, in_words, make_walls
 from dondolo.walls.wall import Wall
@@ -130,8 +130,9 @@ class UncertainWall(Shown, Saved):
 
     @property
     def theta(self) -> float:
-        """Median of the curve with its uncertain model: the geometric mean of the medians in the sample."""
-        return float(np.exp(np.nanmean(np.log(self.thetas))))
+        """Median of the curve with its uncertain model: the geometric mean of those in the sample; NaN if none."""
+        thetas = self.thetas
+        return float(np.exp(np.log(thetas[np.isfinite(thetas)]).mean())) if np.isfinite(thetas).any() else np.nan
 
     @property
     def beta_records(self) -> float:
@@ -243,7 +244,7 @@ def uncertain_wall(
         'graziotti_2016', 0.84 to 0.90 for walls of two blocks, or 'elgawady_2010', 0.90 to 1.0 for blocks on a base
         of concrete or stone; both stand for uniform distributions.
     count : int
-        Walls of the sample, at most 10 000.
+        Walls of the sample, at most 10 000, and at least 2 + 6 k + k (k - 1) for k sources.
     seed : int
         Seed of the random numbers; the same seed gives the same walls.
 
@@ -280,7 +281,7 @@ def uncertain_wall(
     """
     instance_of("wall", wall, Wall, "no wall")
     known = _distributions(wall, sources)
-    n, seed = as_count("count", count, 1, _MOST), as_count("seed", seed, 0)
+    n, seed = as_count("count", count, smallest_sample(len(known)), _MOST), as_count("seed", seed, 0)
     values = np.array(
         [[float(known[what].ppf(np.array([q]))[0]) for q in (_ENDS[0], _MIDDLE, _ENDS[1])] for what in known]
     )
@@ -334,14 +335,18 @@ def _distributions(wall: Wall, sources: Any) -> dict[str, Distribution]:
             published = published_factors()
             if what != "restitution_factor" or given not in published:
                 names = ", ".join(map(repr, published))
+                error = no_distribution(what, given)
+                raise InputError(f"{error}; names are for restitution_factor, {names}")
+            if published[given].mechanism not in ("", wall.mechanism):
                 raise InputError(
-                    f"{what} = {given!r}: must be a distribution; names are for restitution_factor, {names}"
+                    f"{what} = {given!r}: is of tests of {published[given].mechanism} walls, must be a distribution or "
+                    f"another range for {wall.mechanism}"
                 )
             found[what] = Uniform(published[given].low, published[given].high)
         elif isinstance(given, Distribution):
             found[what] = given
         else:
-            raise InputError(f"{what} = {given!r}: must be a distribution")
+            raise no_distribution(what, given)
     return found
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from dondolo._base.arguments import as_flag
 from dondolo._base.files import as_file, check_replaced
 from dondolo._fortran.library import constants
 from dondolo._storage import tables
@@ -69,6 +70,7 @@ def build_catalogue(
     InputError
         No such folder, no accelerogram in it, or a file that is no catalogue stands where it would be written.
     """
+    as_flag("vertical", vertical)
     root = Path(folder)
     if not root.is_dir():
         raise InputError(f"{root}: no such folder")

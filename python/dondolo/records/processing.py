@@ -9,7 +9,7 @@ from typing import Literal, get_args
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, as_count, as_number, one_of
+from dondolo._base.arguments import FloatArray, as_count, as_flag, as_number, one_of
 from dondolo.errors import InputError
 from dondolo.records.suite import Motion, significant_times, velocity
 
@@ -71,8 +71,7 @@ def band_pass(
             f"{'low' if low is not None else 'high'} = {corners[0]:g} Hz: its period must not exceed ten times the "
             f"duration of the record, {record.duration:g} s"
         )
-    if not isinstance(keep_padding, (bool, np.bool_)):
-        raise InputError(f"keep_padding = {keep_padding!r}: must be True or False")
+    as_flag("keep_padding", keep_padding)
     degree = as_count("order", order, 1, 10)
     part = as_number("taper", taper)
     if not 0.0 <= part <= 0.5:

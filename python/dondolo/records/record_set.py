@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dondolo._base.arguments import FloatArray, as_array, as_measures, as_number
+from dondolo._base.arguments import FloatArray, as_array, as_flag, as_measures, as_number
 from dondolo._base.shown import Shown
 from dondolo._fortran.library import constants
 from dondolo._fortran.records import describe_measure
@@ -226,6 +226,7 @@ class RecordSet(Shown, Saved):
         RecordSet
         """
         values = self._column(by)
+        descending = as_flag("descending", descending)
         if descending and values.dtype.kind == "f":
             return self._rows(np.argsort(-values, kind="stable"))
         order = np.argsort(values, kind="stable")

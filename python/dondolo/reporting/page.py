@@ -23,7 +23,8 @@ from dondolo.exchange.results import StoredResults
 from dondolo.figures import style
 from dondolo.figures.style import mechanism_name
 from dondolo.populations.typology import Typology
-from dondolo.reporting import inputs, typology, wall
+from dondolo.populations.uncertain_wall import UncertainWall
+from dondolo.reporting import inputs, typology, uncertain, wall
 from dondolo.reporting.code_check import code_check
 from dondolo.reporting.content import BETA, THETA, Symbol, date_in_words
 from dondolo.reporting.numerals import NONE, whole
@@ -49,7 +50,7 @@ class Chapter:
 
 
 def report(
-    results: StoredResults | Results | Typology | Stripes | Response,
+    results: StoredResults | Results | Typology | UncertainWall | Stripes | Response,
     path: str | os.PathLike[str],
     *,
     hazard: HazardCurve | None = None,
@@ -60,8 +61,9 @@ def report(
 
     Parameters
     ----------
-    results : StoredResults, Results, Typology, Stripes or Response
-        What `read_results`, `run_case`, `typology`, `multiple_stripe` or `simulate` gave. Files know most of a run.
+    results : StoredResults, Results, Typology, UncertainWall, Stripes or Response
+        What `read_results`, `run_case`, `typology`, `uncertain_wall`, `multiple_stripe` or `simulate`
+        gave. Files know most of a run.
     path : path
         The file; its folder must exist. One that ends in ``.pdf`` is printed by Chromium or WeasyPrint. An earlier
         report is replaced, any other file is not.
@@ -156,6 +158,10 @@ def _chapters(run: Run, hazard: HazardCurve | None) -> list[Chapter]:
                 typology.uncertainty(results),
             ),
         ]
+        if run.uncertain is not None:
+            summary = uncertain.summary(run.uncertain)
+            model = Chapter("model", "Uncertainty of the model", "model_uncertainty", uncertain.model(run.uncertain))
+            chapters.insert(0, model)
     elif isinstance(results, Stripes):
         assert run.curve is not None
         summary = wall.summary(results, run.curve)
@@ -166,6 +172,9 @@ def _chapters(run: Run, hazard: HazardCurve | None) -> list[Chapter]:
             Chapter("numbers", "Stripes and damage states", "wall_numbers", numbers),
             Chapter("uncertainty", "Uncertainty of the curve", "wall_uncertainty", wall.uncertainty(run.curve)),
         ]
+        if results.status is not None:
+            told = wall.certificates(results, run.states, run.how)
+            chapters.insert(2, Chapter("certificates", "Certified histories", "certificates", told))
     else:
         summary = wall.motion_summary(results)
         chapters = [

@@ -19,6 +19,7 @@ from dondolo.errors import DondoloWarning, InputError
 from dondolo.exchange.cases import Results
 from dondolo.exchange.results import StoredResults
 from dondolo.populations.typology import Typology
+from dondolo.populations.uncertain_wall import UncertainWall
 from dondolo.records.record import Record
 from dondolo.reporting.content import Facts
 from dondolo.walls.population import Population
@@ -86,6 +87,10 @@ class Run:
         None if there are none.
     check : CodeCheck or None
         Check by a building code.
+    how : {'separate', 'ordinal'}
+        How the curves of the damage states are fitted.
+    uncertain : UncertainWall or None
+        What the results, a typology, are of.
     """
 
     results: Typology | Stripes | Response
@@ -99,6 +104,8 @@ class Run:
     warnings: list[DondoloWarning] = field(default_factory=list)
     scales: LargeScales | None = None
     check: CodeCheck | None = None
+    how: States = "separate"
+    uncertain: UncertainWall | None = None
 
 
 def run_of(results: Any) -> Run:
@@ -107,6 +114,13 @@ def run_of(results: Any) -> Run:
         return _of_files(results)
     if isinstance(results, Results):
         return _of_case(results)
+    if isinstance(results, UncertainWall):
+        run = run_of(results.typology)
+        run.uncertain, run.title = (
+            results,
+            f"Fragility of {results.typology.walls[results._samples].name}, its model uncertain",
+        )
+        return run
     if isinstance(results, Typology):
         walls = len(results.combined)
         title = f"Fragility of {walls} walls" if walls > 1 else f"Fragility of {results.walls[0].name}"
@@ -124,6 +138,7 @@ def _of_files(stored: StoredResults) -> Run:
     """Result files: the file of the run knows its warnings, more of the scale factors than a fit repeated."""
     run = run_of(stored.typology or stored.stripes or stored.response)
     run.file, run.population, run.check = stored.run, stored.population, stored.check
+    run.uncertain = stored.uncertain
     run.title = stored.run.setting("job", "title", "") or run.title
     known = {one.code for one in stored.run.warnings} & {_LARGE_SCALES}
     more = [one for one in run.warnings if one.code not in known]
@@ -160,7 +175,7 @@ def _set_states(run: Run, stripes: Stripes, edp_thresholds: ArrayLike | None, st
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", DondoloWarning)
         run.states = stripes.fit_damage_states(edp_thresholds, states=states)
-    run.curve = run.states[-1]
+    run.curve, run.how = run.states[-1], states
 
 
 def _of_stripes(stripes: Stripes) -> Run:

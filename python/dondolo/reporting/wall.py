@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 
 from dondolo._fortran.records import blank_unit
+from dondolo.analysis.certificate import Certified
 from dondolo.analysis.plots_stripes import draw_damage_states
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripe_sets import span
-from dondolo.analysis.stripes import Stripes
+from dondolo.analysis.stripes import States, Stripes
 from dondolo.curves.fragility import Fragility
 from dondolo.reporting.content import (
     BETA,
@@ -127,6 +128,31 @@ def uncertainty(curve: Fragility) -> dict[str, Any]:
         columns[letter, " from"] = [parameter(interval[name][0]) for interval in methods.values()]
         columns[letter, " to"] = [parameter(interval[name][1]) for interval in methods.values()]
     return {"intervals": Table.of(columns)}
+
+
+def certificates(stripes: Stripes, curves: Sequence[Fragility], states: States) -> dict[str, Any]:
+    """How many histories are certified in which way at each level, and bounds of each curve."""
+    assert stripes.status is not None
+    columns: dict[Piece, Sequence[Piece]] = {level_head(stripes.im): [number(x) for x in stripes.levels]}
+    for kind in Certified:
+        columns[kind.name.lower()] = [whole(n) for n in (stripes.status == kind).sum(axis=1)]
+    thresholds = [float(one.edp_threshold or 0.0) for one in curves]
+    bounds = stripes.state_bounds(thresholds, states=states)
+    for threshold in thresholds:
+        name = state_name(threshold, stripes.edp_limit)
+        ends = zip(*stripes.exceedance_bounds(threshold), stripes.histories, strict=True)
+        columns[f"fraction, {name}"] = [
+            probability(low / n) if low == high else (probability(low / n), " to ", probability(high / n))
+            for low, high, n in ends
+        ]
+    medians: dict[Piece, Sequence[Piece]] = {
+        "damage state": [state_name(threshold, stripes.edp_limit) for threshold in thresholds],
+        (THETA, f" [{level_unit(stripes.im)}]"): [parameter(one.theta) for one in curves],
+        ("lowest ", THETA): [parameter(low) for low, _ in bounds],
+        ("greatest ", THETA): [parameter(high) for _, high in bounds],
+    }
+    counts = [(kind.name.lower(), whole(int(np.count_nonzero(stripes.status == kind)))) for kind in Certified]
+    return {"counts": counts, "levels": Table.of(columns), "medians": Table.of(medians)}
 
 
 def motion_summary(motion: Response) -> dict[str, Any]:

@@ -94,8 +94,18 @@ class Triangular:
         return quantiles
 
 
+class _CutOff:
+    """A distribution whose ends must be named: they are no parameters of the whole one."""
+
+    def __new__(cls, *values: Any, **named: Any) -> Any:
+        if len(values) > 2:
+            ends = ", ".join(f"{name}={value!r}" for name, value in zip(("low", "high"), values[2:], strict=False))
+            raise InputError(f"{cls.__name__}: takes two numbers; where it is cut off must be named: {ends}")
+        return super().__new__(cls)
+
+
 @dataclass(frozen=True)
-class Normal:
+class Normal(_CutOff):
     """The normal distribution, whole or cut off.
 
     Parameters
@@ -131,7 +141,7 @@ class Normal:
 
 
 @dataclass(frozen=True)
-class Lognormal:
+class Lognormal(_CutOff):
     """The lognormal distribution, whole or cut off.
 
     Parameters
@@ -234,3 +244,18 @@ def _check_ends(low: float | None, high: float | None) -> None:
     """The ends of a distribution must leave something between them."""
     if low is not None and high is not None and not low < high:
         raise InputError(f"high = {high:g}: must be greater than low = {low:g}")
+
+
+def no_distribution(what: str, given: Any) -> InputError:
+    """The error of what is no distribution; of a text as cases have it, with what to write here."""
+    kinds = {kind.__name__.lower(): kind.__name__ for kind in (Uniform, Triangular, Normal, Lognormal)}
+    sentence = f"{what} = {given!r}: must be a distribution"
+    if isinstance(given, str):
+        name, opening, rest = given.strip().partition("(")
+        if opening and name.strip().lower() in kinds:
+            values = rest.rstrip(" )").split(",")
+            ends = [f"{end}={value.strip()}" for end, value in zip(("low", "high"), values[2:], strict=False)]
+            cut = name.strip().lower() in ("normal", "lognormal")
+            told = [value.strip() for value in values[: 2 if cut else None]] + (ends if cut else [])
+            sentence += f", here dd.{kinds[name.strip().lower()]}({', '.join(told)}); such texts are for cases"
+    return InputError(sentence)

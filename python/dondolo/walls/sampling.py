@@ -18,7 +18,7 @@ from dondolo._fortran.buildings import BUILDING_NAMES
 from dondolo._fortran.library import as_text, constants
 from dondolo._fortran.walls import WALL_LISTS, WALL_NUMBERS, WALL_TEXTS, describe_walls
 from dondolo.errors import InputError
-from dondolo.walls.distributions import Distribution
+from dondolo.walls.distributions import Distribution, no_distribution
 from dondolo.walls.mechanisms import MECHANISMS, wall_from
 from dondolo.walls.population import Population
 from dondolo.walls.wall import Wall
@@ -185,7 +185,7 @@ def _check_variables(variables: Mapping[str, Any]) -> None:
         if what in _PROPERTIES and what not in BUILDING_NAMES:
             raise InputError(f"variables: {what!r} is a property of the walls, to be given as one")
         if not isinstance(value, Distribution):
-            raise InputError(f"{what} = {value!r}: must be a distribution")
+            raise no_distribution(what, value)
 
 
 def _check_properties(own: Mapping[str, Mapping[str, Property]], properties: Mapping[str, Property]) -> None:

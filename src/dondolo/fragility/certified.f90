@@ -8,6 +8,7 @@ module dondolo_certified
    use dondolo_fragility, only : fit_fragility, fragility_type
    use dondolo_kinds, only : wp
    use dondolo_memory, only : check_room
+   use dondolo_ordinal, only : fit_ordinal
    use dondolo_queue, only : progress_interface
    use dondolo_stripes, only : stripes_type, take_motions
    use dondolo_study, only : study_type
@@ -16,7 +17,15 @@ module dondolo_certified
    implicit none
    private
 
-   public :: certify_stripes, theta_bounds
+   public :: bound_states, certify_stripes, state_bounds_type
+
+   !> Bounds of a damage state
+   type :: state_bounds_type
+      !> Histories of each level that reach it: of those that are not computable none, and all that may
+      integer, allocatable :: fewest(:), most(:)
+      !> Theta with all of them, and with none; 0 where there is no curve
+      real(wp) :: theta_lowest = 0.0_wp, theta_highest = 0.0_wp
+   end type state_bounds_type
 
    !> Memory that a certified history takes [bytes]
    real(wp), parameter :: bytes_of_certified = 200.0_wp
@@ -71,35 +80,61 @@ contains
       end associate
    end subroutine certify_stripes
 
-   !> Median capacities between which the histories lie that are not computable from this input
-   subroutine theta_bounds(stripes, edp_limit, lowest, highest)
+   !> Counts and median capacities between which the damage states lie, since histories are not computable from this input
+   subroutine bound_states(stripes, thresholds, ordinal, bounds, error)
       !> Certified stripes
       type(stripes_type), intent(in) :: stripes
-      !> Rotation / capacity at which the wall has collapsed
-      real(wp), intent(in) :: edp_limit
-      !> Theta with all of them collapsed that may be, and with none of them; 0 where there is no curve
-      real(wp), intent(out) :: lowest, highest
+      !> EDP thresholds
+      real(wp), intent(in) :: thresholds(:)
+      !> Do the curves of all thresholds have one dispersion?
+      logical, intent(in) :: ordinal
+      !> Bounds of each threshold
+      type(state_bounds_type), allocatable, intent(out) :: bounds(:)
+      !> Counts that cannot be fitted
+      type(error_type), allocatable, intent(out) :: error
 
-      lowest = theta_of(stripes%certified%highest)
-      highest = theta_of(stripes%certified%lowest)
+      integer :: k
+
+      allocate (bounds(size(thresholds)))
+      do k = 1, size(thresholds)
+         bounds(k)%fewest = count(stripes%ran .and. stripes%certified%lowest >= thresholds(k), dim=1)
+         bounds(k)%most = count(stripes%ran .and. stripes%certified%highest >= thresholds(k), dim=1)
+      end do
+      call find_thetas(stripes%certified%highest, bounds%theta_lowest)
+      if (.not. allocated(error)) call find_thetas(stripes%certified%lowest, bounds%theta_highest)
 
    contains
 
-      !> Theta with other EDPs
-      real(wp) function theta_of(edp)
+      !> Theta of each threshold with other EDPs; 0 where there is no curve
+      subroutine find_thetas(edp, thetas)
          !> EDPs (histories, levels)
          real(wp), intent(in) :: edp(:, :)
+         !> Thetas
+         real(wp), intent(out) :: thetas(:)
 
-         type(fragility_type) :: curve
-         type(error_type), allocatable :: error
+         type(fragility_type) :: curves(size(thresholds))
+         real(wp) :: reached(size(stripes%levels), size(thresholds)), histories(size(stripes%levels))
+         integer :: j
 
-         theta_of = 0.0_wp
-         call fit_fragility(curve, stripes%levels, real(count(stripes%ran .and. edp >= edp_limit, dim=1), wp), &
-            & real(stripes%histories(), wp), error)
-         if (allocated(error)) return
-         if (curve%has_fit()) theta_of = curve%theta
-      end function theta_of
+         thetas = 0.0_wp
+         histories = real(stripes%histories(), wp)
+         do j = 1, size(thresholds)
+            reached(:, j) = real(count(stripes%ran .and. edp >= thresholds(j), dim=1), wp)
+         end do
+         if (ordinal) then
+            call fit_ordinal(curves, stripes%levels, reached, histories, error)
+            if (allocated(error)) return
+         else
+            do j = 1, size(thresholds)
+               call fit_fragility(curves(j), stripes%levels, reached(:, j), histories, error)
+               if (allocated(error)) return
+            end do
+         end if
+         do j = 1, size(thresholds)
+            if (curves(j)%has_fit()) thetas(j) = curves(j)%theta
+         end do
+      end subroutine find_thetas
 
-   end subroutine theta_bounds
+   end subroutine bound_states
 
 end module dondolo_certified

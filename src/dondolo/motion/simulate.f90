@@ -1,23 +1,21 @@
-!> The motion of a wall under an accelerogram, and how far its result can be trusted.
-!>
-!> Rocking amplifies errors, in a few histories by more than 10^8, and nothing in a step's own error tells which.
-!> So the history is run twice more, with a slightly stronger and a slightly weaker record, one of them with halved steps:
-!> the differences tell the size of the error of the first run, and are no bound (dondolo_error_estimate).
+!> The motion of a wall under an accelerogram, by the engine that runs its stripes: result and estimated error are those of the
+!> same history in a stripe, to the bit.
 module dondolo_simulate
-   use dondolo_ensemble, only : check_engine, ensemble_type, run_ensemble
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_error_estimate, only : estimated_error, other_run, runs_of_estimate
+   use dondolo_ensemble, only : ensemble_type, run_ensemble
    use dondolo_kinds, only : wp
+   use dondolo_lane_constants, only : lane_constants_type, new_lane_constants
+   use dondolo_lane_variants, only : trace_variant
    use dondolo_mechanism, only : mechanism_type
    use dondolo_record, only : record_type
    use dondolo_response, only : response_type, trace_type
+   use dondolo_rest, only : new_rest, rest_type
    use dondolo_rk45, only : simulate_rk45
    use dondolo_solver, only : solver_type
    use dondolo_suite, only : new_suite, suite_type
    implicit none
    private
 
-   public :: simulate, check_history
+   public :: simulate
 
 contains
 
@@ -27,52 +25,45 @@ contains
       type(record_type), intent(in) :: record
       !> Factor on it, negative to reverse its polarity
       real(wp), intent(in) :: scale
-      !> Engine ('lanes' only without a trace), tolerances and limit; whether the error of the EDP is to be estimated
+      !> Engine, tolerances and limit; whether the error of the EDP is to be estimated
       type(solver_type), intent(in) :: solver
       type(response_type), intent(out) :: response
       !> Time history, until rest or 10 s past the end of the record; computed only if present
       type(trace_type), intent(inout), optional :: trace
 
-      type(response_type) :: others(runs_of_estimate - 1)
-      type(solver_type) :: other_solver
-      real(wp) :: other_scale
-      integer :: k
+      type(lane_constants_type) :: constants
+      type(response_type) :: again
       type(ensemble_type) :: ensemble
       type(suite_type) :: suite
       type(record_type), allocatable :: records(:)
+      type(rest_type) :: rest
+      real(wp) :: time, side
+      integer :: interval
+      logical :: found
 
-      if (solver%engine == 'lanes' .and. .not. present(trace)) then
-         ensemble%record = [1]
-         ensemble%scale = [scale]
-         records = [record]
-         call new_suite(suite, records)
-         call run_ensemble(ensemble, mechanism, suite, solver, 1)
-         response = ensemble%response(1)
-         return
+      if (.not. (present(trace) .or. solver%estimate_error)) then
+         ! A wall that never moves costs a look at the record and no more.
+         rest = new_rest(mechanism)
+         interval = 1
+         time = 0.0_wp
+         call rest%next_start(record, scale, interval, time, side, found)
+         if (.not. found) return
       end if
-      call simulate_rk45(mechanism, record, scale, solver, response, trace)
-      if (.not. solver%estimate_error) return
-      do k = 1, size(others)
-         call other_run(k, solver, scale, other_solver, other_scale)
-         call simulate_rk45(mechanism, record, other_scale, other_solver, others(k))
-      end do
-      response%edp_error = estimated_error(response, others(1), others(2), mechanism%frequency_parameter(), solver%edp_limit)
+      ensemble%record = [1]
+      ensemble%scale = [scale]
+      records = [record]
+      call new_suite(suite, records)
+      call run_ensemble(ensemble, mechanism, suite, solver, 1)
+      response = ensemble%response(1)
+      if (.not. present(trace)) return
+      ! Once more, row by row: the loop over lanes knows nothing of rows, nor does it pay for them.
+      if (solver%engine /= 'rk45') constants = new_lane_constants(mechanism, solver, suite%has_vertical())
+      if (constants%form%exists) then
+         call trace_variant(mechanism, constants, record, scale, trace)
+         if (.not. allocated(trace%ties)) allocate (trace%ties(0))
+      else
+         call simulate_rk45(mechanism, record, scale, solver, again, trace)
+      end if
    end subroutine simulate
-
-   !> Check that an engine can compute one history
-   subroutine check_history(solver, mechanism, with_trace, error, is_shaken)
-      type(solver_type), intent(in) :: solver
-      class(mechanism_type), intent(in) :: mechanism
-      !> Is its time history wanted?
-      logical, intent(in) :: with_trace
-      !> The engine lanes was asked for, and cannot
-      type(error_type), allocatable, intent(out) :: error
-      !> Is there vertical motion? No, if absent
-      logical, intent(in), optional :: is_shaken
-
-      call check_engine(solver, mechanism, error, is_shaken)
-      if (allocated(error) .or. .not. (with_trace .and. solver%engine == 'lanes')) return
-      call raise_input(error, 'engine = ''lanes'': gives no time history; must be ''auto'' or ''rk45''')
-   end subroutine check_history
 
 end module dondolo_simulate

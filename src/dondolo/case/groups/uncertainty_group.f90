@@ -5,6 +5,7 @@ module dondolo_uncertainty_group
    use dondolo_kinds, only : wp
    use dondolo_namelist_group, only : group_type
    use dondolo_property, only : is_integer, is_text, name_length, property_type
+   use dondolo_restitution, only : check_published
    use dondolo_sensitivity, only : smallest_sample
    use dondolo_settings, only : group_settings_type, new_settings
    use dondolo_settings_group, only : read_settings
@@ -65,6 +66,9 @@ contains
          associate (name => uncertainty_properties(i)%name)
             if (.not. settings%has(trim(name))) cycle
             call new_distribution(one, trim(name), settings%word(trim(name)), error)
+            if (.not. allocated(error) .and. name == 'restitution_factor' .and. wall%has('mechanism')) then
+               call check_published(settings%word(trim(name)), wall%word('mechanism'), error)
+            end if
             call problems%take(error)
             sources = [sources, name]
             distributions = [distributions, one]

@@ -4,6 +4,7 @@ module dondolo_read_case
    use dondolo_case, only : case_type
    use dondolo_catalogue, only : read_catalogue, record_rows_type
    use dondolo_check_group, only : read_check_group
+   use dondolo_ensemble, only : check_engine
    use dondolo_error, only : error_type, raise_input, status_missing
    use dondolo_history_group, only : find_record, read_history_group
    use dondolo_job_group, only : read_job
@@ -20,7 +21,6 @@ module dondolo_read_case
    use dondolo_record, only : largest_acceleration, record_type
    use dondolo_records_group, only : read_records_group
    use dondolo_settings_group, only : read_values
-   use dondolo_simulate, only : check_history
    use dondolo_solver, only : check_limit
    use dondolo_solver_group, only : read_solver_group
    use dondolo_stripes_group, only : check_states, read_stripes_group
@@ -214,9 +214,7 @@ contains
       if (allocated(error)) return
       group = namelist%group('solver')
       call check_limit(case%solver%solver, case%wall%mechanism, error)
-      if (.not. allocated(error)) then
-         call check_history(case%solver%solver, case%wall%mechanism, case%job%task == 'history', error)
-      end if
+      if (.not. allocated(error)) call check_engine(case%solver%solver, case%wall%mechanism, error)
       call group%locate(error)
       if (allocated(error)) error%message = error%message//' (wall '''//case%wall%name()//''')'
    end subroutine make_wall

@@ -2,6 +2,7 @@
 !> at once. The walls are not kept.
 module dondolo_survey
    use, intrinsic :: iso_fortran_env, only : int64
+   use dondolo_ensemble, only : check_engine
    use dondolo_error, only : add_place, error_type, problems_type, raise_input
    use dondolo_fingerprint, only : fingerprint_type
    use dondolo_identity, only : add_wall
@@ -12,7 +13,6 @@ module dondolo_survey
    use dondolo_plausibility, only : wall_warning_type
    use dondolo_population, only : member_type, population_reader_type
    use dondolo_roster, only : roster_type
-   use dondolo_simulate, only : check_history
    use dondolo_solver, only : check_limit
    use dondolo_stripes, only : plan_stripes, stripes_type
    use dondolo_study, only : study_type
@@ -101,7 +101,7 @@ contains
             if (survey%rubbing == 1 .and. .not. allocated(survey%first_rubbing)) survey%first_rubbing = member%wall%name()
             if (survey%roster%groups%count > most_groups) call refuse_group(survey%roster%groups, error)
             if (.not. allocated(error)) call check_limit(study%solver, member%wall%mechanism, error)
-            if (.not. allocated(error)) call check_history(study%solver, member%wall%mechanism, .false., error)
+            if (.not. allocated(error)) call check_engine(study%solver, member%wall%mechanism, error)
             call add_place(error, reader%place())
          end if
          if (.not. allocated(error)) then

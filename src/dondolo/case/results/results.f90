@@ -1,6 +1,7 @@
 !> What comes of a case.
 module dondolo_results
    use dondolo_certificate, only : certified_type
+   use dondolo_certified, only : state_bounds_type
    use dondolo_check_rows, only : verdicts_type
    use dondolo_check_sheet, only : sheet_type
    use dondolo_designs, only : design_type
@@ -44,8 +45,8 @@ module dondolo_results
       type(tie_tally_type), allocatable :: tallies(:, :)
       !> How they are certified, if they are (histories, levels)
       type(certified_type), allocatable :: certified(:, :)
-      !> Then: least and greatest theta of the outcomes that the last digit of the input decides; 0: no curve
-      real(wp) :: theta_bounds(2) = 0.0_wp
+      !> Then: bounds of each EDP threshold, since the last digit of the input decides some outcomes
+      type(state_bounds_type), allocatable :: bounds(:)
    end type row_counts_type
 
    !> Results of a case; what its task does not make stays empty

@@ -263,8 +263,21 @@ contains
       do i = 1, size(status_names)
          call json%put(trim(status_names(i)), count(results%row%certified%status == i))
       end do
-      call json%put('theta_lowest', results%row%theta_bounds(1))
-      call json%put('theta_highest', results%row%theta_bounds(2))
+      associate (bounds => results%row%bounds)
+         call json%put('theta_lowest', bounds(size(bounds))%theta_lowest)
+         call json%put('theta_highest', bounds(size(bounds))%theta_highest)
+         call json%open_array('states')
+         do i = 1, size(bounds)
+            call json%open_object()
+            call json%put('edp_threshold', case%stripes%thresholds(i))
+            call json%put('theta_lowest', bounds(i)%theta_lowest)
+            call json%put('theta_highest', bounds(i)%theta_highest)
+            call json%put('fewest', real(bounds(i)%fewest, wp))
+            call json%put('most', real(bounds(i)%most, wp))
+            call json%close_object()
+         end do
+         call json%close_array()
+      end associate
       call json%close_object()
    end subroutine put_counts
 

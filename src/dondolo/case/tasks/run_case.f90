@@ -2,7 +2,7 @@
 !> written here.
 module dondolo_run_case
    use dondolo_case, only : case_type
-   use dondolo_certified, only : certify_stripes, theta_bounds
+   use dondolo_certified, only : bound_states, certify_stripes
    use dondolo_check_case, only : check_stripes
    use dondolo_check_rows, only : check_wall
    use dondolo_error, only : error_type, raise_failure
@@ -160,7 +160,10 @@ contains
       if (.not. allocated(error)) call check_interrupt(error)
       if (study%solver%certify .and. .not. allocated(error)) then
          call certify_stripes(stripes, case%wall, study, error, progress)
-         if (.not. allocated(error)) call check_interrupt(error)
+         if (.not. allocated(error)) then
+            call check_interrupt(error)
+            if (allocated(error)) error%message = error%message//': nothing is written, and the certificates so far are lost'
+         end if
       end if
       if (.not. allocated(error)) call results%row%of(stripes, study%thresholds, study%suite%clusters, &
          & case%stripes%states == 'ordinal', error)
@@ -178,7 +181,8 @@ contains
          if (allocated(error)) return
       end if
       if (allocated(stripes%certified)) then
-         call theta_bounds(stripes, study%solver%edp_limit, results%row%theta_bounds(1), results%row%theta_bounds(2))
+         call bound_states(stripes, study%thresholds, case%stripes%states == 'ordinal', results%row%bounds, error)
+         if (allocated(error)) return
          call move_alloc(stripes%certified, results%row%certified)
       end if
       call tally_ties(case%wall%mechanism, stripes%response, stripes%ran, results%row%tallies)

@@ -5,7 +5,7 @@ module dondolo_response
    private
 
    public :: response_type, tie_response_type, trace_type
-   public :: largest_sure_error, never
+   public :: intervals_after, largest_sure_error, never
 
    !> A history whose EDP has a larger estimated error than this is called ill-conditioned
    real(wp), parameter :: largest_sure_error = 1.0e-6_wp
@@ -49,6 +49,9 @@ module dondolo_response
       real(wp) :: time_of_yield = never, time_of_fracture = never
    end type tie_response_type
 
+   !> Time after the record for which a time history goes on [s], and most sample intervals of it: a time step may be tiny
+   real(wp), parameter :: trace_after = 10.0_wp, most_after = 1.0e5_wp
+
    !> Time history: rows at every sample and before and after every impact
    type :: trace_type
       !> Whether it has rows at the start of rocking and after every step too, between which the motion is smooth
@@ -79,6 +82,14 @@ module dondolo_response
    end type trace_type
 
 contains
+
+   !> Sample intervals after the record for which a time history goes on
+   elemental integer function intervals_after(dt)
+      !> Time step of the record [s]
+      real(wp), intent(in) :: dt
+
+      intervals_after = ceiling(min(trace_after/dt, most_after))
+   end function intervals_after
 
    !> Is the EDP in doubt?
    elemental logical function is_ill_conditioned(self)

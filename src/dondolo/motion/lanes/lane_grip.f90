@@ -10,6 +10,7 @@ module dondolo_lane_grip
    use dondolo_lane_constants, only : lane_constants_type
    use dondolo_lane_state, only : lanes_type
    use dondolo_mechanism, only : mechanism_type
+   use dondolo_response, only : tie_response_type
    use dondolo_rest, only : new_rest, rest_type
    use dondolo_tail, only : tail_type
    implicit none
@@ -38,6 +39,8 @@ module dondolo_lane_grip
       procedure :: strike
       !> The motion after the record
       procedure :: after_record
+      !> What the history has done to the ties
+      procedure :: responses
       procedure, private :: take_hold
    end type lane_grip_type
 
@@ -150,6 +153,16 @@ contains
       call held_motion(self%wall, self%grip, constants%limit, q, v*constants%form%unit*sqrt(constants%rest%inertia/j), &
          & duration, tail)
    end subroutine after_record
+
+   !> What the history has done to each of the ties
+   pure subroutine responses(self, peak, ties)
+      class(lane_grip_type), intent(in) :: self
+      !> Largest rotation [rad]
+      real(wp), intent(in) :: peak
+      type(tie_response_type), allocatable, intent(out) :: ties(:)
+
+      call self%grip%responses(self%wall, peak, ties)
+   end subroutine responses
 
    !> Give a lane the forces and the next levels of its ties
    pure subroutine take_hold(self, constants, lanes, i)

@@ -17,6 +17,7 @@ module dondolo_lane_history
    use dondolo_queue, only : queue_type
    use dondolo_record, only : record_type
    use dondolo_record_set, only : record_set_type
+   use dondolo_response, only : trace_type
    use dondolo_rest, only : rest_type
    use dondolo_step_limits, only : longest_step, shortest_motion, smallest_step
    use dondolo_tail, only : tail_type
@@ -24,7 +25,7 @@ module dondolo_lane_history
    implicit none
    private
 
-   public :: lane_batch_type, begin, resolve
+   public :: lane_batch_type, add_row, begin, begin_still, resolve
 
    !> A history in a lane. Its interval and time are those of its last event
    type, extends(history_type) :: lane_history_type
@@ -54,6 +55,10 @@ module dondolo_lane_history
       type(record_set_type), pointer :: set => null()
       !> Where histories come from and results go to
       type(queue_type), pointer :: queue => null()
+      !> Where the rows of the one history go, if its motion is wanted
+      type(trace_type), pointer :: trace => null()
+      !> Time at which its present record begins [s]
+      real(wp) :: start = 0.0_wp
    end type lane_batch_type
 
 contains
@@ -77,10 +82,34 @@ contains
          lanes%last(i) = set%offset(history%record) + set%length(history%record)
          lanes%fifth_a(i) = constants%form%fifth_a
          if (allocated(batch%grips)) call batch%grips(i)%begin(batch%mechanism, constants, lanes, i)
-         call wait(batch, i)
+         if (associated(batch%trace)) call batch%trace%add(0.0_wp, &
+            & history%scale*batch%records(history%record)%acceleration(1), 0.0_wp, 0.0_wp, history%side)
+         call wait(batch, i, 1)
          if (history%over) call finish(batch, i)
       end associate
    end subroutine begin
+
+   !> Go on from the end of a record into another, of still ground; the result is left as it is
+   pure subroutine begin_still(batch, i, record)
+      !> The lanes, and the one, whose wall rocks
+      type(lane_batch_type), intent(inout) :: batch
+      integer, intent(in) :: i
+      !> Number of the other record, of the same time step
+      integer, intent(in) :: record
+
+      associate (lanes => batch%lanes, history => batch%history(i), constants => batch%constants, set => batch%set)
+         batch%start = batch%records(history%record)%duration()
+         history = lane_history_type(number=history%number, record=record, scale=history%scale, side=history%side, &
+            & peak=history%peak, rest=history%rest)
+         lanes%time(i) = 0.0_wp
+         lanes%next(i) = set%offset(record) + 2
+         lanes%last(i) = set%offset(record) + set%length(record)
+         lanes%next_span(i) = longest_step(constants%solver%steps_per_sample, lanes%dt(i), 0.0_wp)
+         lanes%span(i) = lanes%next_span(i)
+         call aim(lanes, i, set, history%side*history%scale, constants%gravity)
+         call history%begin_rocking()
+      end associate
+   end subroutine begin_still
 
    !> Take the step of a flagged lane, up to the first event in it
    pure subroutine resolve(batch, i)
@@ -121,6 +150,7 @@ contains
             end associate
             if (event == no_event .and. .not. lanes%time(i) + h < lanes%dt(i)) then
                call next_sample(lanes, i, batch%set)
+               if (associated(batch%trace)) call add_row(batch, i)
             else
                call stop_between(lanes, i, batch%set, h)
                if (event /= no_event) call limit_span(lanes, i, constants%solver%steps_per_sample)
@@ -143,6 +173,7 @@ contains
                history%collapsed = .true.
                history%over = .true.
             end select
+            if (history%collapsed .and. associated(batch%trace)) call add_row(batch, i)
          end if
          history%over = history%over .or. lanes%next(i) > lanes%last(i)
          if (history%over) call finish(batch, i)
@@ -243,8 +274,11 @@ contains
          history%interval = interval_of(batch, i)
          history%time = lanes%time(i)
          lanes%y(i) = 0.0_wp
+         lanes%v(i) = min(lanes%v(i), 0.0_wp)
+         if (associated(batch%trace)) call add_row(batch, i)
          if (allocated(batch%grips)) call batch%grips(i)%strike(constants, lanes, i, history%rest)
          call history%strike(history%rest, record, lanes%u(i), lanes%v(i), constants%form%unit, at_rest)
+         if (associated(batch%trace)) call add_row(batch, i, after_impact=.true.)
          if (.not. at_rest) then
             call aim(lanes, i, batch%set, history%side*history%scale, constants%gravity)
             return
@@ -252,13 +286,35 @@ contains
          lanes%v(i) = 0.0_wp
          call history%end_rocking(record)
          call history%leave_edge(record)
-         call wait(batch, i)
+         call wait(batch, i, interval_of(batch, i))
       end associate
    end subroutine bounce
 
-   !> At rest: go to the instant at which rocking begins
-   pure subroutine wait(batch, i)
+   !> At rest: go to the instant at which rocking begins, or to the end of the record
+   pure subroutine wait(batch, i, since)
       !> The lanes, and the one
+      type(lane_batch_type), intent(inout) :: batch
+      integer, intent(in) :: i
+      !> Sample interval since which it rests
+      integer, intent(in) :: since
+
+      real(wp) :: side
+      integer :: sample
+
+      side = batch%history(i)%side
+      call find_start(batch, i)
+      if (.not. associated(batch%trace) .or. batch%start > 0.0_wp) return
+      associate (history => batch%history(i), record => batch%records(batch%history(i)%record))
+         do sample = since + 1, merge(size(record%acceleration), history%interval, history%over)
+            call batch%trace%add(real(sample - 1, wp)*record%dt, history%scale*record%acceleration(sample), 0.0_wp, &
+               & 0.0_wp, side)
+         end do
+      end associate
+   end subroutine wait
+
+   !> The instant at which rocking begins; the history is over if it does not
+   pure subroutine find_start(batch, i)
+      !> The lanes, and the one at rest
       type(lane_batch_type), intent(inout) :: batch
       integer, intent(in) :: i
 
@@ -305,7 +361,7 @@ contains
          call limit_span(lanes, i, constants%solver%steps_per_sample)
          call aim(lanes, i, set, history%side*history%scale, constants%gravity)
       end associate
-   end subroutine wait
+   end subroutine find_start
 
    !> Sample interval of a lane
    pure integer function interval_of(batch, i) result(interval)
@@ -344,7 +400,7 @@ contains
       type(lane_batch_type), intent(inout) :: batch
       integer, intent(in) :: i
 
-      real(wp) :: q, v, j, c, g, l, load
+      real(wp) :: q, v
       type(tail_type) :: tail
 
       associate (lanes => batch%lanes, history => batch%history(i), constants => batch%constants, &
@@ -358,9 +414,7 @@ contains
                call batch%grips(i)%after_record(constants, lanes%y(i), lanes%v(i), record%duration(), tail)
                call history%take_tail(tail, record)
             else
-               q = constants%form%rotation(lanes%y(i))
-               call batch%mechanism%terms(q, j, c, g, l, load)
-               v = lanes%v(i)*constants%form%unit*sqrt(constants%rest%inertia/j)
+               call find_motion(batch, i, q, v)
                call history%add_free_motion(batch%mechanism, record, constants%limit, q, v)
             end if
          end if
@@ -369,5 +423,42 @@ contains
          call history%finish(constants, record, batch%queue%response(history%number), batch%work)
       end associate
    end subroutine finish
+
+   !> Rotation and angular velocity of a lane
+   pure subroutine find_motion(batch, i, q, v)
+      !> The lanes, and the one
+      type(lane_batch_type), intent(in) :: batch
+      integer, intent(in) :: i
+      !> Rotation [rad], and its rate, both seen from the side of the wall [rad/s]
+      real(wp), intent(out) :: q, v
+
+      real(wp) :: j, c, g, l, load
+
+      associate (lanes => batch%lanes, constants => batch%constants)
+         q = constants%form%rotation(lanes%y(i))
+         call batch%mechanism%terms(q, j, c, g, l, load)
+         v = lanes%v(i)*constants%form%unit*sqrt(constants%rest%inertia/j)
+      end associate
+   end subroutine find_motion
+
+   !> Add the present motion of a lane to the trace
+   pure subroutine add_row(batch, i, after_impact)
+      !> The lanes, and the one
+      type(lane_batch_type), intent(inout) :: batch
+      integer, intent(in) :: i
+      !> Is it the row just after an impact? No, if absent
+      logical, intent(in), optional :: after_impact
+
+      real(wp) :: q, v, ground
+
+      associate (lanes => batch%lanes, history => batch%history(i), trace => batch%trace)
+         call find_motion(batch, i, q, v)
+         if (lanes%y(i) == 0.0_wp) q = 0.0_wp
+         ! The lane sees the ground from the side that it was on before an impact.
+         ground = lanes%u(i)*sign(1.0_wp, lanes%factor(i))*sign(1.0_wp, history%scale)
+         call trace%add(batch%start + time_of(batch, i), ground, history%side*q, history%side*v, history%side)
+         if (present(after_impact) .and. .not. trace%lacks_memory) trace%after_impact(trace%rows) = .true.
+      end associate
+   end subroutine add_row
 
 end module dondolo_lane_history

@@ -6,22 +6,24 @@
 module dondolo_lane_variants
    use, intrinsic :: iso_c_binding, only : c_int
    use dondolo_error, only : error_type, raise_input
+   use dondolo_kinds, only : wp
    use dondolo_lane_constants, only : lane_constants_type
-   use dondolo_lanes, only : simulate_first => simulate_lanes
+   use dondolo_lanes, only : simulate_first => simulate_lanes, trace_first => trace_lanes
 #ifdef DONDOLO_VARIANTS
-   use dondolo_lanes_avx2, only : simulate_avx2 => simulate_lanes
-   use dondolo_lanes_avx512, only : simulate_avx512 => simulate_lanes
+   use dondolo_lanes_avx2, only : simulate_avx2 => simulate_lanes, trace_avx2 => trace_lanes
+   use dondolo_lanes_avx512, only : simulate_avx512 => simulate_lanes, trace_avx512 => trace_lanes
 #endif
    use dondolo_mechanism, only : mechanism_type
    use dondolo_queue, only : queue_type
    use dondolo_record, only : record_type
    use dondolo_record_set, only : record_set_type
+   use dondolo_response, only : trace_type
    use dondolo_text, only : join
    use dondolo_work, only : work_type
    implicit none
    private
 
-   public :: build_variant, check_variant, first_variant, simulate_variant
+   public :: build_variant, check_variant, first_variant, simulate_variant, trace_variant
 
    !> Variant that everything but the engine lanes is compiled for
 #ifdef DONDOLO_NATIVE
@@ -99,5 +101,27 @@ contains
          call simulate_first(mechanism, constants, records, set, queue, work)
       end select
    end subroutine simulate_variant
+
+   !> The motion of one history, by the variant that simulate_variant runs
+   subroutine trace_variant(mechanism, constants, record, scale, trace)
+      class(mechanism_type), intent(in) :: mechanism
+      type(lane_constants_type), intent(in) :: constants
+      type(record_type), intent(in) :: record
+      !> Factor on it, negative to reverse its polarity
+      real(wp), intent(in) :: scale
+      !> The motion
+      type(trace_type), intent(inout) :: trace
+
+      select case (build_variant())
+#ifdef DONDOLO_VARIANTS
+      case ('avx2')
+         call trace_avx2(mechanism, constants, record, scale, trace)
+      case ('avx512')
+         call trace_avx512(mechanism, constants, record, scale, trace)
+#endif
+      case default
+         call trace_first(mechanism, constants, record, scale, trace)
+      end select
+   end subroutine trace_variant
 
 end module dondolo_lane_variants

@@ -6,18 +6,20 @@
 module dondolo_lanes
    use dondolo_kinds, only : wp
    use dondolo_lane_constants, only : lane_constants_type
-   use dondolo_lane_history, only : begin, lane_batch_type, resolve
+   use dondolo_lane_grip, only : lane_grip_type
+   use dondolo_lane_history, only : add_row, begin, begin_still, lane_batch_type, resolve
    use dondolo_lane_kernel, only : step_lanes
    use dondolo_lane_state, only : lane_width, step_taken
    use dondolo_mechanism, only : mechanism_type
    use dondolo_queue, only : queue_type
    use dondolo_record, only : record_type
-   use dondolo_record_set, only : record_set_type
+   use dondolo_record_set, only : new_record_set, record_set_type
+   use dondolo_response, only : intervals_after, trace_type
    use dondolo_work, only : work_type
    implicit none
    private
 
-   public :: simulate_lanes
+   public :: simulate_lanes, trace_lanes
 
 contains
 
@@ -100,6 +102,68 @@ contains
       end function is_filled
 
    end subroutine simulate_lanes
+
+   !> The motion of one history, by the steps that it takes in a batch: at every sample and before and after every impact,
+   !> until rest or the end of the still ground after the record
+   subroutine trace_lanes(mechanism, constants, record, scale, trace)
+      class(mechanism_type), intent(in), target :: mechanism
+      type(lane_constants_type), intent(in), target :: constants
+      type(record_type), intent(in) :: record
+      !> Factor on it, negative to reverse its polarity
+      real(wp), intent(in) :: scale
+      !> The motion
+      type(trace_type), intent(inout), target :: trace
+
+      type(lane_batch_type) :: batch
+      type(record_type), target :: records(2)
+      type(record_set_type), target :: set
+      type(queue_type), target :: queue
+      type(lane_grip_type), allocatable :: grip
+      integer(kind(batch%lanes%next)) :: next
+
+      records(1) = record
+      records(2)%dt = record%dt
+      allocate (records(2)%acceleration(intervals_after(record%dt) + 1), source=0.0_wp)
+      call new_record_set(set, records)
+      call queue%fill([1], [scale])
+      batch%mechanism => mechanism
+      batch%constants => constants
+      batch%records => records
+      batch%set => set
+      batch%queue => queue
+      batch%trace => trace
+      if (constants%form%is_held) allocate (batch%grips(lane_width))
+      call begin(batch, 1, 1)
+      do while (.not. (batch%history(1)%over .or. trace%lacks_memory))
+         next = batch%lanes%next(1)
+         if (constants%form%is_shaken) then
+            call step_lanes(batch%lanes, 1, constants%form, set%samples, constants%solver%rtol, constants%atol, set%verticals)
+         else
+            call step_lanes(batch%lanes, 1, constants%form, set%samples, constants%solver%rtol, constants%atol)
+         end if
+         if (batch%lanes%next(1) > next) call add_row(batch, 1)
+         if (batch%lanes%flag(1) == step_taken) cycle
+         ! At its end a history looks ahead with its ties; the trace goes on from how they are now.
+         if (allocated(batch%grips)) grip = batch%grips(1)
+         call resolve(batch, 1)
+         if (.not. batch%history(1)%over .or. batch%history(1)%record /= 1) cycle
+         if (allocated(batch%grips)) call batch%grips(1)%responses(batch%history(1)%peak, trace%ties)
+         if (.not. rocks_on()) cycle
+         if (allocated(grip)) batch%grips(1) = grip
+         call begin_still(batch, 1, 2)
+      end do
+      ! A wall that never moves has no step.
+      if (allocated(batch%grips) .and. .not. allocated(trace%ties)) call batch%grips(1)%responses(0.0_wp, trace%ties)
+      call trace%trim_rows()
+
+   contains
+
+      !> Does the wall still rock as the accelerogram ends?
+      pure logical function rocks_on()
+         rocks_on = batch%lanes%next(1) > batch%lanes%last(1) .and. (batch%lanes%y(1) > 0.0_wp .or. batch%lanes%v(1) > 0.0_wp)
+      end function rocks_on
+
+   end subroutine trace_lanes
 
    !> Move a lane
    pure subroutine move(batch, from, to)

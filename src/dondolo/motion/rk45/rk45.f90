@@ -14,7 +14,7 @@ module dondolo_rk45
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_record, only : record_type
-   use dondolo_response, only : response_type, trace_type
+   use dondolo_response, only : intervals_after, response_type, trace_type
    use dondolo_rest, only : new_rest
    use dondolo_solver, only : solver_type
    use dondolo_step_limits, only : longest_step
@@ -29,9 +29,6 @@ module dondolo_rk45
 
    !> How rocking ends; `broken_off` leaves no result
    integer, parameter :: at_rest = 1, collapsed = 2, record_over = 3, broken_off = 4
-
-   !> Time after the record for which a trace goes on [s], and most sample intervals of it: a time step may be tiny
-   real(wp), parameter :: trace_after = 10.0_wp, most_after = 1.0e5_wp
 
 contains
 
@@ -93,7 +90,7 @@ contains
       end if
       if (present(trace)) then
          if (ending == record_over) then
-            last = last + ceiling(min(trace_after/record%dt, most_after))
+            last = last + intervals_after(record%dt)
             call rock(wall, constants, record, last, motion, ending, trace)
          end if
          call trace%trim_rows()
