@@ -31,7 +31,8 @@ module dondolo
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_metadata, only : entry_type, metadata_type
-   use dondolo_population, only : member_type, population_reader_type, read_population
+   use dondolo_member, only : member_type
+   use dondolo_population, only : population_reader_type, read_population
    use dondolo_population_counts, only : new_population_counts, population_counts_type
    use dondolo_record, only : new_record, record_type
    use dondolo_record_reader, only : read_record, read_records
