@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.shown import html_of
 from dondolo._fortran.buildings import BUILDING_NAMES, BuildingData, building_values, describe_building
+from dondolo._fortran.library import with_units
 from dondolo._storage.saved import part_of_results
 
 if TYPE_CHECKING:
@@ -142,7 +143,7 @@ class Building:
         return f"<Building: {', '.join(f'{what}={text}' for what, text in self._facts())}>"
 
     def _repr_html_(self) -> str:
-        return html_of("Building", self._facts())
+        return html_of("Building", with_units("building", self._facts()))
 
 
 def _in_words(value: Any) -> str:
