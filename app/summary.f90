@@ -261,8 +261,8 @@ contains
          & ' in 33 digits, '//to_text(count(row%certified%status == not_computable))// &
          & ' not computable from this input'
       if (any(row%certified%status == not_computable) .and. all(row%theta_bounds > 0.0_wp)) then
-         write (output_unit, '(a)') 'whatever becomes of the last: theta between '//rounded(row%theta_bounds(1))//' and '// &
-            & rounded(row%theta_bounds(2))
+         write (output_unit, '(a)') 'whichever way those not computable end, theta is between '// &
+            & rounded(row%theta_bounds(1))//' and '//rounded(row%theta_bounds(2))
       end if
    end subroutine print_certificates
 

@@ -1,4 +1,4 @@
-"""Every public name is in an example that is run: a docstring's, one of docs/recipes.md, or a script of docs/examples."""
+"""Every public name is in an example that is run: in a docstring, in docs/recipes.md, or in docs/examples."""
 
 import ast
 import doctest

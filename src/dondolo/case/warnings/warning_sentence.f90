@@ -36,7 +36,12 @@ contains
       case ('levels_above_usual')
          call warning%get_word('im', im)
          text = 'levels up to '//rounded(warning%value('largest'))//' of '//im//', more than '// &
-            & to_text(warning%value('limit'))//' g: are they in m/s2 or cm/s2?'
+            & to_text(warning%value('limit'))
+         if (im == 'pgv') then
+            text = text//' m/s: are they in cm/s?'
+         else
+            text = text//' g: are they in m/s2 or cm/s2?'
+         end if
       case ('record_without_motion')
          text = 'record '''//record//''' has a PGA of 0: it cannot be scaled and moves no wall'
       case ('record_pga')
