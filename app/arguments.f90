@@ -111,7 +111,9 @@ contains
          else if (allocated(arguments%case_file) .and. any(arguments%action == ['merge ', 'status'])) then
             call arguments%parts%add(word)
          else if (allocated(arguments%case_file)) then
-            call raise_input(error, word//': one case at a time, '//arguments%case_file//' was given before')
+            call look_for_command(arguments%case_file, error)
+            if (.not. allocated(error)) call raise_input(error, word//': one case at a time, '//arguments%case_file// &
+               & ' was given before')
          else
             arguments%case_file = word
          end if

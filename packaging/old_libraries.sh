@@ -19,10 +19,10 @@ old_libraries() {
       done
       ln -s "$library" "$folder/${library%.so.*}.so"
    done
-   # Those of Debian are scripts with paths of their own.
+   # Those of Debian are scripts with paths of their own; threads and dlopen are in the C library only since 2.34.
    rm "$folder"/lib{c,m}.so
    cp -L "$base/lib/$machine/ld-linux-x86-64.so.2" "$folder"
-   printf 'GROUP ( libc.so.6 libc_nonshared.a AS_NEEDED ( ld-linux-x86-64.so.2 ) )\n' >"$folder/libc.so"
+   printf 'GROUP ( libc.so.6 libc_nonshared.a AS_NEEDED ( libpthread.so.0 libdl.so.2 ld-linux-x86-64.so.2 ) )\n' >"$folder/libc.so"
    printf 'GROUP ( libm.so.6 AS_NEEDED ( libmvec.so.1 ) )\n' >"$folder/libm.so"
    export CC="gcc -B$folder -isystem $base/usr/include/$machine -isystem $base/usr/include" FC="gfortran -B$folder"
 }
