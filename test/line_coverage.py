@@ -35,7 +35,8 @@ def main(folder: Path) -> None:
     if (folder / "python.json").exists():
         counts["Python"] = python_lines(folder / "python.json")
     counts = {name: pair for name, pair in counts.items() if pair[1] > 0}
-    counts["both"] = (sum(ran for ran, _ in counts.values()), sum(lines for _, lines in counts.values()))
+    if len(counts) > 1:
+        counts["both"] = (sum(ran for ran, _ in counts.values()), sum(lines for _, lines in counts.values()))
     for name, (ran, lines) in counts.items():
         print(f"{name:<8} {ran:6d} of {lines:6d} lines: {ran / lines:.1%}")
 

@@ -21,10 +21,10 @@ fi
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-mkdir "$work/fortran"
 failed=0
+# Counts of earlier runs would be added to.
+find build -name '*.gcda' -delete 2>/dev/null || true
 if [ $# -eq 0 ] || [ ${#programs[@]} -gt 0 ]; then
-   find build -name '*.gcda' -delete 2>/dev/null || true
    "$fpm" test --profile debug --flag '-Og --coverage' --link-flag --coverage "${programs[@]}" >"$work/fortran.log" 2>&1 || failed=1
    tail -n 3 "$work/fortran.log"
 fi
