@@ -9,13 +9,11 @@ program test_ties
    use dondolo_held_tail, only : held_motion
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
-   use dondolo_normal_form, only : new_normal_form, normal_form_type
    use dondolo_random, only : new_random, random_type
    use dondolo_record, only : record_type
    use dondolo_response, only : response_type, tie_response_type, trace_type
    use dondolo_rest, only : new_rest, rest_type
    use dondolo_rk45, only : simulate_rk45
-   use dondolo_simulate, only : check_history
    use dondolo_solver, only : solver_type
    use dondolo_tail, only : tail_type
    use dondolo_tie_statics, only : greatest_acceleration, plastic_acceleration
@@ -31,7 +29,6 @@ program test_ties
    call test_limits()
    call test_several()
    call test_after_the_record()
-   call test_engines()
    call test_wrong_input()
    call finish()
 
@@ -429,21 +426,6 @@ contains
       end do
       call check(collapses > 5 .and. collapses < 55 .and. broken > 20 .and. late > 3, 'all kinds of ends')
    end subroutine test_after_the_record
-
-   subroutine test_engines()
-      type(wall_type) :: wall
-      type(normal_form_type) :: form
-      type(solver_type) :: solver
-      type(error_type), allocatable :: error
-
-      call suite('engines')
-      wall = made(tied())
-      form = new_normal_form(wall%mechanism, wall%mechanism%capacity)
-      call check(.not. form%exists, 'lanes do not know ties')
-      solver%engine = 'lanes'
-      call check_history(solver, wall%mechanism, .false., error)
-      call check_error(error, 'engine = ''lanes'': knows neither ties nor interlock_overlap; must be ''auto'' or ''rk45''', 'lanes')
-   end subroutine test_engines
 
    subroutine test_wrong_input()
       type(wall_input_type) :: input

@@ -288,7 +288,7 @@ def test_refusals(change, sentence):
 def test_other_mechanisms_and_engines(records):
     with pytest.raises((dd.InputError, TypeError)):
         dd.FreeStandingWall(3.0, 0.25, **OVERLAP)
-    with pytest.raises(dd.InputError, match="knows neither ties nor interlock_overlap"):
+    with pytest.raises(dd.InputError, match="does not know interlock_overlap"):
         dd.multiple_stripe(wall(), records, [0.2], solver=dd.Solver(engine="lanes"), progress=False)
 
 

@@ -161,8 +161,8 @@ contains
       if (solver%engine /= 'lanes') return
       constants = new_lane_constants(mechanism, solver, is_shaken)
       if (constants%form%exists) return
-      if (allocated(mechanism%restraints)) then
-         call raise_input(error, 'engine = ''lanes'': knows neither ties nor interlock_overlap; must be ''auto'' or ''rk45''')
+      if (mechanism%has_friction()) then
+         call raise_input(error, 'engine = ''lanes'': does not know interlock_overlap; must be ''auto'' or ''rk45''')
          return
       end if
       call raise_input(error, 'engine = ''lanes'': cannot follow this wall up to its edp_limit; '// &

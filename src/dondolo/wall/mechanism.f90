@@ -43,6 +43,8 @@ module dondolo_mechanism
       procedure(rotation_interface), deferred :: geometric_end
       !> Set the forces of the ties
       procedure :: hold
+      !> Does friction hold it?
+      procedure :: has_friction
       !> Ground acceleration at which it begins to rock
       procedure :: trigger_acceleration
       !> Frequency parameter p
@@ -100,6 +102,14 @@ contains
       associate (of => self, that => force, and => stiffness)
       end associate
    end subroutine hold
+
+   !> Does friction hold it?
+   pure logical function has_friction(self)
+      class(mechanism_type), intent(in) :: self
+
+      has_friction = .false.
+      if (allocated(self%restraints)) has_friction = any(self%restraints%is_friction)
+   end function has_friction
 
    !> Ground acceleration at which rocking begins: (G(0) - Q(0))/L(0) (docs/theory.md, section 2)
    pure function trigger_acceleration(self) result(a)

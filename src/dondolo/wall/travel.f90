@@ -31,21 +31,35 @@ contains
       lever = edge + f*cos(q) + e*sin(q)
    end function lever
 
-   !> Rotation after which a point has gone a distance, by bisection [rad]; huge: it never goes as far
+   !> Rotation after which a point has gone a distance: Newton's method, then bisection of what rounding leaves [rad]; huge: it
+   !> never goes as far
    elemental real(wp) function rotation_after(edge, e, f, distance) result(q)
       !> Radius of the edge a, and place of the point from the hinge [m]
       real(wp), intent(in) :: edge, e, f
       !> The distance, at least 0 [m]
       real(wp), intent(in) :: distance
 
-      real(wp), parameter :: right_angle = acos(0.0_wp)
-      real(wp) :: below, above
+      real(wp), parameter :: right_angle = acos(0.0_wp), near = 16.0_wp*epsilon(1.0_wp)
+      integer, parameter :: most_iterations = 12
+      real(wp) :: below, above, change
+      integer :: i
 
       ! Beyond this rotation X < 0, and the point comes back.
       above = atan2(e, f) + right_angle
       q = huge(q)
       if (.not. travel(edge, e, f, above) > distance) return
       below = 0.0_wp
+      q = 0.5_wp*above
+      if (lever(edge, e, f, 0.0_wp)*q > distance) q = distance/lever(edge, e, f, 0.0_wp)
+      do i = 1, most_iterations
+         change = (distance - travel(edge, e, f, q))/lever(edge, e, f, q)
+         if (.not. (q + change > below .and. q + change < above)) exit
+         q = q + change
+         if (abs(change) > near*q) cycle
+         if (.not. travel(edge, e, f, (1.0_wp - near)*q) > distance) below = (1.0_wp - near)*q
+         if (travel(edge, e, f, (1.0_wp + near)*q) > distance) above = (1.0_wp + near)*q
+         exit
+      end do
       do
          q = 0.5_wp*(below + above)
          if (q <= below .or. q >= above) exit

@@ -84,7 +84,7 @@ contains
       if (.not. allocated(error)) call choose_records(namelist, case, runs, error)
       if (allocated(error)) return
       if (case%job%task == 'stripes') then
-         if (allocated(case%wall%mechanism%restraints)) call note_ties(case, 'wall '''//case%wall%name()//''' has ties or friction')
+         if (case%wall%mechanism%has_friction()) call note_friction(case, 'wall '''//case%wall%name()//''' has interlock_overlap')
       end if
       if (case%job%task == 'typology') then
          call survey(case, rows, error)
@@ -114,8 +114,8 @@ contains
       call survey_population(case%survey, case%population_path(), study, case%solver%gravity, range, error, case%facade)
       if (allocated(error)) return
       if (len(case%survey%note) > 0) call case%notes%add(case%survey%note)
-      if (case%survey%tied > 0) call note_ties(case, to_text(case%survey%tied)//' of '//to_text(case%survey%rows)// &
-         & ' rows have ties or friction, wall '''//case%survey%first_tied//''' the first')
+      if (case%survey%rubbing > 0) call note_friction(case, to_text(case%survey%rubbing)//' of '// &
+         & to_text(case%survey%rows)//' rows have interlock_overlap, wall '''//case%survey%first_rubbing//''' the first')
       case%survey%is_part = present(rows)
       if (.not. present(rows) .or. case%survey%last == range(2)) return
       note = '--walls '//to_text(range(1))//':'//to_text(range(2))//': the population has '// &
@@ -128,14 +128,14 @@ contains
    end subroutine survey
 
    !> Note which walls the engine lanes leaves to rk45
-   subroutine note_ties(case, which)
+   subroutine note_friction(case, which)
       type(case_type), intent(inout) :: case
       !> The walls
       character(len=*), intent(in) :: which
 
       if (case%solver%solver%engine == 'auto') call case%notes%add(which//': the engine rk45 computes their histories, '// &
-         & 'lanes knows neither')
-   end subroutine note_ties
+         & 'lanes does not know it')
+   end subroutine note_friction
 
    !> Check that the groups suit the task
    subroutine check_task(namelist, task, error)

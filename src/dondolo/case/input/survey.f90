@@ -49,9 +49,9 @@ module dondolo_survey
       type(fingerprint_type) :: fingerprint, walls_fingerprint
       !> How many values each property of a wall has at most
       integer, allocatable :: lengths(:)
-      !> Rows of walls with ties or friction, and the name of the first
-      integer :: tied = 0
-      character(len=:), allocatable :: first_tied
+      !> Rows of walls with friction, and the name of the first
+      integer :: rubbing = 0
+      character(len=:), allocatable :: first_rubbing
       !> How the table was read, where there is something to say of it, else empty
       character(len=:), allocatable :: note
    end type survey_type
@@ -97,8 +97,8 @@ contains
             call survey%roster%add(member)
             survey%lengths = max(survey%lengths, member%wall%input%lengths())
             call add_wall(survey%walls_fingerprint, member%wall)
-            if (allocated(member%wall%mechanism%restraints)) survey%tied = survey%tied + 1
-            if (survey%tied == 1 .and. .not. allocated(survey%first_tied)) survey%first_tied = member%wall%name()
+            if (member%wall%mechanism%has_friction()) survey%rubbing = survey%rubbing + 1
+            if (survey%rubbing == 1 .and. .not. allocated(survey%first_rubbing)) survey%first_rubbing = member%wall%name()
             if (survey%roster%groups%count > most_groups) call refuse_group(survey%roster%groups, error)
             if (.not. allocated(error)) call check_limit(study%solver, member%wall%mechanism, error)
             if (.not. allocated(error)) call check_history(study%solver, member%wall%mechanism, .false., error)

@@ -23,6 +23,8 @@ module dondolo_grip
       logical :: changed = .false.
       !> Nearest rotations above and below the present one at which a mode changes [rad]; huge and -huge: none
       real(wp) :: above = huge(1.0_wp), below = -huge(1.0_wp)
+      !> Force of each tie T = force + stiffness D at present [N/m] and [N/m per m]
+      real(wp), allocatable :: force(:), stiffness(:)
       !> Largest rotation at which a motion outwards has ended [rad]
       real(wp), private :: reached = 0.0_wp
       !> Mode, plastic elongation [m], rotation below which it is slack [rad] and times of yield and fracture [s] of each
@@ -59,7 +61,7 @@ contains
       ties = size(wall%restraints)
       allocate (self%mode(ties))
       self%mode = merge(flowing, elastic, wall%restraints%is_friction)
-      allocate (self%set(ties), self%slack_below(ties), source=0.0_wp)
+      allocate (self%force(ties), self%stiffness(ties), self%set(ties), self%slack_below(ties), source=0.0_wp)
       allocate (self%time_of_yield(ties), self%time_of_fracture(ties), source=never)
       if (q > 0.0_wp) call self%cross(wall, q, .true., 0.0_wp)
       call self%turn(wall, q)
@@ -172,11 +174,10 @@ contains
       class(grip_type), intent(inout) :: self
       class(mechanism_type), intent(inout) :: wall
 
-      real(wp), dimension(size(self%mode)) :: force, stiffness
       integer :: i
 
-      call wall%restraints%pull(self%mode, self%set, force, stiffness)
-      call wall%hold(force, stiffness)
+      call wall%restraints%pull(self%mode, self%set, self%force, self%stiffness)
+      call wall%hold(self%force, self%stiffness)
       self%flows = any(self%mode == flowing)
       self%above = huge(self%above)
       self%below = -huge(self%below)

@@ -23,8 +23,8 @@ module dondolo_wall_constants
       real(wp) :: velocity_unit
    end type wall_constants_type
 
-   !> Factor on the tolerances for walls with ties, and what it does not tighten them beyond. They vibrate on their ties
-   !> between many impacts, each of which enlarges errors
+   !> Factor on the tolerances of the engine rk45 for walls with ties, and what it does not tighten them beyond. They
+   !> vibrate on their ties between many impacts, each of which enlarges errors
    real(wp), parameter :: with_ties = 1.0e-4_wp, least_rtol = 1.0e-12_wp, least_atol = 1.0e-14_wp
 
 contains

@@ -33,11 +33,14 @@ contains
       type(lane_constants_type) :: constants
 
       constants%wall_constants_type = new_wall_constants(mechanism, solver)
+      ! The tighter tolerances of walls with ties are for steps of a lower order.
+      constants%solver = solver
       constants%form = new_normal_form(mechanism, constants%limit, is_shaken)
       if (constants%form%exists) then
          constants%atol = solver%atol*mechanism%frequency_parameter()*mechanism%capacity/constants%form%unit
       end if
-      if (.not. solver%collapses_only) return
+      ! Ties remember every peak.
+      if (.not. solver%collapses_only .or. constants%form%is_held) return
       constants%first_peak = y_limit
       constants%first_rotation = constants%limit
    end function new_lane_constants

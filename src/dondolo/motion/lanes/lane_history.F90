@@ -4,19 +4,22 @@
 !> rules that all engines share (dondolo_history, dondolo_rest, dondolo_events; docs/theory.md, section 4).
 module dondolo_lane_history
    use, intrinsic :: iso_c_binding, only : c_int
-   use dondolo_events, only : impact, limit_reached, no_event, turning
+   use dondolo_events, only : impact, level_above, level_below, limit_reached, no_event, turning
    use dondolo_history, only : history_type, starting_acceleration
    use dondolo_interrupt, only : look_for_interrupt
    use dondolo_kinds, only : wp
    use dondolo_lane_constants, only : lane_constants_type
-   use dondolo_lane_state, only : event_possible, lane_width, lanes_type, step_too_long
-   use dondolo_lane_series, only : allowed_part, find_first, rate, value
+   use dondolo_lane_grip, only : lane_grip_type
+   use dondolo_lane_state, only : event_possible, lane_width, lanes_type, part_if_held, step_too_long
+   use dondolo_lane_series, only : allowed_part, find_first, find_first_level, rate, value
    use dondolo_mechanism, only : mechanism_type
    use dondolo_normal_form, only : y_limit
    use dondolo_queue, only : queue_type
    use dondolo_record, only : record_type
    use dondolo_record_set, only : record_set_type
+   use dondolo_rest, only : rest_type
    use dondolo_step_limits, only : longest_step, shortest_motion, smallest_step
+   use dondolo_tail, only : tail_type
    use dondolo_work, only : work_type
    implicit none
    private
@@ -27,6 +30,8 @@ module dondolo_lane_history
    type, extends(history_type) :: lane_history_type
       !> Its number in the queue, and its record
       integer :: number = 0, record = 0
+      !> The wall at rest, as its ties hold it
+      type(rest_type) :: rest
       !> Whether it is over
       logical :: over = .false.
    end type lane_history_type
@@ -37,6 +42,8 @@ module dondolo_lane_history
       type(lanes_type) :: lanes
       !> The history in each lane
       type(lane_history_type) :: history(lane_width)
+      !> The ties in each lane; not allocated for a wall without
+      type(lane_grip_type), allocatable :: grips(:)
       !> Counts
       type(work_type) :: work
       !> The wall
@@ -61,13 +68,15 @@ contains
 
       associate (lanes => batch%lanes, history => batch%history(i), constants => batch%constants, set => batch%set)
          history = lane_history_type(number=number, record=batch%queue%record(number), &
-            & scale=batch%queue%scale(number), peak=constants%first_rotation)
+            & scale=batch%queue%scale(number), peak=constants%first_rotation, rest=constants%rest)
          lanes%dt(i) = batch%records(history%record)%dt
          lanes%rate(i) = 1.0_wp/lanes%dt(i)
          lanes%peak(i) = constants%first_peak
          lanes%y(i) = 0.0_wp
          lanes%v(i) = 0.0_wp
          lanes%last(i) = set%offset(history%record) + set%length(history%record)
+         lanes%fifth_a(i) = constants%form%fifth_a
+         if (allocated(batch%grips)) call batch%grips(i)%begin(batch%mechanism, constants, lanes, i)
          call wait(batch, i)
          if (history%over) call finish(batch, i)
       end associate
@@ -80,6 +89,7 @@ contains
       integer, intent(in) :: i
 
       real(wp) :: y, d(0:9), part, h
+      logical :: heeds
       integer :: event
 
       associate (lanes => batch%lanes, history => batch%history(i), constants => batch%constants)
@@ -89,15 +99,21 @@ contains
                d(2) = starting_acceleration(d(0), d(1), d(2))
                part = 1.0_wp
                if (lanes%flag(i) == step_too_long) then
-                  part = allowed_part(d, step, smallest_step*lanes%dt(i), &
-                     & constants%form%fifth(lanes%u(i), lanes%heavier(i)), constants%solver%rtol, constants%atol)
+                  part = allowed_part(d, step, smallest_step*lanes%dt(i), merge(part_if_held, 1.0_wp, constants%form%is_held), &
+                     & constants%form%fifth(lanes%fifth_a(i), lanes%u(i), lanes%heavier(i)), constants%solver%rtol, constants%atol)
                   if (part < 1.0_wp) then
                      lanes%next_span(i) = part*step
                      lanes%span(i) = part*step
                   end if
                end if
                event = no_event
-               if (part*step > shortest_motion*lanes%dt(i)) call find_first(d, lanes%peak(i), part, event)
+               if (part*step > shortest_motion*lanes%dt(i)) then
+                  call find_first(d, lanes%peak(i), part, event)
+                  if (allocated(batch%grips)) then
+                     call batch%grips(i)%heed(heeds)
+                     if (heeds) call find_first_level(d, lanes%below(i), lanes%above(i), part, event)
+                  end if
+               end if
                h = part*step
                y = value(d, part)
                lanes%y(i) = y
@@ -112,10 +128,13 @@ contains
             select case (event)
             case (impact)
                call bounce(batch, i)
+            case (level_above, level_below)
+               call batch%grips(i)%cross(constants, lanes, i, event, time_of(batch, i), h > shortest_motion*lanes%dt(i))
             case (turning)
                lanes%v(i) = 0.0_wp
                ! Between two impacts it may turn below the peak.
                if (y > lanes%peak(i)) call set_peak(batch, i)
+               if (allocated(batch%grips)) call batch%grips(i)%turn(constants, lanes, i)
                history%collapsed = .not. y < y_limit
                history%over = history%collapsed
             case (limit_reached)
@@ -224,7 +243,8 @@ contains
          history%interval = interval_of(batch, i)
          history%time = lanes%time(i)
          lanes%y(i) = 0.0_wp
-         call history%strike(constants%rest, record, lanes%u(i), lanes%v(i), constants%form%unit, at_rest)
+         if (allocated(batch%grips)) call batch%grips(i)%strike(constants, lanes, i, history%rest)
+         call history%strike(history%rest, record, lanes%u(i), lanes%v(i), constants%form%unit, at_rest)
          if (.not. at_rest) then
             call aim(lanes, i, batch%set, history%side*history%scale, constants%gravity)
             return
@@ -252,18 +272,18 @@ contains
             history%over = interval >= n
             if (history%over) return
             ! Records are long: jump over the intervals in which nothing can start.
-            trigger = constants%rest%trigger()
-            high = merge(trigger, huge(trigger), constants%rest%two_sided)
+            trigger = history%rest%trigger()
+            high = merge(trigger, huge(trigger), history%rest%two_sided)
             acceleration = history%scale*(a(interval) + (a(interval + 1) - a(interval))*(history%time/record%dt))
             sample = interval + 1
             if (allocated(record%vertical)) then
-               widening = constants%rest%vertical_lever/constants%rest%lever
+               widening = history%rest%vertical_lever/history%rest%lever
                trigger = trigger + widening*abs(history%scale)*record%vertical_at(interval, history%time)
             end if
-            if (.not. (acceleration < -trigger .or. (constants%rest%two_sided .and. acceleration > trigger))) then
+            if (.not. (acceleration < -trigger .or. (history%rest%two_sided .and. acceleration > trigger))) then
                if (allocated(record%vertical)) then
-                  sample = set%next_outside_of_both(history%record, sample, history%scale, constants%rest%trigger(), &
-                     & widening, constants%rest%two_sided)
+                  sample = set%next_outside_of_both(history%record, sample, history%scale, history%rest%trigger(), &
+                     & widening, history%rest%two_sided)
                else
                   sample = set%next_outside(history%record, sample, history%scale, -trigger, high)
                end if
@@ -275,7 +295,7 @@ contains
                interval = sample - 1
             end if
          end associate
-         call constants%rest%next_start(record, history%scale, history%interval, history%time, history%side, found)
+         call history%rest%next_start(record, history%scale, history%interval, history%time, history%side, found)
          history%over = .not. found
          if (history%over) return
          call history%begin_rocking()
@@ -305,9 +325,18 @@ contains
       associate (lanes => batch%lanes, history => batch%history(i))
          lanes%peak(i) = lanes%y(i)
          history%peak = batch%constants%form%rotation(lanes%y(i))
-         history%time_of_peak = real(interval_of(batch, i) - 1, wp)*lanes%dt(i) + lanes%time(i)
+         history%time_of_peak = time_of(batch, i)
       end associate
    end subroutine set_peak
+
+   !> Time of a lane since the start of its record [s]
+   pure real(wp) function time_of(batch, i)
+      !> The lanes, and the one
+      type(lane_batch_type), intent(in) :: batch
+      integer, intent(in) :: i
+
+      time_of = real(interval_of(batch, i) - 1, wp)*batch%lanes%dt(i) + batch%lanes%time(i)
+   end function time_of
 
    !> The history is over: its result
    pure subroutine finish(batch, i)
@@ -316,13 +345,19 @@ contains
       integer, intent(in) :: i
 
       real(wp) :: q, v, j, c, g, l, load
+      type(tail_type) :: tail
 
       associate (lanes => batch%lanes, history => batch%history(i), constants => batch%constants, &
          & record => batch%records(batch%history(i)%record))
          if (lanes%y(i) > 0.0_wp .or. lanes%v(i) > 0.0_wp) then
             history%interval = interval_of(batch, i)
             call history%end_rocking(record)
-            if (.not. history%collapsed) then
+            if (history%collapsed) then
+               continue
+            else if (allocated(batch%grips)) then
+               call batch%grips(i)%after_record(constants, lanes%y(i), lanes%v(i), record%duration(), tail)
+               call history%take_tail(tail, record)
+            else
                q = constants%form%rotation(lanes%y(i))
                call batch%mechanism%terms(q, j, c, g, l, load)
                v = lanes%v(i)*constants%form%unit*sqrt(constants%rest%inertia/j)
@@ -330,7 +365,7 @@ contains
             end if
          end if
          ! The first peak is no rotation that was reached.
-         if (constants%solver%collapses_only) history%peak = 0.0_wp
+         if (constants%first_peak > 0.0_wp) history%peak = 0.0_wp
          call history%finish(constants, record, batch%queue%response(history%number), batch%work)
       end associate
    end subroutine finish

@@ -7,8 +7,9 @@
 module dondolo_lane_kernel
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_kinds, only : wp
-   use dondolo_lane_state, only : event_possible, lane_width, lanes_type, record_over, step_taken, step_too_long
-   use dondolo_normal_form, only : degrees, harmonic_degrees, normal_form_type, y_limit
+   use dondolo_lane_state, only : event_possible, lane_width, lanes_type, part_if_held, record_over, step_taken, &
+      & step_too_long
+   use dondolo_normal_form, only : degrees, harmonic_degrees, held_degrees, normal_form_type, y_limit
    implicit none
    private
 
@@ -33,7 +34,19 @@ contains
 
       ! Whole vectors, so that a lane's arithmetic does not depend on its place
       rounded = min(lane_width, (active + 7)/8*8)
-      if (form%is_harmonic .and. form%is_shaken) then
+      if (form%is_held .and. form%is_shaken) then
+         if (form%degree == held_degrees(1)) then
+            call step_shaken_held_14(lanes, rounded, form, samples, verticals, rtol, atol)
+         else
+            call step_shaken_held_22(lanes, rounded, form, samples, verticals, rtol, atol)
+         end if
+      else if (form%is_held) then
+         if (form%degree == held_degrees(1)) then
+            call step_held_14(lanes, rounded, form, samples, rtol, atol)
+         else
+            call step_held_22(lanes, rounded, form, samples, rtol, atol)
+         end if
+      else if (form%is_harmonic .and. form%is_shaken) then
          if (form%degree == harmonic_degrees(1)) then
             call step_shaken_harmonic_10(lanes, rounded, form, samples, verticals, rtol, atol)
          else
@@ -66,6 +79,33 @@ contains
       end if
    end subroutine step_lanes
 
+#define LANE_HELD
+#define LANE_A(j) lanes%a(i, j)
+#define LANE_STEP step_held_14
+#define LANE_DEGREE 14
+#include "lane_step.inc"
+#undef LANE_STEP
+#undef LANE_DEGREE
+#define LANE_STEP step_held_22
+#define LANE_DEGREE 22
+#include "lane_step.inc"
+#undef LANE_STEP
+#undef LANE_DEGREE
+#define LANE_SHAKEN
+#define LANE_STEP step_shaken_held_14
+#define LANE_DEGREE 14
+#include "lane_step.inc"
+#undef LANE_STEP
+#undef LANE_DEGREE
+#define LANE_STEP step_shaken_held_22
+#define LANE_DEGREE 22
+#include "lane_step.inc"
+#undef LANE_STEP
+#undef LANE_DEGREE
+#undef LANE_SHAKEN
+#undef LANE_HELD
+#undef LANE_A
+#define LANE_A(j) a(j)
 #define LANE_STEP step_8
 #define LANE_DEGREE 8
 #include "lane_step.inc"

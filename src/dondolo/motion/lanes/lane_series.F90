@@ -1,12 +1,13 @@
 !> The motion within one step of a lane, a power series in the part x of the step that has passed, and the first event in it.
 module dondolo_lane_series
-   use dondolo_events, only : find_event, impact, no_event, turning
+   use dondolo_bernstein, only : nowhere
+   use dondolo_events, only : find_event, find_level, impact, level_above, level_below, no_event, turning
    use dondolo_kinds, only : wp
    use dondolo_normal_form, only : y_limit
    implicit none
    private
 
-   public :: allowed_part, find_first, rate, value
+   public :: allowed_part, find_first, find_first_level, rate, value
 
    !> Part that is taken of what the tolerance allows by the last terms of a series
    real(wp), parameter :: safety = 0.9_wp
@@ -20,11 +21,13 @@ module dondolo_lane_series
 contains
 
    !> The part of a step that the tolerance allows; the loop over lanes judges steps in the same way
-   pure real(wp) function allowed_part(d, step, shortest, fifth, rtol, atol) result(x)
+   pure real(wp) function allowed_part(d, step, shortest, counted, fifth, rtol, atol) result(x)
       !> The series of the motion
       real(wp), intent(in) :: d(0:9)
       !> Step, and the shortest to try [s]
       real(wp), intent(in) :: step, shortest
+      !> Part of the last three terms that counts as the error
+      real(wp), intent(in) :: counted
       !> Bound of the fifth derivative of y''/5! by y [1/s2]
       real(wp), intent(in) :: fifth
       !> Tolerances of the velocity: relative, and absolute [1/s]
@@ -35,7 +38,7 @@ contains
       x = 1.0_wp
       do while (x*step > shortest)
          tolerance = rtol*max(abs(d(1)), abs(rate(d, x))) + atol*step
-         error = (7.0_wp*abs(d(7)) + x*(8.0_wp*abs(d(8)) + x*9.0_wp*abs(d(9))))*x**6 &
+         error = counted*(7.0_wp*abs(d(7)) + x*(8.0_wp*abs(d(8)) + x*9.0_wp*abs(d(9))))*x**6 &
             & + fifth*step**2*x*(abs(d(1))*x + abs(d(2))*x**2)**5
          if (error < tolerance) return
          x = max(0.2_wp*x, safety*x*(tolerance/error)**(1.0_wp/6.0_wp))
@@ -98,6 +101,56 @@ contains
          if (event /= no_event) x = place*x
       end if
    end subroutine find_first
+
+   !> The first of two levels that a motion crosses before its first event; one on which it begins is crossed only if the
+   !> motion leaves it beyond
+   pure subroutine find_first_level(d, low, high, x, event)
+      !> The series of the motion
+      real(wp), intent(in) :: d(0:9)
+      !> The levels y; 0 and huge: there is none
+      real(wp), intent(in) :: low, high
+      !> In: the place of that event, or where the step ends; out: that of the level, if it comes before it
+      real(wp), intent(inout) :: x
+      !> The event, or no event
+      integer, intent(inout) :: event
+
+      real(wp) :: y, v, bow, most_bent, shifted(0:9), place
+
+      y = value(d, x)
+      v = rate(d, x)
+      if (event == turning) v = max(v, 0.0_wp)
+      ! y' leaves the range of its ends by no more than its second derivative allows.
+      bow = x**2*(0.75_wp*abs(d(3)) + x*(3.0_wp*abs(d(4)) + x*8.0_wp*abs(d(5))))
+      most_bent = max(2.0_wp*d(2), bend(d, x)) &
+         & + x**2*(3.0_wp*abs(d(4)) + x*16.0_wp*(abs(d(5)) + x*3.0_wp*abs(d(6))))
+      if (min(d(1), v) > bow .or. (most_bent < 0.0_wp .and. v >= 0.0_wp)) then
+         ! It rises all the way.
+         if (y < high) return
+         shifted = -d
+         shifted(0) = high - d(0)
+         if (shifted(0) > 0.0_wp) then
+            x = place_of_zero(shifted, x)
+         else
+            x = 0.0_wp
+         end if
+         event = level_above
+      else if (max(d(1), v) < -bow .or. (most_bent < 0.0_wp .and. d(1) <= 0.0_wp)) then
+         ! It falls all the way.
+         if (y > low .or. .not. low > 0.0_wp) return
+         shifted = d
+         shifted(0) = d(0) - low
+         if (shifted(0) > 0.0_wp) then
+            x = place_of_zero(shifted, x)
+         else
+            x = 0.0_wp
+         end if
+         event = level_below
+      else
+         place = nowhere
+         call find_level(bernstein(d, x), high, merge(low, -huge(low), low > 0.0_wp), event, place)
+         if (place < nowhere) x = place*x
+      end if
+   end subroutine find_first_level
 
    !> Where a motion that falls all the way, or rises and then falls, is at zero: Halley's method, in a bracket
    pure real(wp) function place_of_zero(d, last) result(x)

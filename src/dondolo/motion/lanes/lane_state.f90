@@ -2,15 +2,20 @@
 module dondolo_lane_state
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_kinds, only : wp
+   use dondolo_normal_form, only : highest_held
    implicit none
    private
 
-   public :: lanes_type, lane_width
+   public :: lanes_type, lane_width, part_if_held
    public :: step_taken, record_over, event_possible, step_too_long
 
    !> Number of lanes: two vectors at least, so that one computes while the other waits for its own results; no more, so
    !> that threads at the end of their work still have full ones
    integer, parameter :: lane_width = 16
+
+   !> Part of the last three terms of a step that counts as its error where ties hold the wall. It vibrates on them, and
+   !> the first term that is left out is (w h)^3/504 of the first of these three, less than 1/4000 where w h < 1/2
+   real(wp), parameter :: part_if_held = 1.0e-2_wp
 
    !> What becomes of a step: it is taken; it is taken, and the record is over; it is not taken, since something may
    !> happen in it, or since it is too long for the tolerance
@@ -41,6 +46,10 @@ module dondolo_lane_state
       real(wp) :: step(lane_width) = 0.0_wp, series(lane_width, 2:9) = 0.0_wp
       !> What became of the last step
       integer(int64) :: flag(lane_width) = step_taken
+      !> Of walls with ties: coefficients of a with the forces that they have at present, the bound of its fifth derivative,
+      !> and the nearest y above and below at which these forces change
+      real(wp) :: a(lane_width, 0:highest_held) = 0.0_wp, fifth_a(lane_width) = 0.0_wp
+      real(wp) :: above(lane_width) = huge(1.0_wp), below(lane_width) = 0.0_wp
    end type lanes_type
 
 end module dondolo_lane_state

@@ -41,6 +41,7 @@ contains
       batch%records => records
       batch%set => set
       batch%queue => queue
+      if (constants%form%is_held) allocate (batch%grips(lane_width))
       active = 0
       do while (active < lane_width)
          if (.not. is_filled(active + 1)) exit
@@ -107,6 +108,7 @@ contains
       integer, intent(in) :: from, to
 
       batch%history(to) = batch%history(from)
+      if (allocated(batch%grips)) batch%grips(to) = batch%grips(from)
       associate (lanes => batch%lanes)
          lanes%y(to) = lanes%y(from)
          lanes%v(to) = lanes%v(from)
@@ -129,6 +131,10 @@ contains
          lanes%series(to, :) = lanes%series(from, :)
          lanes%step(to) = lanes%step(from)
          lanes%flag(to) = lanes%flag(from)
+         lanes%a(to, :) = lanes%a(from, :)
+         lanes%fifth_a(to) = lanes%fifth_a(from)
+         lanes%above(to) = lanes%above(from)
+         lanes%below(to) = lanes%below(from)
       end associate
    end subroutine move
 

@@ -11,17 +11,21 @@
 !> A, B and D are smooth: polynomials in z, which runs from -1 at rest to 1 at the limit rotation, hold them to rounding,
 !> and one branch-free loop serves every mechanism. Lengths are in halves of x at the limit, y = z + 1.
 !>
+!> Ties add -(force + stiffness D) D'/sqrt(J J(0)) to A, with constants that change in the course of a history: two more
+!> polynomials for each of them, from which `held` makes the A of the moment.
+!>
 !> Those of one rigid body that turns about a fixed point are harmonic: e cos(w z) + f sin(w z), with w the rotation at
 !> z = 1 less that at z = 0. Two short polynomials in z^2 then serve all of them and all their derivatives.
 module dondolo_normal_form
    use dondolo_chebyshev, only : as_powers, chebyshev_integral, chebyshev_nodes, chebyshev_series, chebyshev_value
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
+   use dondolo_travel, only : lever, travel
    implicit none
    private
 
    public :: normal_form_type, new_normal_form
-   public :: degrees, highest_degree, harmonic_degrees, highest_harmonic
+   public :: degrees, highest_degree, harmonic_degrees, highest_harmonic, held_degrees, highest_held
 
    !> Degrees of the polynomials to choose from: a slender block, most walls, the rest, walls that lift heavy masses
    integer, parameter :: degrees(4) = [8, 14, 22, 32]
@@ -30,6 +34,10 @@ module dondolo_normal_form
    !> Degrees of the polynomials of cos(w z): up to a slender block, and up to one of w = pi/4
    integer, parameter :: harmonic_degrees(2) = [10, 16]
    integer, parameter :: highest_harmonic = harmonic_degrees(2)
+
+   !> Degrees of the polynomials of walls with ties
+   integer, parameter :: held_degrees(2) = degrees(2:3)
+   integer, parameter :: highest_held = held_degrees(2)
 
    !> Highest degree whose powers keep the rounding of the series that they are made of
    integer, parameter :: highest_full = degrees(3)
@@ -48,8 +56,10 @@ module dondolo_normal_form
 
    !> A mechanism up to its limit rotation
    type :: normal_form_type
-      !> Do polynomials hold its terms to rounding? Those of ties they do not. If not, the rest is undefined
+      !> Do polynomials hold its terms to rounding? If not, the rest is undefined
       logical :: exists = .false.
+      !> Do ties hold the wall? Then a is that of the wall without them
+      logical :: is_held = .false.
       !> Are its terms harmonic?
       logical :: is_harmonic = .false.
       !> Degree of the polynomials: one of `harmonic_degrees`, else of `degrees`
@@ -65,15 +75,23 @@ module dondolo_normal_form
       !> 1, z^2, z^4, ... in cos(w z) and in sin(w z)/z
       real(wp) :: even(3) = 0.0_wp, odd(3) = 0.0_wp
       real(wp) :: cosine(0:highest_harmonic/2) = 0.0_wp, sine(0:highest_harmonic/2 - 1) = 0.0_wp
+      !> For each tie what a force of 1 and a stiffness of 1 add to a, with the same bounds
+      real(wp), allocatable, private :: by_force(:, :), by_stiffness(:, :), fifth_by_force(:), fifth_by_stiffness(:)
       !> x at y = 1 [rad]; w of a harmonic form
       real(wp) :: unit = 0.0_wp
       !> Are x and q the same?
       logical, private :: is_identity = .false.
-      !> Series of the rotation [rad] over z
-      real(wp), private :: q(0:nodes) = 0.0_wp
+      !> Series of the rotation [rad] over z, and of x [rad] over the rotation
+      real(wp), private :: q(0:nodes) = 0.0_wp, x(0:nodes) = 0.0_wp
+      !> Limit rotation [rad]
+      real(wp), private :: limit = 0.0_wp
    contains
       !> Rotation q
       procedure :: rotation
+      !> Coordinate y
+      procedure :: coordinate
+      !> The polynomial a of a wall that ties hold
+      procedure :: held
       !> Bound of the fifth derivative
       procedure :: fifth
    end type normal_form_type
@@ -93,15 +111,21 @@ contains
       !> The normal form
       type(normal_form_type) :: form
 
+      class(mechanism_type), allocatable :: wall
       real(wp), dimension(nodes) :: z, q, stretch, a, b, d
-      real(wp) :: series(0:nodes - 1), x(0:nodes), inertia, target
+      real(wp) :: series(0:nodes - 1), inertia, target
       integer :: i, iteration, needed, kept
 
-      if (limit < least_limit*mechanism%capacity .or. allocated(mechanism%restraints)) return
+      ! Friction can hold a wall out, which the engine lanes does not know.
+      if (limit < least_limit*mechanism%capacity .or. mechanism%has_friction()) return
+      allocate (wall, source=mechanism)
+      form%is_held = allocated(wall%restraints)
+      if (form%is_held) call wall%hold(spread(0.0_wp, 1, size(wall%restraints)), spread(0.0_wp, 1, size(wall%restraints)))
       if (present(is_shaken)) form%is_shaken = is_shaken
+      form%limit = limit
       z = chebyshev_nodes(nodes)
       q = 0.5_wp*limit*(1.0_wp + z)
-      call sample(mechanism, q, inertia, stretch, a, b, d)
+      call sample(wall, q, inertia, stretch, a, b, d)
       form%is_identity = all(stretch == 1.0_wp)
       if (form%is_identity) then
          form%unit = 0.5_wp*limit
@@ -109,29 +133,34 @@ contains
          ! x(q), and the rotations at the nodes in x by Newton's method
          series = chebyshev_series(stretch)
          if (degree_of(series) > highest_degree) return
-         x = 0.5_wp*limit*chebyshev_integral(series)
-         form%unit = 0.5_wp*sum(x)
+         form%x = 0.5_wp*limit*chebyshev_integral(series)
+         form%unit = 0.5_wp*sum(form%x)
          do i = 1, nodes
             target = form%unit*(1.0_wp + z(i))
             do iteration = 1, 10
-               q(i) = q(i) - (chebyshev_value(x, 2.0_wp*q(i)/limit - 1.0_wp) - target) &
+               q(i) = q(i) - (chebyshev_value(form%x, 2.0_wp*q(i)/limit - 1.0_wp) - target) &
                   & /chebyshev_value(series, 2.0_wp*q(i)/limit - 1.0_wp)
                q(i) = min(max(q(i), 0.0_wp), limit)
             end do
          end do
          form%q(:nodes - 1) = chebyshev_series(q)
-         call sample(mechanism, q, inertia, stretch, a, b, d)
+         call sample(wall, q, inertia, stretch, a, b, d)
       end if
       a = a/form%unit
       b = b/form%unit
       d = d/form%unit
-      if (form%is_identity) call find_harmonic_form(form, z, a, b, d)
+      if (form%is_identity .and. .not. form%is_held) call find_harmonic_form(form, z, a, b, d)
       if (form%is_harmonic) return
       needed = max(degree_of(chebyshev_series(a)), degree_of(chebyshev_series(b)))
       if (form%is_shaken) needed = max(needed, degree_of(chebyshev_series(d)))
-      form%exists = needed <= highest_degree
-      if (.not. form%exists) return
-      form%degree = minval(degrees, degrees >= needed)
+      if (form%is_held) then
+         call add_ties(form, wall, q, stretch*inertia, needed)
+         if (.not. form%exists) return
+      else
+         form%exists = needed <= highest_degree
+         if (.not. form%exists) return
+         form%degree = minval(degrees, degrees >= needed)
+      end if
       ! Powers of a high degree enlarge rounding, which would rule the bound of the fifth derivative.
       kept = form%degree
       if (kept > highest_full) kept = needed
@@ -139,6 +168,39 @@ contains
       call expand(b, kept, form%b, form%fifth_b)
       if (form%is_shaken) call expand(d, kept, form%d, form%fifth_d)
    end function new_normal_form
+
+   !> What the ties add to a
+   pure subroutine add_ties(form, wall, q, inertia, least)
+      !> The form; its unit is given
+      type(normal_form_type), intent(inout) :: form
+      class(mechanism_type), intent(in) :: wall
+      !> Rotations at the nodes [rad], and sqrt(J J(0)) there [kg m2]
+      real(wp), intent(in) :: q(:), inertia(:)
+      !> Degree that its other terms need
+      integer, intent(in) :: least
+
+      real(wp), dimension(size(q), size(wall%restraints)) :: force, stiffness
+      integer :: i, needed, ties
+
+      ties = size(wall%restraints)
+      needed = least
+      do i = 1, ties
+         associate (tie => wall%restraints(i))
+            force(:, i) = -lever(tie%edge, tie%e, tie%f, q)/(inertia*form%unit)
+            stiffness(:, i) = force(:, i)*travel(tie%edge, tie%e, tie%f, q)
+         end associate
+         needed = max(needed, degree_of(chebyshev_series(force(:, i))), degree_of(chebyshev_series(stiffness(:, i))))
+      end do
+      form%exists = needed <= highest_held
+      if (.not. form%exists) return
+      form%degree = minval(held_degrees, held_degrees >= needed)
+      allocate (form%by_force(0:highest_held, ties), form%by_stiffness(0:highest_held, ties))
+      allocate (form%fifth_by_force(ties), form%fifth_by_stiffness(ties))
+      do i = 1, ties
+         call expand(force(:, i), form%degree, form%by_force(:, i), form%fifth_by_force(i))
+         call expand(stiffness(:, i), form%degree, form%by_stiffness(:, i), form%fifth_by_stiffness(i))
+      end do
+   end subroutine add_ties
 
    !> Values at rotations
    pure subroutine sample(mechanism, q, inertia, stretch, a, b, d)
@@ -265,16 +327,51 @@ contains
       end do
    end subroutine expand
 
-   !> Bound of the fifth derivative of y''/5! by y [1/s2]
-   elemental real(wp) function fifth(self, u, heavier)
+   !> The polynomial a of a wall that ties hold
+   pure subroutine held(self, force, stiffness, a, fifth_a)
       class(normal_form_type), intent(in) :: self
+      !> Of each tie: T = force + stiffness D [N/m] and [N/m per m]
+      real(wp), intent(in) :: force(:), stiffness(:)
+      !> Coefficients of 1, z, z^2, ... [1/s2], and the bound of its fifth derivative / 5!
+      real(wp), intent(out) :: a(0:highest_held), fifth_a
+
+      integer :: i
+
+      a = self%a(:highest_held)
+      fifth_a = self%fifth_a
+      do i = 1, size(force)
+         a = a + (force(i)*self%by_force(:, i) + stiffness(i)*self%by_stiffness(:, i))
+         fifth_a = fifth_a + abs(force(i))*self%fifth_by_force(i) + abs(stiffness(i))*self%fifth_by_stiffness(i)
+      end do
+   end subroutine held
+
+   !> Bound of the fifth derivative of y''/5! by y [1/s2]
+   elemental real(wp) function fifth(self, fifth_a, u, heavier)
+      class(normal_form_type), intent(in) :: self
+      !> That of a/5! [1/s2]
+      real(wp), intent(in) :: fifth_a
       !> Ground acceleration [m/s2]
       real(wp), intent(in) :: u
       !> Vertical ground acceleration / g
       real(wp), intent(in) :: heavier
 
-      fifth = self%fifth_a + self%fifth_b*abs(u) + self%fifth_d*abs(heavier)
+      fifth = fifth_a + self%fifth_b*abs(u) + self%fifth_d*abs(heavier)
    end function fifth
+
+   !> Coordinate y of a rotation; huge beyond the limit
+   pure real(wp) function coordinate(self, q)
+      class(normal_form_type), intent(in) :: self
+      !> Rotation, at least 0 [rad]
+      real(wp), intent(in) :: q
+
+      coordinate = huge(q)
+      if (q > self%limit) return
+      if (self%is_identity) then
+         coordinate = q/self%unit
+      else
+         coordinate = max(0.0_wp, chebyshev_value(self%x, 2.0_wp*q/self%limit - 1.0_wp)/self%unit)
+      end if
+   end function coordinate
 
    !> Rotation q [rad]
    pure real(wp) function rotation(self, y)

@@ -232,7 +232,7 @@ contains
          ! A tie flows outwards only; rounding may end such a motion unseen.
          if (.not. (event == turning .or. (motion%grip%flows .and. motion%v < 0.0_wp))) return
          call motion%grip%turn(wall, motion%peak)
-         if (event == turning .and. size(wall%restraints) > wall%ties) call look_for_stick(wall, motion)
+         if (event == turning .and. wall%has_friction()) call look_for_stick(wall, motion)
       end select
       motion%f = angular_acceleration(wall, motion%excitation, motion%time, motion%q, motion%v)
    end subroutine change_ties

@@ -1,0 +1,170 @@
+!> The ties of a wall in a lane of the engine lanes: their modes, and the lane's coefficients that follow from them.
+!>
+!> What the ties do is decided by the rules that all engines share (dondolo_grip). Here their levels become values of y, and
+!> their forces the polynomial a of the lane (dondolo_normal_form).
+module dondolo_lane_grip
+   use dondolo_events, only : level_above
+   use dondolo_grip, only : grip_type
+   use dondolo_held_tail, only : held_motion
+   use dondolo_kinds, only : wp
+   use dondolo_lane_constants, only : lane_constants_type
+   use dondolo_lane_state, only : lanes_type
+   use dondolo_mechanism, only : mechanism_type
+   use dondolo_rest, only : new_rest, rest_type
+   use dondolo_tail, only : tail_type
+   implicit none
+   private
+
+   public :: lane_grip_type
+
+   !> The ties of a wall in one lane
+   type :: lane_grip_type
+      !> The wall, with the forces that its ties have at present
+      class(mechanism_type), allocatable, private :: wall
+      !> Their modes
+      type(grip_type), private :: grip
+      !> Levels in a row that were reached without any time passing
+      integer, private :: stalled = 0
+   contains
+      !> The start of a history
+      procedure :: begin
+      !> Are levels looked for?
+      procedure :: heed
+      !> A level is crossed
+      procedure :: cross
+      !> A motion outwards ends
+      procedure :: turn
+      !> The wall strikes its base
+      procedure :: strike
+      !> The motion after the record
+      procedure :: after_record
+      procedure, private :: take_hold
+   end type lane_grip_type
+
+   !> Levels in a row, none of which took time, after which a step goes on without them
+   integer, parameter :: most_stalled = 8
+
+contains
+
+   !> Begin a history, at rest
+   pure subroutine begin(self, mechanism, constants, lanes, i)
+      class(lane_grip_type), intent(inout) :: self
+      !> The wall as built
+      class(mechanism_type), intent(in) :: mechanism
+      type(lane_constants_type), intent(in) :: constants
+      !> The lanes, and the one
+      type(lanes_type), intent(inout) :: lanes
+      integer, intent(in) :: i
+
+      if (.not. allocated(self%wall)) allocate (self%wall, source=mechanism)
+      self%grip = grip_type()
+      self%stalled = 0
+      call self%grip%begin(self%wall, 0.0_wp)
+      call self%take_hold(constants, lanes, i)
+   end subroutine begin
+
+   !> Are levels looked for in the next step? Not after many in a row that took no time: the wall balances on one of them
+   pure subroutine heed(self, heeds)
+      class(lane_grip_type), intent(inout) :: self
+      !> Are they?
+      logical, intent(out) :: heeds
+
+      heeds = self%stalled < most_stalled
+      if (.not. heeds) self%stalled = 0
+   end subroutine heed
+
+   !> Cross a level
+   pure subroutine cross(self, constants, lanes, i, event, time, took_time)
+      class(lane_grip_type), intent(inout) :: self
+      type(lane_constants_type), intent(in) :: constants
+      !> The lanes, and the one
+      type(lanes_type), intent(inout) :: lanes
+      integer, intent(in) :: i
+      !> `level_above` or `level_below`
+      integer, intent(in) :: event
+      !> Time [s]
+      real(wp), intent(in) :: time
+      !> Has any time passed since the last level?
+      logical, intent(in) :: took_time
+
+      self%stalled = merge(0, self%stalled + 1, took_time)
+      if (event == level_above) then
+         lanes%y(i) = lanes%above(i)
+         call self%grip%cross(self%wall, self%grip%above, .true., time)
+      else if (self%grip%flows) then
+         call self%grip%turn(self%wall, constants%form%rotation(lanes%y(i)))
+      else
+         lanes%y(i) = lanes%below(i)
+         call self%grip%cross(self%wall, self%grip%below, .false., time)
+      end if
+      call self%take_hold(constants, lanes, i)
+   end subroutine cross
+
+   !> End a motion outwards
+   pure subroutine turn(self, constants, lanes, i)
+      class(lane_grip_type), intent(inout) :: self
+      type(lane_constants_type), intent(in) :: constants
+      !> The lanes, and the one
+      type(lanes_type), intent(inout) :: lanes
+      integer, intent(in) :: i
+
+      self%stalled = 0
+      if (.not. self%grip%flows) return
+      call self%grip%turn(self%wall, constants%form%rotation(lanes%y(i)))
+      call self%take_hold(constants, lanes, i)
+   end subroutine turn
+
+   !> Strike the base
+   pure subroutine strike(self, constants, lanes, i, rest)
+      class(lane_grip_type), intent(inout) :: self
+      type(lane_constants_type), intent(in) :: constants
+      !> The lanes, and the one
+      type(lanes_type), intent(inout) :: lanes
+      integer, intent(in) :: i
+      !> The wall at rest, which changes where its ties have stretched
+      type(rest_type), intent(inout) :: rest
+
+      logical :: changed
+
+      self%stalled = 0
+      changed = self%grip%changed
+      call self%grip%strike(self%wall)
+      if (changed) rest = new_rest(self%wall)
+      call self%take_hold(constants, lanes, i)
+   end subroutine strike
+
+   !> The motion after the record
+   pure subroutine after_record(self, constants, y, v, duration, tail)
+      class(lane_grip_type), intent(inout) :: self
+      type(lane_constants_type), intent(in) :: constants
+      !> Coordinate, and its velocity [1/s], at the end of the record
+      real(wp), intent(in) :: y, v
+      !> Duration of the record [s]
+      real(wp), intent(in) :: duration
+      type(tail_type), intent(out) :: tail
+
+      real(wp) :: q, j, c, g, l, load
+
+      q = constants%form%rotation(y)
+      call self%wall%terms(q, j, c, g, l, load)
+      call held_motion(self%wall, self%grip, constants%limit, q, v*constants%form%unit*sqrt(constants%rest%inertia/j), &
+         & duration, tail)
+   end subroutine after_record
+
+   !> Give a lane the forces and the next levels of its ties
+   pure subroutine take_hold(self, constants, lanes, i)
+      class(lane_grip_type), intent(in) :: self
+      type(lane_constants_type), intent(in) :: constants
+      !> The lanes, and the one
+      type(lanes_type), intent(inout) :: lanes
+      integer, intent(in) :: i
+
+      call constants%form%held(self%grip%force, self%grip%stiffness, lanes%a(i, :), lanes%fifth_a(i))
+      lanes%above(i) = constants%form%coordinate(self%grip%above)
+      lanes%below(i) = 0.0_wp
+      if (self%grip%below > 0.0_wp) lanes%below(i) = constants%form%coordinate(self%grip%below)
+      ! A tie flows outwards only; rounding may end such a motion unseen.
+      if (self%grip%flows) lanes%below(i) = max(lanes%below(i), lanes%y(i))
+   end subroutine take_hold
+
+end module dondolo_lane_grip
