@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # The lines that the tests run, of Fortran and of Python, and one number: bash test/line_coverage.sh FPM PYTHON [NAME...]
 # With names, only the tests of these subjects. Fortran's lines are those that its own tests run, in a build with gcov;
-# what only the tests of Python reach in the library is not counted.
+# what only the tests of Python reach in the library is not counted. Nothing is optimised, which would merge lines.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 fpm=$1 python=$2
@@ -25,7 +25,7 @@ failed=0
 # Counts of earlier runs would be added to.
 find build -name '*.gcda' -delete 2>/dev/null || true
 if [ $# -eq 0 ] || [ ${#programs[@]} -gt 0 ]; then
-   "$fpm" test --profile debug --flag '-Og --coverage' --link-flag --coverage "${programs[@]}" >"$work/fortran.log" 2>&1 || failed=1
+   "$fpm" test --profile debug --flag --coverage --link-flag --coverage "${programs[@]}" >"$work/fortran.log" 2>&1 || failed=1
    tail -n 3 "$work/fortran.log"
 fi
 if [ $# -eq 0 ] || [ ${#modules[@]} -gt 0 ]; then
