@@ -869,7 +869,7 @@ warned 's/thickness/interlock_overlap = 0.1 interlock_course = 0.1 interlock_thi
    "interlock_spacing = 0.5 m is less than 1 m: is it a thickness?"
 warned 's/thickness/interlock_overlap = 0.1 interlock_course = 0.1 interlock_thickness = 0.3 interlock_spacing = 5 interlock_friction = 2 thickness/' \
    "interlock_friction = 2 is more than 1: is it an angle, or in per cent?"
-warned 's/thickness/tie_height = 2.8 tie_area = 1e-4 tie_length = 5 tie_spacing = 4 tie_preload = 50 thickness/' \
+warned 's/thickness/tie_height = 2.8 tie_area = 1e-4 tie_length = 5 tie_preload = 50 thickness/' \
    "tie_preload = 50 Pa is less than 100000 Pa: is it in MPa, or a force?"
 warned "s/one_sided'/two_block' overburden = 15 overburden_inertia = 0/" "overburden = 15 N/m is less than 200 N/m: is it in kN/m?"
 awk 'BEGIN { for (k = 0; k < 10; k++) print 0 }' >records/still.txt

@@ -34,7 +34,7 @@ class Building:
     damping : float or sequence of float, optional
         Their damping ratios, or one for all; 0.05 if not given.
     participation : float or sequence of float, optional
-        Their participation factors times their shapes at the level of the wall.
+        Their participation factors times their shapes at the level of the wall, no percentages.
     storeys : int, optional
         Number n of storeys, instead of participation: 3 n / (2 n + 1) level / building_height.
     level : float, optional

@@ -101,12 +101,13 @@ contains
       call warning%get_word('wall', wall)
       call warning%get_word('variable', variable)
       call warning%get_word('unit', unit)
-      text = 'wall '''//wall//''': '//variable//' = '//rounded(warning%value('value'))//' '//unit
+      if (len(unit) > 0) unit = ' '//unit
+      text = 'wall '''//wall//''': '//variable//' = '//rounded(warning%value('value'))//unit
       associate (property => wall_properties(find_property(wall_properties, variable)))
          if (warning%code == 'value_below_usual') then
-            text = text//' is less than '//to_text(warning%value('limit'))//' '//unit//': '//trim(property%if_less)
+            text = text//' is less than '//to_text(warning%value('limit'))//unit//': '//trim(property%if_less)
          else
-            text = text//' is more than '//to_text(warning%value('limit'))//' '//unit//': '//trim(property%if_more)
+            text = text//' is more than '//to_text(warning%value('limit'))//unit//': '//trim(property%if_more)
          end if
       end associate
       call count_walls(warning, text)
