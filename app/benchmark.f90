@@ -6,7 +6,7 @@ module dondolo_benchmark
    use dondolo_ensemble, only : name_engines
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
-   use dondolo_machine, only : arithmetic_rate, processor_name, seconds_since
+   use dondolo_machine, only : arithmetic_rate, processor_name, seconds_since, surroundings
    use dondolo_population, only : member_type
    use dondolo_row_result, only : row_result_type
    use dondolo_run_rows, only : run_rows
@@ -192,6 +192,7 @@ contains
       call name_engines(fingerprint%work, engines)
       write (output_unit, '(a)') 'dondolo '//dondolo_version_text//', benchmark', '', &
          & 'processor: '//trim(processor_name()), &
+         & 'machine: '//trim(surroundings()), &
          & 'compiler: '//compiler_version()//', real'//to_text(storage_size(1.0_wp)), &
          & 'options: '//compiler_options(), &
          & 'engine: '//engines

@@ -11,7 +11,7 @@ module dondolo_example
 
    !> The cases in data/cases
    character(len=*), parameter :: example_names(*) = [character(len=19) :: &
-      & 'facade', 'facade_hinges', 'facade_strip', 'facades', 'gable', 'garden_wall', 'historic_centre', 'history', &
+      & 'designs', 'facade', 'facade_hinges', 'facade_strip', 'facades', 'gable', 'garden_wall', 'historic_centre', 'history', &
       & 'parapet', 'parapet_on_building', 'pinnacle', 'population', 'tied_facade', 'two_block', 'uncertain_strip']
 
    !> How the cases say that they run from the repository

@@ -1,11 +1,12 @@
 !> The machine the benchmark runs on: its processor, and the arithmetic that this build can do on it.
 module dondolo_machine
    use, intrinsic :: iso_fortran_env, only : int64
+   use, intrinsic :: omp_lib, only : omp_get_max_threads, omp_get_num_procs
    use dondolo_kinds, only : wp
    implicit none
    private
 
-   public :: processor_name, arithmetic_rate, seconds_since
+   public :: processor_name, surroundings, arithmetic_rate, seconds_since
 
    !> Values that each chain of multiplications and additions runs over, as many as the engine has lanes; its length;
    !> passes between two looks at the clock
@@ -33,6 +34,44 @@ contains
       end do
       close (unit)
    end function processor_name
+
+   !> What else the speed depends on: threads and how they are bound, memory nodes, what else the machine does
+   function surroundings() result(text)
+      !> One line, filled up with blanks
+      character(len=256) :: text
+
+      character(len=*), parameter :: bindings(2) = [character(len=13) :: 'OMP_PROC_BIND', 'OMP_PLACES']
+      character(len=64) :: value
+      integer :: i, length
+
+      write (text, '(i0, a, i0, a)') omp_get_max_threads(), ' threads that OpenMP gives, on ', omp_get_num_procs(), &
+         & ' processors'
+      do i = 1, size(bindings)
+         call get_environment_variable(trim(bindings(i)), value, length)
+         if (length > 0) text = trim(text)//', '//trim(bindings(i))//'='//trim(value)
+      end do
+      call first_line('/sys/devices/system/node/online', value)
+      if (len_trim(value) > 0) text = trim(text)//'; memory nodes '//trim(value)
+      call first_line('/proc/loadavg', value)
+      if (len_trim(value) > 0) text = trim(text)//'; load average '//value(:index(value, ' ') - 1)
+   end function surroundings
+
+   !> First line of a file of the system
+   subroutine first_line(file, line)
+      !> Path of the file
+      character(len=*), intent(in) :: file
+      !> The line; empty where there is no such file
+      character(len=*), intent(out) :: line
+
+      integer :: unit, stat
+
+      line = ''
+      open (newunit=unit, file=file, action='read', status='old', iostat=stat)
+      if (stat /= 0) return
+      read (unit, '(a)', iostat=stat) line
+      if (stat /= 0) line = ''
+      close (unit)
+   end subroutine first_line
 
    !> Multiplications and additions a second on all threads together, in a loop that does nothing else
    real(wp) function arithmetic_rate(threads, seconds)

@@ -4,6 +4,7 @@ module dondolo_summary
    use dondolo_case, only : case_type
    use dondolo_certificate, only : in_double, in_quadruple, not_computable
    use dondolo_check_lines, only : print_check, print_verdicts
+   use dondolo_design_lines, only : print_designs
    use dondolo_error_estimate, only : runs_of_estimate
    use dondolo_fit_lines, only : bar, fractiles, make_head, print_fit, print_population_errors
    use dondolo_kinds, only : wp
@@ -57,6 +58,7 @@ contains
             call print_curves(case, results)
             call print_typology(case, results)
             if (results%unions%count() > 0) call print_unions(case, results)
+            if (allocated(results%designs)) call print_designs(results%designs)
             if (allocated(case%check)) then
                write (output_unit, '(a)') ''
                call print_verdicts(results%verdicts, case%check)

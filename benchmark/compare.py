@@ -1,6 +1,6 @@
 """Run the benchmark: python compare.py EXECUTABLE RECORDS [--quick].
 
-Tables are written to out/benchmark, and without --quick docs/performance.md from them.
+Tables are written to out/benchmark, and without --quick docs/performance.md and the speeds in README.md from them.
 """
 
 import os
@@ -12,30 +12,38 @@ import time
 from pathlib import Path
 
 import page
-from problem import ROOT, SINGLE_BLOCKS, problem
-from programs import BUILD, PEERS, run_engines, run_peer, say, weights, write_results
+from problem import ROOT, SINGLE_BLOCKS, problem, write_case
+from programs import BUILD, DONDOLO, PEERS, run_peer, say, weights, write_results
+from rounds import alternate, write_rounds
 from scaling import measure
 
 OUT = ROOT / "out" / "benchmark"
+ROUNDS = 7  # of all programs in turns, for the ratios
 
 
 def compare(executable, records, quick):
-    """Run dondolo and its peers on the same histories."""
-    found = []
-    repeats = 1 if quick else 5
+    """Run dondolo and its peers on the same histories; then the best settings of the first wall in turns."""
+    found, turns = [], []
     for wall in SINGLE_BLOCKS[:1] if quick else SINGLE_BLOCKS:
         each = problem(wall, records)
+        first = wall == SINGLE_BLOCKS[0]
         say(f"{wall}, {len(each)} histories under {each.name} accelerograms")
-        # Slow peers, and peers that support only one wall, run on the first wall only.
-        peers = [peer for peer in PEERS if wall == SINGLE_BLOCKS[0] or peer.part == 1]
+        # Slow peers run on the first wall only, all others with one setting per method on the second.
+        peers = [DONDOLO, *(peer for peer in PEERS if first or peer.part == 1)]
         shares = weights(executable, each, 3)
-        found += run_engines(executable, each, repeats, quick)
+        own = []
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "problem.bin"
             each.write(path)
+            case = write_case(folder, each.wall, each.motions, 1e-8)
             for peer in peers:
-                found += run_peer(peer.quick() if quick else peer, each, path, shares)
-    return found
+                all_settings = peer is DONDOLO or (first and not quick)
+                chosen = peer if all_settings else peer.quick()
+                own += run_peer(chosen, each, case if peer.takes_case else path, shares)
+            if first:
+                turns = alternate(executable, each, own, path, case, 2 if quick else ROUNDS)
+        found += own
+    return found, turns
 
 
 def machine():
@@ -58,8 +66,10 @@ def main():
     quick = "--quick" in sys.argv
     start = time.monotonic()
     OUT.mkdir(parents=True, exist_ok=True)
-    write_results(OUT / "programs.csv", compare(executable, records, quick))
-    measure(executable, OUT / "scaling.csv", 1 if quick else 5)
+    results, turns = compare(executable, records, quick)
+    write_results(OUT / "programs.csv", results)
+    write_rounds(OUT / "rounds.csv", turns)
+    measure(executable, OUT / "scaling.csv", 1 if quick else 3)
     (OUT / "machine.txt").write_text("\n".join(machine()) + "\n", encoding="utf-8")
     if not quick:
         page.write(OUT)

@@ -6,7 +6,7 @@ matplotlib.use("agg")
 
 import matplotlib.pyplot as plt
 import numpy as np
-from dondolo.figures.style import BLACK, BLUE, GREY, RC, RED
+from dondolo.figures.style import BLACK, BLUE, GREY, LIGHT, RC, RED
 from matplotlib.ticker import NullFormatter
 from problem import ROOT
 
@@ -71,16 +71,32 @@ def work(results):
         for ax in axes[1]:
             ax.set(xlabel="time per history [ms]")
             ax.xaxis.set_minor_formatter(NullFormatter())
+        for ax, (what, _) in zip(axes.flat, MEASURES, strict=False):
+            for theirs, color, label in ((True, LIGHT, "the others"), (False, "#F2C9AE", "dondolo")):
+                own = [each for each in results if (each.program != "dondolo") == theirs]
+                times, errors = front(own, what)
+                ax.step(times, errors, where="post", color=color, linewidth=5, zorder=0, label=f"front of {label}")
         handles = axes[0, 0].get_legend_handles_labels()
         figure.legend(*handles, loc="outside lower center", ncols=4)
     save(figure, "work")
+
+
+def front(results, what):
+    """The settings that no other is better than in both time and error: times, and errors."""
+    times, errors = [], []
+    for each in sorted(results, key=lambda each: each.ms_of_all):
+        error = max(getattr(each, what), LOWEST)
+        if not errors or error < errors[-1]:
+            times.append(each.ms_of_all)
+            errors.append(error)
+    return times, errors
 
 
 def scaling(rows):
     """Draw time against threads, walls, levels, length and sampling of the records; memory against histories."""
     panels = (
         ("threads", "threads", "speed-up"),
-        ("walls", "walls", "time per wall / of one"),
+        ("records", "records", "time per record / of the fewest"),
         ("levels", "levels", "time per level / of the fewest"),
         ("shocks", "length of the records", "time / of the shortest"),
         ("samples", "samples for one of the record", "time / of one"),
@@ -99,7 +115,7 @@ def scaling(rows):
             else:
                 own = [row for row in rows if row["kind"] == kind]
                 size, value = (np.array([row[what] for row in own]) for what in ("size", "value"))
-                if kind in ("walls", "levels"):
+                if kind in ("records", "levels"):
                     value = value / size / (value[0] / size[0])
                 elif kind != "memory":
                     value = value / value[0]

@@ -6,11 +6,11 @@ import statistics
 import subprocess
 import sys
 import tempfile
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 
 import numpy as np
-from problem import Histories, Motions, read_table, write_case
+from problem import Motions, read_table, write_case
 
 FOLDER = Path(__file__).resolve().parent
 BUILD, ENVIRONMENT = FOLDER / "build", FOLDER / ".venv"
@@ -33,15 +33,27 @@ class Peer:
     needs: str  # requirements, for the message if it is missing
     part: int = 1  # part of the histories: 1, all; 16, every 16th of 880
     repeats: int = 3
+    holds: str = "the integration of all histories, compiled before"  # what its times are of
+    takes_case: bool = False  # a case of dondolo in place of the problem
 
     def quick(self):
         """The same peer with one setting per method, run once."""
         middle = {method: settings[len(settings) // 2 :][:1] for method, settings in self.methods.items()}
-        return Peer(self.name, self.command, middle, self.needs, self.part, repeats=1)
+        return replace(self, methods=middle, repeats=1)
 
 
 TOLERANCES = (1e-6, 1e-8, 1e-10, 1e-12)
 FEW = (1e-6, 1e-9, 1e-12)
+
+DONDOLO = Peer(
+    "dondolo",
+    (sys.executable, "-W", "ignore", FOLDER / "peers" / "dondolo_stripes.py"),
+    {"rk45": TOLERANCES, "lanes": TOLERANCES},
+    "the installed package",
+    repeats=5,
+    holds="a call of `multiple_stripe` from Python, after one that is not timed",
+    takes_case=True,
+)
 
 PEERS = [
     Peer("C++ by hand", (BUILD / "rkn4",), {"RKN4, steps a sample": (1, 2, 4, 8, 32)}, "g++"),
@@ -49,21 +61,24 @@ PEERS = [
     Peer(
         "SUNDIALS",
         (BUILD / "sundials",),
-        {"dopri5": FEW, "adams": (1e-9, 1e-10, 1e-11, 1e-12), "adams_free": (1e-9, 1e-11)},
+        {"dopri5": FEW, "adams": (1e-10, 1e-12), "adams_free": (1e-11,)},
         "g++, libsundials-dev",
         repeats=1,
     ),
     Peer(
         "heyoka",
         (PYTHON, FOLDER / "peers" / "heyoka_taylor.py"),
-        {"scalar": (1e-9, 1e-12, 1e-15), "batch": (1e-9, 1e-12, 1e-15)},
+        {"scalar": (1e-9, 1e-15), "batch": (1e-9, 1e-15)},
         "heyoka from PyPI, for this processor and Python",
+        repeats=2,
+        holds="its loop in Python and the steps of its library, compiled before; *own* the steps alone",
     ),
     Peer(
         "numbalsoda",
         (PYTHON, FOLDER / "peers" / "numbalsoda_ivp.py"),
         {"dop853": FEW, "lsoda": FEW},
         "numbalsoda from PyPI",
+        repeats=2,
     ),
     Peer(
         "SciPy",
@@ -78,6 +93,7 @@ PEERS = [
         "scipy and numba from PyPI",
         part=16,
         repeats=1,
+        holds="its loop in Python; the right-hand side is compiled before",
     ),
     Peer(
         "GNU Octave",
@@ -86,10 +102,9 @@ PEERS = [
         "octave",
         part=80,
         repeats=1,
+        holds="its interpreted loop and right-hand side",
     ),
 ]
-
-ENGINES = {"rk45": TOLERANCES, "lanes": TOLERANCES}
 
 
 @dataclass(frozen=True)
@@ -103,7 +118,8 @@ class Result:
     method: str
     setting: float
     histories: int
-    seconds: float  # of the integration, median of the repeats
+    seconds: float  # median of the repeats
+    own: float  # seconds within the steps of a library that is called from Python; 0: not known
     ms: float  # per history
     ms_of_all: float  # per history, estimated for all histories; see `weights`
     flags: int  # number of wrong flags
@@ -128,13 +144,14 @@ def say(text):
     print(f"benchmark: {text}", file=sys.stderr, flush=True)
 
 
-def result(problem, every, weight, program, version, method, setting, seconds, edp, collapsed):
+def result(problem, every, weight, program, version, method, setting, seconds, own, edp, collapsed):
     """Result of a run, with its errors counted."""
     errors = problem.errors(every, edp, collapsed)
     median = statistics.median(seconds)
+    own = statistics.median(own) if own else 0.0
     ms = 1e3 * median / len(edp)
     found = Result(
-        *(problem.wall, problem.name, program, version, method, setting, len(edp), median, ms, ms / weight),
+        *(problem.wall, problem.name, program, version, method, setting, len(edp), median, own, ms, ms / weight),
         *(errors.flags(), errors.above(LARGE), errors.worst(), errors.quantile(0.5), errors.quantile(0.99)),
     )
     say(
@@ -145,7 +162,7 @@ def result(problem, every, weight, program, version, method, setting, seconds, e
 
 
 def run_peer(peer, problem, path, weights):
-    """Run all settings of a peer; those that cannot run are skipped with a message."""
+    """Run all settings of a peer on the file of the problem; those that cannot run are skipped with a message."""
     found = []
     every = len(problem) * peer.part // 880 or 1
     for method, settings in peer.methods.items():
@@ -163,55 +180,38 @@ def run_peer(peer, problem, path, weights):
                 why = " ".join(done.stderr.strip().splitlines()[-1:])
                 say(f"{peer.name}, {method}, {setting:g} is skipped: failed with '{why}'; it needs {peer.needs}")
                 continue
-            version, seconds, outcomes = parse(done.stdout)
+            version, seconds, own, outcomes = parse(done.stdout)
             weight = weights[every]
-            arguments = (seconds, outcomes[:, 0], outcomes[:, 1] == 1.0)
+            arguments = (seconds, own, outcomes[:, 0], outcomes[:, 1] == 1.0)
             found.append(result(problem, every, weight, peer.name, version, method, setting, *arguments))
     return found
 
 
 def parse(printed):
-    """Version, seconds of each repeat, and the rows of the histories, from the output of a peer."""
-    version, seconds, rows = "", [], []
+    """Version, seconds of each repeat, those of its own steps if printed, and the rows of the histories."""
+    version, seconds, own, rows = "", [], [], []
     for line in printed.splitlines():
         first, _, rest = line.partition(" ")
         if first == "version":
             version = rest
         elif first == "seconds":
             seconds.append(float(rest))
+        elif first == "own":
+            own.append(float(rest))
         else:
             rows.append([float(word) for word in line.split()])
-    return version, seconds, np.array(rows)
+    return version, seconds, own, np.array(rows)
 
 
 def run_dondolo(executable, wall, motions, rtol, engine, repeats):
-    """Seconds of each repeat, and the histories; None if the engine does not exist."""
+    """Seconds of the histories of each repeat, a new process of the executable each time."""
     seconds = []
     with tempfile.TemporaryDirectory() as folder:
         case = write_case(folder, wall, motions, rtol, threads=1, solver=f"engine = '{engine}'")
         for _ in range(repeats):
-            done = subprocess.run([executable, case], capture_output=True, text=True)
-            if "must be one of" in done.stderr:
-                return None
-            done.check_returncode()
+            done = subprocess.run([executable, case], check=True, capture_output=True, text=True)
             seconds.append(float(re.search(r"histories in +(\S+) s", done.stdout).group(1)))
-        return seconds, Histories.of(read_table(f"{folder}/result_histories.csv"))
-
-
-def run_engines(executable, problem, repeats, quick):
-    """Run both engines of dondolo on all histories."""
-    version = subprocess.run([executable, "--version"], check=True, capture_output=True, text=True).stdout.split()[1]
-    found = []
-    for engine, settings in ENGINES.items():
-        for rtol in settings[1::2] if quick else settings:
-            run = run_dondolo(executable, problem.wall, problem.motions, rtol, engine, repeats)
-            if run is None:
-                say(f"this build of dondolo has no engine {engine}: skipped")
-                break
-            seconds, each = run
-            arguments = (seconds, each.edp, each.collapsed)
-            found.append(result(problem, 1, 1.0, "dondolo", version, engine, rtol, *arguments))
-    return found
+        return seconds
 
 
 def weights(executable, problem, repeats):
@@ -220,7 +220,7 @@ def weights(executable, problem, repeats):
     Measured with rk45, which runs history by history.
     """
     strides = {len(problem) * peer.part // 880 or 1 for peer in PEERS}
-    seconds, _ = run_dondolo(executable, problem.wall, problem.motions, 1e-8, "rk45", repeats)
+    seconds = run_dondolo(executable, problem.wall, problem.motions, 1e-8, "rk45", repeats)
     of_all = statistics.median(seconds) / len(problem)
     found = {1: 1.0}
     for every in sorted(strides - {1}):
@@ -251,7 +251,7 @@ def seconds_of(executable, problem, chosen, repeats):
                     row = rows[member]
                     writer.writerow(row | {"file": problem.motions.catalogue.parent / row["file"]})
             part = Motions(catalogue, f"levels = {', '.join(map(repr, map(float, own)))}")
-            seconds, _ = run_dondolo(executable, problem.wall, part, 1e-8, "rk45", repeats)
+            seconds = run_dondolo(executable, problem.wall, part, 1e-8, "rk45", repeats)
             total += statistics.median(seconds)
     return total
 

@@ -116,6 +116,8 @@ def costs(repeats):
     for count in (1, 2, 4, 8):
         seconds = sum(timed(wall, records, LEVELS, repeats) for wall in walls(count))
         add("walls", count, count * len(records) * len(LEVELS), seconds)
+    for count in (6, 11, 22, 44):
+        add("records", count, count * len(LEVELS), timed(WALL, records[:count], LEVELS, repeats))
     for count in (5, 10, 20, 40, 80):
         add("levels", count, count * len(records), timed(WALL, records, np.linspace(0.05, 1.0, count), repeats))
     for times in (1, 2, 4, 8):

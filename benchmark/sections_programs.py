@@ -1,9 +1,11 @@
 """Comparison of dondolo with other programs on the same histories."""
 
+import statistics
+
 import figures
 from markdown import bullets, many, paragraph, small, table
-
-SHARE, WRONG = 0.01, 1  # acceptable share of histories with an error above 1e-6, acceptable number of wrong flags
+from programs import DONDOLO, PEERS
+from rounds import COLD, LIMIT, SHARE, SLOW, WRONG, by_program, chosen, ratio, times_of
 
 METHODS = [
     "*C++ by hand*: one or several Nyström steps of order four from sample to sample; events by Newton's method on the "
@@ -11,32 +13,13 @@ METHODS = [
     "*Boost.odeint*: Dormand-Prince stepper, with controlled steps that end at every sample, or with free steps and "
     "dense output. *SUNDIALS*: ARKODE's Dormand-Prince pair and CVODE's Adams method with their own root finding, "
     "stopped at every sample, or free. The libraries are Debian's builds.",
-    "*heyoka*: Taylor's method with its own events, called from Python, one history after the other or in lanes. "
+    "*heyoka*: Taylor's method with its own events, called from Python, one history after the other or in lanes: its "
+    "wheel has the library without the headers of its C++ interface, so that no program in C++ is built with it here; "
+    "of the lanes the time within the library's own steps is given as well. "
     "*numbalsoda*: the whole program compiled by Numba, sample by sample.",
     "*SciPy*: `solve_ivp` with events, from sample to sample or over the whole record; the right-hand side is "
     "compiled. *GNU Octave*: `ode45` with events over the whole record, or with steps no longer than a sample.",
 ]
-
-
-def acceptable(result):
-    """Whether a setting is accurate enough to be compared."""
-    return result.share <= SHARE and result.flags <= WRONG
-
-
-def chosen(results):
-    """Cheapest acceptable setting of a program, or the one with the fewest errors."""
-    good = [each for each in results if acceptable(each)]
-    if good:
-        return min(good, key=lambda each: each.ms_of_all)
-    return min(results, key=lambda each: (each.flags / each.histories + each.share, each.ms_of_all))
-
-
-def by_program(results):
-    """Results as {program: results}, in their order."""
-    found = {}
-    for each in results:
-        found.setdefault(each.program, []).append(each)
-    return found
 
 
 def settings(results):
@@ -56,14 +39,12 @@ def settings(results):
     ]
 
 
-def programs(results, machine):
+def programs(results, turns, machine):
     """Section 1."""
     wall = results[0].wall
     first = [each for each in results if each.wall == wall]
     figures.work(first)
-    versions = dict.fromkeys(
-        f"dondolo {each.version}" if each.program == "dondolo" else each.version for each in results
-    )
+    versions = dict.fromkeys(each.version for each in results)
     lines = [
         "## 1. Other programs",
         "",
@@ -71,9 +52,12 @@ def programs(results, machine):
             "Every program computes the same motion (theory.md, sections 1 to 4): accelerograms linear between their "
             "samples, rocking from the exact crossing of the trigger, impacts, the rule that ends a chain of bounces, "
             "the peak at q' = 0, and the motion after the record by its energy. Programs in the same language share "
-            "all source except the integration. All run on one core; times are medians of the integration alone."
+            "all source except the integration. All run on one core, in a warm process: reading and compilation "
+            "are over before the clock starts. Times are medians of several repeats where a program is not too slow "
+            "for them."
         ),
         *bullets(METHODS),
+        *table(["program", "its time holds"], [[peer.name, peer.holds] for peer in (DONDOLO, *PEERS)]),
         *paragraph(
             f"Versions: {'; '.join(versions)}. {'; '.join(machine)}. Absolute tolerances are one hundredth of the "
             "relative ones, in units of the capacity."
@@ -89,35 +73,108 @@ def programs(results, machine):
     for name in dict.fromkeys(each.wall for each in results):
         own = [each for each in results if each.wall == name]
         lines += [*paragraph(f"`{name}`, {own[0].accelerograms} accelerograms"), *table(head, settings(own))]
-    return lines + ratios(first)
+    return lines + ratios(first, turns) + limits(first, turns)
 
 
-def ratios(results):
-    """Table of the times of other programs relative to dondolo."""
-    engines = [each for each in results if each.program == "dondolo"]
-    defaults = [each for each in engines if each.setting == 1e-8]
-    tight = [each for each in engines if each.method == "lanes" and each.setting == 1e-12]
+def ratios(results, turns):
+    """Table of the times of other programs relative to dondolo, from the rounds."""
+    own = [(each.name, each.setting) for each in results if each.program == DONDOLO.name]
+    engines = [each for each in own if each[1] == 1e-8]
+    tight = ("dondolo, lanes", 1e-12)
     rows = []
-    for program, own in by_program(results).items():
-        if program == "dondolo":
+    for program, several in by_program(results).items():
+        if program == DONDOLO.name:
             continue
-        best = chosen(own)
+        best = chosen(several)
+        key = (best.name, best.setting)
+        several_rounds = [ratio(turns, key, under) for under in (*engines, tight)]
         rows.append(
             [
                 program,
                 f"{best.name.partition(', ')[2]}, {best.setting:g}",
-                f"{best.ms_of_all:.3g}",
+                f"{statistics.median(times_of(turns, *key).values()):.4g}",
                 f"{best.above} of {best.histories}, {many(best.flags, 'wrong flag')}",
-                *(f"{best.ms_of_all / each.ms_of_all:.3g}" for each in defaults + tight),
+                several_rounds[0][3],
+                *(spread(*each[:3]) for each in several_rounds),
             ]
         )
-    heads = [f"times `{each.method}`" for each in defaults] + [f"times `{each.method}`, 1e-12" for each in tight]
+        if best.own > 0.0:
+            part = best.own / best.seconds
+            rows.append(
+                [
+                    f"{program}, own steps",
+                    rows[-1][1],
+                    f"{part * statistics.median(times_of(turns, *key).values()):.4g}",
+                    "the same",
+                    several_rounds[0][3],
+                    *(spread(*(part * value for value in each[:3])) for each in several_rounds),
+                ]
+            )
+    heads = [f"times `{name.partition(', ')[2]}`" for name, _ in engines] + ["times `lanes`, 1e-12"]
+    rounds = max(turn.round for turn in turns)
     return [
         *paragraph(
-            f"The table gives each program's cheapest setting with at most {100 * SHARE:g} % of the EDPs with an error "
-            f"above 1e-6 and at most {many(WRONG, 'wrong flag')}, or, if there is none, its most accurate setting. The "
-            "last columns are its time relative to that of dondolo's engines, at their defaults and at a tight "
-            "tolerance:"
+            f"For each program the cheapest setting with at most {100 * SHARE:g} % of the EDPs with an error above "
+            f"1e-6 and at most {many(WRONG, 'wrong flag')}, or, if there is none, its most accurate setting. These "
+            f"settings ran in turns, {many(rounds, 'round')}, the second of two calls each; a program that takes more "
+            f"than {SLOW:g} s ran in the first only. The last columns are the times relative to those of dondolo's "
+            "engines in the same round, at their defaults and at a tight tolerance: median, and in brackets the least "
+            "and the largest of the rounds."
         ),
-        *table(["program", "setting", "ms", "errors", *heads], rows),
+        *table(["program", "setting", "ms for all histories", "errors", "rounds", *heads], rows),
     ]
+
+
+def spread(median, least, largest):
+    """A ratio with its range over the rounds."""
+    if least == largest:
+        return f"{median:.3g}"
+    return f"{median:.3g} ({least:.3g} to {largest:.3g})"
+
+
+def limits(results, turns):
+    """What dondolo's own times hold, and how far they are from the limit of the processor."""
+    lanes = ("dondolo, lanes", 1e-8)
+    histories = next(each.histories for each in results if each.name == lanes[0])
+    warm, cold = (list(times_of(turns, *key).values()) for key in (lanes, (COLD, 1e-8)))
+    lines = paragraph(
+        f"The {histories} histories take the engine `lanes` {statistics.median(warm):.3g} ms "
+        f"({min(warm):.3g} to {max(warm):.3g}) in a call from Python that is warm. The executable, started anew, needs "
+        f"{statistics.median(cold):.3g} ms ({min(cold):.3g} to {max(cold):.3g}) for the same, the reading of the "
+        "records before it left aside."
+    )
+    if not times_of(turns, LIMIT, 0.0):
+        return lines
+    loop = statistics.median(times_of(turns, LIMIT, 0.0).values())
+    median, least, largest, _ = ratio(turns, lanes, (LIMIT, 0.0))
+    return lines + paragraph(
+        f"In the same rounds a loop of 3.24e6 times 90 fused multiplications and additions in the widest vectors of "
+        f"the processor, which computes nothing else, takes {loop:.3g} ms. The call from Python takes "
+        f"{spread(median, least, largest)} times as long."
+    )
+
+
+def speeds(results, turns):
+    """The speeds of the README, from the same rounds."""
+    first = [each for each in results if each.wall == results[0].wall]
+    lanes = ("dondolo, lanes", 1e-8)
+    mine = next(each for each in first if each.name == lanes[0])
+    variant = mine.version.split()[-1]
+    factors = []
+    for program in ("Boost.odeint", "heyoka", "SciPy"):
+        own = [each for each in first if each.program == program]
+        if own:
+            best = chosen(own)
+            times = float(f"{ratio(turns, (best.name, best.setting), lanes)[0]:.2g}")
+            factors.append(f"{times:g} times as fast as {program}")
+            if best.own > 0.0:
+                factors[-1] += (
+                    f" called from Python ({float(f'{times * best.own / best.seconds:.2g}'):g} of its own steps)"
+                )
+    times = times_of(turns, *lanes).values()
+    sentence = (
+        f"{mine.histories} time histories of one wall under recorded motions take {statistics.median(times):.2g} ms "
+        f"on one core in a call from Python (`{variant}`): {', '.join(factors)}, each at its "
+        "cheapest setting that is accurate enough, all warm and in the same rounds."
+    )
+    return paragraph(sentence, indent="  ")[:-1]

@@ -1,5 +1,6 @@
 """Scaling with threads and sizes, and memory."""
 
+import cost_model
 import figures
 from markdown import paragraph, table
 from scaling import VARIANTS
@@ -29,7 +30,8 @@ def scaling(rows):
             body.append([kind, f"{n:g}", *work, f"{each / n:.2f}"])
     lines += table(head, body)
     names = {
-        "walls": "walls",
+        "walls": "walls, a call for each",
+        "records": "records",
         "levels": "levels",
         "shocks": "repetitions of the record",
         "samples": "samples for each one of the record, interpolated linearly",
@@ -40,6 +42,7 @@ def scaling(rows):
         if r["kind"] in names
     ]
     lines += table(["parameter", "size", "histories", "ms per history"], body)
+    lines += model(rows)
     own = [row for row in rows if row["kind"] == "variant"]
     body = [
         [VARIANTS[int(r["size"])], f"{1e3 * r['value'] / r['histories']:.3g}", f"{own[0]['value'] / r['value']:.3g}"]
@@ -48,3 +51,19 @@ def scaling(rows):
     lines += table(["build variant", "ms per history", "speed-up"], body)
     body = [[f"{r['histories']:g}", f"{r['value']:.1f}"] for r in rows if r["kind"] == "memory" and r["value"] > 0.0]
     return lines + table(["histories", "peak memory, MiB"], body)
+
+
+def model(rows):
+    """The fitted cost model in words."""
+    (call, record, history), error = cost_model.of_call(rows)
+    walls, shocks, samples = (cost_model.growth(rows, kind) for kind in ("walls", "shocks", "samples"))
+    serial = cost_model.serial_share(rows)
+    text = (
+        f"A call takes {1e3 * call:.2g} ms + {1e3 * record:.2g} ms for each record + {1e3 * history:.2g} ms for each "
+        f"history on one thread (least squares over the rows of records and levels; the largest error is "
+        f"{100 * error:.0f} %). The time grows with the walls to the power {walls:.2f}, with the length of the records "
+        f"to {shocks:.2f} and with their sampling to {samples:.2f}."
+    )
+    if serial is not None:
+        text += f" By Amdahl's law {100 * serial:.0f} % of a population are not divided among threads."
+    return paragraph(text)

@@ -449,7 +449,7 @@ before=$(listing)
 run --benchmark 0.01 --threads 2
 check "benchmark: exit code" equal "$rc" 0
 check "benchmark: writes nothing" equal "$(listing)" "$before"
-for what in 'processor: ' 'compiler: GCC' 'options: -' 'engine: lanes (' 'figure of merit: ' 'arithmetic of the steps: '; do
+for what in 'processor: ' 'machine: ' 'compiler: GCC' 'options: -' 'engine: lanes (' 'figure of merit: ' 'arithmetic of the steps: '; do
    check "benchmark: $what" grep -q "^$what" stdout
 done
 check "benchmark: one and two threads" equal "$(awk 'NF == 7 && $1 ~ /^[0-9]+$/ && $2 > 0 { printf "%s ", $1 }' stdout)" "1 2 "

@@ -224,8 +224,8 @@ EDITS = [
     ),
     Edit(
         "upper ends of the bars are those of one collapse fewer",
-        "beta_distribution.ppf(upper, z + 1.0, n - z)",
-        "beta_distribution.ppf(upper, z, n - z + 1.0)",
+        "betaincinv(z + 1.0, n - z, upper)",
+        "betaincinv(z, n - z + 1.0, upper)",
         "test_plots.py::test_bars_end_at_the_saturation",
     ),
     # Fractiles over a population, in Fortran

@@ -8,7 +8,7 @@ program test_record
    use dondolo_error, only : error_type, status_missing
    use dondolo_kinds, only : wp
    use dondolo_limits, only : longest_case
-   use dondolo_numbers, only : parse_integer, parse_real
+   use dondolo_numbers, only : parse_integer, parse_real, take_real
    use dondolo_record, only : record_type
    use dondolo_record_reader, only : read_record
    use dondolo_text, only : to_text
@@ -92,6 +92,7 @@ contains
          if (.not. ok .or. value < want .or. value > want) mismatches = mismatches + 1
       end do
       call check(mismatches == 0, to_text(mismatches)//' of 200000 numbers differ from READ')
+      call test_eight_decimals()
       call parse_integer(' -42 ', number, ok)
       call check(ok .and. number == -42, 'integer -42')
       call parse_integer('2147483647', number, ok)
@@ -103,6 +104,34 @@ contains
       call check_no_integer('1e3')
       call check_no_integer('1 2')
    end subroutine test_numbers
+
+   !> Eight decimals are read at once where all are digits: any other character ends the number where it stands
+   subroutine test_eight_decimals()
+      character(len=10) :: text
+      real(wp) :: value, want
+      integer :: code, place, at, wrong
+      logical :: ok
+
+      wrong = 0
+      do code = 0, 255
+         if (index('eEdD', achar(code)) > 0) cycle
+         do place = 3, 10
+            text = '7.12345678'
+            text(place:place) = achar(code)
+            at = 1
+            call take_real(text, at, len(text), value, ok)
+            if (code >= iachar('0') .and. code <= iachar('9')) then
+               read (text, *) want
+               ok = ok .and. at == len(text) + 1
+            else
+               read (text(:place - 1), *) want
+               ok = ok .and. at == place
+            end if
+            if (.not. ok .or. value < want .or. value > want) wrong = wrong + 1
+         end do
+      end do
+      call check(wrong == 0, to_text(wrong)//' characters among eight decimals are taken wrongly')
+   end subroutine test_eight_decimals
 
    !> A text that is a number
    subroutine check_number(text, want)
@@ -161,7 +190,36 @@ contains
       call check_error(error, scratch//'/folder: ', 'folder')
       call read_text_file('', text, error, longest_case)
       call check(allocated(error), 'no name')
+      call test_line_ends()
    end subroutine test_text_file
+
+   !> Line ends are looked for in eight characters at once: they are found wherever they stand among them
+   subroutine test_line_ends()
+      type(text_file_type) :: text
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: content
+      integer, parameter :: longest = 19
+      integer :: i, length, wrong
+
+      content = ''
+      ! Every length after every other one, so that all offsets occur; characters one beside the line feed do too
+      do i = 0, longest**2 - 1
+         length = merge(i/longest, modulo(i, longest), modulo(i, 2) == 0)
+         content = content//repeat(achar(11), length)//merge(cr, ' ', modulo(i, 3) == 0)//lf
+      end do
+      call write_file('lines.txt', content//'end')
+      call read_text_file(scratch//'/lines.txt', text, error, longest_case)
+      call check_ok(error, 'read')
+      if (allocated(error)) return
+      call check(text%lines() == longest**2 + 1, 'number of lines')
+      wrong = 0
+      do i = 0, min(text%lines(), longest**2) - 1
+         length = merge(i/longest, modulo(i, longest), modulo(i, 2) == 0)
+         if (text%line(i + 1) /= repeat(achar(11), length)) wrong = wrong + 1
+         if (len(text%line(i + 1)) /= length + merge(0, 1, modulo(i, 3) == 0)) wrong = wrong + 1
+      end do
+      call check(wrong == 0, to_text(wrong)//' lines are found wrongly')
+   end subroutine test_line_ends
 
    !> Tables that are right
    subroutine test_csv()
@@ -737,6 +795,8 @@ contains
       call check_catalogue('file'//lf//'c.AT2'//lf, '')
       call check_catalogue('file,dt_s,units'//lf//'sub/a.txt,.01,g'//lf//'bad.txt,.01,g'//lf, &
          & 'bad.csv: line 3: '//scratch//'/folder/bad.txt: line 3: value ''x'': must be a number')
+      ! The first that is wrong, for any number of threads, be it a file or a row
+      call check_first_wrong()
       call check_catalogue('file,dt_s,units'//lf//'sub/a.txt,"0,01",g'//lf, &
          & 'bad.csv: line 2: dt_s = ''0,01'': must be a number')
       call check_catalogue('file;dt_s;units'//lf//'sub/a.txt;0,010;g'//lf//';;'//lf, '')
@@ -786,6 +846,25 @@ contains
       call check_error(error, 'none.csv: no such file', 'missing catalogue')
    end subroutine test_catalogue
 
+   !> Of several wrong files and rows the first is reported, whichever thread finds one first
+   subroutine check_first_wrong()
+      character(len=*), parameter :: good = 'sub/a.txt,.01,g'//lf, bad = 'bad.txt,.01,g'//lf
+      type(record_type), allocatable :: records(:)
+      type(error_type), allocatable :: error
+      integer :: threads, i
+
+      do threads = 1, 4
+         do i = 1, 20
+            call write_file('folder/bad.csv', 'file,dt_s,units'//lf//good//repeat(bad, 40)//'sub/a.txt,x,g'//lf)
+            call read_catalogue(scratch//'/folder/bad.csv', records, error, threads=threads)
+            call check_error(error, 'bad.csv: line 3: '//scratch//'/folder/bad.txt: line 3: value ''x''', 'wrong files')
+            call write_file('folder/bad.csv', 'file,dt_s,units'//lf//good//'sub/a.txt,x,g'//lf//repeat(bad, 40))
+            call read_catalogue(scratch//'/folder/bad.csv', records, error, threads=threads)
+            call check_error(error, 'bad.csv: line 3: dt_s = ''x'': must be a number', 'a wrong row')
+         end do
+      end do
+   end subroutine check_first_wrong
+
    !> A catalogue with an error, or none
    subroutine check_catalogue(content, part)
       character(len=*), intent(in) :: content, part
@@ -804,7 +883,7 @@ contains
    !> Recorded accelerograms, where there are any: peaks and steps as in their manifest, and the catalogue italy44
    subroutine test_samples()
       type(csv_reader_type) :: table
-      type(record_type), allocatable :: records(:)
+      type(record_type), allocatable :: records(:), again(:)
       type(record_type) :: record
       type(error_type), allocatable :: error
       character(len=:), allocatable :: folder, file
@@ -858,6 +937,11 @@ contains
       call check(tested >= 97, to_text(tested)//' files tested')
       call read_catalogue(folder//'/italy44.csv', records, error)
       call check_ok(error, 'italy44')
+      call read_catalogue(folder//'/italy44.csv', again, error, threads=3)
+      call check_ok(error, 'italy44 on three threads')
+      if (allocated(error)) return
+      call check(all([(all(abs(again(row)%acceleration - records(row)%acceleration) <= 0.0_wp) .and. &
+         & again(row)%name == records(row)%name, row=1, size(records))]), 'the same records on three threads')
       if (allocated(error)) return
       call check(size(records) == 44, '44 records')
       call table%open(folder//'/italy44.csv', error)

@@ -2,7 +2,7 @@
 !> Whatever comes in, a result comes out that keeps every property of test/history_properties.f90.
 !>
 !> Arguments: number of random histories, and number of the first, to run one again by itself. For every thousand there
-!> is one with a record of up to a million samples, and for every ten one of a wall with ties
+!> is one with a record of up to a million samples
 program test_stress
    use checks, only : check, check_ok, finish, suite
    use dondolo_error, only : error_type
@@ -18,7 +18,6 @@ program test_stress
    use kept_histories, only : kept_count, kept_history
    use random_history, only : across, argument, between, history_type, new_history, random_record
    use same_response, only : is_same
-   use tied_history, only : check_tied_history, new_tied_history, print_ties
    implicit none
 
    type(history_type) :: history
@@ -38,11 +37,6 @@ program test_stress
    do i = first, first + histories - 1
       call check_properties(new_history(i), 'history '//to_text(i))
    end do
-   call suite('walls with ties')
-   do i = first, first + histories/10 - 1
-      call check_tied_history(new_tied_history(i), 'tied history '//to_text(i))
-   end do
-   call print_ties()
    call suite('long records')
    do i = first, first + histories/1000 - 1
       call test_long_record(i)

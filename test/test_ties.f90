@@ -92,6 +92,15 @@ contains
          call check_close(tie%strength, 6000.0_wp, exact, 'F_y of the anchor')
          call check(tie%yield >= tie%fracture, 'an anchor gives way at once')
       end associate
+      ! One number is a list of one value.
+      input = facade()
+      call input%set('tie_height', 8.5_wp)
+      call input%set('tie_area', 5.0e-5_wp)
+      call input%set('tie_length', 8.0_wp)
+      call input%set('tie_preload', 3.0e7_wp)
+      call check(size(input%list('tie_height')) == 1, 'one number of a list')
+      wall = made(input)
+      call check_close(wall%mechanism%restraints(1)%fracture, 0.0186875525504614_wp, exact, 'q_u of a tie given by numbers')
       ! Without ties all three are the same.
       wall = made(facade())
       call check_close(greatest_acceleration(wall%mechanism), wall%mechanism%trigger_acceleration(), exact, 'greatest, bare')

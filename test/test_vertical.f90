@@ -14,6 +14,7 @@ program test_vertical
    use dondolo_rest, only : new_rest, rest_type
    use dondolo_rk45, only : simulate_rk45
    use dondolo_settings, only : group_settings_type, new_settings
+   use dondolo_solver, only : solver_type
    use dondolo_wall, only : new_wall, wall_type
    use lane_runs, only : run_alone
    use motion_inputs, only : a_wall, accelerogram, made, tight
@@ -29,6 +30,7 @@ program test_vertical
    call test_search()
    call test_floor()
    call test_record()
+   call test_two_steps()
    call test_catalogue()
    call finish()
 
@@ -235,7 +237,9 @@ contains
       call record%set_vertical([1.0_wp, 2.0_wp], 0.01_wp, 1.0_wp, error)
       call check_error(error, 'vertical: has 2 samples, must have 3 as the record', 'length')
       call record%set_vertical([1.0_wp, 2.0_wp, 3.0_wp], 0.02_wp, 1.0_wp, error)
-      call check_error(error, 'vertical: has a time step of 0.02 s, must have 0.01 s as the record', 'step')
+      call check_error(error, 'vertical: lasts 0.04 s, must last 0.02 s as the record, or by less than a step', 'duration')
+      call record%set_vertical([1.0_wp, 2.0_wp, 3.0_wp], 0.01001_wp, 1.0_wp, error)
+      call check_error(error, 'vertical: has a time step of 0.01001 s, which must be to 0.01 s of the record as two', 'steps')
       call record%set_vertical([1.0_wp, 2000.0_wp, 3.0_wp], 0.01_wp, 10.0_wp, error)
       call check_error(error, 'vertical: sample 2 = 20000 m/s2: must be a number between', 'size')
       call record%set_vertical([1.0_wp, 2.0_wp, -3.0_wp], 0.01_wp, 2.0_wp, error)
@@ -244,6 +248,72 @@ contains
       call check_close(record%vertical_at(3, 0.0_wp), 0.0_wp, 0.0_wp, 'still after the last')
       call check_close(record%largest_fall(), 6.0_wp, 0.0_wp, 'fall')
    end subroutine test_record
+
+   !> Components of different steps: on the grid of both each is the function of time that it was
+   subroutine test_two_steps()
+      type(record_type) :: record, coarse
+      type(error_type), allocatable :: error
+      type(response_type) :: joined, same
+      type(wall_type) :: wall
+      real(wp), parameter :: steps(4) = [0.005_wp, 0.02_wp, 0.004_wp, 0.015_wp]
+      real(wp), allocatable :: a(:), v(:)
+      real(wp) :: time, worst
+      integer :: i, k, n
+
+      call suite('components of different steps')
+      wall = made('free_standing', 3.0_wp, 0.25_wp)
+      a = [(3.0_wp*sin(0.7_wp*i) - 4.0_wp*exp(-0.1_wp*(i - 12)**2), i=0, 60)]
+      do k = 1, size(steps)
+         record = accelerogram(a, 0.01_wp)
+         n = nint(0.6_wp/steps(k)) + 1
+         v = [(2.0_wp*cos(1.1_wp*i), i=1, n)]
+         call record%set_vertical(v, steps(k), -0.5_wp, error)
+         call check_ok(error, 'other step')
+         call check_close(record%duration(), 0.6_wp, exact, 'as long as before')
+         worst = 0.0_wp
+         do i = 1, size(record%acceleration)
+            time = real(i - 1, wp)*record%dt
+            worst = max(worst, abs(record%acceleration(i) - at(a, 0.01_wp, time)), abs(record%vertical(i) + &
+               & 0.5_wp*at(v, steps(k), time)))
+         end do
+         call check_close(worst, 0.0_wp, 0.0_wp, 'the same functions of time', 1.0e-12_wp)
+         call check(all(record%acceleration(:size(record%acceleration):nint(0.01_wp/record%dt)) <= a) .and. &
+            & all(record%acceleration(:size(record%acceleration):nint(0.01_wp/record%dt)) >= a), 'samples stay, to the bit')
+         ! The vertical component resampled by hand
+         coarse = accelerogram(record%acceleration, record%dt)
+         call coarse%set_vertical([(-0.5_wp*at(v, steps(k), real(i, wp)*record%dt), i=0, size(record%acceleration) - 1)], &
+            & record%dt, 1.0_wp, error)
+         call check_ok(error, 'by hand')
+         call simulate_rk45(wall%mechanism, coarse, 1.0_wp, solver_type(), same)
+         call simulate_rk45(wall%mechanism, record, 1.0_wp, solver_type(), joined)
+         call check(joined%edp > 1.0e-3_wp, 'it moves')
+         call check_close(joined%edp, same%edp, 1.0e-9_wp, 'EDP')
+      end do
+      ! A vertical component on half the step does not change a horizontal motion but by the errors of steps
+      record = accelerogram(a, 0.01_wp)
+      call simulate_rk45(wall%mechanism, record, 1.0_wp, solver_type(rtol=1.0e-13_wp, atol=1.0e-15_wp), same)
+      call record%set_vertical([(0.0_wp, i=0, 120)], 0.005_wp, 1.0_wp, error)
+      call check_ok(error, 'half the step')
+      call simulate_rk45(wall%mechanism, record, 1.0_wp, solver_type(rtol=1.0e-13_wp, atol=1.0e-15_wp), joined)
+      call check_close(joined%edp, same%edp, 1.0e-10_wp, 'EDP without vertical motion')
+      ! It ends before the record, by less than a step of its own, and is still afterwards; or after it
+      record = accelerogram([0.0_wp, 1.0_wp, 2.0_wp, 3.0_wp], 0.01_wp)
+      call record%set_vertical([1.0_wp, 3.0_wp], 0.02_wp, 1.0_wp, error)
+      call check_ok(error, 'shorter')
+      call check_close(maxval(abs(record%vertical - [1.0_wp, 2.0_wp, 3.0_wp, 0.0_wp])), 0.0_wp, 0.0_wp, 'still afterwards')
+      call record%set_vertical([1.0_wp, 3.0_wp, 5.0_wp], 0.02_wp, 1.0_wp, error)
+      call check_ok(error, 'longer')
+      call check_close(maxval(abs(record%vertical - [1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp])), 0.0_wp, 0.0_wp, 'cut')
+   end subroutine test_two_steps
+
+   !> A function that is linear between its samples
+   real(wp) function at(samples, dt, time)
+      real(wp), intent(in) :: samples(:), dt, time
+      integer :: i
+
+      i = min(1 + int(time/dt*(1.0_wp + epsilon(dt))), size(samples) - 1)
+      at = samples(i) + (samples(i + 1) - samples(i))*(time/dt - real(i - 1, wp))
+   end function at
 
    !> The column vertical of a catalogue
    subroutine test_catalogue()

@@ -7,16 +7,16 @@ module tied_history
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_random, only : new_random, random_type
-   use dondolo_record, only : new_record, record_type
+   use dondolo_record, only : record_type
    use dondolo_response, only : response_type, tie_response_type, trace_type
    use dondolo_rk45, only : simulate_rk45
    use dondolo_solver, only : solver_type
    use dondolo_text, only : to_text
-   use dondolo_tie, only : tie_type
-   use dondolo_travel, only : travel
+   use dondolo_tie, only : tie_input_type
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    use random_history, only : across, between, choice, history_type, random_record, random_solver
    use same_response, only : is_same
+   use tied_energy, only : tied_balance_of, tied_balance_type
    implicit none
    private
 
@@ -25,11 +25,11 @@ module tied_history
    !> Longest time of a history, which no machine should need [s]
    real(wp), parameter :: longest = 10.0_wp
 
-   !> Largest error of the energy / all that is turned over. It is that of the cubics between rows: with four times as many
-   !> rows it is a hundredth
-   real(wp), parameter :: largest_imbalance = 1.0e-3_wp
+   !> Largest error of the energy / all that is turned over
+   real(wp), parameter :: largest_imbalance = 1.0e-9_wp
 
-   integer :: histories = 0, yielded = 0, broken = 0, collapsed = 0
+   !> Numbers of histories, of ties, and of histories with each kind of step
+   integer :: histories = 0, yielded = 0, broken = 0, collapsed = 0, flowing = 0, slack = 0, rubbing = 0, held = 0
    real(wp) :: slowest = 0.0_wp, worst = 0.0_wp
 
 contains
@@ -51,15 +51,15 @@ contains
       history%solver = random_solver(random, history%wall)
    end function new_tied_history
 
-   !> A wall of any size with one to four ties of any kind
+   !> A wall of any size that ties of any kind hold, or friction, or both
    function random_tied_wall(random) result(wall)
       type(random_type), intent(inout) :: random
       type(wall_type) :: wall
-      type(wall_input_type) :: input
+      type(wall_input_type) :: input, wrong
+      type(tie_input_type), allocatable :: ties(:)
       type(error_type), allocatable :: error
-      real(wp), dimension(4) :: height, depth, area, length, modulus, strength, preload, strain, anchor
       real(wp) :: tall, thick
-      integer :: i, n
+      integer :: kind, i
 
       tall = across(random, 0.5_wp, 20.0_wp)
       thick = tall/across(random, 5.0_wp, 40.0_wp)
@@ -68,33 +68,114 @@ contains
       call input%set('thickness', thick)
       if (choice(random, 3) == 1) call input%set('hinge_depth', 0.2_wp*random%next()*thick)
       if (choice(random, 4) == 1) call input%set('restitution_factor', between(random, 0.5_wp, 1.0_wp))
-      n = choice(random, 4)
-      do i = 1, n
-         height(i) = tall*between(random, 0.1_wp, 1.0_wp)
-         depth(i) = thick*random%next()
-         strength(i) = across(random, 1.0e7_wp, 1.0e9_wp)
-         modulus(i) = across(random, 1.0e10_wp, 3.0e11_wp)
-         strain(i) = min(1.0_wp, strength(i)/modulus(i)*across(random, 1.01_wp, 1.0e3_wp))
-         length(i) = across(random, 0.5_wp, 30.0_wp)
-         ! Moments from a hundredth to ten times that of the weight
-         area(i) = min(1.0e-2_wp, 1.8e4_wp*tall*thick**2/(height(i)*strength(i))*across(random, 1.0e-2_wp, 10.0_wp))
-         preload(i) = 0.0_wp
-         if (choice(random, 2) == 1) preload(i) = strength(i)*random%next()
-         anchor(i) = 1.0e9_wp
-         if (choice(random, 4) == 1) anchor(i) = area(i)*between(random, preload(i), strength(i))
+      kind = choice(random, 10)
+      ! Friction with ties, and without
+      if (kind <= 3) call add_interlocking(random, tall, input)
+      select case (kind)
+      case (1)
+         allocate (ties(0))
+      case (4)
+         ! All at one height, where they yield together or one after the other
+         allocate (ties(10))
+         ties%height = tall*between(random, 0.1_wp, 1.0_wp)
+      case default
+         allocate (ties(choice(random, 4)))
+         do i = 1, size(ties)
+            ties(i)%height = tall*between(random, 0.1_wp, 1.0_wp)
+         end do
+      end select
+      do i = 1, size(ties)
+         call fill_in(random, tall, thick, ties(i))
       end do
-      call input%set('tie_height', height(:n))
-      call input%set('tie_depth', depth(:n))
-      call input%set('tie_area', area(:n))
-      call input%set('tie_length', length(:n))
-      call input%set('tie_modulus', modulus(:n))
-      call input%set('tie_strength', strength(:n))
-      call input%set('tie_preload', preload(:n))
-      call input%set('tie_strain', strain(:n))
-      call input%set('tie_anchor_force', anchor(:n))
+      ! Some are one and the same
+      if (kind == 4 .and. choice(random, 2) == 1) ties = ties(1)
+      if (size(ties) > 0) call set_ties(input, ties)
       call new_wall(wall, input, error)
       call check_ok(error, 'random wall with ties')
+      if (size(ties) == 0) return
+      wrong = input
+      i = choice(random, size(ties))
+      if (choice(random, 2) == 1) then
+         ties(i)%preload = ties(i)%strength*across(random, 1.0_wp, 10.0_wp)
+         call set_ties(wrong, ties)
+         call refuse(wrong, ': its tie_preload')
+      else
+         ties(i)%height = 0.0_wp
+         call set_ties(wrong, ties)
+         call refuse(wrong, ': its tie_height')
+      end if
    end function random_tied_wall
+
+   !> Anything of a tie but its height
+   subroutine fill_in(random, tall, thick, tie)
+      type(random_type), intent(inout) :: random
+      !> Height and thickness of the wall [m]
+      real(wp), intent(in) :: tall, thick
+      type(tie_input_type), intent(inout) :: tie
+
+      tie%depth = thick*random%next()
+      tie%strength = across(random, 1.0e7_wp, 1.0e9_wp)
+      tie%modulus = across(random, 1.0e10_wp, 3.0e11_wp)
+      tie%strain = min(1.0_wp, tie%strength/tie%modulus*across(random, 1.01_wp, 1.0e3_wp))
+      tie%length = across(random, 0.5_wp, 30.0_wp)
+      ! Moments from a hundredth to ten times that of the weight
+      tie%area = min(1.0e-2_wp, 1.8e4_wp*tall*thick**2/(tie%height*tie%strength)*across(random, 1.0e-2_wp, 10.0_wp))
+      tie%anchor_force = 1.0e9_wp
+      select case (choice(random, 8))
+      case (1:3)
+         tie%preload = tie%strength*random%next()
+      case (4)
+         ! It yields as soon as the wall moves, or almost, and may break at once too.
+         tie%preload = tie%strength*(1.0_wp - across(random, 1.0e-15_wp, 1.0e-2_wp))
+         if (choice(random, 2) == 1) tie%strain = tie%strength/tie%modulus*(1.0_wp + across(random, 1.0e-14_wp, 1.0e-2_wp))
+      end select
+      if (choice(random, 4) == 1) tie%anchor_force = tie%area*between(random, tie%preload, tie%strength)
+      ! A quarter of these give way in the first motion.
+      if (choice(random, 16) == 1) tie%anchor_force = tie%area*tie%preload*(1.0_wp + across(random, 1.0e-15_wp, 1.0e-2_wp))
+      if (.not. tie%anchor_force > tie%area*tie%preload) tie%anchor_force = 1.0e9_wp
+   end subroutine fill_in
+
+   !> Enter ties
+   subroutine set_ties(input, ties)
+      type(wall_input_type), intent(inout) :: input
+      type(tie_input_type), intent(in) :: ties(:)
+
+      call input%set('tie_height', ties%height)
+      call input%set('tie_depth', ties%depth)
+      call input%set('tie_area', ties%area)
+      call input%set('tie_length', ties%length)
+      call input%set('tie_modulus', ties%modulus)
+      call input%set('tie_strength', ties%strength)
+      call input%set('tie_preload', ties%preload)
+      call input%set('tie_strain', ties%strain)
+      call input%set('tie_anchor_force', ties%anchor_force)
+   end subroutine set_ties
+
+   !> Transverse walls whose stones overlap those of the wall by much or next to nothing
+   subroutine add_interlocking(random, tall, input)
+      type(random_type), intent(inout) :: random
+      !> Height of the wall [m]
+      real(wp), intent(in) :: tall
+      type(wall_input_type), intent(inout) :: input
+
+      call input%set('interlock_course', tall/across(random, 1.0_wp, 60.0_wp))
+      call input%set('interlock_overlap', across(random, 1.0e-3_wp, 1.0_wp))
+      call input%set('interlock_thickness', across(random, 0.1_wp, 1.0_wp))
+      call input%set('interlock_spacing', across(random, 1.0_wp, 20.0_wp))
+      if (choice(random, 2) == 1) call input%set('interlock_friction', across(random, 0.05_wp, 2.0_wp))
+   end subroutine add_interlocking
+
+   !> A wall that must be refused for what it says of a tie
+   subroutine refuse(input, why)
+      type(wall_input_type), intent(in) :: input
+      character(len=*), intent(in) :: why
+      type(wall_type) :: wall
+      type(error_type), allocatable :: error
+
+      call new_wall(wall, input, error)
+      call check(allocated(error), 'refused'//why)
+      if (allocated(error)) call check(index(error%message, why) > 0, 'refused'//why//', not '//error%message)
+   end subroutine refuse
 
    !> Check what must hold of a history
    subroutine check_tied_history(history, what)
@@ -102,7 +183,6 @@ contains
       character(len=*), intent(in) :: what
       type(response_type) :: response, again
       type(trace_type) :: trace
-      type(solver_type) :: tight
       real(wp) :: start, end, limit
 
       limit = history%solver%edp_limit
@@ -117,10 +197,7 @@ contains
       call simulate_rk45(history%wall%mechanism, history%record, history%scale, history%solver, again, trace)
       call check(is_same(response, again), what//': the same with a time history')
       call check_ties(history%wall%mechanism, response, trace%ties, what)
-      tight%rtol = 1.0e-11_wp
-      tight%atol = 1.0e-13_wp
-      tight%edp_limit = limit
-      call check_energy(history, tight, what)
+      call check_energy(history, what)
       histories = histories + 1
       if (response%collapsed) collapsed = collapsed + 1
    end subroutine check_tied_history
@@ -132,7 +209,7 @@ contains
       type(tie_response_type), intent(in) :: ties(:)
       character(len=*), intent(in) :: what
 
-      associate (of => mechanism%restraints, edp => response%edp)
+      associate (of => mechanism%restraints(:mechanism%ties), edp => response%edp)
          ! A tie that never breaks has a fracture beyond all numbers.
          call check(all(ties%broken .eqv. edp >= min(of%fracture, huge(edp)*mechanism%capacity)/mechanism%capacity), &
             & what//': what breaks')
@@ -146,142 +223,42 @@ contains
    end subroutine check_ties
 
    !> From the start to the end the ground has done the work that is left, was dissipated or lost at impacts
-   subroutine check_energy(history, solver, what)
+   subroutine check_energy(history, what)
       type(history_type), intent(in) :: history
-      type(solver_type), intent(in) :: solver
       character(len=*), intent(in) :: what
-      integer, parameter :: parts = 32
-      type(record_type) :: fine
+      type(solver_type) :: tight
       type(response_type) :: response
       type(trace_type) :: trace
-      type(error_type), allocatable :: error
-      real(wp), allocatable :: a(:)
-      real(wp) :: largest, balance, turnover, change, before, after, work
-      integer :: i, k, n
+      type(tied_balance_type) :: balance
 
-      n = size(history%record%acceleration)
-      allocate (a((n - 1)*parts + 1))
-      do i = 1, n - 1
-         do k = 0, parts - 1
-            a((i - 1)*parts + k + 1) = history%record%acceleration(i) + real(k, wp)/real(parts, wp) &
-               & *(history%record%acceleration(i + 1) - history%record%acceleration(i))
-         end do
-      end do
-      a(size(a)) = history%record%acceleration(n)
-      call new_record(fine, a, history%record%dt/real(parts, wp), 'fine', error)
-      call check_ok(error, 'fine record')
-      call simulate_rk45(history%wall%mechanism, fine, history%scale, solver, response, trace)
-      largest = 0.0_wp
-      balance = 0.0_wp
-      turnover = 0.0_wp
-      do i = 1, trace%rows - 1
-         associate (h => trace%time(i + 1) - trace%time(i), q => trace%rotation(i:i + 1), v => trace%velocity(i:i + 1))
-            before = kinetic(history%wall%mechanism, q(1), v(1)) + path_energy(history%wall%mechanism, q(1), largest)
-            largest = max(largest, q(1), highest(h, q, v))
-            after = kinetic(history%wall%mechanism, q(2), v(2)) + path_energy(history%wall%mechanism, q(2), largest)
-            change = after - before
-            if (.not. h > 0.0_wp) then
-               call check(change <= 1.0e-12_wp*before, what//': an impact gives nothing')
-               cycle
-            end if
-            ! It came to rest, with what was left of a bounce.
-            if (.not. (q(2) > 0.0_wp .or. v(2) > 0.0_wp .or. v(2) < 0.0_wp)) cycle
-            work = work_between(history%wall%mechanism, h, q, v, trace%acceleration(i:i + 1))
-            if (trace%time(i) >= fine%duration()) work = 0.0_wp
-            balance = balance + change - work
-            turnover = turnover + abs(work) + abs(kinetic(history%wall%mechanism, q(2), v(2)) &
-               & - kinetic(history%wall%mechanism, q(1), v(1)))
-         end associate
-      end do
-      if (.not. turnover > 0.0_wp) return
-      worst = max(worst, abs(balance)/turnover)
-      call check(abs(balance) <= largest_imbalance*turnover, what//': energy '//to_text(abs(balance)/turnover))
+      tight%rtol = 1.0e-13_wp
+      tight%atol = 1.0e-15_wp
+      tight%edp_limit = history%solver%edp_limit
+      trace%every_step = .true.
+      call simulate_rk45(history%wall%mechanism, history%record, history%scale, tight, response, trace)
+      balance = tied_balance_of(history%wall%mechanism, history%record, history%scale, trace)
+      call check(balance%wrong_impacts == 0, what//': an impact leaves at most e times the speed')
+      call check(balance%groundless == 0, what//': without friction nothing holds it out')
+      if (.not. balance%turnover > 0.0_wp) return
+      worst = max(worst, abs(balance%error)/balance%turnover)
+      call check(abs(balance%error) <= largest_imbalance*balance%turnover, what//': energy '// &
+         & to_text(balance%error/balance%turnover)//', most of it '//to_text(balance%worst_step)//' at row '// &
+         & to_text(balance%worst_row)//' of '//to_text(trace%rows))
+      flowing = flowing + min(1, balance%flowing)
+      slack = slack + min(1, balance%slack)
+      rubbing = rubbing + min(1, balance%rubbing)
+      held = held + min(1, balance%held)
    end subroutine check_energy
-
-   !> Largest rotation between two rows, of the cubic through them
-   real(wp) function highest(h, q, v)
-      real(wp), intent(in) :: h, q(2), v(2)
-      real(wp) :: a, b, c, x
-
-      highest = maxval(q)
-      if (.not. (v(1) > 0.0_wp .and. v(2) < 0.0_wp)) return
-      ! q = q1 + h v1 x + b x^2 + a x^3
-      a = h*(v(1) + v(2)) - 2.0_wp*(q(2) - q(1))
-      b = 3.0_wp*(q(2) - q(1)) - h*(2.0_wp*v(1) + v(2))
-      c = h*v(1)
-      ! The root of 3 a x^2 + 2 b x + c where the cubic is highest
-      x = c/(-b + sqrt(max(0.0_wp, b**2 - 3.0_wp*a*c)))
-      highest = max(highest, q(1) + x*(c + x*(b + x*a)))
-   end function highest
-
-   !> Kinetic energy
-   real(wp) function kinetic(mechanism, q, v)
-      class(mechanism_type), intent(in) :: mechanism
-      real(wp), intent(in) :: q, v
-      real(wp) :: j, c, g, l, load
-
-      call mechanism%terms(q, j, c, g, l, load)
-      kinetic = 0.5_wp*j*v**2
-   end function kinetic
-
-   !> Work of the ground along the cubic between two rows, by Gauss's rule with three points
-   real(wp) function work_between(mechanism, h, q, v, ground) result(work)
-      class(mechanism_type), intent(in) :: mechanism
-      real(wp), intent(in) :: h, q(2), v(2), ground(2)
-      real(wp), parameter :: nodes(3) = 0.5_wp + 0.5_wp*sqrt(0.6_wp)*[-1.0_wp, 0.0_wp, 1.0_wp]
-      real(wp), parameter :: weights(3) = [5.0_wp, 8.0_wp, 5.0_wp]/18.0_wp
-      real(wp) :: a, b, x, j, c, g, l, load
-      integer :: k
-
-      a = h*(v(1) + v(2)) - 2.0_wp*(q(2) - q(1))
-      b = 3.0_wp*(q(2) - q(1)) - h*(2.0_wp*v(1) + v(2))
-      work = 0.0_wp
-      do k = 1, 3
-         x = nodes(k)
-         call mechanism%terms(max(0.0_wp, q(1) + x*(h*v(1) + x*(b + x*a))), j, c, g, l, load)
-         work = work - weights(k)*l*(ground(1) + x*(ground(2) - ground(1)))*(h*v(1) + x*(2.0_wp*b + 3.0_wp*x*a))
-      end do
-   end function work_between
-
-   !> Energy that the wall and its ties hold, and that the ties have dissipated, at a rotation and a largest one so far
-   real(wp) function path_energy(mechanism, q, largest) result(energy)
-      class(mechanism_type), intent(in) :: mechanism
-      real(wp), intent(in) :: q, largest
-      class(mechanism_type), allocatable :: bare
-      real(wp) :: nothing(size(mechanism%restraints))
-      integer :: i
-
-      nothing = 0.0_wp
-      allocate (bare, source=mechanism)
-      call bare%hold(nothing, nothing)
-      energy = bare%potential(q) - bare%potential(0.0_wp)
-      do i = 1, size(mechanism%restraints)
-         energy = energy + tie_energy(mechanism%restraints(i), q, max(q, largest))
-      end do
-   end function path_energy
-
-   !> Of one tie: what it holds, F_y times its set, and what it held when it broke
-   real(wp) function tie_energy(tie, q, largest) result(energy)
-      type(tie_type), intent(in) :: tie
-      real(wp), intent(in) :: q, largest
-      real(wp) :: set, force
-
-      if (largest >= tie%fracture) then
-         set = tie%fracture_travel - tie%yield_travel
-         energy = tie%strength*set + tie%strength**2/(2.0_wp*tie%stiffness)
-      else
-         set = max(0.0_wp, travel(tie%edge, tie%e, tie%f, largest) - tie%yield_travel)
-         force = max(0.0_wp, tie%preload + tie%stiffness*(travel(tie%edge, tie%e, tie%f, q) - set))
-         energy = tie%strength*set + force**2/(2.0_wp*tie%stiffness)
-      end if
-   end function tie_energy
 
    !> Print what the histories came to
    subroutine print_ties()
 
       print '(a, es9.2, a, es9.2)', to_text(yielded)//' ties yielded, '//to_text(broken)//' broke, '//to_text(collapsed)// &
          & ' collapses; slowest ', slowest, ' s; energy, worst ', worst
-      call check(histories < 100 .or. min(yielded, broken, collapsed) > histories/10, 'ties yield and break, walls fall')
+      if (histories < 100) return
+      call check(min(yielded, broken, collapsed) > histories/10, 'ties yield and break, walls fall')
+      call check(min(flowing, slack, rubbing) > histories/20, 'ties flow and are slack, friction rubs')
+      call check(held > histories/100, 'friction holds walls out')
    end subroutine print_ties
 
 end module tied_history

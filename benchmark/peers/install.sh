@@ -40,6 +40,8 @@ compile() {
 
 mkdir -p "$build"
 echo "g++ $(g++ -dumpfullversion), ${flags[*]}" >"$build/compiler"
+# The limit of this processor, not a program that is compared
+compile arithmetic -march=native -ffp-contract=fast -funroll-loops
 compile rkn4
 compile odeint
 compile sundials -lsundials_cvode -lsundials_arkode -lsundials_nvecserial -lsundials_sunnonlinsolfixedpoint

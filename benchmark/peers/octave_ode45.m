@@ -3,6 +3,10 @@
 % sample interval. The setting is the relative tolerance. Physics: theory.md, sections 1 to 4.
 1;
 warning ("off", "all");  % ode45 warns at every terminal event
+% A program that is killed must not leave its variables, all records among them, in the current folder
+sigterm_dumps_octave_core (false);
+sighup_dumps_octave_core (false);
+crash_dumps_octave_core (false);
 
 function [i, t, side] = next_start (wall, a, dt, i, t)
   last = numel (a);

@@ -120,6 +120,12 @@ TESTS = [
         ("exact thresholds", "kept histories", "random histories", "long records"),
     ),
     (
+        "Random walls with ties and friction: work of the ground, what is held, dissipated and lost, to 1e-9",
+        "balance of energy",
+        "test_tied_histories",
+        ("kept walls with ties", "walls with ties"),
+    ),
+    (
         "Any number of threads, any grouping of histories",
         "equality to the bit",
         "test_grouping",

@@ -243,6 +243,11 @@ def _save(path: str, kind: str, draw: Callable[[], Any]) -> None:
 
     figure = draw().figure
     try:
+        engine = figure.get_layout_engine()
+        if engine is not None and kind == "png":
+            # Laid out here, since savefig would draw everything once more for that
+            engine.execute(figure)
+            figure.set_layout_engine("none")
         with whole_file(path) as part:
             figure.savefig(part, format=kind)
     except ValueError as error:

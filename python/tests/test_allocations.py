@@ -36,6 +36,7 @@ SMALL = {
     "src/dondolo/(base/properties/|case/input/survey|building/building)": "lists of properties",
     "src/dondolo/wall/(wall_(body|lists|ties)|tie_statics|interlocking)": "lists of properties",
     "src/dondolo/(case/(warnings/|groups/stripes_group|tasks/combine_rows)|fragility/ordinal)": "levels and states",
+    "src/dondolo/fragility/tie_tallies": "levels and ties of a wall",
     "src/dondolo/motion/common/grip": "ties of a wall",
     "src/dondolo/record/synthetic/": "harmonics of a record whose duration is limited",
     "src/dondolo/base/system/(line_reader|number_table)": "a line, or so many numbers as the reader allows",

@@ -59,8 +59,8 @@ def kept(path):
     """Numbers of the rows that a checkpoint holds, from 0."""
     content = path.read_bytes() if path.exists() else b""
     rows, at = set(), head_of(content) if b"\n" in content else len(content)
-    while at + 32 <= len(content):
-        row, _, length = struct.unpack_from("=iiq", content, at)
+    while at + 40 <= len(content):
+        row, _, _, _, length = struct.unpack_from("=iiiiq", content, at)
         if at + length <= len(content):
             rows.add(row - 1)
         at += length
@@ -185,7 +185,7 @@ def test_another_build(finished, tmp_path):
         length = head_of(content) - len(line) - 1
         head = re.sub(rb"(?m)^%s = .*$" % name.encode(), name.encode() + b" = " + other, rest[:length])
         # Fingerprints are those of the store.
-        first = b"dondolo counts 3 %08d " % len(head)
+        first = b"dondolo counts 4 %08d " % len(head)
         path.write_bytes(first + fingerprint(head, b"") + b"\n" + head + rest[length:])
         with pytest.raises(dd.InputError, match=f"another study: {why}$"):
             dd.typology(**study.arguments(checkpoint=path))

@@ -1,5 +1,7 @@
 """Designs of a wall compared on the same records."""
 
+import csv
+
 import matplotlib
 
 matplotlib.use("agg")
@@ -130,3 +132,42 @@ def test_what_cannot_be_compared(few, change, message):
     given = {"designs": {"a": dd.OneSidedWall(1.5, 0.25)}, "records": few, "levels": [0.5, 1.0]} | change
     with pytest.raises(dd.InputError, match=message):
         dd.compare_designs(given.pop("designs"), given.pop("records"), given.pop("levels"), progress=False, **given)
+
+
+def test_the_executable_compares(root, run, tmp_path):
+    """The same ratios and intervals as those of `compare_designs`, from the same table of walls."""
+    case = tmp_path / "case.nml"
+    text = (root / "data/cases/designs.nml").read_text().replace("'../", f"'{root}/data/")
+    case.write_text(text.replace("out/designs'", f"{tmp_path}/out'"))
+    summary = run(case)
+    assert summary.returncode == 0, summary.stderr
+    with (tmp_path / "out_designs.csv").open() as file:
+        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    walls = dd.read_population(root / "data/walls/designs.csv").walls
+    records = dd.read_catalogue(root / "data/records/synthetic44.csv")
+    levels = [0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.5, 2.0]
+    found = dd.compare_designs({wall.name: wall for wall in walls}, records, levels, progress=False)
+    assert [row["design"] for row in rows] == list(found.names)
+    expected = {
+        "theta": [curve.theta for curve in found.curves],
+        "se_ln_theta": [curve.se_ln_theta for curve in found.curves],
+        "ratio": found.ratio,
+        "ratio_low": found.ratio_interval[:, 0],
+        "ratio_high": found.ratio_interval[:, 1],
+        "p_value": [one.p_value for one in found.comparisons],
+        "steel_kg_m": found.steel,
+        "alpha_0_g": found.alpha_0,
+        "static_ratio": found.static_ratio,
+    }
+    for name, values in expected.items():
+        assert [float(row[name]) for row in rows] == pytest.approx(list(values), rel=1e-8, abs=1e-12), name
+    assert [row["gain_per_kg"] == "" for row in rows] == np.isnan(found.gain_per_kg).tolist()
+    assert [float(row["gain_per_kg"]) for row in rows[1:]] == pytest.approx(list(found.gain_per_kg[1:]), rel=1e-8)
+    assert found.ratio[3] > found.ratio[2] > 1.0
+    assert "designs against 'as it stands', with 95 % intervals from paired records:" in summary.stdout
+    assert f"   strain 2 %: median x {found.ratio[2]:.4g} (" in summary.stdout
+    assert (tmp_path / "out_checks.csv").exists()
+    case.write_text(case.read_text().replace("walls/designs.csv", "walls/facades.csv"))
+    refused = run("--check", case)
+    assert refused.returncode != 0
+    assert "designs = .true. needs two designs at least, each a wall of one row" in refused.stderr

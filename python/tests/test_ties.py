@@ -102,6 +102,46 @@ def test_population(facade, record, tmp_path):
     assert np.array_equal(curves.curves[1].collapses, alone.collapses)
 
 
+def test_broken_ties_of_populations(run, tmp_path, facade, record):
+    two = dd.OneSidedWall(9.0, 0.5, **TIE | {"tie_height": [8.5, 5.5], "tie_strain": 0.005}, name="two ties")
+    walls = [facade, dd.OneSidedWall(9.0, 0.5, name="bare"), two]
+    levels = [0.2, 0.5, 0.8]
+    arguments = {"polarity": "both", "progress": False}
+    curves = dd.typology(walls, [record], levels, checkpoint=tmp_path / "rows", edp_thresholds=[0.2], **arguments)
+    alone = [dd.multiple_stripe(wall, [record], levels, **arguments) for wall in walls]
+    shares = [stripes.broken_ties for stripes in alone]
+    assert [each.shape for each in curves.broken_ties] == [(3, 1), (3, 0), (3, 2)]
+    assert all(np.array_equal(*both) for both in zip(curves.broken_ties, shares, strict=True))
+    assert curves.broken_ties[0].max() > 0.0
+    assert np.unique(curves.broken_ties[2]).size > 1
+    alone = dd.typology(walls, [record], levels, **arguments)
+    assert all(np.array_equal(*both) for both in zip(alone.broken_ties, shares, strict=True))
+    again = dd.typology(walls, [record], levels, checkpoint=tmp_path / "rows", edp_thresholds=[0.2], **arguments)
+    again.save(tmp_path / "curves.npz")
+    for other in (again, dd.load(tmp_path / "curves.npz"), curves.at(0.2), curves.at(1.0)):
+        assert all(np.array_equal(*both) for both in zip(other.broken_ties, shares, strict=True))
+    # The executable, for each wall of a table as for the wall alone
+    (tmp_path / "shaking.txt").write_text("\n".join(map(str, SHAKING)))
+    (tmp_path / "records.csv").write_text("file,dt_s,units\nshaking.txt,0.1,m/s2\n")
+    dd.Population(walls).to_csv(tmp_path / "walls.csv")
+    rest = "&records catalogue = 'records.csv' polarity = 'both' /\n&stripes levels = 0.2, 0.5, 0.8 /\n"
+    case = tmp_path / "case.nml"
+    case.write_text(f"&job task = 'typology' output = '{tmp_path}/all' /\n&population file = 'walls.csv' /\n{rest}")
+    run(case)
+    found = [line for line in (tmp_path / "all_ties.csv").read_text().splitlines() if line[0] != "#"]
+    expected = []
+    ties = "tie_area = 5e-5 tie_length = 8.0 tie_preload = 3e7"
+    for wall in ("'facade' tie_height = 8.5", "'two ties' tie_height = 8.5, 5.5 tie_strain = 0.005"):
+        one = f"mechanism = 'one_sided' height = 9.0 thickness = 0.5 {ties} name = {wall}"
+        case.write_text(f"&job task = 'stripes' output = '{tmp_path}/one' /\n&wall {one} /\n{rest}")
+        run(case)
+        expected += [line for line in (tmp_path / "one_ties.csv").read_text().splitlines() if line[0] != "#"][1:]
+    assert found[1:] == expected
+    read = dd.read_results(tmp_path / "all")
+    with pytest.raises(dd.InputError, match="read back"):
+        read.typology.broken_ties  # noqa: B018
+
+
 def test_what_the_executable_says(run, tmp_path, facade, record):
     catalogue = tmp_path / "records.csv"
     (tmp_path / "shaking.txt").write_text("\n".join(map(str, SHAKING)))

@@ -204,8 +204,26 @@ def test_record(records, tmp_path):
     assert np.array_equal(again.vertical, -2.0 * record.vertical)
     with pytest.raises(dd.InputError, match="vertical: has 3 samples, must have"):
         dd.Record(record.acceleration, record.dt, vertical=[1.0, 2.0, 3.0])
-    with pytest.raises(dd.InputError, match=r"vertical: has a time step of 0\.5 s"):
+    with pytest.raises(dd.InputError, match=r"vertical: lasts .* s, must last .* s as the record"):
         record.with_vertical(dd.Record(record.vertical, 0.5))
+    with pytest.raises(dd.InputError, match=r"vertical: has a time step of 0\.00\d+ s, which must be to 0\.005 s"):
+        bare.with_vertical(dd.Record(record.vertical, record.dt * 1.0001))
+    # On the samples of both, each is the function of time that it was.
+    up = dd.Record(np.cos(np.arange(int(record.duration / 0.004) + 1)), 0.004)
+    joined = bare.with_vertical(up, factor=-2.0)
+    assert joined.dt == pytest.approx(0.001, rel=1e-12)
+    assert np.array_equal(joined.acceleration[::5], record.acceleration)
+    times = joined.dt * np.arange(len(joined.acceleration))
+    assert joined.acceleration == pytest.approx(
+        np.interp(times, record.dt * np.arange(len(record.acceleration)), record.acceleration), abs=1e-12
+    )
+    inside = times <= up.duration
+    assert joined.vertical[inside] == pytest.approx(
+        -2.0 * np.interp(times[inside], 0.004 * np.arange(len(up.acceleration)), up.acceleration), abs=1e-9
+    )
+    assert not joined.vertical[~inside].any()
+    assert joined.peak_acceleration == record.peak_acceleration
+    assert joined.processing[-1] == "samples every 0.001 s, with those of a vertical component of 0.004 s"
     with pytest.raises(dd.InputError, match="vertical: must be given"):
         dd.Record(record.acceleration, record.dt, vertical=[])
     with pytest.raises(dd.InputError, match="vertical: sample 2 = NaN m/s2: must be a number"):

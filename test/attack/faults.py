@@ -1,7 +1,7 @@
 """Every call of a run on its files fails once: open, read, write, flush, fsync, rename, remove, close, allocate.
 
-A library that is preloaded (faults.c) counts the calls and makes one fail: with an error, cut short, or by the kill of
-the process before or after it. Whatever happens, a reader then finds the old results or the new ones, the run said
+A library that is preloaded (faults.inc) counts the calls and makes one fail: with an error, cut short, or by the kill
+of the process before or after it. Whatever happens, a reader then finds the old results or the new ones, the run said
 what was wrong unless it was killed, and the next run ends with the same bytes as one that nothing disturbed.
 """
 
@@ -28,8 +28,8 @@ SMALL, LARGE = 32768, 2**20
 def build(folder: Path) -> Path:
     """Compile the library that is preloaded."""
     library = folder / "faults.so"
-    source = Path(__file__).with_name("faults.c")
-    subprocess.run(["gcc", "-shared", "-fPIC", "-O1", "-o", library, source, "-ldl"], check=True)
+    source = Path(__file__).with_name("faults.inc")
+    subprocess.run(["gcc", "-shared", "-fPIC", "-O1", "-x", "c", source, "-o", library, "-ldl"], check=True)
     return library
 
 

@@ -150,7 +150,7 @@ class Damage(TextDamage):
             head = self.text(head)[:200_000]
         else:
             i = self.chance.randrange(len(entries))
-            kind = self.chance.randrange(6)
+            kind = self.chance.randrange(7)
             if kind == 0:
                 entries.insert(i, entries[self.chance.randrange(len(entries))])
             elif kind == 1:
@@ -158,16 +158,19 @@ class Damage(TextDamage):
             elif kind == 2:
                 self.chance.shuffle(entries)
             else:
-                row, histories, length = struct.unpack_from("=iiq", entries[i])
-                body = entries[i][32:]
+                row, histories, ties, spare, length = struct.unpack_from("=iiiiq", entries[i])
+                body = entries[i][40:]
                 if kind == 3:
                     row = self.chance.choice((0, -1, 1, 2**31 - 1, row + 1, -(2**31)))
                 elif kind == 4:
                     histories = self.chance.choice((0, -1, 2**31 - 1, histories + 1, 1))
                     length = self.chance.choice((length, 0, -1, 2**62, length + 1))
+                elif kind == 5:
+                    ties = self.chance.choice((-1, 2**31 - 1, ties + 1, 1, -(2**31)))
+                    length = self.chance.choice((length, length + 24, -1, 2**62))
                 else:
                     body = self.bytes(body)
-                start = struct.pack("=iiq", row, histories, length)
+                start = struct.pack("=iiiiq", row, histories, ties, spare, length)
                 entries[i] = start + fingerprint(start, body) + body
         return join_store(head, entries)
 
@@ -177,8 +180,8 @@ def split_store(content: bytes) -> tuple[bytes, list[bytes]]:
     first, _, rest = content.partition(b"\n")
     at = int(first.split()[3])
     head, rows = rest[:at], []
-    while at + 32 <= len(rest):
-        (length,) = struct.unpack_from("=q", rest, at + 8)
+    while at + 40 <= len(rest):
+        (length,) = struct.unpack_from("=q", rest, at + 16)
         rows.append(rest[at : at + length])
         at += length
     return head, rows
@@ -186,7 +189,7 @@ def split_store(content: bytes) -> tuple[bytes, list[bytes]]:
 
 def join_store(head: bytes, rows: list[bytes]) -> bytes:
     """A checkpoint of a head and rows, with the fingerprint of the head."""
-    return b"dondolo counts 3 %8d %s\n" % (len(head), fingerprint(head, b"")) + head + b"".join(rows)
+    return b"dondolo counts 4 %8d %s\n" % (len(head), fingerprint(head, b"")) + head + b"".join(rows)
 
 
 def fingerprint(*texts: bytes) -> bytes:

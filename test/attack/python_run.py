@@ -4,8 +4,8 @@
 
 It reads FOLDER/new and writes FOLDER/out/study. It has a checkpoint, except for ``save``, which saves another result.
 With ``-`` in the place of both it makes such a run in a fork for each line of standard input, beside the library of
-faults.c: a list in JSON of the two, of the call that fails, of how, and of the path of a log. It answers with the exit
-code and what the run said.
+faults.inc: a list in JSON of the two, of the call that fails, of how, and of the path of a log. It answers with the
+exit code and what the run said.
 """
 
 from __future__ import annotations

@@ -25,7 +25,7 @@ module records
    implicit none
    private
 
-   public :: new_suite, measure_suite, check_record, describe_measure, intensities, spectrum, ground_velocity, &
+   public :: new_suite, measure_suite, check_record, join_vertical, describe_measure, intensities, spectrum, ground_velocity, &
       & significant_times, read_records, read_number_table, catalogue_table, synthetic_record
 
 contains
@@ -91,6 +91,25 @@ contains
       if (.not. allocated(error)) pga = record%pga()
       call report(error, stat, message)
    end subroutine check_record
+
+   !> A record of n samples and a vertical component of m, on one grid. Reals: its step, samples of the record and as many of the
+   !> vertical component
+   subroutine join_vertical(acceleration, n, dt, vertical, m, vertical_dt, factor, sent, stat, message)
+      integer(c_int), intent(in) :: n, m
+      real(c_double), intent(in) :: acceleration(n), dt, vertical(m), vertical_dt, factor
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(record_type) :: record
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+
+      call check_room(error, samples=real(n, c_double) + real(m, c_double))
+      if (.not. allocated(error)) call new_record(record, acceleration, dt, '', error)
+      if (.not. allocated(error)) call record%set_vertical(vertical, vertical_dt, factor, error)
+      if (.not. allocated(error)) parcel%reals = [record%dt, record%acceleration, record%vertical]
+      call send(parcel, error, sent, stat, message)
+   end subroutine join_vertical
 
    !> Name as dondolo writes it, unit of the levels and words of an intensity measure: three lines of text; and the power of a
    !> record's scale that it grows by: an integer. With of_record = 1 those that records have of themselves, durations too;

@@ -161,8 +161,9 @@ contains
    end subroutine put_block
 
    !> What a store has of its rows. Integers: histories of a stripe of each row, how many of them reach each state (levels,
-   !> states, rows), 0 for rows that are not there; then the flags of the rows that are there, eight a byte, each row from a
-   !> byte of its own on, and the number of these bytes last
+   !> states, rows), and ties of each row, 0 for rows that are not there; then of the rows that are there how many histories
+   !> break each tie (ties, levels), and the flags, eight a byte, each row from a byte of its own on, and the number of these
+   !> bytes last
    subroutine read_store(handle, sent, stat, message)
       integer(c_int64_t), intent(in) :: handle
       integer(c_int64_t), intent(out) :: sent(4)
@@ -172,17 +173,20 @@ contains
       type(row_result_type) :: row
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
-      integer(c_int), allocatable :: histories(:), reached(:, :, :)
+      integer(c_int), allocatable :: histories(:), reached(:, :, :), ties(:), broken(:)
       character(len=:), allocatable :: flags, more
-      integer :: i, at
+      integer :: i, at, counts
 
       at = 0
+      counts = 0
       call find_store(handle, store, error)
       if (.not. allocated(error)) then
          associate (rows => store%identity%last, shape => store%identity%shape)
             call check_room(error, reals=8.0_c_double*rows*(shape%levels*shape%states + 16.0_c_double))
-            if (.not. allocated(error)) allocate (histories(rows), reached(shape%levels, shape%states, rows), source=0)
+            if (.not. allocated(error)) allocate (histories(rows), reached(shape%levels, shape%states, rows), ties(rows), &
+               & source=0)
             allocate (character(len=1024) :: flags)
+            allocate (broken(1024))
             do i = 1, rows
                if (allocated(error)) exit
                if (.not. store%has(i)) cycle
@@ -190,6 +194,8 @@ contains
                if (allocated(error)) exit
                histories(i) = row%histories
                reached(:, :, i) = row%reached(shape)
+               ties(i) = row%ties
+               call add_counts(broken, counts, reshape(row%tallies%broken, [size(row%tallies)]))
                ! Room for the bytes that fill up the last integer, too
                if (at + len(row%flags) + 3 > len(flags)) then
                   allocate (character(len=2*(at + len(row%flags) + 3)) :: more)
@@ -203,10 +209,29 @@ contains
       end if
       if (.not. allocated(error)) then
          flags(at + 1:at + 3) = repeat(achar(0), 3)
-         parcel%integers = [histories, reached, transfer(flags(:(at + 3)/4*4), [0_c_int]), at]
+         parcel%integers = [histories, reached, ties, broken(:counts), transfer(flags(:(at + 3)/4*4), [0_c_int]), at]
       end if
       call send(parcel, error, sent, stat, message)
    end subroutine read_store
+
+   !> Add the counts of a row behind others, as many as there are; there is room for as many again
+   subroutine add_counts(counts, number, more)
+      integer(c_int), allocatable, intent(inout) :: counts(:)
+      !> How many there are
+      integer, intent(inout) :: number
+      !> Those of the row
+      integer, intent(in) :: more(:)
+
+      integer(c_int), allocatable :: wider(:)
+
+      if (number + size(more) > size(counts)) then
+         allocate (wider(2*(number + size(more))))
+         wider(:number) = counts(:number)
+         call move_alloc(wider, counts)
+      end if
+      counts(number + 1:number + size(more)) = more
+      number = number + size(more)
+   end subroutine add_counts
 
    !> End with a store: its rows are brought into order if all are there, and its handle is freed; nothing, if
    !> that was done before
@@ -236,13 +261,13 @@ contains
 
       length = 0
       do i = 1, size(rows)
-         length = length + bytes_of_entry(shape, rows(i)%histories)
+         length = length + bytes_of_entry(shape, rows(i)%histories, rows(i)%ties)
       end do
       allocate (character(len=(length + 3)/4*4) :: bytes)
       bytes(length + 1:) = repeat(achar(0), len(bytes) - int(length))
       at = 0
       do i = 1, size(rows)
-         length = bytes_of_entry(shape, rows(i)%histories)
+         length = bytes_of_entry(shape, rows(i)%histories, rows(i)%ties)
          call pack_entry(rows(i), bytes(at + 1:at + length))
          at = at + length
       end do

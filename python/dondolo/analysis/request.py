@@ -33,8 +33,9 @@ from dondolo.walls.wall import upload as upload_walls
 IntArray = np.ndarray[Any, np.dtype[np.int32]]
 
 _SECONDS = 0.4
-# A guess for the first block: samples that are surely gone through within a block's time
-_FIRST_SAMPLES = 10_000_000
+# A guess for the first block: samples that are surely gone through within about a block's time. Sets of records at
+# twenty levels have fewer: each further block costs the engine vectors that are half empty
+_FIRST_SAMPLES = 20_000_000
 
 #: Polarities of the records in an analysis
 Polarity = Literal["as_recorded", "reversed", "both"]

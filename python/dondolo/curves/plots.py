@@ -19,7 +19,8 @@ def draw_fragility(
     fragility: Fragility, ax: Axes | None, confidence: float, label: str | None, color: str, linestyle: str, marker: str
 ) -> Axes:
     """Draw a curve with its confidence band, and the fractions of collapse with Clopper and Pearson's intervals."""
-    from scipy.stats import beta as beta_distribution
+    # The quantile of the beta distribution; scipy.stats, which has it too, takes longer to import than a figure to draw
+    from scipy.special import betaincinv
 
     lower, upper = tails(confidence)
     ax = style.axes(ax)
@@ -27,8 +28,8 @@ def draw_fragility(
     counted = n > 0.0
     x, z, n = x[counted], z[counted], n[counted]
     fraction = z / n
-    low = np.where(z > 0.0, beta_distribution.ppf(lower, z, n - z + 1.0), 0.0)
-    high = np.where(z < n, beta_distribution.ppf(upper, z + 1.0, n - z), 1.0)
+    low = np.where(z > 0.0, betaincinv(z, n - z + 1.0, lower), 0.0)
+    high = np.where(z < n, betaincinv(z + 1.0, n - z, upper), 1.0)
     # Counts are those of the walls that can collapse, the curve is that of all.
     fraction, low, high = (fragility.saturation * part for part in (fraction, low, high))
     if len(x):

@@ -34,6 +34,8 @@ class Contents(NamedTuple):
         Which rows.
     exceedances : ndarray of int, shape (states, levels, rows)
         How many histories reach each state; 0 for rows that are not there.
+    broken : tuple of ndarray of int, shape (levels, ties)
+        How many histories break each tie of the rows that are there.
     flags : Flags
         Which do, of the rows that are there.
     work : Work
@@ -42,6 +44,7 @@ class Contents(NamedTuple):
 
     complete: NDArray[np.bool_]
     exceedances: IntArray
+    broken: tuple[IntArray, ...]
     flags: Flags
     work: Work
 
@@ -91,13 +94,16 @@ class Store:
         complete, counts = self._state()
         states, levels = len(self._states), len(request.levels)
         numbers = receive(*_core.stores.read_store(self._handle)).integers
-        histories, reached, bits = np.split(numbers[:-1], np.cumsum([rows, rows * states * levels]))
+        histories, reached, ties, rest = np.split(numbers[:-1], np.cumsum([rows, rows * states * levels, rows]))
+        of_ties, bits = np.split(rest, [levels * ties.sum()])
+        each = np.split(of_ties, levels * np.cumsum(ties[complete])[:-1])
+        broken = tuple(one.reshape(levels, -1) for one in each) if complete.any() else ()
         exceedances = np.ascontiguousarray(np.moveaxis(reached.reshape(rows, states, levels), 0, -1))
         packed = bits.view(np.uint8)[: numbers[-1]]
         events, checksums = zip(*((record.event, record.checksum) for record in request.records), strict=True)
         labels = cluster_labels(len(events), events, checksums)
         flags = Flags(histories[complete], levels, states, request.runs, labels, packed)
-        return Contents(complete, exceedances, flags, Work.of(counts))
+        return Contents(complete, exceedances, broken, flags, Work.of(counts))
 
     def _state(self) -> tuple[NDArray[np.bool_], FloatArray]:
         there, counts, stat, message = _core.stores.store_state(self._handle, len(self._request.walls))

@@ -101,8 +101,10 @@ def typology(
         raise Interrupted("interrupted: no wall is complete")
     histories = np.rint(request.share[:, None] * plan.histories).astype(np.int32)
     result = combine(people, request.im, request.levels, states, run.exceedances, histories, rows, run.work)
-    flags, told = run.flags.chosen(np.flatnonzero(rows[run.complete])), (*plan.warnings, *result.warnings)
-    result = with_clustered_errors(dataclasses.replace(result, flags=flags, warnings=told), flags)
+    chosen = np.flatnonzero(rows[run.complete])
+    flags, told = run.flags.chosen(chosen), (*plan.warnings, *result.warnings)
+    broken = tuple(run.broken[i] for i in chosen)
+    result = with_clustered_errors(dataclasses.replace(result, flags=flags, warnings=told, broken=broken), flags)
     if not whole.all():
         raise Interrupted(f"interrupted: {whole.sum()} of {len(whole)} walls are complete", result)
     warn(result.warnings)

@@ -76,6 +76,8 @@ class Typology(Shown, Saved):
         What was warned of: by the run, and of the curves of this state.
     kept_errors : KeptErrors
         The standard errors of results that were read back, in place of the flags; None for results of a run.
+    broken : tuple of ndarray of int, shape (levels, ties)
+        Histories that break each tie of each row; None for results that were read back.
     """
 
     population: Population
@@ -91,6 +93,7 @@ class Typology(Shown, Saved):
     flags: Flags | None = None
     warnings: tuple[DondoloWarning, ...] = ()
     kept_errors: KeptErrors | None = None
+    broken: tuple[IntArray, ...] | None = None
     _states: dict[float, Typology] = field(default_factory=dict)
 
     @property
@@ -108,6 +111,20 @@ class Typology(Shown, Saved):
         """Collapses of each row, shape (levels, rows)."""
         collapses: IntArray = self.exceedances[-1]
         return collapses
+
+    @property
+    def broken_ties(self) -> tuple[FloatArray, ...]:
+        """Share of the histories of each stripe that break each tie, of each row, shape (levels, ties).
+
+        Raises
+        ------
+        InputError
+            The results were read back from tables; ``*_ties.csv`` has these shares.
+        """
+        if self.broken is None:
+            raise InputError("broken_ties: not of results that were read back; *_ties.csv has them")
+        histories = self.histories.T.astype(np.float64)
+        return tuple(counts / runs[:, None] for counts, runs in zip(self.broken, histories, strict=True))
 
     @functools.cached_property
     def _flat(self) -> tuple[FlatPopulation, tuple[FloatArray, IntArray]]:
@@ -185,7 +202,7 @@ class Typology(Shown, Saved):
                 state = with_clustered_errors(dataclasses.replace(state, flags=flags), flags)
             elif self.kept_errors is not None:
                 state = self.kept_errors.put_into(state, int(place[0]))
-            self._states[value] = state
+            self._states[value] = dataclasses.replace(state, broken=self.broken)
             warn(warning.placed(f"damage state {value:g}: ") for warning in state.warnings)
         return self._states[value]
 
@@ -377,7 +394,7 @@ class Typology(Shown, Saved):
     def _stored(self) -> dict[str, Any]:
         """What a file has of it: all but what follows from the rest."""
         names = ("population", "im", "levels", "edp_thresholds", "exceedances", "histories", "groups", "work", "flags")
-        stored = {name: getattr(self, name) for name in (*names, "warnings", "kept_errors")}
+        stored = {name: getattr(self, name) for name in (*names, "warnings", "kept_errors", "broken")}
         return stored | {"rows": packed(self.curves), "walls": packed_walls(self.population, self.combined)}
 
     @classmethod

@@ -16,7 +16,7 @@ from dondolo._base.arguments import FloatArray, as_array, as_count, as_number, i
 from dondolo._base.shown import html_of
 from dondolo._fortran import _core
 from dondolo._fortran.buildings import floor_motion
-from dondolo._fortran.library import as_text, check
+from dondolo._fortran.library import as_text, check, receive
 from dondolo._fortran.records import describe_measure
 from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
@@ -121,7 +121,8 @@ class Record:
         Parameters
         ----------
         vertical : Record or None
-            The vertical component, of the same step and number of samples; None: none.
+            The vertical component, as long as the record; None: none. If its step is another one, both are put on the
+            grid of the samples of both, on which they are the same functions of time.
         factor : float
             Factor on it, beside that of the record in analyses; -1 for a component that is positive downwards.
 
@@ -132,26 +133,24 @@ class Record:
         Raises
         ------
         InputError
-            Another step or number of samples; a factor that is not finite.
+            Another length; steps that are not to each other as two whole numbers up to 50; a factor that is not
+            finite.
 
         Notes
         -----
         docs/ground_motions.md, Vertical motion.
         """
-        samples = None
+        values, dt, samples, steps = self.acceleration, self.dt, None, self.processing
         if vertical is not None:
-            step = _as_record(vertical).dt
-            if abs(step - self.dt) > process.SAME_STEP * self.dt:
-                raise InputError(f"vertical: has a time step of {step:g} s, must have {self.dt:g} s as the record")
-            samples = as_number("factor", factor) * vertical.acceleration
-        return Record(
-            self.acceleration,
-            self.dt,
-            self.name,
-            processing=self.processing,
-            metadata=self.metadata,
-            vertical=samples,
-        )
+            up = _as_record(vertical)
+            joined = receive(
+                *_core.records.join_vertical(values, dt, up.acceleration, up.dt, as_number("factor", factor))
+            ).reals
+            values, samples = np.split(joined[1:], 2)
+            if joined[0] != dt:
+                dt = float(joined[0])
+                steps = (*steps, f"samples every {dt:g} s, with those of a vertical component of {up.dt:g} s")
+        return Record(values, dt, self.name, processing=steps, metadata=self.metadata, vertical=samples)
 
     def processed(
         self, acceleration: ArrayLike, step: str, *, dt: float | None = None, vertical: ArrayLike | None = None

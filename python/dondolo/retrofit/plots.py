@@ -17,7 +17,7 @@ def draw_designs(found: DesignComparison, ax: Iterable[Any] | None) -> style.Pan
     """Draw the curves of all designs, and the ratios of their medians to that of the first."""
     import matplotlib.pyplot as plt
 
-    axes = left, right = style.panels(ax, 1, (9.5, 4.0), columns=2)
+    axes = left, right = style.panels(ax, 1, (9.5, 4.6), columns=2)
     colors = plt.get_cmap("viridis")(np.linspace(0.0, 0.85, len(found.names)))
     levels = np.concatenate([stripes.levels for stripes in found.stripes])
     grid = curves.grid(np.unique(levels))
@@ -38,7 +38,8 @@ def draw_designs(found: DesignComparison, ax: Iterable[Any] | None) -> style.Pan
     left.set_ylim(-0.02, 1.02)
     left.set_xlabel(style.im_label(found.im))
     left.set_ylabel("probability of collapse")
-    style.legend(left, loc="lower right")
+    # Below the axes: whatever the curves are, it covers none of them.
+    style.legend(left, loc="upper center", bbox_to_anchor=(0.5, -0.18))
 
     low, high = found.ratio_interval.T
     shown = np.isfinite(found.ratio)
@@ -64,6 +65,19 @@ def draw_designs(found: DesignComparison, ax: Iterable[Any] | None) -> style.Pan
         color=style.RED,
         label="by forces: static acceleration, ties at yield",
     )
+    known = [*found.static_ratio, *high[shown], 1.0]
+    limit = 1.15 * float(max(known))
+    for row, ratio, least, most in zip(rows[1:], found.ratio[1:], low[1:], high[1:], strict=True):
+        if np.isfinite(ratio):
+            # Above the interval, and within the axes
+            at, side = (least, "left") if least < 0.5 * limit else (most, "right")
+            factor = f"\u00d7 {ratio:.2f} ({least:.2f} to {most:.2f})"
+            right.annotate(factor, (at, row), (0, 6), textcoords="offset points", ha=side, va="bottom")
+    for row, ratio in zip(rows[1:], found.static_ratio[1:], strict=True):
+        factor = f"\u00d7 {ratio:.2f}"
+        right.annotate(
+            factor, (ratio, row), (0, -7), textcoords="offset points", ha="center", va="top", color=style.RED
+        )
     for name, row, mass in zip(found.names, rows, found.steel, strict=True):
         text = f"{name}\n{mass:.3g} kg/m of steel" if np.isfinite(mass) and mass > 0.0 else name
         right.annotate(
@@ -78,7 +92,7 @@ def draw_designs(found: DesignComparison, ax: Iterable[Any] | None) -> style.Pan
         )
     right.set_yticks([])
     right.set_ylim(-0.6, len(found.names) - 0.4)
-    right.set_xlim(left=0.0)
+    right.set_xlim(0.0, limit)
     right.set_xlabel(f"ratio to '{found.names[0]}'", parse_math=False)
     style.legend(right, loc="upper center", bbox_to_anchor=(0.5, -0.18))
     return axes

@@ -18,7 +18,7 @@ module dondolo_study
    implicit none
    private
 
-   public :: study_type, new_study
+   public :: runs_of, study_type, new_study
    public :: check_levels, check_thresholds, find_level, polarity_names
 
    !> Levels that differ by less than this part are the same: a table may give them in fewer digits than a computation
@@ -176,6 +176,21 @@ contains
       runs = .true.
       if (allocated(self%factor)) runs = abs(self%factor(record, level)) > 0.0_wp
    end function runs
+
+   !> Whether each record runs at each level
+   pure function runs_of(study) result(runs)
+      type(study_type), intent(in) :: study
+      !> An answer for each (records, levels)
+      logical :: runs(size(study%suite%clusters), size(study%levels))
+
+      integer :: i, j
+
+      do j = 1, size(runs, 2)
+         do i = 1, size(runs, 1)
+            runs(i, j) = study%runs(i, j)
+         end do
+      end do
+   end function runs_of
 
    !> Share of the records that run at each level
    pure function share(self)

@@ -1,5 +1,5 @@
-!> What is kept of a row of a population once its histories have been run - a flag for each history and damage state, and
-!> where histories are kept all of their results - and how it stands in a store, as bytes.
+!> What is kept of a row of a population once its histories have been run - a flag for each history and damage state, what
+!> they do to its ties, and where histories are kept all of their results - and how it stands in a store, as bytes.
 !>
 !> The flags of a row are bits, eight a byte from the highest on: state by state, level by level, history by history.
 !> They are all that counts, curves and resampled records are made of.
@@ -7,6 +7,7 @@ module dondolo_row_result
    use, intrinsic :: iso_fortran_env, only : int32, int64
    use dondolo_kinds, only : wp
    use dondolo_response, only : response_type
+   use dondolo_tie_tallies, only : tie_tally_type
    use dondolo_work, only : work_type
    implicit none
    private
@@ -27,12 +28,14 @@ module dondolo_row_result
    type :: row_result_type
       !> Number of the row
       integer :: row = 0
-      !> Histories of a stripe
-      integer :: histories = 0
+      !> Histories of a stripe, and ties
+      integer :: histories = 0, ties = 0
       !> What was computed
       type(work_type) :: work
       !> Flags, packed
       character(len=:), allocatable :: flags
+      !> What the histories do to the ties (ties, levels)
+      type(tie_tally_type), allocatable :: tallies(:, :)
       !> All histories (histories, levels), if they are kept
       type(response_type), allocatable :: response(:, :)
    contains
@@ -49,6 +52,8 @@ module dondolo_row_result
    !> Counts of work, bytes of them, and of the results of a history: edp and time of the peak, impacts
    integer, parameter :: work_counts = 8, work_bytes = 8*work_counts
    integer, parameter :: real_bytes = storage_size(1.0_wp)/8, history_bytes = 2*real_bytes + 4
+   !> Bytes of what the histories of a stripe do to a tie
+   integer, parameter :: tally_bytes = 2*real_bytes + 2*4
 
 contains
 
@@ -65,13 +70,13 @@ contains
    end function bytes_of_flags
 
    !> Bytes that a row takes
-   pure integer(int64) function bytes_of_row(shape, histories)
+   pure integer(int64) function bytes_of_row(shape, histories, ties)
       !> How many numbers there are of a row
       type(shape_type), intent(in) :: shape
-      !> Histories of a stripe
-      integer, intent(in) :: histories
+      !> Histories of a stripe, and ties
+      integer, intent(in) :: histories, ties
 
-      bytes_of_row = work_bytes + bytes_of_flags(shape, histories)
+      bytes_of_row = work_bytes + bytes_of_flags(shape, histories) + int(shape%levels, int64)*ties*tally_bytes
       if (shape%keeps_histories) bytes_of_row = bytes_of_row + int(shape%levels, int64)*histories*history_bytes
    end function bytes_of_row
 
@@ -176,7 +181,8 @@ contains
       end do
    end subroutine by_cluster
 
-   !> A row as bytes: what was computed, flags, and of the histories that are kept edp, time of the peak and impacts
+   !> A row as bytes: what was computed, flags, what happens to the ties, and of the histories that are kept edp, time of the
+   !> peak and impacts
    pure subroutine pack_row(row, bytes)
       type(row_result_type), intent(in) :: row
       !> Bytes, as many as bytes_of_row says
@@ -190,6 +196,20 @@ contains
       at = work_bytes
       bytes(at + 1:at + len(row%flags)) = row%flags
       at = at + len(row%flags)
+      if (row%ties > 0) then
+         number = 4*size(row%tallies, kind=int64)
+         bytes(at + 1:at + number) = transfer(int([row%tallies%yielded], int32), bytes(at + 1:at + number))
+         at = at + number
+         bytes(at + 1:at + number) = transfer(int([row%tallies%broken], int32), bytes(at + 1:at + number))
+         at = at + number
+         number = real_bytes*size(row%tallies, kind=int64)
+         numbers = [row%tallies%mean]
+         bytes(at + 1:at + number) = transfer(numbers, bytes(at + 1:at + number))
+         at = at + number
+         numbers = [row%tallies%largest]
+         bytes(at + 1:at + number) = transfer(numbers, bytes(at + 1:at + number))
+         at = at + number
+      end if
       if (.not. allocated(row%response)) return
       number = real_bytes*size(row%response, kind=int64)
       ! gfortran 12 transfers components of an array of a derived type as if they stood one after the other.
@@ -209,7 +229,7 @@ contains
       character(len=*), intent(in) :: bytes
       !> How many numbers there are of a row
       type(shape_type), intent(in) :: shape
-      !> The row: its number and its histories are given, all else is set
+      !> The row: its number, its histories and its ties are given, all else is set
       type(row_result_type), intent(inout) :: row
 
       integer(int64) :: counts(work_counts), at, number, flags
@@ -221,6 +241,20 @@ contains
       flags = bytes_of_flags(shape, row%histories)
       row%flags = bytes(at + 1:at + flags)
       at = at + flags
+      if (allocated(row%tallies)) deallocate (row%tallies)
+      allocate (row%tallies(row%ties, shape%levels))
+      if (row%ties > 0) then
+         number = 4*size(row%tallies, kind=int64)
+         row%tallies%yielded = reshape(int(transfer(bytes(at + 1:at + number), [0_int32])), [row%ties, shape%levels])
+         at = at + number
+         row%tallies%broken = reshape(int(transfer(bytes(at + 1:at + number), [0_int32])), [row%ties, shape%levels])
+         at = at + number
+         number = real_bytes*size(row%tallies, kind=int64)
+         row%tallies%mean = reshape(transfer(bytes(at + 1:at + number), [0.0_wp]), [row%ties, shape%levels])
+         at = at + number
+         row%tallies%largest = reshape(transfer(bytes(at + 1:at + number), [0.0_wp]), [row%ties, shape%levels])
+         at = at + number
+      end if
       if (.not. shape%keeps_histories) return
       if (allocated(row%response)) deallocate (row%response)
       allocate (row%response(row%histories, shape%levels))

@@ -11,6 +11,7 @@ module dondolo_run_rows
    use dondolo_stripes, only : plan_stripes, run_histories, stripes_type
    use dondolo_study, only : study_type
    use dondolo_threads, only : team_of
+   use dondolo_tie_tallies, only : tally_ties
    use dondolo_wall, only : wall_type
    use dondolo_work, only : work_type
    implicit none
@@ -105,6 +106,8 @@ contains
       call run_histories(stripes, wall, study, threads)
       row%work = stripes%work
       call row%set_flags(stripes%response, study%thresholds)
+      row%ties = wall%mechanism%ties
+      call tally_ties(wall%mechanism, stripes%response, stripes%ran, row%tallies)
       if (study%keeps_histories) call move_alloc(stripes%response, row%response)
    end subroutine run_row
 

@@ -263,7 +263,7 @@ contains
 
       bytes = 0
       do i = 1, size(rows)
-         if (.not. self%has(rows(i)%row)) bytes(i) = bytes_of_entry(self%identity%shape, rows(i)%histories)
+         if (.not. self%has(rows(i)%row)) bytes(i) = bytes_of_entry(self%identity%shape, rows(i)%histories, rows(i)%ties)
       end do
       if (len(self%path) > 0) then
          allocate (character(len=sum(bytes)) :: entries)
@@ -385,7 +385,7 @@ contains
          call store%read(i, row, error)
          if (allocated(error)) exit
          deallocate (bytes)
-         allocate (character(len=bytes_of_entry(store%identity%shape, row%histories)) :: bytes)
+         allocate (character(len=bytes_of_entry(store%identity%shape, row%histories, row%ties)) :: bytes)
          call pack_entry(row, bytes)
          call writer%write(bytes, ok)
          place(i) = at + 1

@@ -18,11 +18,11 @@ module dondolo_store_format
    public :: identity_type, make_head, read_head, bytes_of_entry, pack_entry, read_entry, unpack_entries, is_cut_head
 
    !> What the file begins with, and the number of the format
-   character(len=*), parameter :: mark = 'dondolo counts ', format_number = '3'
+   character(len=*), parameter :: mark = 'dondolo counts ', format_number = '4'
 
    !> Bytes of the first line - mark, format, length of the head behind this line, fingerprint of it, end of line - and the
    !> longest head; bytes of a row before its contents, the last 16 a fingerprint
-   integer, parameter :: line_bytes = 43, longest_head = 10000000, entry_head = 32, guarded = 16
+   integer, parameter :: line_bytes = 43, longest_head = 10000000, entry_head = 40, guarded = 24
 
    !> Most levels and states that a head may state; as many flags of a row are counted without overflow
    integer, parameter :: most_levels = 2**20, most_states = 2**10
@@ -183,13 +183,13 @@ contains
    end subroutine find_numbers
 
    !> Bytes of a row in a file
-   pure integer(int64) function bytes_of_entry(shape, histories) result(bytes)
+   pure integer(int64) function bytes_of_entry(shape, histories, ties) result(bytes)
       !> How many numbers there are of a row
       type(shape_type), intent(in) :: shape
-      !> Histories of a stripe
-      integer, intent(in) :: histories
+      !> Histories of a stripe, and ties
+      integer, intent(in) :: histories, ties
 
-      bytes = entry_head + bytes_of_row(shape, histories)
+      bytes = entry_head + bytes_of_row(shape, histories, ties)
    end function bytes_of_entry
 
    !> A row as it stands in a file
@@ -198,8 +198,8 @@ contains
       !> Its bytes, as many as bytes_of_entry says
       character(len=*), intent(out) :: entry
 
-      entry(:8) = transfer([int(row%row, int32), int(row%histories, int32)], entry(:8))
-      entry(9:guarded) = transfer(len(entry, int64), entry(9:guarded))
+      entry(:16) = transfer([int(row%row, int32), int(row%histories, int32), int(row%ties, int32), 0_int32], entry(:16))
+      entry(17:guarded) = transfer(len(entry, int64), entry(17:guarded))
       call pack_row(row, entry(entry_head + 1:))
       entry(guarded + 1:entry_head) = fingerprint_of(entry(:guarded), entry(entry_head + 1:))
    end subroutine pack_entry
@@ -274,20 +274,21 @@ contains
       character(len=*), intent(in) :: head
       !> How many numbers there are of a row
       type(shape_type), intent(in) :: shape
-      !> The row: its number and its histories are set
+      !> The row: its number, its histories and its ties are set
       type(row_result_type), intent(inout) :: row
       !> Its length; 0: it is none of this shape
       integer(int64), intent(out) :: length
 
-      integer(int32) :: numbers(2)
+      integer(int32) :: numbers(4)
 
-      numbers = transfer(head(:8), numbers)
-      length = transfer(head(9:guarded), length)
+      numbers = transfer(head(:16), numbers)
+      length = transfer(head(17:guarded), length)
       row%row = numbers(1)
       row%histories = numbers(2)
-      if (row%histories < 1) then
+      row%ties = numbers(3)
+      if (row%histories < 1 .or. row%ties < 0) then
          length = 0
-      else if (length /= bytes_of_entry(shape, row%histories)) then
+      else if (length /= bytes_of_entry(shape, row%histories, row%ties)) then
          length = 0
       end if
    end subroutine read_entry_head

@@ -8,9 +8,10 @@
 !> Each record has a name of its own. Where the catalogue gives none and stems of files are the same, the names get the
 !> extensions of the files; where these are the same too, the folders, as the catalogue writes them.
 module dondolo_catalogue
+   use dondolo_catalogue_source, only : describe_source, read_source, source_type, take_source
    use dondolo_channel, only : stem
    use dondolo_csv_reader, only : csv_reader_type
-   use dondolo_error, only : add_place, error_type, raise_input
+   use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_limits, only : most_records
@@ -18,8 +19,8 @@ module dondolo_catalogue
    use dondolo_name_index, only : name_index_type
    use dondolo_plain, only : name_problem, shown, visible
    use dondolo_record, only : record_type
-   use dondolo_record_reader, only : read_record
-   use dondolo_text, only : lower, to_text
+   use dondolo_text, only : to_text
+   use dondolo_threads, only : team_of
    implicit none
    private
 
@@ -27,13 +28,6 @@ module dondolo_catalogue
 
    !> Memory that a row takes, its samples and metadata left aside [bytes]
    real(wp), parameter :: bytes_of_row = 1000.0_wp
-
-   !> Columns that say how a record is read and run; all others are metadata
-   character(len=8), parameter :: own_columns(9) = [character(len=8) :: 'file', 'dt_s', 'units', 'channel', 'format', &
-      & 'name', 'vertical', 'level', 'factor']
-
-   !> How many of them say which record a row is of
-   integer, parameter :: columns_of_record = 7
 
    !> Rows of a catalogue
    type :: record_rows_type
@@ -49,15 +43,21 @@ module dondolo_catalogue
       type(lines_type) :: place
    end type record_rows_type
 
+   !> What is wrong with one of several files
+   type :: failure_type
+      !> Not allocated: nothing
+      type(error_type), allocatable :: error
+   end type failure_type
+
 contains
 
    !> Read all records of a catalogue
-   subroutine read_catalogue(file, records, error, note, rows, vertical_factor)
+   subroutine read_catalogue(file, records, error, note, rows, vertical_factor, threads)
       !> Path of the catalogue; files in it are relative to its folder
       character(len=*), intent(in) :: file
       !> The records, each once
       type(record_type), allocatable, intent(out) :: records(:)
-      !> The catalogue or one of its records is wrong
+      !> The catalogue or one of its records is wrong: the first that is
       type(error_type), allocatable, intent(out) :: error
       !> How the catalogue was read, where there is something to say of it, else empty
       character(len=:), allocatable, intent(out), optional :: note
@@ -65,15 +65,15 @@ contains
       type(record_rows_type), intent(out), optional :: rows
       !> Factor on the vertical components; absent: they are not read
       real(wp), intent(in), optional :: vertical_factor
+      !> Threads that read the files; 0 or absent: all that OpenMP gives
+      integer, intent(in), optional :: threads
 
       type(csv_reader_type) :: table
       type(lines_type) :: paths, places, names
-      type(name_index_type) :: sources
       type(record_rows_type) :: runs
-      type(record_type), allocatable :: several(:)
-      character(len=:), allocatable :: source
-      integer :: number, count, row, earlier
-      logical :: found
+      type(source_type), allocatable :: sources(:)
+      type(error_type), allocatable :: later
+      integer :: number, count, row, asked
 
       call count_rows(file, number, error)
       if (.not. allocated(error)) call check_room(bytes_of_row*real(number, wp), error)
@@ -86,43 +86,23 @@ contains
          return
       end if
       if (present(note)) note = table%note()
-      runs%have_levels = table%column('level') > 0
-      allocate (several(number), runs%record(number))
-      allocate (runs%level(number), runs%factor(number), source=0.0_wp)
-      count = 0
-      do row = 1, number
-         call table%next(found, error)
-         if (.not. allocated(error) .and. .not. found) call raise_input(error, file//': has changed while it was read')
-         if (.not. allocated(error)) call read_run(table, runs%level(row), runs%factor(row), error)
-         if (allocated(error)) exit
-         ! Of a record at several levels the first row reads it.
-         earlier = 0
-         if (runs%have_levels) then
-            call describe_source(table, source)
-            call sources%note(source, count + 1, earlier)
-         end if
-         if (earlier == 0) then
-            count = count + 1
-            earlier = count
-            call read_row(table, several(count), error)
-            if (.not. allocated(error) .and. present(vertical_factor)) then
-               call read_vertical(table, several(count), vertical_factor, error)
-            end if
-            if (allocated(error)) exit
-            call paths%add(table%get_text(table%column('file')))
-            call places%add(table%place())
-            call names%add(trim(adjustl(table%get_text(table%column('name')))))
-         end if
-         runs%record(row) = earlier
-         call runs%place%add(table%place())
-      end do
+      allocate (sources(number))
+      call take_rows(table, present(vertical_factor), runs, sources, count, later)
       call table%close()
-      if (allocated(error)) return
       allocate (records(count))
-      do row = 1, count
-         call move_record(several(row), records(row))
-      end do
-      call name_records(paths, places, names, records, error)
+      asked = 0
+      if (present(threads)) asked = threads
+      call read_files(sources(:count), team_of(asked, count), records, error, vertical_factor)
+      ! A row that is wrong comes after those whose files were read
+      if (.not. allocated(error)) call move_alloc(later, error)
+      if (.not. allocated(error)) then
+         do row = 1, count
+            call paths%add(sources(row)%written)
+            call places%add(sources(row)%place)
+            call names%add(sources(row)%name)
+         end do
+         call name_records(paths, places, names, records, error)
+      end if
       if (allocated(error)) then
          deallocate (records)
       else if (present(rows)) then
@@ -130,34 +110,84 @@ contains
       end if
    end subroutine read_catalogue
 
-   !> Move a record to its place among those that a catalogue has once
-   subroutine move_record(from, to)
-      type(record_type), intent(inout) :: from
-      type(record_type), intent(inout) :: to
+   !> Take what the rows say, up to one that is wrong
+   subroutine take_rows(table, with_verticals, runs, sources, count, error)
+      !> The catalogue, open
+      type(csv_reader_type), intent(inout) :: table
+      !> Are vertical components read?
+      logical, intent(in) :: with_verticals
+      !> Which records run at which levels
+      type(record_rows_type), intent(out) :: runs
+      !> Where the records are, as many as there are rows at least
+      type(source_type), intent(inout) :: sources(:)
+      !> How many records there are before an error
+      integer, intent(out) :: count
+      !> What is wrong
+      type(error_type), allocatable, intent(out) :: error
 
-      call move_alloc(from%name, to%name)
-      call move_alloc(from%file, to%file)
-      call move_alloc(from%acceleration, to%acceleration)
-      if (allocated(from%vertical)) call move_alloc(from%vertical, to%vertical)
-      if (allocated(from%vertical_file)) call move_alloc(from%vertical_file, to%vertical_file)
-      call move_alloc(from%metadata%entries, to%metadata%entries)
-      to%dt = from%dt
-   end subroutine move_record
+      type(name_index_type) :: known
+      character(len=:), allocatable :: described
+      integer :: row, earlier
+      logical :: found
 
-   !> What a row says of the record that it names, by which rows of the same record are recognised
-   subroutine describe_source(table, text)
-      !> The catalogue, with a row
-      type(csv_reader_type), intent(in) :: table
-      !> Its cells, with a character in between that none of them holds
-      character(len=:), allocatable, intent(out) :: text
-
-      integer :: i
-
-      text = ''
-      do i = 1, columns_of_record
-         text = text//table%get_text(table%column(trim(own_columns(i))))//achar(0)
+      runs%have_levels = table%column('level') > 0
+      allocate (runs%record(size(sources)))
+      allocate (runs%level(size(sources)), runs%factor(size(sources)), source=0.0_wp)
+      count = 0
+      do row = 1, size(sources)
+         call table%next(found, error)
+         if (.not. allocated(error) .and. .not. found) call raise_input(error, table%lines%file// &
+            & ': has changed while it was read')
+         if (.not. allocated(error)) call read_run(table, runs%level(row), runs%factor(row), error)
+         if (allocated(error)) return
+         ! Of a record at several levels the first row reads it.
+         earlier = 0
+         if (runs%have_levels) then
+            call describe_source(table, described)
+            call known%note(described, count + 1, earlier)
+         end if
+         if (earlier == 0) then
+            call take_source(table, with_verticals, sources(count + 1), error)
+            if (allocated(error)) return
+            count = count + 1
+            earlier = count
+         end if
+         runs%record(row) = earlier
+         call runs%place%add(table%place())
       end do
-   end subroutine describe_source
+   end subroutine take_rows
+
+   !> Read the files of records side by side
+   subroutine read_files(sources, threads, records, error, vertical_factor)
+      !> Where they are
+      type(source_type), intent(in) :: sources(:)
+      !> Threads
+      integer, intent(in) :: threads
+      type(record_type), intent(inout) :: records(:)
+      !> What is wrong with the first that cannot be read, for any number of threads
+      type(error_type), allocatable, intent(out) :: error
+      !> Factor on the vertical components; absent: they are not read
+      real(wp), intent(in), optional :: vertical_factor
+
+      type(failure_type) :: failures(size(sources))
+      integer :: i, first, wrong
+
+      first = size(sources) + 1
+      !$omp parallel do num_threads(threads) default(none) shared(sources, records, failures, first, &
+      !$omp & vertical_factor) private(wrong) schedule(dynamic)
+      do i = 1, size(sources)
+         !$omp atomic read
+         wrong = first
+         ! Those after one that is wrong are of no use
+         if (i > wrong) cycle
+         call read_source(sources(i), records(i), failures(i)%error, vertical_factor)
+         if (.not. allocated(failures(i)%error)) cycle
+         !$omp atomic
+         first = min(first, i)
+      end do
+      !$omp end parallel do
+      if (first <= size(sources)) call move_alloc(failures(first)%error, error)
+   end subroutine read_files
 
    !> Read the level and the factor of a row
    subroutine read_run(table, level, factor, error)
@@ -295,117 +325,5 @@ contains
          if (first(row) == 0) first(row) = row
       end do
    end subroutine find_first
-
-   !> Read the record of a row
-   subroutine read_row(table, record, error)
-      !> The catalogue, with a row
-      type(csv_reader_type), intent(in) :: table
-      type(record_type), intent(out) :: record
-      !> What is wrong
-      type(error_type), allocatable, intent(out) :: error
-
-      character(len=:), allocatable :: path
-      integer :: i
-
-      call find_path(table, 'file', path, error)
-      if (.not. allocated(error)) call read_component(table, path, table%get_text(table%column('channel')), record, error)
-      if (allocated(error)) return
-      record%file = path
-      do i = 1, size(table%columns)
-         associate (title => table%columns(i)%text)
-            if (.not. any(own_columns == lower(title))) call record%metadata%set(title, table%get_text(i))
-         end associate
-      end do
-   end subroutine read_row
-
-   !> Read the vertical component of the record of a row: a channel of the same file where the record is one, else a file
-   subroutine read_vertical(table, record, factor, error)
-      !> The catalogue, with a row
-      type(csv_reader_type), intent(in) :: table
-      !> The record, which gets it
-      type(record_type), intent(inout) :: record
-      !> Factor on it
-      real(wp), intent(in) :: factor
-      !> It is not given, cannot be read, or does not belong to the record
-      type(error_type), allocatable, intent(out) :: error
-
-      type(record_type) :: vertical
-      character(len=:), allocatable :: path
-
-      if (len_trim(table%get_text(table%column('vertical'))) == 0) then
-         call raise_input(error, table%place()//': vertical is empty: must name the vertical component')
-      else if (len_trim(table%get_text(table%column('channel'))) > 0) then
-         call read_component(table, record%file, table%get_text(table%column('vertical')), vertical, error)
-      else
-         call find_path(table, 'vertical', path, error)
-         if (.not. allocated(error)) call read_component(table, path, '', vertical, error)
-         if (.not. allocated(error)) record%vertical_file = path
-      end if
-      if (allocated(error)) return
-      call record%set_vertical(vertical%acceleration, vertical%dt, factor, error)
-      call add_place(error, table%place())
-   end subroutine read_vertical
-
-   !> Path in a cell of a row, relative to the folder of the catalogue
-   subroutine find_path(table, name, path, error)
-      !> The catalogue, with a row
-      type(csv_reader_type), intent(in) :: table
-      !> Name of the column
-      character(len=*), intent(in) :: name
-      !> Path from the current folder
-      character(len=:), allocatable, intent(out) :: path
-      !> It is not given, or the folders in it are separated by a backslash
-      type(error_type), allocatable, intent(out) :: error
-
-      logical :: exists
-
-      path = table%get_text(table%column(name))
-      if (len_trim(path) == 0) then
-         call raise_input(error, table%place()//': '//name//' is empty: must name a file')
-         return
-      end if
-      associate (file => table%lines%file)
-         if (.not. is_absolute(path)) path = file(:scan(file, '/\', back=.true.))//path
-      end associate
-      inquire (file=path, exist=exists)
-      if (index(path, '\') > 0 .and. .not. exists) call raise_input(error, table%place()//': '//path// &
-         & ': no such file: folders must be separated by /, not \')
-   end subroutine find_path
-
-   !> Read a component of the motion of a row, with the step, the units and the format that the row gives
-   subroutine read_component(table, path, channel, record, error)
-      !> The catalogue, with a row
-      type(csv_reader_type), intent(in) :: table
-      !> Path of the file
-      character(len=*), intent(in) :: path
-      !> Name or number of the channel; empty: the only one
-      character(len=*), intent(in) :: channel
-      type(record_type), intent(out) :: record
-      !> What is wrong
-      type(error_type), allocatable, intent(out) :: error
-
-      character(len=:), allocatable :: units
-      real(wp), allocatable :: dt
-
-      units = table%get_text(table%column('units'))
-      if (len_trim(table%get_text(table%column('dt_s'))) > 0) then
-         allocate (dt)
-         call table%get_real(table%column('dt_s'), dt, error)
-      end if
-      ! A dt that is not allocated is an argument that is not present
-      if (.not. allocated(error)) call read_record(path, record, error, dt, units, channel, &
-         & table%get_text(table%column('format')))
-      call add_place(error, table%place())
-   end subroutine read_component
-
-   !> Does a path begin at the root?
-   pure function is_absolute(path)
-      !> Path
-      character(len=*), intent(in) :: path
-      !> It begins with a slash, a backslash or a drive letter
-      logical :: is_absolute
-
-      is_absolute = scan(path(1:1), '/\') == 1 .or. index(path, ':') == 2
-   end function is_absolute
 
 end module dondolo_catalogue

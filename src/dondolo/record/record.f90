@@ -2,7 +2,8 @@
 !>
 !> The piecewise linear function IS the input of every analysis, exactly (docs/theory.md, section 1).
 module dondolo_record
-   use dondolo_error, only : error_type, raise_input
+   use dondolo_common_steps, only : find_parts, most_parts, refine, same_step
+   use dondolo_error, only : error_type, raise_failure, raise_input
    use dondolo_kinds, only : wp
    use dondolo_limits, only : most_samples
    use dondolo_metadata, only : metadata_type
@@ -19,9 +20,6 @@ module dondolo_record
 
    !> Shortest and longest time step that are taken for those of a record [s]
    real(wp), parameter :: shortest_step = 1.0e-9_wp, longest_step = 1.0e2_wp
-
-   !> Steps of two components of a motion may differ by this part: files round them
-   real(wp), parameter :: same_step = 1.0e-9_wp
 
    !> An accelerogram
    type :: record_type
@@ -116,7 +114,8 @@ contains
       duration = real(size(self%acceleration) - 1, wp)*self%dt
    end function duration
 
-   !> Give a record a vertical component
+   !> Give a record a vertical component. Where their steps differ both are put on the grid of the samples of both, on which
+   !> they are the same functions of time; the ground is still after a vertical component that ends before the record
    subroutine set_vertical(self, vertical, dt, factor, error)
       class(record_type), intent(inout) :: self
       !> Vertical ground acceleration at equal steps, positive upwards [m/s2]
@@ -125,18 +124,20 @@ contains
       real(wp), intent(in) :: dt
       !> Factor on it
       real(wp), intent(in) :: factor
-      !> Its time step or its number of samples is not that of the record, or a sample is no acceleration
+      !> It is not as long as the record, their steps have no grid in common, too many samples, or a sample is no acceleration
       type(error_type), allocatable, intent(out) :: error
 
       integer :: i
 
-      if (abs(dt - self%dt) > same_step*self%dt) then
-         call raise_input(error, 'vertical: has a time step of '//to_text(dt)//' s, must have '//to_text(self%dt)// &
-            & ' s as the record')
-         return
-      else if (size(vertical) /= size(self%acceleration)) then
-         call raise_input(error, 'vertical: has '//to_text(size(vertical))//' samples, must have '// &
-            & to_text(size(self%acceleration))//' as the record')
+      if (.not. abs(dt - self%dt) > same_step*self%dt) then
+         if (size(vertical) /= size(self%acceleration)) then
+            call raise_input(error, 'vertical: has '//to_text(size(vertical))//' samples, must have '// &
+               & to_text(size(self%acceleration))//' as the record')
+            return
+         end if
+      else if (.not. abs(real(size(vertical) - 1, wp)*dt - self%duration()) < (1.0_wp - same_step)*max(dt, self%dt)) then
+         call raise_input(error, 'vertical: lasts '//to_text(real(size(vertical) - 1, wp)*dt)//' s, must last '// &
+            & to_text(self%duration())//' s as the record, or by less than a step longer or shorter')
          return
       end if
       do i = 1, size(vertical)
@@ -145,8 +146,52 @@ contains
             & 'must be a number between -'//to_text(largest_acceleration)//' and '//to_text(largest_acceleration))
          return
       end do
-      self%vertical = factor*vertical
+      if (.not. abs(dt - self%dt) > same_step*self%dt) then
+         self%vertical = factor*vertical
+      else
+         call join_grids(self, factor*vertical, dt, error)
+      end if
    end subroutine set_vertical
+
+   !> Put a record and a vertical component of other steps on one grid
+   subroutine join_grids(self, vertical, dt, error)
+      class(record_type), intent(inout) :: self
+      !> Vertical ground acceleration [m/s2]
+      real(wp), intent(in) :: vertical(:)
+      !> Its time step [s]
+      real(wp), intent(in) :: dt
+      !> There is no such grid, or too many samples on it
+      type(error_type), allocatable, intent(out) :: error
+
+      real(wp), allocatable :: sideways(:), upwards(:)
+      integer :: parts, other_parts, samples, had
+      logical :: ok(2)
+
+      call find_parts(self%dt, dt, parts, other_parts)
+      if (parts == 0) then
+         call raise_input(error, 'vertical: has a time step of '//to_text(dt)//' s, which must be to '//to_text(self%dt)// &
+            & ' s of the record as two whole numbers of up to '//to_text(most_parts))
+         return
+      else if (real(size(self%acceleration), wp)*real(parts, wp) > real(most_samples, wp)) then
+         call raise_input(error, 'vertical: has a time step of '//to_text(dt)//' s, which makes more than '// &
+            & to_text(most_samples)//' samples of a record with '//to_text(self%dt)//' s')
+         return
+      end if
+      call refine(self%acceleration, parts, sideways, ok(1))
+      call refine(vertical, other_parts, upwards, ok(2))
+      if (.not. all(ok)) then
+         call raise_failure(error, 'vertical: too little memory for the samples of both components')
+         return
+      end if
+      ! Cut where the record ends, or zero up to there
+      samples = size(sideways)
+      had = min(size(upwards), samples)
+      self%vertical = sideways
+      self%vertical(:had) = upwards(:had)
+      self%vertical(had + 1:) = 0.0_wp
+      self%dt = self%dt/real(parts, wp)
+      call move_alloc(sideways, self%acceleration)
+   end subroutine join_grids
 
    !> Vertical ground acceleration at an instant, zero after the last sample [m/s2]
    pure real(wp) function vertical_at(self, interval, time)

@@ -295,7 +295,7 @@ contains
       allocate (self%words(size(table)))
    end subroutine make_room
 
-   !> Set a number
+   !> Set a number; of a list it is the only value
    subroutine set_number(self, name, value)
       class(settings_type), intent(inout) :: self
       !> Name of the property, in lower case
@@ -303,10 +303,17 @@ contains
       !> Value
       real(wp), intent(in) :: value
 
+      type(property_type), pointer :: table(:)
       integer :: at
 
       call self%prepare(name, at)
-      if (at > 0) self%numbers(at) = value
+      if (at == 0) return
+      call self%get_table(table)
+      if (table(at)%kind == is_list) then
+         call self%set_list(name, [value])
+      else
+         self%numbers(at) = value
+      end if
    end subroutine set_number
 
    !> Set a whole number

@@ -200,11 +200,20 @@ contains
          text%first(1) = begin
          text%last(count) = finish
          count = 1
-         do i = begin, finish
-            if (iachar(content(i:i)) /= line_feed) cycle
-            text%last(count) = i - 1
-            count = count + 1
-            text%first(count) = i + 1
+         i = begin
+         do while (i <= finish)
+            if (i + 7 <= finish) then
+               if (.not. has_line_feed(content(i:i + 7))) then
+                  i = i + 8
+                  cycle
+               end if
+            end if
+            do i = i, min(i + 7, finish)
+               if (iachar(content(i:i)) /= line_feed) cycle
+               text%last(count) = i - 1
+               count = count + 1
+               text%first(count) = i + 1
+            end do
          end do
          do i = 1, count - 1
             do while (text%last(i) >= text%first(i))
@@ -214,6 +223,20 @@ contains
          end do
       end associate
    end subroutine index_lines
+
+   !> Is one of eight characters a line feed? All are looked at as one integer, of which a byte is zero then
+   pure logical function has_line_feed(text)
+      !> Eight characters
+      character(len=8), intent(in) :: text
+
+      integer(int64), parameter :: feeds = int(z'0a0a0a0a0a0a0a0a', int64), low = int(z'7f7f7f7f7f7f7f7f', int64)
+      integer(int64) :: bytes
+
+      bytes = ieor(transfer(text, bytes), feeds)
+      ! The highest bit of each byte tells whether another one of it is set
+      bytes = ior(iand(bytes, low) + low, bytes)
+      has_line_feed = iand(bytes, not(low)) /= not(low)
+   end function has_line_feed
 
    !> Number of lines
    pure function lines(self)

@@ -17,8 +17,11 @@ module dondolo_numbers
    !> Largest integer up to which all integers are exact in real64
    integer(int64), parameter :: largest_exact = 9007199254740992_int64
 
-   !> Below this one more digit surely fits a 64-bit integer
-   integer(int64), parameter :: room_for_digit = 100000000000000000_int64
+   !> Below these one more digit, and eight more, surely fit a 64-bit integer
+   integer(int64), parameter :: room_for_digit = 100000000000000000_int64, room_for_eight = 10000000000_int64
+
+   !> Does the first character of a text become the lowest byte of an integer?
+   logical, parameter :: first_is_lowest = transfer(1_int64, 'a') == achar(1)
 
    !> Exponents beyond this overflow or underflow in any precision
    integer, parameter :: largest_exponent = 99999
@@ -59,7 +62,7 @@ contains
       !> A finite number begins there
       logical, intent(out) :: ok
 
-      integer(int64) :: units
+      integer(int64) :: units, eight
       integer :: first, digits, decimals, exponent, stat
       logical :: exact, minus
 
@@ -76,6 +79,16 @@ contains
          if (iachar(text(at:at)) == iachar('.')) then
             at = at + 1
             decimals = digits
+            ! Most files have so many decimals
+            if (first_is_lowest .and. at + 7 <= last .and. units < room_for_eight) then
+               call take_eight(text(at:at + 7), eight, ok)
+               if (ok) then
+                  units = 100000000_int64*units + eight
+                  at = at + 8
+                  digits = digits + 8
+               end if
+               ok = .false.
+            end if
             call take_digits(text(:last), at, units, exact, digits)
             decimals = digits - decimals
          end if
@@ -178,6 +191,31 @@ contains
       end do
       digits = digits + i - begin
    end subroutine take_digits
+
+   !> Eight digits as an integer, all at once: neighbouring bytes are joined to pairs, pairs to fours, fours to eight
+   pure subroutine take_eight(text, value, are_digits)
+      !> Eight characters
+      character(len=8), intent(in) :: text
+      !> The integer; of no use unless they are digits
+      integer(int64), intent(out) :: value
+      !> Are they digits?
+      logical, intent(out) :: are_digits
+
+      ! In each byte: its lower half, the upper half of all digits, and what brings the codes after 9 to the next upper half
+      integer(int64), parameter :: low = int(z'0f0f0f0f0f0f0f0f', int64), zeros = int(z'3030303030303030', int64), &
+         & beyond = int(z'0606060606060606', int64), pairs = int(z'00ff00ff00ff00ff', int64), &
+         & fours = int(z'0000ffff0000ffff', int64), whole = int(z'00000000ffffffff', int64)
+
+      value = transfer(text, value)
+      are_digits = iand(value, not(low)) == zeros
+      ! Only then the sum cannot overflow
+      if (are_digits) are_digits = iand(value + beyond, not(low)) == zeros
+      if (.not. are_digits) return
+      value = iand(value, low)
+      value = iand(10_int64*value + shiftr(value, 8), pairs)
+      value = iand(100_int64*value + shiftr(value, 16), fours)
+      value = iand(10000_int64*value + shiftr(value, 32), whole)
+   end subroutine take_eight
 
    !> Take [sign] digits
    pure subroutine take_whole(text, at, largest, value, ok)

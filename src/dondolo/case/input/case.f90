@@ -33,6 +33,8 @@ module dondolo_case
       type(job_type) :: job
       !> Path of the population as it was given; not allocated: the case has one wall, or one facade
       character(len=:), allocatable :: population_file
+      !> Are its walls designs of one wall, to be compared with the first?
+      logical :: designs = .false.
       !> The facade, or the wall with variants, that is the population; not allocated: there is a table, or one wall
       type(stated_wall_type), allocatable :: facade
       !> What is said of its variants; not allocated: it has none
@@ -148,7 +150,7 @@ contains
       call self%job%put(settings)
       call echo_settings('job', settings, echoed, owner=self%job%task)
       if (allocated(self%population_file)) then
-         call put_population(self%population_file, settings)
+         call put_population(self%population_file, self%designs, settings)
          call echo_settings('population', settings, echoed)
       else if (allocated(self%facade)) then
          call echo_settings('wall', self%facade, echoed, last='restitution_factor', &

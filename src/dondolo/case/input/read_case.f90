@@ -116,6 +116,11 @@ contains
       if (len(case%survey%note) > 0) call case%notes%add(case%survey%note)
       if (case%survey%rubbing > 0) call note_friction(case, to_text(case%survey%rubbing)//' of '// &
          & to_text(case%survey%rows)//' rows have interlock_overlap, wall '''//case%survey%first_rubbing//''' the first')
+      if (case%designs .and. (case%survey%rows < 2 .or. case%survey%walls < case%survey%rows)) then
+         call raise_input(error, case%population_path()//': has '//to_text(case%survey%walls)//' walls in '// &
+            & to_text(case%survey%rows)//' rows: designs = .true. needs two designs at least, each a wall of one row')
+         return
+      end if
       case%survey%is_part = present(rows)
       if (.not. present(rows) .or. case%survey%last == range(2)) return
       note = '--walls '//to_text(range(1))//':'//to_text(range(2))//': the population has '// &
@@ -200,7 +205,7 @@ contains
          return
       else if (case%job%task == 'typology') then
          group = namelist%group('population')
-         call read_population_group(group, case%population_file, error)
+         call read_population_group(group, case%population_file, case%designs, error)
          if (.not. allocated(error)) call check_file(group, 'file', case%population_file, error)
          return
       end if
@@ -324,7 +329,7 @@ contains
       end if
       ! A factor that is not allocated is an argument that is not present
       call read_catalogue(beside(case%records_input%catalogue, case%file), records, error, note, rows, &
-         & case%records_input%vertical_factor)
+         & case%records_input%vertical_factor, case%job%threads)
       if (.not. allocated(error)) call check_room(bytes_of_sample*sum([(real(size(records(i)%acceleration), wp), &
          & i=1, size(records))]), error)
       if (allocated(error)) return

@@ -3,9 +3,11 @@ module dondolo_reports
    use, intrinsic :: iso_fortran_env, only : compiler_version, int64
    use dondolo_case, only : case_type
    use dondolo_check_sheet, only : sheet_head
+   use dondolo_design_rows, only : design_head, make_design_row
    use dondolo_error, only : add_place, error_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
+   use dondolo_property, only : find_property
    use dondolo_report_rows, only : make_typology_row, make_union_row, typology_head, union_head
    use dondolo_result_files, only : check_output, result_files_type, run_suffix
    use dondolo_results, only : results_type
@@ -18,6 +20,7 @@ module dondolo_reports
    use dondolo_warning_sentence, only : warning_sentences
    use dondolo_work, only : work_names
    use dondolo_unions, only : union_type
+   use dondolo_wall_properties, only : wall_properties
    implicit none
    private
 
@@ -58,8 +61,12 @@ contains
          names = [character(len=15) :: '_walls.csv', '_stripes.csv', '_fragility.csv', '_typology.csv', &
             & run_suffix]
          if (case%job%histories) names = [character(len=15) :: '_walls.csv', '_histories.csv', names(2:)]
+         if (case%survey%lengths(find_property(wall_properties, 'tie_height')) > 0) then
+            names = [names(:size(names) - 1), [character(len=15) :: '_ties.csv', run_suffix]]
+         end if
          if (case%survey%walls < case%survey%rows) names = [names(:size(names) - 1), [character(len=15) :: '_unions.csv', &
             & run_suffix]]
+         if (case%designs) names = [names(:size(names) - 1), [character(len=15) :: '_designs.csv', run_suffix]]
          if (allocated(case%check)) names = [names(:size(names) - 1), [character(len=15) :: '_checks.csv', run_suffix]]
          if (allocated(case%uncertainty)) names = [names(:size(names) - 1), [character(len=15) :: '_sources.csv', run_suffix]]
       end select
@@ -109,6 +116,8 @@ contains
          call write_typology(case, results, files)
       else if (name == '_unions.csv') then
          call write_unions(case, results, files)
+      else if (name == '_designs.csv') then
+         call write_designs(case, results, files)
       else if (name == '_sources.csv') then
          call write_sources(case, results, files)
       else if (name == '_check.csv') then
@@ -218,6 +227,23 @@ contains
          end do
       end do
    end subroutine write_unions
+
+   !> Designs of one wall, each beside the first
+   subroutine write_designs(case, results, files)
+      type(case_type), intent(in) :: case
+      type(results_type), intent(in) :: results
+      type(result_files_type), intent(inout) :: files
+
+      character(len=:), allocatable :: line
+      integer :: i
+
+      call files%line(design_head)
+      do i = 1, size(results%designs)
+         call make_design_row(results%designs(i), results%designs(1), case%stripes%scaling%name, case%job%spreadsheet_safe, &
+            & line)
+         call files%line(line)
+      end do
+   end subroutine write_designs
 
    !> The uncertain properties of a wall with variants
    subroutine write_sources(case, results, files)

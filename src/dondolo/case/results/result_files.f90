@@ -31,9 +31,9 @@ module dondolo_result_files
    character(len=*), parameter :: run_suffix = '_run.json'
 
    !> What the names of tables can end with, of any task
-   character(len=15), parameter :: all_suffixes(11) = [character(len=15) :: '_walls.csv', '_histories.csv', &
+   character(len=15), parameter :: all_suffixes(12) = [character(len=15) :: '_walls.csv', '_histories.csv', &
       & '_stripes.csv', '_fragility.csv', '_typology.csv', '_history.csv', '_check.csv', '_checks.csv', '_unions.csv', &
-      & '_ties.csv', '_sources.csv']
+      & '_ties.csv', '_sources.csv', '_designs.csv']
 
    !> What every table begins with
    character(len=*), parameter :: mark = '# dondolo '

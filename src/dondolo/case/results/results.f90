@@ -3,6 +3,7 @@ module dondolo_results
    use dondolo_certificate, only : certified_type
    use dondolo_check_rows, only : verdicts_type
    use dondolo_check_sheet, only : sheet_type
+   use dondolo_designs, only : design_type
    use dondolo_ensemble, only : name_engines
    use dondolo_fragility, only : fragility_type
    use dondolo_kinds, only : wp
@@ -11,6 +12,7 @@ module dondolo_results
    use dondolo_sensitivity, only : sensitivity_type
    use dondolo_store, only : store_type
    use dondolo_stripe_counts, only : stripe_counts_type
+   use dondolo_tie_tallies, only : tie_tally_type
    use dondolo_typology, only : typology_type
    use dondolo_unions, only : unions_type
    use dondolo_warning, only : warnings_type
@@ -38,6 +40,8 @@ module dondolo_results
    type, extends(stripe_counts_type) :: row_counts_type
       !> All its histories (histories, levels), if they are kept
       type(response_type), allocatable :: response(:, :)
+      !> What they do to the ties of the wall (ties, levels)
+      type(tie_tally_type), allocatable :: tallies(:, :)
       !> How they are certified, if they are (histories, levels)
       type(certified_type), allocatable :: certified(:, :)
       !> Then: least and greatest theta of the outcomes that the last digit of the input decides; 0: no curve
@@ -58,6 +62,8 @@ module dondolo_results
       !> Of the same histories: walls with several mechanisms, and behind them the means over the population and its groups:
       !> task 'typology'
       type(unions_type) :: unions
+      !> The walls as designs of one wall, in the order of rows; not allocated: they are none
+      type(design_type), allocatable :: designs(:)
       !> Sobol indices of a wall with variants, or why there are none; neither where there are no variants
       type(sensitivity_type), allocatable :: sensitivity
       character(len=:), allocatable :: no_sensitivity

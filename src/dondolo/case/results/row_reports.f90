@@ -54,7 +54,9 @@ contains
             row%histories = population%histories(:, i)
             row%reached = population%reached(:, :, i)
             row%curve = population%curve(:, i)
-            if (name == '_histories.csv') call read_histories(results, i, row, error)
+            if (name == '_histories.csv' .or. (name == '_ties.csv' .and. member%wall%mechanism%ties > 0)) then
+               call read_stored(results, i, row, error)
+            end if
             if (allocated(error)) exit
             if (name == '_checks.csv') then
                call make_check_row(case, member, row%curve(size(row%curve)), results%verdicts, line)
@@ -70,12 +72,12 @@ contains
       end do
    end subroutine write_rows
 
-   !> Histories of a row of a population
-   subroutine read_histories(results, number, row, error)
+   !> What a store has of a row of a population
+   subroutine read_stored(results, number, row, error)
       type(results_type), intent(inout) :: results
       !> Number of the row
       integer, intent(in) :: number
-      !> The row: its histories are set
+      !> The row: what happens to its ties is set, and its histories if they are kept
       type(row_counts_type), intent(inout) :: row
       !> A store has changed
       type(error_type), allocatable, intent(out) :: error
@@ -87,8 +89,11 @@ contains
          if (number <= results%stores(k)%identity%last) exit
       end do
       call results%stores(k)%read(number, stored, error)
-      if (.not. allocated(error)) call move_alloc(stored%response, row%response)
-   end subroutine read_histories
+      if (allocated(error)) return
+      call move_alloc(stored%tallies, row%tallies)
+      if (allocated(row%response)) deallocate (row%response)
+      if (allocated(stored%response)) call move_alloc(stored%response, row%response)
+   end subroutine read_stored
 
    !> Write one table of the one wall of a case
    subroutine write_one_row(case, row, name, files, error)
@@ -177,7 +182,7 @@ contains
       case ('_fragility.csv')
          call write_fragility(case, member, row, files)
       case ('_ties.csv')
-         call write_ties(case, member, row, files, error)
+         call write_ties(case, member, row, files)
       end select
    end subroutine write_row
 
@@ -217,27 +222,21 @@ contains
    end subroutine write_histories
 
    !> What the histories of a wall do to its ties
-   subroutine write_ties(case, member, row, files, error)
-      type(case_type), intent(in), target :: case
+   subroutine write_ties(case, member, row, files)
+      type(case_type), intent(in) :: case
       type(member_type), intent(in) :: member
       type(row_counts_type), intent(in) :: row
       type(result_files_type), intent(inout) :: files
-      !> The histories cannot be chosen again
-      type(error_type), allocatable, intent(out) :: error
 
-      type(study_type) :: study
-      type(stripes_type) :: plan
       character(len=:), allocatable :: cells, line
       integer :: i, j
 
-      call case%make_study(study)
-      call plan_stripes(plan, member%wall, study, error)
-      if (allocated(error)) return
+      if (member%wall%mechanism%ties == 0) return
       call make_wall_cells(member%wall, case%job%spreadsheet_safe, cells)
-      do j = 1, size(plan%levels)
-         do i = 1, member%wall%mechanism%ties
-            call make_tie_row(cells, plan%im, plan%levels(j), member%wall%mechanism, i, &
-               & pack(row%response(:, j), plan%ran(:, j)), line)
+      do j = 1, size(case%stripes%levels)
+         do i = 1, size(row%tallies, 1)
+            call make_tie_row(cells, case%stripes%scaling%name, case%stripes%levels(j), i, row%tallies(i, j), &
+               & row%histories(j), line)
             call files%line(line)
          end do
       end do

@@ -2,10 +2,9 @@
 module dondolo_tie_rows
    use dondolo_json, only : json_type
    use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_response, only : response_type, tie_response_type
+   use dondolo_response, only : tie_response_type
    use dondolo_text, only : rounded, to_table, to_text
-   use dondolo_tie_statics, only : ties_after
+   use dondolo_tie_tallies, only : tie_tally_type
    implicit none
    private
 
@@ -18,34 +17,28 @@ module dondolo_tie_rows
 contains
 
    !> A tie at a level: how many histories make it yield and break
-   subroutine make_tie_row(cells, im, level, mechanism, tie, response, row)
+   subroutine make_tie_row(cells, im, level, tie, tally, histories, row)
       !> Name and mechanism of the wall
       character(len=*), intent(in) :: cells
       !> Intensity measure
       character(len=*), intent(in) :: im
       !> Level
       real(wp), intent(in) :: level
-      class(mechanism_type), intent(in) :: mechanism
       !> Number of the tie
       integer, intent(in) :: tie
+      !> What the histories do to it
+      type(tie_tally_type), intent(in) :: tally
       !> Histories that were run at the level
-      type(response_type), intent(in) :: response(:)
+      integer, intent(in) :: histories
       !> Row
       character(len=:), allocatable, intent(out) :: row
 
-      real(wp) :: elongation(mechanism%ties, size(response)), share
-      logical :: broken(mechanism%ties, size(response))
-      integer :: yields, breaks, i
+      real(wp) :: share
 
-      do i = 1, size(response)
-         call ties_after(mechanism, response(i)%edp, elongation(:, i), broken(:, i))
-      end do
-      share = 1.0_wp/real(size(response), wp)
-      yields = count(elongation(tie, :) > 0.0_wp)
-      breaks = count(broken(tie, :))
-      row = cells//','//im//','//to_table(level)//','//to_text(tie)//','//to_text(size(response))//','//to_text(yields)// &
-         & ','//to_text(breaks)//','//to_table(share*real(yields, wp))//','//to_table(share*real(breaks, wp))//','// &
-         & to_table(share*sum(elongation(tie, :)))//','//to_table(maxval(elongation(tie, :)))
+      share = 1.0_wp/real(histories, wp)
+      row = cells//','//im//','//to_table(level)//','//to_text(tie)//','//to_text(histories)//','//to_text(tally%yielded)// &
+         & ','//to_text(tally%broken)//','//to_table(share*real(tally%yielded, wp))//','// &
+         & to_table(share*real(tally%broken, wp))//','//to_table(tally%mean)//','//to_table(tally%largest)
    end subroutine make_tie_row
 
    !> A tie in the head of the table of a history

@@ -2,6 +2,7 @@
 module dondolo_combine_rows
    use dondolo_case, only : case_type
    use dondolo_clustered, only : cluster_errors
+   use dondolo_designs, only : compare_designs
    use dondolo_error, only : error_type, raise_failure
    use dondolo_kinds, only : wp
    use dondolo_population, only : member_type, population_reader_type
@@ -10,7 +11,7 @@ module dondolo_combine_rows
    use dondolo_results, only : results_type, shown_rows
    use dondolo_row_result, only : row_result_type
    use dondolo_sensitivity, only : new_sensitivity
-   use dondolo_study, only : study_type
+   use dondolo_study, only : runs_of, study_type
    use dondolo_typology, only : combine_population, typology_type
    use dondolo_unite_rows, only : unite_rows
    use dondolo_warnings, only : fit_warning_type, warn_of_records
@@ -46,10 +47,12 @@ contains
          if (k == 1) allocate (results%typologies(size(typologies), states))
          results%typologies(:, k) = typologies
       end do
+      if (case%designs) allocate (results%designs(results%population%rows()))
       call set_errors(results, study, error)
       if (.not. allocated(error)) call look_at_rows(case, results, fits, error)
       if (.not. allocated(error)) call unite_rows(case, results, study, error)
       if (allocated(error)) return
+      if (case%designs) call compare_designs(results%designs)
       if (allocated(case%uncertainty)) call find_sensitivity(case, results)
       call case%survey%oddities%warn(results%warnings)
       call warn_of_records(case%suite%records, case%suite%peaks, case%solver%gravity, results%warnings)
@@ -122,9 +125,9 @@ contains
       integer :: g, i, j, k, state, wall
 
       part = 0.0_wp
+      runs = runs_of(study)
       do j = 1, size(runs, 2)
          do i = 1, size(runs, 1)
-            runs(i, j) = study%runs(i, j)
             g = study%suite%clusters(i)
             if (runs(i, j)) part(j, g) = part(j, g) + 1.0_wp/real(size(runs, 1), wp)
          end do
@@ -148,6 +151,9 @@ contains
                      call cluster_errors(population%curve(state, i), population%levels, own, histories, changes)
                      own = own/real(row%histories, wp)
                   end associate
+                  if (.not. allocated(results%designs) .or. state < size(population%curve, 1)) cycle
+                  results%designs(i)%curve = population%curve(state, i)
+                  results%designs(i)%change = changes(1, :)
                end do
                if (i + 1 < population%first(wall + 1)) cycle
                call sums%add(population, wall, counts)
@@ -186,6 +192,7 @@ contains
          if (allocated(error)) exit
          associate (curve => results%population%curve(size(case%stripes%thresholds), i))
             call fits%look(curve, member%wall%name())
+            if (case%designs) call results%designs(i)%take_wall(member%wall)
             if (i > shown_rows) cycle
             results%shown(i)%name = member%wall%name()
             results%shown(i)%mechanism = member%wall%mechanism_name()

@@ -21,6 +21,7 @@ module dondolo_run_case
    use dondolo_stripes, only : multiple_stripe, plan_stripes, planned_work, stripes_type
    use dondolo_survey, only : check_size
    use dondolo_study, only : study_type
+   use dondolo_tie_tallies, only : tally_ties
    use dondolo_wall, only : wall_type
    use dondolo_warnings, only : scale_warning_type, warn_of_error, warn_of_errors, warn_of_fall, warn_of_fit, warn_of_records
    use dondolo_work, only : work_type
@@ -180,6 +181,7 @@ contains
          call theta_bounds(stripes, study%solver%edp_limit, results%row%theta_bounds(1), results%row%theta_bounds(2))
          call move_alloc(stripes%certified, results%row%certified)
       end if
+      call tally_ties(case%wall%mechanism, stripes%response, stripes%ran, results%row%tallies)
       call move_alloc(stripes%response, results%row%response)
    end subroutine run_stripes
 

@@ -7,7 +7,7 @@ module dondolo_unite_rows
    use dondolo_population, only : member_type, population_reader_type
    use dondolo_results, only : results_type
    use dondolo_row_result, only : row_result_type
-   use dondolo_study, only : study_type
+   use dondolo_study, only : runs_of, study_type
    use dondolo_unions, only : count_means, mean_unions, union_builder_type, union_type, unions_type, wall_union
    implicit none
    private
@@ -97,20 +97,5 @@ contains
       end do
       call reader%close()
    end subroutine name_unions
-
-   !> Whether each record runs at each level
-   function runs_of(study) result(runs)
-      type(study_type), intent(in) :: study
-      !> An answer for each (records, levels)
-      logical :: runs(size(study%suite%clusters), size(study%levels))
-
-      integer :: i, j
-
-      do j = 1, size(runs, 2)
-         do i = 1, size(runs, 1)
-            runs(i, j) = study%runs(i, j)
-         end do
-      end do
-   end function runs_of
 
 end module dondolo_unite_rows

@@ -51,6 +51,8 @@ module dondolo_response
 
    !> Time history: rows at every sample and before and after every impact
    type :: trace_type
+      !> Whether it has rows at the start of rocking and after every step too, between which the motion is smooth
+      logical :: every_step = .false.
       !> Number of rows
       integer :: rows = 0
       !> Is there no memory for more rows? The last one is missing then

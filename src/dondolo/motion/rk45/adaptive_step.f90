@@ -102,7 +102,14 @@ contains
             call find_level(b, motion%grip%above, motion%grip%below, event, x)
          end if
       end if
-      if (event /= no_event) call land(mechanism, constants%limit, motion, h, event, x, next)
+      if (event /= no_event) then
+         call land(mechanism, constants%limit, motion, h, event, x, next)
+         ! What is only grazed may have hidden the event that the step has gone beyond.
+         if (event == no_event .and. (next%q < 0.0_wp .or. next%q >= constants%limit)) then
+            event = merge(impact, limit_reached, next%q < 0.0_wp)
+            call land(mechanism, constants%limit, motion, h, event, 1.0_wp, next)
+         end if
+      end if
       sample_reached = parts == 1 .and. event == no_event
       motion%time = merge(dt, min(motion%time + h, dt), sample_reached)
       motion%q = next%q

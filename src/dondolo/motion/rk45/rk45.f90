@@ -174,14 +174,17 @@ contains
       integer, intent(out) :: ending
       type(trace_type), intent(inout), optional :: trace
 
-      logical :: sample_reached
+      logical :: sample_reached, every_step
       integer :: event
       integer(c_int) :: interrupted
 
+      every_step = .false.
+      if (present(trace)) every_step = trace%every_step
       call enter_interval(constants, record, motion)
       motion%f = starting_acceleration(motion%q, motion%v, &
          & angular_acceleration(wall, motion%excitation, motion%time, motion%q, motion%v))
       ending = 0
+      if (every_step) call add_row(motion, record, trace)
       do while (motion%interval <= last)
          call look_for_interrupt(interrupted)
          if (present(trace)) interrupted = merge(1_c_int, interrupted, trace%lacks_memory)
@@ -206,6 +209,7 @@ contains
          case default
             if (motion%q > motion%peak) call set_peak(motion, record)
             if (motion%grip%exists) call change_ties(wall, record, event, motion)
+            if (every_step .and. .not. sample_reached) call add_row(motion, record, trace)
          end select
          if (sample_reached) then
             if (ending == collapsed) return
@@ -228,11 +232,14 @@ contains
       select case (event)
       case (level_above, level_below)
          call motion%grip%cross(wall, motion%q, event == level_above, time_of(motion, record))
+         ! A motion outwards that ends just there goes back without what flows.
+         if (motion%grip%flows .and. motion%v < 0.0_wp) call motion%grip%turn(wall, motion%peak)
       case default
          ! A tie flows outwards only; rounding may end such a motion unseen.
          if (.not. (event == turning .or. (motion%grip%flows .and. motion%v < 0.0_wp))) return
          call motion%grip%turn(wall, motion%peak)
-         if (event == turning .and. wall%has_friction()) call look_for_stick(wall, motion)
+         ! Not where a motion inwards has ended: it goes on outwards until it is where friction has not been overcome before.
+         if (event == turning .and. .not. motion%f > 0.0_wp .and. wall%has_friction()) call look_for_stick(wall, motion)
       end select
       motion%f = angular_acceleration(wall, motion%excitation, motion%time, motion%q, motion%v)
    end subroutine change_ties

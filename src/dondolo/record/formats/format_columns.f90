@@ -185,10 +185,15 @@ contains
       call add_place(error, text%file)
       if (allocated(error)) return
       allocate (values(cells, text%lines() - begin + 1))
-      allocate (time_first(size(values, 2)), time_last(size(values, 2)))
+      ! Where the times stand; in a single column there are none
+      allocate (time_first(merge(size(values, 2), 0, cells > 1)), time_last(merge(size(values, 2), 0, cells > 1)))
       do line = begin, text%lines()
          i = line - begin + 1
-         call read_row(text, line, separator, values(:, i), time_first(i), time_last(i), ok)
+         call read_row(text, line, separator, values(:, i), first(1), last(1), ok)
+         if (ok .and. cells > 1) then
+            time_first(i) = first(1)
+            time_last(i) = last(1)
+         end if
          if (ok) cycle
          call raise_bad_line(text, line, begin, cells, error)
          return
@@ -235,14 +240,14 @@ contains
       finish = text%last(line)
       do k = 1, size(values)
          begin = at
-         call text%skip_blanks(at, finish)
+         call pass_blanks(text%text, at, finish)
          if (k == 1) first = at
          ok = k == 1 .or. at > begin .or. .not. by_blanks
          if (ok) call take_real(text%text, at, finish, values(k), ok)
          if (.not. ok) return
          if (k == 1) last = at - 1
          if (by_blanks) cycle
-         call text%skip_blanks(at, finish)
+         call pass_blanks(text%text, at, finish)
          ok = k == size(values)
          if (at <= finish) then
             ok = text%text(at:at) == separator
@@ -250,9 +255,23 @@ contains
          end if
          if (.not. ok) return
       end do
-      call text%skip_blanks(at, finish)
+      call pass_blanks(text%text, at, finish)
       ok = at > finish
    end subroutine read_row
+
+   !> As `skip_blanks` of a text file, but private, so that the compiler puts it into the loop over the lines
+   pure subroutine pass_blanks(text, at, last)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> Position
+      integer, intent(inout) :: at
+      !> Last position of the line
+      integer, intent(in) :: last
+
+      do at = at, last
+         if (iachar(text(at:at)) /= iachar(' ') .and. iachar(text(at:at)) /= 9) exit
+      end do
+   end subroutine pass_blanks
 
    !> Say what is wrong in a line
    subroutine raise_bad_line(text, line, begin, cells, error)

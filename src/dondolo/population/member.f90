@@ -1,0 +1,39 @@
+!> A row of a population: one mechanism of a wall, with its weight, its group and its facade.
+module dondolo_member
+   use dondolo_kinds, only : wp
+   use dondolo_property, only : is_text, property_type
+   use dondolo_wall, only : wall_type
+   implicit none
+   private
+
+   public :: member_type, member_properties
+
+   !> Columns besides the properties of a wall
+   type(property_type), target, protected :: member_properties(4) = [ &
+      & property_type('weight', default=1.0_wp, smallest=0.0_wp, largest=1.0e12_wp, &
+      &   meaning='weight of the wall in its population, such as the number of walls like it'), &
+      & property_type('group', is_text, meaning='group of the wall, which gets curves of its own'), &
+      & property_type('p_occ', default=1.0_wp, smallest=0.0_wp, largest=1.0_wp, &
+      &   meaning='probability that the mechanism can occur'), &
+      & property_type('facade', is_text, meaning='facade that the wall is part of: its walls, on consecutive rows, collapse '// &
+      &   'in series')]
+
+   !> A row: one mechanism of a wall
+   type :: member_type
+      !> The wall with this mechanism
+      type(wall_type) :: wall
+      !> Weight of the wall, >= 0
+      real(wp) :: weight = 1.0_wp
+      !> Probability that the mechanism can occur
+      real(wp) :: p_occ = 1.0_wp
+      !> Group of the wall, empty if none was given
+      character(len=:), allocatable :: group
+      !> Facade that the wall is part of, empty if none
+      character(len=:), allocatable :: facade
+      !> Is it a further mechanism of the wall, or of the facade, in the row before?
+      logical :: continues = .false.
+      !> Was its name given? A wall without one has one row
+      logical :: has_name = .false.
+   end type member_type
+
+end module dondolo_member

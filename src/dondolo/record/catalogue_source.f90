@@ -1,0 +1,200 @@
+!> The record that a row of a catalogue names: where its files are and what the row says of them.
+!>
+!> What a row says is taken from the table row by row; the files are read from that alone, several at a time.
+module dondolo_catalogue_source
+   use dondolo_csv_reader, only : csv_reader_type
+   use dondolo_error, only : add_place, error_type, raise_input
+   use dondolo_kinds, only : wp
+   use dondolo_metadata, only : metadata_type
+   use dondolo_record, only : record_type
+   use dondolo_record_reader, only : read_record
+   use dondolo_text, only : lower
+   implicit none
+   private
+
+   public :: source_type, describe_source, take_source, read_source
+
+   !> Columns that say how a record is read and run; all others are metadata
+   character(len=8), parameter :: own_columns(9) = [character(len=8) :: 'file', 'dt_s', 'units', 'channel', 'format', &
+      & 'name', 'vertical', 'level', 'factor']
+
+   !> How many of them say which record a row is of
+   integer, parameter :: columns_of_record = 7
+
+   !> Where a record is
+   type :: source_type
+      !> The row, for messages
+      character(len=:), allocatable :: place
+      !> Path of the file as the catalogue writes it, and from the current folder
+      character(len=:), allocatable :: written, path
+      !> Name given to the record, or empty
+      character(len=:), allocatable :: name
+      !> Time step [s]; not allocated: the file states it
+      real(wp), allocatable :: dt
+      !> Units, channel and format; empty: not given
+      character(len=:), allocatable :: units, channel, format
+      !> Path of the file of the vertical component; not allocated: it is a channel of the same file, or not read
+      character(len=:), allocatable :: vertical_path
+      !> Channel of the vertical component; empty: the only one
+      character(len=:), allocatable :: vertical_channel
+      !> What is wrong with the cell of the vertical component: it matters once the record has been read
+      type(error_type), allocatable :: vertical_error
+      !> What the other columns say
+      type(metadata_type) :: metadata
+   end type source_type
+
+contains
+
+   !> What a row says of the record that it names, by which rows of the same record are recognised
+   subroutine describe_source(table, text)
+      !> The catalogue, with a row
+      type(csv_reader_type), intent(in) :: table
+      !> Its cells, with a character in between that none of them holds
+      character(len=:), allocatable, intent(out) :: text
+
+      integer :: i
+
+      text = ''
+      do i = 1, columns_of_record
+         text = text//table%get_text(table%column(trim(own_columns(i))))//achar(0)
+      end do
+   end subroutine describe_source
+
+   !> Take what a row says of a record
+   subroutine take_source(table, with_vertical, source, error)
+      !> The catalogue, with a row
+      type(csv_reader_type), intent(in) :: table
+      !> Is the vertical component read too?
+      logical, intent(in) :: with_vertical
+      !> Where the record is
+      type(source_type), intent(out) :: source
+      !> A cell is wrong
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i
+
+      source%place = table%place()
+      source%written = table%get_text(table%column('file'))
+      source%name = trim(adjustl(table%get_text(table%column('name'))))
+      call find_path(table, 'file', source%path, error)
+      if (allocated(error)) return
+      source%units = table%get_text(table%column('units'))
+      source%channel = table%get_text(table%column('channel'))
+      source%format = table%get_text(table%column('format'))
+      if (len_trim(table%get_text(table%column('dt_s'))) > 0) then
+         allocate (source%dt)
+         call table%get_real(table%column('dt_s'), source%dt, error)
+         call add_place(error, source%place)
+         if (allocated(error)) return
+      end if
+      do i = 1, size(table%columns)
+         associate (title => table%columns(i)%text)
+            if (.not. any(own_columns == lower(title))) call source%metadata%set(title, table%get_text(i))
+         end associate
+      end do
+      if (with_vertical) call take_vertical(table, source)
+   end subroutine take_source
+
+   !> Take where the vertical component is: a channel of the same file where the record is one, else a file
+   subroutine take_vertical(table, source)
+      !> The catalogue, with a row
+      type(csv_reader_type), intent(in) :: table
+      !> Where the record is
+      type(source_type), intent(inout) :: source
+
+      source%vertical_channel = ''
+      if (len_trim(table%get_text(table%column('vertical'))) == 0) then
+         call raise_input(source%vertical_error, source%place//': vertical is empty: must name the vertical component')
+      else if (len_trim(source%channel) > 0) then
+         source%vertical_channel = table%get_text(table%column('vertical'))
+      else
+         call find_path(table, 'vertical', source%vertical_path, source%vertical_error)
+      end if
+   end subroutine take_vertical
+
+   !> Read a record
+   subroutine read_source(source, record, error, vertical_factor)
+      !> Where it is
+      type(source_type), intent(in) :: source
+      type(record_type), intent(out) :: record
+      !> What is wrong
+      type(error_type), allocatable, intent(out) :: error
+      !> Factor on the vertical component; absent: it is not read
+      real(wp), intent(in), optional :: vertical_factor
+
+      type(record_type) :: vertical
+
+      call read_component(source, source%path, source%channel, record, error)
+      if (allocated(error)) return
+      record%file = source%path
+      call record%metadata%include(source%metadata)
+      if (.not. present(vertical_factor)) return
+      if (allocated(source%vertical_error)) then
+         error = source%vertical_error
+         return
+      end if
+      if (allocated(source%vertical_path)) then
+         call read_component(source, source%vertical_path, source%vertical_channel, vertical, error)
+         if (.not. allocated(error)) record%vertical_file = source%vertical_path
+      else
+         call read_component(source, source%path, source%vertical_channel, vertical, error)
+      end if
+      if (allocated(error)) return
+      call record%set_vertical(vertical%acceleration, vertical%dt, vertical_factor, error)
+      call add_place(error, source%place)
+   end subroutine read_source
+
+   !> Read a component of a motion, with the step, the units and the format that the row gives
+   subroutine read_component(source, path, channel, record, error)
+      !> Where it is
+      type(source_type), intent(in) :: source
+      !> Path of the file
+      character(len=*), intent(in) :: path
+      !> Name or number of the channel; empty: the only one
+      character(len=*), intent(in) :: channel
+      type(record_type), intent(out) :: record
+      !> What is wrong
+      type(error_type), allocatable, intent(out) :: error
+
+      ! A dt that is not allocated is an argument that is not present
+      call read_record(path, record, error, source%dt, source%units, channel, source%format)
+      call add_place(error, source%place)
+   end subroutine read_component
+
+   !> Path in a cell of a row, relative to the folder of the catalogue
+   subroutine find_path(table, name, path, error)
+      !> The catalogue, with a row
+      type(csv_reader_type), intent(in) :: table
+      !> Name of the column
+      character(len=*), intent(in) :: name
+      !> Path from the current folder
+      character(len=:), allocatable, intent(out) :: path
+      !> It is not given, or the folders in it are separated by a backslash
+      type(error_type), allocatable, intent(out) :: error
+
+      logical :: exists
+
+      path = table%get_text(table%column(name))
+      if (len_trim(path) == 0) then
+         call raise_input(error, table%place()//': '//name//' is empty: must name a file')
+         return
+      end if
+      associate (file => table%lines%file)
+         if (.not. is_absolute(path)) path = file(:scan(file, '/\', back=.true.))//path
+      end associate
+      inquire (file=path, exist=exists)
+      if (index(path, '\') > 0 .and. .not. exists) call raise_input(error, table%place()//': '//path// &
+         & ': no such file: folders must be separated by /, not \')
+   end subroutine find_path
+
+   !> Does a path begin at the root?
+   pure function is_absolute(path)
+      !> Path
+      character(len=*), intent(in) :: path
+      !> It begins with a slash, a backslash or a drive letter
+      logical :: is_absolute
+
+      is_absolute = scan(path(1:1), '/\') == 1 .or. index(path, ':') == 2
+   end function is_absolute
+
+end module dondolo_catalogue_source
