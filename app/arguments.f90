@@ -8,6 +8,7 @@ module dondolo_arguments
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_numbers, only : parse_integer, parse_real
+   use dondolo_spelling, only : meant
    use dondolo_text, only : join, replaced, to_text
    implicit none
    private
@@ -110,14 +111,20 @@ contains
          else if (allocated(arguments%case_file) .and. any(arguments%action == ['merge ', 'status'])) then
             call arguments%parts%add(word)
          else if (allocated(arguments%case_file)) then
-            call raise_input(error, word//': one case at a time, '//arguments%case_file//' was given before')
+            call look_for_command(arguments%case_file, error)
+            if (.not. allocated(error)) call raise_input(error, word//': one case at a time, '//arguments%case_file// &
+               & ' was given before')
          else
             arguments%case_file = word
          end if
          if (allocated(error)) return
       end do
       if (any(arguments%action == [character(len=5) :: 'run', 'check', 'merge'])) then
-         if (.not. allocated(arguments%case_file)) call raise_input(error, 'no case given: dondolo CASE.nml'//see_help)
+         if (.not. allocated(arguments%case_file)) then
+            call raise_input(error, 'no case given: dondolo CASE.nml'//see_help)
+         else if (arguments%action == 'run') then
+            call look_for_command(arguments%case_file, error)
+         end if
       else if (arguments%action == 'status' .and. .not. allocated(arguments%case_file)) then
          call raise_input(error, 'no output given: dondolo --status OUTPUT'//see_help)
       else if (allocated(arguments%case_file) .and. any(arguments%action == ['template', 'example '])) then
@@ -147,6 +154,21 @@ contains
             call raise_input(error, '--'//action//': cannot go together with --'//arguments%action)
          end if
       end subroutine set_action
+
+   !> Refuse the name of a case that is not there and that is nearly a command
+   subroutine look_for_command(name, error)
+      character(len=*), intent(in) :: name
+      !> What may have been meant
+      type(error_type), allocatable, intent(inout) :: error
+
+      character(len=:), allocatable :: hint
+      logical :: exists
+
+      inquire (file=name, exist=exists)
+      if (exists) return
+      hint = trim(meant(name, python_commands))
+      if (len(hint) > 0) call raise_input(error, name//': no such file or command'//hint)
+   end subroutine look_for_command
 
    end subroutine read_arguments
 

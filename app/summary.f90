@@ -266,6 +266,7 @@ contains
          & ' histories in double precision, '//to_text(count(row%certified%status == in_quadruple))// &
          & ' in 33 digits, '//to_text(count(row%certified%status == not_computable))// &
          & ' not computable from this input'
+<<<<<<< HEAD
       if (.not. any(row%certified%status == not_computable)) return
       do k = 1, size(row%bounds)
          state = ''
@@ -276,6 +277,12 @@ contains
                & rounded(bounds%theta_highest)
          end associate
       end do
+=======
+      if (any(row%certified%status == not_computable) .and. all(row%theta_bounds > 0.0_wp)) then
+         write (output_unit, '(a)') 'whichever way those not computable end, theta is between '// &
+            & rounded(row%theta_bounds(1))//' and '//rounded(row%theta_bounds(2))
+      end if
+>>>>>>> h2
    end subroutine print_certificates
 
    !> Print the curves of a population

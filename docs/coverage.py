@@ -376,7 +376,7 @@ little more than twelve.
 
 TEXT = """# What an interval means
 
-`./run coverage` writes this page.
+`./run intervals` writes this page.
 
 A fragility curve is fitted to a few dozen records, which stand for the earthquakes that there could be. With other
 records the curve would be another one. A 95 % interval is made so that, over many studies with records drawn in the

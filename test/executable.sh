@@ -512,6 +512,7 @@ refused() {
 refused "no argument" 'no case given: dondolo CASE.nml'
 refused "unknown option" '--fast: no such option; there are --check' --fast good.nml
 refused "unknown short option" '-q: no such option' -q good.nml
+refused "misspelt command" "plto: no such file or command; did you mean 'plot'?" plto out/wall
 refused "two cases" 'people.nml: one case at a time, good.nml was given before' good.nml people.nml
 refused "threads without a number" '--threads: a number must follow' good.nml --threads
 refused "threads with a word" '--threads many: must be an integer between 0 (all) and 1024' --threads many good.nml
@@ -862,6 +863,14 @@ warned 's/height = 3.0/height = 300/' "wall '.*': height = 300 m is more than 60
 warned 's/thickness = 0.25/thickness = 25/' "wall '.*': thickness = 25 m is more than 3 m: is it in centimetres?"
 warned 's/thickness/density = 18 thickness/' "density = 18 kg/m3 is less than 500 kg/m3: is it in kN/m3 or t/m3?"
 warned 's/thickness/density = 1.800 thickness/' "density = 1.8 kg/m3 is less than 500 kg/m3: is it in kN/m3 or t/m3?"
+warned 's/thickness/interlock_overlap = 0.1 interlock_course = 0.01 interlock_thickness = 0.3 interlock_spacing = 5 thickness/' \
+   "interlock_course = 0.01 m is less than 0.03 m: is it the height of a joint?"
+warned 's/thickness/interlock_overlap = 0.1 interlock_course = 0.1 interlock_thickness = 0.3 interlock_spacing = 0.5 thickness/' \
+   "interlock_spacing = 0.5 m is less than 1 m: is it a thickness?"
+warned 's/thickness/interlock_overlap = 0.1 interlock_course = 0.1 interlock_thickness = 0.3 interlock_spacing = 5 interlock_friction = 2 thickness/' \
+   "interlock_friction = 2 is more than 1: is it an angle, or in per cent?"
+warned 's/thickness/tie_height = 2.8 tie_area = 1e-4 tie_length = 5 tie_preload = 50 thickness/' \
+   "tie_preload = 50 Pa is less than 100000 Pa: is it in MPa, or a force?"
 warned "s/one_sided'/two_block' overburden = 15 overburden_inertia = 0/" "overburden = 15 N/m is less than 200 N/m: is it in kN/m?"
 awk 'BEGIN { for (k = 0; k < 10; k++) print 0 }' >records/still.txt
 cp records/records.csv records/bad.csv

@@ -11,159 +11,39 @@
 `dondolo.read_catalogue` reads recorded accelerograms.
 """
 
-from dondolo._fortran.library import build_variant
-from dondolo._fortran.library import constants as _constants
-from dondolo._storage.saved import load
-from dondolo.analysis.certificate import Certified, certify
-from dondolo.analysis.cloud import Cloud, cloud
-from dondolo.analysis.efficiency import IntensityComparison, compare_intensities
-from dondolo.analysis.incremental import FirstCollapseFragility, Incremental, incremental
-from dondolo.analysis.overturning import Boundary, OverturningSpectrum, State, Window, overturning_spectrum
-from dondolo.analysis.response import Response, simulate
-from dondolo.analysis.solver import Solver
-from dondolo.analysis.stripe_runs import multiple_stripe
-from dondolo.analysis.stripes import Stripes
-from dondolo.analysis.work import Work
-from dondolo.checks.ntc import CodeCheck, check_dynamic, check_ntc
-from dondolo.curves.bootstrap import Bootstrap
-from dondolo.curves.comparison import Comparison, compare
-from dondolo.curves.fitting import fit_fragility
-from dondolo.curves.fragility import Fragility
-from dondolo.curves.regression import Logistic, Regression
-from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted, MissingFileError
-from dondolo.exchange.cases import Case, Results, read_case, run_case
-from dondolo.exchange.fragility_model import DiscreteFragility, FragilityModel, read_nrml
-from dondolo.exchange.mean_functions import nrml_functions
-from dondolo.exchange.nrml import write_nrml
-from dondolo.exchange.results import StoredResults, read_results
-from dondolo.exchange.workbook import write_workbook
-from dondolo.populations.bootstrap import TypologyBootstrap
-from dondolo.populations.curve import Group, PopulationCurve
-from dondolo.populations.study import typology
-from dondolo.populations.typology import Typology
-from dondolo.populations.uncertain_wall import UncertainWall, uncertain_wall
-from dondolo.populations.weakest_hinge import HingeSearch, weakest_hinge
-from dondolo.records import pulses
-from dondolo.records.building import Building
-from dondolo.records.codes import Site, ec8_spectrum, ntc_spectrum
-from dondolo.records.examples import example_records
-from dondolo.records.intensity import intensity_table
-from dondolo.records.reading import read_catalogue, read_record, read_records
-from dondolo.records.record import Record
-from dondolo.records.record_set import RecordSet
-from dondolo.records.rotation import RotD
-from dondolo.records.selection import Selection, select_records
-from dondolo.records.spectrum import Spectrum
-from dondolo.records.synthetic import synthetic_records
-from dondolo.records.target import TargetSpectrum
-from dondolo.reporting.page import report
-from dondolo.retrofit.designs import DesignComparison, compare_designs
-from dondolo.risk.frequency import Risk, mean_annual_frequency
-from dondolo.risk.hazard import HazardCurve
-from dondolo.risk.uncertainty import RiskUncertainty
-from dondolo.walls.distributions import Choice, Lognormal, Normal, Triangular, Uniform
-from dondolo.walls.facade import facade
-from dondolo.walls.mechanisms import *  # noqa: F403
-from dondolo.walls.mechanisms import __all__ as _walls
-from dondolo.walls.population import Population, read_population
-from dondolo.walls.sampling import sample_population
+import importlib
+import re
+from pathlib import Path
+from typing import Any
 
-__version__ = _constants().version
+from dondolo._fortran.library import constants
 
-__all__ = [
-    "Bootstrap",
-    "Boundary",
-    "Building",
-    "Case",
-    "Certified",
-    "Choice",
-    "Cloud",
-    "CodeCheck",
-    "Comparison",
-    "DesignComparison",
-    "DiscreteFragility",
-    "DondoloError",
-    "DondoloWarning",
-    "FirstCollapseFragility",
-    "Fragility",
-    "FragilityModel",
-    "Group",
-    "HazardCurve",
-    "HingeSearch",
-    "Incremental",
-    "InputError",
-    "IntensityComparison",
-    "Interrupted",
-    "Logistic",
-    "Lognormal",
-    "MissingFileError",
-    "Normal",
-    "OverturningSpectrum",
-    "Population",
-    "PopulationCurve",
-    "Record",
-    "RecordSet",
-    "Regression",
-    "Response",
-    "Results",
-    "Risk",
-    "RiskUncertainty",
-    "RotD",
-    "Selection",
-    "Site",
-    "Solver",
-    "Spectrum",
-    "State",
-    "StoredResults",
-    "Stripes",
-    "TargetSpectrum",
-    "Triangular",
-    "Typology",
-    "TypologyBootstrap",
-    "UncertainWall",
-    "Uniform",
-    "Window",
-    "Work",
-    "__version__",
-    "build_variant",
-    "certify",
-    "check_dynamic",
-    "check_ntc",
-    "cloud",
-    "compare",
-    "compare_designs",
-    "compare_intensities",
-    "ec8_spectrum",
-    "example_records",
-    "facade",
-    "fit_fragility",
-    "incremental",
-    "intensity_table",
-    "load",
-    "mean_annual_frequency",
-    "multiple_stripe",
-    "nrml_functions",
-    "ntc_spectrum",
-    "overturning_spectrum",
-    "pulses",
-    "read_case",
-    "read_catalogue",
-    "read_nrml",
-    "read_population",
-    "read_record",
-    "read_records",
-    "read_results",
-    "report",
-    "run_case",
-    "sample_population",
-    "select_records",
-    "simulate",
-    "synthetic_records",
-    "typology",
-    "uncertain_wall",
-    "weakest_hinge",
-    "write_nrml",
-    "write_workbook",
-]
-# Names of walls stand where the walls do
-__all__ += _walls
+__version__ = constants().version
+
+# Names of the stub and their modules: nothing is imported before it is used.
+_HOMES = {
+    name: module
+    for module, name in re.findall(
+        r"(?m)^from (\S+) import (\w+) as \2$", Path(__file__).with_suffix(".pyi").read_text(encoding="utf-8")
+    )
+}
+
+__all__ = sorted([*_HOMES, "__version__"])
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    if name == "load":
+        # A saved result is of any class, and a class is known once its module has been imported.
+        for module in _HOMES.values():
+            importlib.import_module(module)
+    home = importlib.import_module(_HOMES[name])
+    # A name without a value in its home is a module there.
+    thing = getattr(home, name) if hasattr(home, name) else importlib.import_module(f"{_HOMES[name]}.{name}")
+    globals()[name] = thing
+    return thing
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -180,6 +180,13 @@ def test_against_an_integration_of_its_own(records):
     assert slid >= 10
 
 
+def test_the_trigger_of_the_picture_is_that_of_the_first_motion(records):
+    above, _ = dd.simulate(wall(), records[0]).plot()
+    assert [text.get_text() for text in above.get_legend().get_texts()] == ["trigger, first motion"]
+    above, _ = dd.simulate(BARE, records[0]).plot()
+    assert [text.get_text() for text in above.get_legend().get_texts()] == ["trigger acceleration"]
+
+
 def test_limits(records):
     """Friction of nothing is no friction; it helps, and a wall that has moved starts like a bare one."""
     nothing = wall(interlock_friction=1e-12)

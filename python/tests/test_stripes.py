@@ -190,6 +190,11 @@ def test_values_in_other_units_warn(sine):
         assert caught[0].filename == __file__
 
 
+def test_velocities_in_other_units_warn(sine):
+    with pytest.warns(dd.DondoloWarning, match="levels up to 20 of pgv, more than 5 m/s: are they in cm/s"):
+        dd.multiple_stripe(dd.OneSidedWall(3.0, 0.25), sine, [10.0, 20.0], im="pgv", progress=False)
+
+
 def test_interruption_keeps_what_is_complete(wall, records, monkeypatch, replace_procedure):
     monkeypatch.setattr(request, "_FIRST_SAMPLES", 1)
     monkeypatch.setattr(request, "_SECONDS", 0.0)

@@ -126,6 +126,12 @@ def properties(group: str) -> tuple[Property, ...]:
     )
 
 
+def with_units(group: str, facts: Iterable[tuple[str, str]]) -> list[tuple[str, str]]:
+    """Facts of a wall or a building, name and text; those that are properties of the group get their unit."""
+    units = {row.name: row.unit for row in properties(group)}
+    return [(what, f"{text} {units.get(what, '')}".strip()) for what, text in facts]
+
+
 def build_variant() -> str:
     """The build variant that the engine lanes runs here.
 

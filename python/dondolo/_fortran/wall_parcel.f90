@@ -125,7 +125,7 @@ contains
    end subroutine pack_walls
 
    !> Greatest static acceleration and that of the rigid-plastic mechanism; the trigger acceleration twice without ties
-   pure function with_ties(mechanism) result(accelerations)
+   function with_ties(mechanism) result(accelerations)
       class(mechanism_type), intent(in) :: mechanism
       !> Both [m/s2]
       real(c_double) :: accelerations(2)

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray, as_count, as_measures
-from dondolo._fortran.records import describe_measure
+from dondolo._base.shown import Shown
+from dondolo._fortran.records import blank_unit, describe_measure
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.request import Polarity, new_request
@@ -35,7 +36,7 @@ _LONGEST_SEARCH = 40
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class IntensityComparison(Saved):
+class IntensityComparison(Shown, Saved):
     """Fragility curves of one wall and one set of records for several intensity measures.
 
     Attributes
@@ -130,6 +131,16 @@ class IntensityComparison(Saved):
 
     def __repr__(self) -> str:
         return f"<IntensityComparison: {len(self.ims)} measures, smallest dispersion with {self.best}>"
+
+    def _facts(self) -> list[tuple[str, str]]:
+        return [
+            (
+                self.ims[i],
+                f"theta {self.curves[i].theta:.4g}{blank_unit(self.ims[i])}, dispersion {self.dispersion[i]:.3g},"
+                " {:.3g} times the smallest ({:.3g} to {:.3g})".format(self.ratio[i], *self.ratio_interval[i]),
+            )
+            for i in np.argsort(self.ratio).tolist()
+        ]
 
 
 def compare_intensities(

@@ -28,7 +28,9 @@ def draw_history(response: Response, ax: Iterable[Axes] | None) -> style.Panels:
     trigger = wall.trigger_acceleration / wall.gravity
     for sign in (-1.0, 1.0) if wall.two_sided else (-1.0,):
         above.axhline(sign * trigger, color=style.RED, linewidth=0.9, linestyle="--")
-    above.plot([], [], color=style.RED, linewidth=0.9, linestyle="--", label="trigger acceleration")
+    # Friction resists in full only where the wall has not been.
+    name = "trigger acceleration" if getattr(wall, "interlock_overlap", None) is None else "trigger, first motion"
+    above.plot([], [], color=style.RED, linewidth=0.9, linestyle="--", label=name)
     above.set_ylabel("ground\nacceleration [g]")
     above.set_title(
         f"{wall.name}, record {response.record.name}, scale {response.scale:.4g}", loc="left", parse_math=False
@@ -64,6 +66,9 @@ def draw_history(response: Response, ax: Iterable[Axes] | None) -> style.Panels:
     below.set_ylabel("rotation / capacity")
     # A collapse ends high at the right, a motion that survives fades out there.
     style.legend(below, loc="upper left" if response.collapsed else "upper right")
+    # Readable where the curve passes behind it too
+    below.get_legend().set_frame_on(True)
+    below.get_legend().get_frame().set(facecolor="white", alpha=0.8, linewidth=0.0)
     return axes
 
 

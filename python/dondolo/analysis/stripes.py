@@ -469,6 +469,9 @@ class Stripes(Shown, Saved):
             ("collapses", " ".join(map(str, self.collapses))),
             ("work", str(self.work)),
         ]
+        if self.status is not None:
+            sure, again, unknown = np.bincount(self.status[self.status > 0], minlength=4)[1:4]
+            facts.append(("certified", f"{sure} in double, {again} in quadruple precision, {unknown} not computable"))
         if self.wall.mechanism == "two_block" and self.wall.restitution != "constant":
             tests = published_factors()["graziotti_2016"]
             # No other choice moves the curve of such a wall as much

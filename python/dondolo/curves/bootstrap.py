@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_count, as_generator, as_levels, shaped, tails
+from dondolo._base.shown import Shown
 from dondolo._fortran.curves import fit_curves
 from dondolo._storage.saved import Saved
 from dondolo.curves.sample import Sample
@@ -19,7 +20,7 @@ Interval = tuple[float, float]
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class Bootstrap(Saved):
+class Bootstrap(Shown, Saved):
     """Curves fitted to records drawn with replacement.
 
     Attributes
@@ -105,6 +106,13 @@ class Bootstrap(Saved):
 
     def __repr__(self) -> str:
         return f"<Bootstrap of {len(self.theta)} samples, {self.without_fit:.1%} without a fit>"
+
+    def _facts(self) -> list[tuple[str, str]]:
+        facts = [("samples", str(len(self.theta))), ("without a fit", f"{self.without_fit:.1%}")]
+        if self.without_fit < 1.0:
+            found = self.parameter_interval()
+            facts += [(f"{name}, 95 % interval", f"{low:.4g} to {high:.4g}") for name, (low, high) in found.items()]
+        return facts
 
 
 def draw_records(labels: Sequence[Any], n_resamples: int, seed: Any) -> FloatArray:

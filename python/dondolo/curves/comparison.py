@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from dondolo._base.arguments import FloatArray, instance_of, tails
+from dondolo._base.shown import Shown
 from dondolo._storage.saved import Saved
 from dondolo.curves.clusters import freedom
 from dondolo.curves.fragility import Fragility
@@ -16,8 +17,8 @@ from dondolo.errors import InputError
 Interval = tuple[float, float]
 
 
-@dataclass(frozen=True, kw_only=True)
-class Comparison(Saved):
+@dataclass(frozen=True, repr=False, kw_only=True)
+class Comparison(Shown, Saved):
     """Two curves compared.
 
     Attributes
@@ -56,6 +57,17 @@ class Comparison(Saved):
     beta_p_value: float
     curves_p_value: float
     degrees_of_freedom: float
+
+    def _facts(self) -> list[tuple[str, str]]:
+        def ratio(value: float, interval: Interval, p_value: float) -> str:
+            return "{:.4g} ({:.4g} to {:.4g}), p {:.3g}".format(value, *interval, p_value)
+
+        return [
+            ("pairing", f"{self.pairing}, {self.shared} clusters shared"),
+            ("ratio of the medians", ratio(self.ratio, self.ratio_interval, self.p_value)),
+            ("ratio of the dispersions", ratio(self.beta_ratio, self.beta_interval, self.beta_p_value)),
+            ("p of one and the same curve", f"{self.curves_p_value:.3g}"),
+        ]
 
 
 def compare(first: Fragility, second: Fragility, *, confidence: float = 0.95) -> Comparison:

@@ -9,9 +9,10 @@ from typing import Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray, as_path
+from dondolo._base.shown import Shown
 from dondolo._fortran import _core
 from dondolo._fortran.library import receive, warn_of_notes
-from dondolo._fortran.records import records_end, unpack_records
+from dondolo._fortran.records import levels_in_words, records_end, unpack_records
 from dondolo._fortran.walls import unpack_walls, walls_end
 from dondolo.analysis.response import Response, simulate
 from dondolo.analysis.solver import Solver
@@ -28,8 +29,8 @@ from dondolo.walls.mechanisms import wall_from
 from dondolo.walls.population import Population
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Case:
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class Case(Shown):
     """A case file, read and checked.
 
     Attributes
@@ -83,6 +84,17 @@ class Case:
     confidence: float = 1.35
     behaviour: float = 2.0
 
+    def _facts(self) -> list[tuple[str, str]]:
+        facts = [
+            ("title", self.title),
+            ("task", self.task),
+            ("population", repr(self.population)),
+            ("records", str(len(self.records))),
+        ]
+        if self.task != "history":
+            facts.append(("levels", levels_in_words(self.levels, self.im)))
+        return facts
+
     def run(self, *, progress: bool = True) -> Results:
         """Run it; see `run_case`.
 
@@ -125,8 +137,8 @@ class Case:
         return check_dynamic(check, self.records, polarity=self.polarity, solver=solver)  # type: ignore[arg-type]
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Results:
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class Results(Shown):
     """Results of a case; what its task does not make is None.
 
     Attributes
@@ -148,6 +160,11 @@ class Results:
     fragility: Fragility | None = None
     typology: Typology | None = None
     check: CodeCheck | None = None
+
+    def _facts(self) -> list[tuple[str, str]]:
+        names = ("response", "stripes", "fragility", "typology", "check")
+        made = [(name, repr(found)) for name in names if (found := getattr(self, name)) is not None]
+        return [("case", self.case.title or self.case.output), *made]
 
 
 def read_case(path: str | os.PathLike[str]) -> Case:

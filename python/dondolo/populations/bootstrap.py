@@ -77,6 +77,9 @@ class TypologyBootstrap(Bootstrap):
     def _ends(self) -> FloatArray:
         return self.saturation
 
+    def _facts(self) -> list[tuple[str, str]]:
+        return [("drawn", " and ".join(self.over)), *super()._facts()]
+
     def __repr__(self) -> str:
         what = " and ".join(self.over)
         return f"<TypologyBootstrap over {what}: {len(self.theta)} samples, {self.without_fit:.1%} without a fit>"

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
+from dondolo._base.shown import Shown
 from dondolo._fortran.curves import FlatPopulation, curve_of_population
 from dondolo._fortran.library import as_text
 from dondolo._storage.saved import Saved
@@ -105,7 +106,7 @@ class Group(Saved):
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class PopulationCurve(Group, MeanCurve):
+class PopulationCurve(Shown, Group, MeanCurve):
     """The curve of a population or of one of its groups, of one mechanism or of all: ``typology[mechanism, group]``.
 
     Has the attributes of `Group`, at the levels of the analysis, and the means, fractiles and probabilities of the
@@ -289,3 +290,10 @@ class PopulationCurve(Group, MeanCurve):
     def __repr__(self) -> str:
         where = f", group {self.group!r}" if self.group else ""
         return f"<PopulationCurve of {self.n_walls} walls: mechanism {self.mechanism!r}{where}>"
+
+    def _facts(self) -> list[tuple[str, str]]:
+        facts = [("curve", self._title()), ("walls", str(self.n_walls)), *self.fit._facts()]
+        if self.fitted > 0.0:
+            text = f"{self.beta_walls:.3g} between walls, {self.beta_records:.3g} between records"
+            facts.append(("dispersion", text))
+        return facts

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.shown import html_of
 from dondolo._fortran.buildings import BUILDING_NAMES, BuildingData, building_values, describe_building
+from dondolo._fortran.library import with_units
 from dondolo._storage.saved import part_of_results
 
 if TYPE_CHECKING:
@@ -33,7 +34,7 @@ class Building:
     damping : float or sequence of float, optional
         Their damping ratios, or one for all; 0.05 if not given.
     participation : float or sequence of float, optional
-        Their participation factors times their shapes at the level of the wall.
+        Their participation factors times their shapes at the level of the wall, no percentages.
     storeys : int, optional
         Number n of storeys, instead of participation: 3 n / (2 n + 1) level / building_height.
     level : float, optional
@@ -142,7 +143,7 @@ class Building:
         return f"<Building: {', '.join(f'{what}={text}' for what, text in self._facts())}>"
 
     def _repr_html_(self) -> str:
-        return html_of("Building", self._facts())
+        return html_of("Building", with_units("building", self._facts()))
 
 
 def _in_words(value: Any) -> str:

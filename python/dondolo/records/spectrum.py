@@ -8,12 +8,13 @@ from typing import Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
+from dondolo._base.shown import Shown
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class Spectrum(Saved):
+class Spectrum(Shown, Saved):
     """Elastic response spectrum of a record.
 
     Attributes
@@ -54,3 +55,12 @@ class Spectrum(Saved):
     def __repr__(self) -> str:
         low, high = self.periods.min(), self.periods.max()
         return f"<Spectrum: {len(self.periods)} periods, {low:g} to {high:g} s, damping {self.damping:g}>"
+
+    def _facts(self) -> list[tuple[str, str]]:
+        at = int(np.argmax(self.pseudo_acceleration))
+        return [
+            ("periods", f"{len(self.periods)}, {self.periods.min():g} to {self.periods.max():g} s"),
+            ("damping", f"{self.damping:g}"),
+            ("largest pseudo-acceleration", f"{self.pseudo_acceleration[at]:.4g} m/s2 at {self.periods[at]:g} s"),
+            ("largest displacement", f"{self.displacement.max():.4g} m"),
+        ]

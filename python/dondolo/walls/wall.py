@@ -14,7 +14,7 @@ from dondolo._base.shown import html_of
 from dondolo._fortran import _core
 from dondolo._fortran.buildings import BUILDING_NAMES
 from dondolo._fortran.handles import Handle
-from dondolo._fortran.library import check
+from dondolo._fortran.library import check, with_units
 from dondolo._fortran.walls import (
     WALL_PROPERTIES,
     FlatWall,
@@ -292,7 +292,7 @@ class Wall:
         return f"<{type(self).__name__} {self.name!r}: {facts}>"
 
     def _repr_html_(self) -> str:
-        return html_of(f"{type(self).__name__} '{self.name}'", self._facts())
+        return html_of(f"{type(self).__name__} '{self.name}'", with_units("wall", self._facts()))
 
     def to_frame(self) -> Any:
         """The wall and its static quantities as a pandas DataFrame of one row."""

@@ -32,8 +32,8 @@ module dondolo_building
       & property_type('damping', is_list, optional=.true., smallest=0.0_wp, largest=1.0_wp, less=.true., &
       &   usual_most=0.4_wp, if_more='is it in per cent?', example='0.05', &
       &   meaning='their damping ratios, or one for all; 0.05 if not given'), &
-      & property_type('participation', is_list, optional=.true., smallest=-100.0_wp, largest=100.0_wp, example='1.29', &
-      &   meaning='their participation factors times their shapes at the level of the wall'), &
+      & property_type('participation', is_list, optional=.true., smallest=-10.0_wp, largest=10.0_wp, example='1.29', &
+      &   meaning='their participation factors times their shapes at the level of the wall, no percentages'), &
       & property_type('storeys', is_integer, optional=.true., smallest=1.0_wp, largest=1000.0_wp, example='3', &
       &   meaning='number n of storeys, instead of participation: 3 n / (2 n + 1) level / building_height'), &
       & property_type('level', unit='m', optional=.true., smallest=0.0_wp, largest=1.0e3_wp, example='9.0', &

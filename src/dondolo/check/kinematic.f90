@@ -130,7 +130,7 @@ contains
    end subroutine new_kinematic
 
    !> The displacement at which ties break that carry more than half of the greatest multiplier
-   pure subroutine find_tie_fracture(kinematic)
+   subroutine find_tie_fracture(kinematic)
       type(kinematic_type), intent(inout) :: kinematic
 
       !> Parts of the rotation up to the end at which the greatest multiplier is looked for
@@ -160,7 +160,7 @@ contains
    end subroutine find_tie_fracture
 
    !> Multiplier alpha at a rotation
-   pure real(wp) function multiplier_at(self, q) result(multiplier)
+   real(wp) function multiplier_at(self, q) result(multiplier)
       class(kinematic_type), intent(in) :: self
       !> Rotation [rad]
       real(wp), intent(in) :: q
@@ -214,7 +214,7 @@ contains
    end function rotation
 
    !> Spectral acceleration of capacity a = alpha g/(e* FC) at a displacement [m/s2]
-   pure real(wp) function capacity(self, d, confidence) result(a)
+   real(wp) function capacity(self, d, confidence) result(a)
       class(kinematic_type), intent(in) :: self
       !> Displacement [m]
       real(wp), intent(in) :: d

@@ -30,7 +30,7 @@ module dondolo_ntc_check
 contains
 
    !> Kinematic check of a wall
-   pure subroutine check_ntc(sheet, kinematic, input, curve)
+   subroutine check_ntc(sheet, kinematic, input, curve)
       type(sheet_type), intent(out) :: sheet
       type(kinematic_type), intent(in) :: kinematic
       type(check_input_type), intent(in) :: input
@@ -112,7 +112,7 @@ contains
    end subroutine put_site
 
    !> Put what the mechanism has of its own
-   pure subroutine put_mechanism(sheet, kinematic, input)
+   subroutine put_mechanism(sheet, kinematic, input)
       type(sheet_type), intent(inout) :: sheet
       type(kinematic_type), intent(in) :: kinematic
       type(check_input_type), intent(in) :: input
@@ -128,7 +128,7 @@ contains
    end subroutine put_mechanism
 
    !> Put a linear check: of SLD, or of SLV with the behaviour factor
-   pure subroutine put_linear(sheet, kinematic, input, spectrum, state)
+   subroutine put_linear(sheet, kinematic, input, spectrum, state)
       type(sheet_type), intent(inout) :: sheet
       type(kinematic_type), intent(in) :: kinematic
       type(check_input_type), intent(in) :: input
@@ -151,7 +151,7 @@ contains
    end subroutine put_linear
 
    !> Factor on the site's a_g at which the mechanism starts
-   pure real(wp) function activation(kinematic, input, spectrum) result(factor)
+   real(wp) function activation(kinematic, input, spectrum) result(factor)
       type(kinematic_type), intent(in) :: kinematic
       type(check_input_type), intent(in) :: input
       type(floor_spectrum_type), intent(in) :: spectrum
@@ -171,7 +171,7 @@ contains
    end function capacity_displacement
 
    !> Put a nonlinear check
-   pure subroutine put_nonlinear(sheet, kinematic, input, spectrum, state)
+   subroutine put_nonlinear(sheet, kinematic, input, spectrum, state)
       type(sheet_type), intent(inout) :: sheet
       type(kinematic_type), intent(in) :: kinematic
       type(check_input_type), intent(in) :: input

@@ -51,7 +51,7 @@ contains
    end subroutine hold_plastic
 
    !> Greatest acceleration that the wall withstands at any rotation up to its capacity, pushed out for the first time [m/s2]
-   pure function greatest_acceleration(mechanism) result(a)
+   function greatest_acceleration(mechanism) result(a)
       class(mechanism_type), intent(in) :: mechanism
       !> Greatest value of [G - Q + sum T X]/L
       real(wp) :: a

@@ -170,7 +170,8 @@ module dondolo_wall_properties
       &   largest=1.0e10_wp, usual_least=1.0e7_wp, usual_most=3.0e9_wp, if_less='is it in MPa?', if_more='is it in Pa?', &
       &   example='1.8e8', meaning='yield stress of each tie, 1.8e8 if not given'), &
       & property_type('tie_preload', is_list, unit='Pa', owners=one_sided, optional=.true., smallest=0.0_wp, &
-      &   largest=1.0e10_wp, example='0.0', meaning='stress of each tie at rest, less than its yield stress, 0 if not given'), &
+      &   largest=1.0e10_wp, usual_least=1.0e5_wp, if_less='is it in MPa, or a force?', example='0.0', &
+      &   meaning='stress of each tie at rest, less than its yield stress, 0 if not given'), &
       & property_type('tie_strain', is_list, owners=one_sided, optional=.true., positive=.true., largest=1.0_wp, &
       &   usual_most=0.3_wp, if_more='is it in per cent?', example='0.02', &
       &   meaning='strain of each tie at which it or its anchorage breaks, 0.02 if not given'), &
@@ -182,16 +183,19 @@ module dondolo_wall_properties
       &   largest=10.0_wp, usual_most=1.0_wp, if_more='is it in centimetres?', example='0.12', &
       &   meaning='length by which stones of the wall overlap those of transverse walls, whose friction holds it'), &
       & property_type('interlock_course', unit='m', owners=one_sided, optional=.true., positive=.true., &
-      &   smallest=1.0e-3_wp, largest=1.0e3_wp, usual_most=1.0_wp, if_more='is it in centimetres?', example='0.10', &
+      &   smallest=1.0e-3_wp, largest=1.0e3_wp, usual_least=0.03_wp, usual_most=1.0_wp, &
+      &   if_less='is it the height of a joint?', if_more='is it in centimetres?', example='0.10', &
       &   meaning='height of a course there'), &
       & property_type('interlock_thickness', unit='m', owners=one_sided, optional=.true., positive=.true., &
       &   largest=10.0_wp, usual_most=3.0_wp, if_more='is it in centimetres?', example='0.25', &
       &   meaning='thickness of a transverse wall'), &
       & property_type('interlock_spacing', unit='m', owners=one_sided, optional=.true., positive=.true., &
-      &   smallest=0.1_wp, largest=1.0e3_wp, usual_most=50.0_wp, if_more='is it in centimetres?', example='5.0', &
+      &   smallest=0.1_wp, largest=1.0e3_wp, usual_least=1.0_wp, usual_most=50.0_wp, &
+      &   if_less='is it a thickness?', if_more='is it in centimetres?', example='5.0', &
       &   meaning='distance of two transverse walls'), &
       & property_type('interlock_friction', owners=one_sided, optional=.true., positive=.true., largest=2.0_wp, &
-      &   example='0.577', meaning='coefficient of friction in the overlaps, 0.577 if not given'), &
+      &   usual_most=1.0_wp, if_more='is it an angle, or in per cent?', example='0.577', &
+      &   meaning='coefficient of friction in the overlaps, 0.577 if not given'), &
       & property_type('hinge', default=0.5_wp, smallest=0.01_wp, largest=0.99_wp, owners=two_block, &
       &   meaning='height of the intermediate hinge / height of the wall'), &
       & property_type('restitution', is_text, word='default', checked_by_owner=.true., column='restitution_model', &

@@ -28,10 +28,10 @@ module dondolo_warning
       character(len=32) :: code = ''
       !> What it is about
       integer :: words = 0
-      type(word_type) :: word(4)
+      type(word_type) :: word(4) = word_type()
       !> Its numbers
       integer :: numbers = 0
-      type(number_type) :: number(6)
+      type(number_type) :: number(6) = number_type()
    contains
       !> Say what it is about
       procedure :: about

@@ -36,7 +36,12 @@ contains
       case ('levels_above_usual')
          call warning%get_word('im', im)
          text = 'levels up to '//rounded(warning%value('largest'))//' of '//im//', more than '// &
-            & to_text(warning%value('limit'))//' g: are they in m/s2 or cm/s2?'
+            & to_text(warning%value('limit'))
+         if (im == 'pgv') then
+            text = text//' m/s: are they in cm/s?'
+         else
+            text = text//' g: are they in m/s2 or cm/s2?'
+         end if
       case ('record_without_motion')
          text = 'record '''//record//''' has a PGA of 0: it cannot be scaled and moves no wall'
       case ('record_pga')
@@ -96,12 +101,13 @@ contains
       call warning%get_word('wall', wall)
       call warning%get_word('variable', variable)
       call warning%get_word('unit', unit)
-      text = 'wall '''//wall//''': '//variable//' = '//rounded(warning%value('value'))//' '//unit
+      if (len(unit) > 0) unit = ' '//unit
+      text = 'wall '''//wall//''': '//variable//' = '//rounded(warning%value('value'))//unit
       associate (property => wall_properties(find_property(wall_properties, variable)))
          if (warning%code == 'value_below_usual') then
-            text = text//' is less than '//to_text(warning%value('limit'))//' '//unit//': '//trim(property%if_less)
+            text = text//' is less than '//to_text(warning%value('limit'))//unit//': '//trim(property%if_less)
          else
-            text = text//' is more than '//to_text(warning%value('limit'))//' '//unit//': '//trim(property%if_more)
+            text = text//' is more than '//to_text(warning%value('limit'))//unit//': '//trim(property%if_more)
          end if
       end associate
       call count_walls(warning, text)

@@ -24,7 +24,7 @@ module dondolo_warnings
    real(wp), parameter :: off_level = 1.1_wp
 
    !> Levels that no ground motion has [g], of the PGA and of spectral accelerations
-   real(wp), parameter :: largest_pga = 4.0_wp, largest_sa = 10.0_wp
+   real(wp), parameter :: largest_pga = 4.0_wp, largest_sa = 10.0_wp, largest_pgv = 5.0_wp
 
    !> What there is to say of levels and scale factors
    type :: scale_warning_type
@@ -99,6 +99,7 @@ contains
          self%highest = maxval(stripes%levels)
          self%im = stripes%im
          if (stripes%im == 'pga') self%usual = largest_pga
+         if (stripes%im == 'pgv') self%usual = largest_pgv
          if (stripes%im(:min(2, len(stripes%im))) == 'sa') self%usual = largest_sa
       end if
       if (allocated(study%factor)) call look_at_given(self, study, wall)

@@ -127,7 +127,7 @@ contains
    end subroutine take
 
    !> The motion under an accelerogram, at a relative tolerance and an absolute one of a hundredth of it
-   pure subroutine simulate(self, record, scale, rtol, edp_limit, result)
+   subroutine simulate(self, record, scale, rtol, edp_limit, result)
       class(quadruple_wall_type), intent(in) :: self
       type(quadruple_record_type), intent(in) :: record
       !> Factor on it, negative to reverse its polarity

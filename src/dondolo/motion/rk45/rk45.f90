@@ -33,7 +33,7 @@ module dondolo_rk45
 contains
 
    !> The motion of a wall under an accelerogram
-   pure subroutine simulate_rk45(mechanism, record, scale, solver, response, trace, release, work)
+   subroutine simulate_rk45(mechanism, record, scale, solver, response, trace, release, work)
       class(mechanism_type), intent(in) :: mechanism
       type(record_type), intent(in) :: record
       !> Factor on it, negative to reverse its polarity
@@ -130,7 +130,7 @@ contains
    end subroutine wait
 
    !> Add the free motion after the record of a wall with ties, and say what the history did to them
-   pure subroutine finish_ties(wall, constants, record, still_rocks, motion, trace)
+   subroutine finish_ties(wall, constants, record, still_rocks, motion, trace)
       !> The wall as its ties hold it
       class(mechanism_type), intent(in) :: wall
       !> Its constants

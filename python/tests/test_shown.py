@@ -1,0 +1,130 @@
+"""Results as a notebook shows them: tables of names and texts, with units."""
+
+import html.parser
+import inspect
+
+import matplotlib
+
+matplotlib.use("agg")
+
+import numpy as np
+import pytest
+
+import dondolo as dd
+
+
+class Rows(html.parser.HTMLParser):
+    """The rows of a table, name and text; tags that are not closed are errors."""
+
+    def __init__(self, text):
+        super().__init__()
+        self.caption, self.rows, self.open = "", {}, []
+        self.feed(text)
+        assert self.open == []
+
+    def handle_starttag(self, tag, attrs):
+        self.open.append(tag)
+        if tag == "th":
+            self.name = ""
+        elif tag == "td":
+            self.rows[self.name] = ""
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        if self.open[-1] == "caption":
+            self.caption += data
+        elif self.open[-1] == "th":
+            self.name += data
+        else:
+            self.rows[self.name] += data
+
+
+@pytest.fixture(scope="module")
+def things(wall, stripes, few, records, root, tmp_path_factory):
+    """An object of each kind."""
+    other, quiet = dd.OneSidedWall(height=1.8, thickness=0.25, name="other"), {"progress": False}
+    levels = [0.4, 0.6, 0.8, 1.0, 1.2]
+    people = dd.typology([wall, other], few, levels, **quiet)
+    curve, ida = stripes.fit(), dd.incremental(stripes)
+    site = dd.Site(ag=0.2, f0=2.5, tc_star=0.35, soil="B")
+    hazard = dd.HazardCurve([0.05, 0.5, 3.0], [0.05, 0.001, 1e-7])
+    risk = dd.mean_annual_frequency(curve, hazard)
+    two_block = dd.TwoBlockWall(3.0, 0.25)
+    pulses = {"frequencies": [1.0, 2.0], "amplitudes": [0.2, 0.6]}
+    target = dd.ec8_spectrum(0.25, soil="C", periods=[0.1, 0.2, 0.5, 1.0, 2.0])
+    prefix = tmp_path_factory.mktemp("results") / "people"
+    people.write_results(prefix)
+    nrml = prefix.with_suffix(".xml")
+    dd.write_nrml(nrml, {"walls": {"collapse": curve}})
+    case = dd.read_case(root / "data/cases/parapet.nml")
+    house = dd.Building(0.3, storeys=3, level=9.0, building_height=9.0)
+    found = [
+        wall, dd.FreeStandingWall(1.5, 0.25), two_block, dd.Population([wall, other]), house,
+        records[0], dd.RecordSet(few), dd.select_records(records, target, 5), records[0].spectrum([0.1, 1.0]), site,
+        target, stripes, curve, curve.bootstrap(n_resamples=20), ida, ida.fit(), dd.cloud(wall, records),
+        dd.compare(curve, dd.multiple_stripe(other, records, levels, **quiet).fit()), people, people["all"],
+        people["all"].bootstrap(n_resamples=20), hazard, risk, risk.uncertainty(n_draws=100),
+        dd.simulate(wall, few[0]), case, case.run(progress=False), dd.check_ntc(wall, site),
+        dd.compare_designs({"now": wall, "thicker": dd.OneSidedWall(1.5, 0.3)}, records, levels, **quiet),
+        dd.compare_intensities(wall, records, ["pga", "pgv"], n_levels=6, n_resamples=20, **quiet),
+        dd.overturning_spectrum(wall, dd.pulses.one_sine, **pulses, **quiet),
+        dd.weakest_hinge(two_block, few, levels, hinges=[0.5, 0.7], **quiet),
+        dd.uncertain_wall(two_block, few, levels, sources={"hinge": dd.Uniform(0.5, 0.7)}, count=10, **quiet),
+        dd.read_nrml(nrml), dd.DiscreteFragility([0.1, 0.2], [0.0, 0.25]),
+        dd.read_results(prefix),
+    ]  # fmt: skip
+    return {type(one).__name__: one for one in found}
+
+
+def rows(thing):
+    return Rows(thing._repr_html_()).rows
+
+
+def test_every_result_is_a_table(things):
+    """Of what analyses and readers return; values that are plain numbers, tuples or options have none."""
+    plain = {
+        "Boundary", "Certified", "Choice", "Group", "Logistic", "Lognormal", "Normal", "Regression", "RotD", "Solver",
+        "State", "Terms", "Triangular", "Uniform", "Wall", "Window", "Work",
+    }  # fmt: skip
+    kinds = {
+        name for name in dd.__all__ if inspect.isclass(one := getattr(dd, name)) and not issubclass(one, BaseException)
+    }
+    assert kinds - plain - {"DondoloWarning"} == set(things)
+    for name, thing in things.items():
+        shown = Rows(thing._repr_html_())
+        assert name in shown.caption, name
+        assert shown.rows, name
+        assert all(what and text for what, text in shown.rows.items()), name
+        assert len(repr(thing)) < 2500, name
+
+
+@pytest.mark.parametrize(
+    ("name", "row", "text"),
+    [
+        ("OneSidedWall", "height", "1.5 m"),
+        ("OneSidedWall", "density", " kg/m3"),
+        ("Building", "period", "0.3 s"),
+        ("Spectrum", "largest displacement", " m"),
+        ("Fragility", "theta", " g ("),
+        ("PopulationCurve", "theta", " g"),
+        ("PopulationCurve", "walls", "2"),
+        ("IntensityComparison", "pgv", " m/s, dispersion"),
+        ("Case", "levels", " g"),
+        ("Bootstrap", "theta, 95 % interval", " to "),
+        ("TypologyBootstrap", "drawn", "records and walls"),
+        ("Comparison", "pairing", "paired, 22 clusters shared"),
+        ("CodeCheck", "a_0", " m/s2"),
+    ],
+)
+def test_units(things, name, row, text):
+    shown = next(value for what, value in rows(things[name]).items() if what.startswith(row))
+    assert text in shown
+
+
+def test_a_certificate_is_shown(wall, few):
+    sure = dd.multiple_stripe(wall, few, [0.5, 0.9], certify=True, progress=False)
+    counts = [int(word) for word in rows(sure)["certified"].replace(",", "").split() if word.isdigit()]
+    assert sum(counts) == sure.edp.size
+    assert counts[0] == np.count_nonzero(sure.status == dd.Certified.DOUBLE)
