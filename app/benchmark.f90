@@ -7,7 +7,7 @@ module dondolo_benchmark
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_machine, only : arithmetic_rate, processor_name, seconds_since, surroundings
-   use dondolo_population, only : member_type
+   use dondolo_member, only : member_type
    use dondolo_row_result, only : row_result_type
    use dondolo_run_rows, only : run_rows
    use dondolo_stripes, only : multiple_stripe, stripes_type

@@ -4,7 +4,7 @@ module dondolo_benchmark_walls
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_normal_form, only : new_normal_form, normal_form_type
-   use dondolo_population, only : member_type
+   use dondolo_member, only : member_type
    use dondolo_record, only : record_type
    use dondolo_scaling, only : new_scaling
    use dondolo_suite, only : new_suite

@@ -10,7 +10,8 @@ module dondolo_plan
    use dondolo_lines, only : lines_type
    use dondolo_plan_wall, only : name_width, print_body, print_head, print_row, print_wall
    use dondolo_plausibility, only : wall_warning_type
-   use dondolo_population, only : member_type, population_reader_type
+   use dondolo_member, only : member_type
+   use dondolo_population, only : population_reader_type
    use dondolo_population_case, only : find_start
    use dondolo_record, only : record_type
    use dondolo_record_table, only : record_table

@@ -266,23 +266,16 @@ contains
          & ' histories in double precision, '//to_text(count(row%certified%status == in_quadruple))// &
          & ' in 33 digits, '//to_text(count(row%certified%status == not_computable))// &
          & ' not computable from this input'
-<<<<<<< HEAD
       if (.not. any(row%certified%status == not_computable)) return
       do k = 1, size(row%bounds)
          state = ''
          if (k < size(row%bounds)) state = ' of EDP '//rounded(case%stripes%thresholds(k))
          associate (bounds => row%bounds(k))
             if (min(bounds%theta_lowest, bounds%theta_highest) > 0.0_wp) write (output_unit, '(a)') &
-               & 'whatever becomes of the last: theta'//state//' between '//rounded(bounds%theta_lowest)//' and '// &
-               & rounded(bounds%theta_highest)
+               & 'whichever way those not computable end, theta'//state//' is between '//rounded(bounds%theta_lowest)// &
+               & ' and '//rounded(bounds%theta_highest)
          end associate
       end do
-=======
-      if (any(row%certified%status == not_computable) .and. all(row%theta_bounds > 0.0_wp)) then
-         write (output_unit, '(a)') 'whichever way those not computable end, theta is between '// &
-            & rounded(row%theta_bounds(1))//' and '//rounded(row%theta_bounds(2))
-      end if
->>>>>>> h2
    end subroutine print_certificates
 
    !> Print the curves of a population

@@ -5,7 +5,8 @@ program test_facade
    use checks, only : check, check_close, check_error, check_ok, finish, suite
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
-   use dondolo_population, only : member_type, population_reader_type, read_population
+   use dondolo_member, only : member_type
+   use dondolo_population, only : population_reader_type, read_population
    use dondolo_variants, only : stated_wall_type
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    implicit none

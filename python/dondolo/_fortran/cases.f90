@@ -6,7 +6,8 @@ module cases
    use dondolo_read_case, only : load_case => read_case
    use dondolo_error, only : error_type
    use dondolo_parcel, only : parcel_type, send
-   use dondolo_population, only : member_type, read_population
+   use dondolo_member, only : member_type
+   use dondolo_population, only : read_population
    use dondolo_record_parcel, only : pack_records
    use dondolo_wall_parcel, only : pack_members
    implicit none

@@ -9,7 +9,7 @@ module stores
    use dondolo_identity, only : add_wall, study_identity
    use dondolo_interrupt, only : check_interrupt
    use dondolo_parcel, only : parcel_type, send
-   use dondolo_population, only : member_type
+   use dondolo_member, only : member_type
    use dondolo_row_result, only : row_result_type, shape_type
    use dondolo_run_rows, only : run_block => run_rows
    use dondolo_store, only : open_file => open_store, store_type

@@ -5,7 +5,7 @@ module dondolo_wall_parcel
    use dondolo_error, only : add_place, error_type, raise_input
    use dondolo_mechanism, only : mechanism_type
    use dondolo_parcel, only : parcel_type
-   use dondolo_population, only : member_type
+   use dondolo_member, only : member_type
    use dondolo_property, only : is_list, is_text, is_words
    use dondolo_text, only : to_text
    use dondolo_tie_statics, only : greatest_acceleration, plastic_acceleration

@@ -6,7 +6,8 @@ module walls
    use dondolo_handles, only : find_walls, hold, walls_type
    use dondolo_mechanism, only : mechanism_type
    use dondolo_parcel, only : parcel_type, send
-   use dondolo_population, only : member_type, read_population
+   use dondolo_member, only : member_type
+   use dondolo_population, only : read_population
    use dondolo_text, only : to_text
    use dondolo_tie_statics, only : ties_after
    use dondolo_wall, only : wall_type

@@ -22,8 +22,7 @@ module dondolo_population
    implicit none
    private
 
-   public :: member_type, population_reader_type, read_population
-   public :: member_properties
+   public :: population_reader_type, read_population
 
    !> Memory that a row takes where all are kept [bytes]
    real(wp), parameter :: bytes_of_row = 4000.0_wp

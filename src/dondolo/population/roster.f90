@@ -2,7 +2,7 @@
 module dondolo_roster
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
-   use dondolo_population, only : member_type
+   use dondolo_member, only : member_type
    use dondolo_wall, only : mechanism_names
    implicit none
    private

@@ -5,7 +5,7 @@
 module dondolo_run_rows
    use, intrinsic :: omp_lib, only : omp_get_thread_num
    use dondolo_error, only : add_place, error_type
-   use dondolo_population, only : member_type
+   use dondolo_member, only : member_type
    use dondolo_queue, only : progress_interface
    use dondolo_row_result, only : row_result_type
    use dondolo_stripes, only : plan_stripes, run_histories, stripes_type

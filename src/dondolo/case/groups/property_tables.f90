@@ -4,7 +4,7 @@ module dondolo_property_tables
    use dondolo_check_input, only : check_properties
    use dondolo_history_group, only : history_properties
    use dondolo_job_group, only : job_properties
-   use dondolo_population, only : member_properties
+   use dondolo_member, only : member_properties
    use dondolo_population_group, only : population_properties
    use dondolo_property, only : property_type
    use dondolo_records_group, only : records_properties

@@ -15,7 +15,8 @@ module dondolo_read_case
    use dondolo_namelist, only : namelist_type, read_namelist
    use dondolo_namelist_group, only : group_type
    use dondolo_paths, only : beside
-   use dondolo_population, only : member_type, population_reader_type
+   use dondolo_member, only : member_type
+   use dondolo_population, only : population_reader_type
    use dondolo_population_group, only : read_population_group
    use dondolo_property_tables, only : group_names
    use dondolo_record, only : largest_acceleration, record_type

@@ -11,7 +11,8 @@ module dondolo_survey
    use dondolo_line_reader, only : line_reader_type
    use dondolo_lines, only : lines_type
    use dondolo_plausibility, only : wall_warning_type
-   use dondolo_population, only : member_type, population_reader_type
+   use dondolo_member, only : member_type
+   use dondolo_population, only : population_reader_type
    use dondolo_roster, only : roster_type
    use dondolo_solver, only : check_limit
    use dondolo_stripes, only : plan_stripes, stripes_type

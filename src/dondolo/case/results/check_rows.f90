@@ -8,7 +8,7 @@ module dondolo_check_rows
    use dondolo_kinds, only : wp
    use dondolo_kinematic, only : kinematic_type, new_kinematic
    use dondolo_ntc_check, only : check_ntc
-   use dondolo_population, only : member_type
+   use dondolo_member, only : member_type
    use dondolo_report_rows, only : make_wall_cells
    use dondolo_text, only : to_table
    use dondolo_wall, only : wall_type

@@ -5,7 +5,7 @@ module dondolo_report_rows
    use dondolo_csv_row, only : text_cell
    use dondolo_fragility, only : fragility_type
    use dondolo_kinds, only : wp
-   use dondolo_population, only : member_type
+   use dondolo_member, only : member_type
    use dondolo_property, only : column_name, is_list, is_many, is_words, word_of
    use dondolo_response, only : response_type
    use dondolo_text, only : to_table, to_text

@@ -5,7 +5,8 @@ module dondolo_row_reports
    use dondolo_check_rows, only : check_row_head, make_check_row
    use dondolo_csv_row, only : text_cell
    use dondolo_error, only : error_type, raise_failure
-   use dondolo_population, only : member_type, population_reader_type
+   use dondolo_member, only : member_type
+   use dondolo_population, only : population_reader_type
    use dondolo_report_rows, only : certified_head, fragility_head, history_head, make_certified_cells, make_fragility_row, &
       & make_history_row, make_stripes_row, make_wall_cells, make_wall_head, make_wall_row, stripes_head
    use dondolo_result_files, only : result_files_type

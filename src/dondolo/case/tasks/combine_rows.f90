@@ -5,7 +5,8 @@ module dondolo_combine_rows
    use dondolo_designs, only : compare_designs
    use dondolo_error, only : error_type, raise_failure
    use dondolo_kinds, only : wp
-   use dondolo_population, only : member_type, population_reader_type
+   use dondolo_member, only : member_type
+   use dondolo_population, only : population_reader_type
    use dondolo_population_counts, only : new_population_counts
    use dondolo_population_errors, only : population_errors_type
    use dondolo_results, only : results_type, shown_rows

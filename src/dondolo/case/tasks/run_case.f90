@@ -12,7 +12,8 @@ module dondolo_run_case
    use dondolo_kinds, only : wp
    use dondolo_memory, only : raise_shortage
    use dondolo_plausibility, only : wall_warning_type
-   use dondolo_population, only : member_type, population_reader_type
+   use dondolo_member, only : member_type
+   use dondolo_population, only : population_reader_type
    use dondolo_queue, only : progress_interface
    use dondolo_record, only : record_type
    use dondolo_results, only : results_type

@@ -4,7 +4,8 @@ module dondolo_unite_rows
    use dondolo_error, only : error_type, raise_failure
    use dondolo_kinds, only : wp
    use dondolo_memory, only : check_room
-   use dondolo_population, only : member_type, population_reader_type
+   use dondolo_member, only : member_type
+   use dondolo_population, only : population_reader_type
    use dondolo_results, only : results_type
    use dondolo_row_result, only : row_result_type
    use dondolo_study, only : runs_of, study_type
