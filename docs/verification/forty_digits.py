@@ -1,14 +1,14 @@
 """Hard histories of one block by another program in 60 digits: python forty_digits.py RECORDS (needs python-flint).
 
-Nothing of dondolo is used but its accelerograms. Taylor series of degree 24 in ball arithmetic (Arb) follow the equation of a
-block about its corner,
+Nothing of dondolo is used but its accelerograms. Taylor series of degree 24 in ball arithmetic (Arb) follow the
+equation of a block about its corner,
 
     q'' = -p^2 [sin(alpha - q) + s a(t)/g cos(alpha - q)],    p^2 = 3 g/(4 R),
 
 from one sample, impact or start to the next. Chains of bounces are followed bounce by bounce until the speed is below
-1e-26 rad/s. The tables hard_*.csv of test/reference are held against it, with the factor on the record one unit in the last
-place smaller and greater too; walls of two blocks and restitutions above 0.97 are left out, whose chains are too long for
-this.
+1e-26 rad/s. The tables hard_*.csv of test/reference are held against it, with the factor on the record one unit in the
+last place smaller and greater too; walls of two blocks and restitutions above 0.97 are left out, whose chains are too
+long for this.
 """
 
 import csv
@@ -29,6 +29,7 @@ STILL = arb("1e-26")  # speed below which a wall is at rest [rad/s]
 LIMIT = 0.97  # largest restitution that is followed
 AGREES = 1e-7  # how far two EDPs may be apart
 G = 9.81  # as a double
+SHOWN = ("mechanism", "height", "record", "status", "edp", "edp_lowest", "edp_highest")
 
 
 def exact(ball):
@@ -169,7 +170,7 @@ def rate(d, x):
 
 
 def root(d, low, high):
-    """Where a series falls to zero between two places: Newton's method from that of its parabola, or from the middle."""
+    """Where a series falls to zero between two places: Newton's method from that of its parabola."""
     discriminant = d[1] ** 2 - 4 * d[0] * d[2]
     x = exact(2 * d[0] / (discriminant.sqrt() - d[1])) if discriminant > 0 else low
     for _ in range(60):
@@ -213,14 +214,13 @@ def main(folder):
     with multiprocessing.Pool() as pool:
         for row, edps in pool.imap(compare, tasks):
             count = agree[row["status"]]
-            lowest, highest = float(row["edp_lowest"]), float(row["edp_highest"])
             if row["status"] == "quadruple":
                 fits = np.ptp(edps) <= 2e-6 and abs(edps[0] - float(row["edp"])) <= AGREES
             else:
                 fits = np.ptp([*edps, float(row["edp"])]) > 1e-6
             count[0] += fits
             count[1] += 1
-            print(row["mechanism"], row["height"], row["record"], row["status"], row["edp"], lowest, highest, *edps, fits, flush=True)
+            print(*(row[name] for name in SHOWN), *edps, fits, flush=True)
     for status, (fits, of) in agree.items():
         print(f"{status}: {fits} of {of} agree")
 
