@@ -287,14 +287,15 @@ contains
       type(check_input_type), allocatable :: check_by_code
       type(stated_wall_type) :: wall
       character(len=:), allocatable :: file
+      logical :: designs
 
       select case (name)
       case ('job')
          call read_job(group, job, error)
          if (.not. allocated(error)) call job%put(settings)
       case ('population')
-         call read_population_group(group, file, error)
-         if (.not. allocated(error)) call put_population(file, settings)
+         call read_population_group(group, file, designs, error)
+         if (.not. allocated(error)) call put_population(file, designs, settings)
       case ('records')
          call read_records_group(group, records, error)
          if (.not. allocated(error)) call records%put(settings)

@@ -12,7 +12,7 @@ module dondolo_error_estimate
    implicit none
    private
 
-   public :: runs_of_estimate, other_run, estimated_error
+   public :: runs_of_estimate, other_run, estimated_error, certain
 
    !> Runs of a history whose error is estimated
    integer, parameter :: runs_of_estimate = 3
