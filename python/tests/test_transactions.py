@@ -190,7 +190,7 @@ def checkpoint(tmp_path_factory, few):
     first = whole.partition(b"\n")[0]
     at = len(first) + 1 + int(first.split()[3])
     for _ in range(4):
-        at += struct.unpack_from("=q", whole, at + 8)[0]
+        at += struct.unpack_from("=q", whole, at + 16)[0]
     return whole, whole[:at]
 
 

@@ -23,7 +23,7 @@ SOFT = {"density": dd.Uniform(1600.0, 2000.0)}
 
 
 @pytest.fixture(scope="module")
-def records():
+def motions():
     return dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", count=20)
 
 
@@ -33,8 +33,8 @@ def wall():
 
 
 @pytest.fixture(scope="module")
-def found(wall, records):
-    return dd.uncertain_wall(wall, records, LEVELS, sources=SOURCES, count=80, progress=False)
+def found(wall, motions):
+    return dd.uncertain_wall(wall, motions, LEVELS, sources=SOURCES, count=80, progress=False)
 
 
 def test_sample(found):
@@ -52,13 +52,13 @@ def test_sample(found):
     assert found.sample[3].name == "strip 0004"
 
 
-def test_common_random_numbers(found, wall, records):
+def test_common_random_numbers(found, wall, motions):
     """The variants run under the same records, as each would alone."""
     for i in (0, 41, 79):
-        own = dd.multiple_stripe(found.sample[i], records, LEVELS, progress=False)
+        own = dd.multiple_stripe(found.sample[i], motions, LEVELS, progress=False)
         assert np.array_equal(own.collapses, found.typology.collapses[:, i])
         assert own.fit().theta == found.thetas[i]
-    assert found.as_given.theta == dd.multiple_stripe(wall, records, LEVELS, progress=False).fit().theta
+    assert found.as_given.theta == dd.multiple_stripe(wall, motions, LEVELS, progress=False).fit().theta
 
 
 def test_dispersions(found):
@@ -72,7 +72,7 @@ def test_dispersions(found):
     assert found.curve.mean(grid) == pytest.approx([stats.norm.cdf(np.log(x / thetas) / betas).mean() for x in grid])
 
 
-def test_ends(found, wall, records):
+def test_ends(found, wall, motions):
     """One source at its ends, the others at their medians."""
     assert found.values[0] == pytest.approx([0.843, 0.87, 0.897], rel=1e-12)
     hinge, depth = (SOURCES[what].ppf(np.array([0.05, 0.5, 0.95])) for what in ("hinge", "hinge_depth"))
@@ -81,7 +81,7 @@ def test_ends(found, wall, records):
         dd.TwoBlockWall(3.0, 0.25, hinge=h, hinge_depth=d, restitution_factor=f)
         for f, h, d in [(0.87, hinge[1], depth[1]), (0.87, hinge[0], depth[1]), (0.87, hinge[2], depth[1])]
     ]
-    middle, low, high = (dd.multiple_stripe(one, records, LEVELS, progress=False).fit() for one in walls)
+    middle, low, high = (dd.multiple_stripe(one, motions, LEVELS, progress=False).fit() for one in walls)
     assert found.at_medians.theta == middle.theta
     assert [curve.theta for curve in found.ends[1]] == [low.theta, high.theta]
     # Lower restitution takes energy out, and a deeper hinge makes the wall more slender
@@ -94,10 +94,10 @@ def test_numbers(found):
     assert found.numbers == (found.at_medians.theta, found.at_medians.theta)
 
 
-def test_histories_in_doubt(wall, records):
+def test_histories_in_doubt(wall, motions):
     """Twice the estimated error up to the limit: a history that may collapse, or a collapse that may be none."""
     levels = [0.6, 0.8, 1.0, 1.2]
-    stripes = dd.multiple_stripe(wall, records, levels, estimate_error=True, progress=False)
+    stripes = dd.multiple_stripe(wall, motions, levels, estimate_error=True, progress=False)
     error = np.zeros_like(stripes.edp)
     stays = int(np.flatnonzero(~stripes.collapsed[1])[0])
     falls = int(np.flatnonzero(stripes.collapsed[2])[0])
@@ -187,7 +187,7 @@ def test_published():
     assert all(name.split("_")[1] in one.source for name, one in published.items())
 
 
-def test_one_sided_with_sections(records):
+def test_one_sided_with_sections(motions):
     """What a wall has beside numbers goes on: storeys, loads, words, gravity."""
     whole = dd.OneSidedWall(
         section_height=[1.0, 0.8],
@@ -199,7 +199,7 @@ def test_one_sided_with_sections(records):
         gravity=9.8,
         name="front",
     )
-    found = dd.uncertain_wall(whole, records, LEVELS, sources=SOFT, count=20, progress=False)
+    found = dd.uncertain_wall(whole, motions, LEVELS, sources=SOFT, count=20, progress=False)
     one = found.sample[7]
     assert (one.section_height, one.load, one.load_inertia, one.gravity) == (
         (1.0, 0.8),
@@ -254,9 +254,9 @@ def test_plot(found):
         ),
     ],
 )
-def test_refused(wall, records, sources, message):
+def test_refused(wall, motions, sources, message):
     with pytest.raises(dd.DondoloError, match=message):
-        dd.uncertain_wall(wall, records, LEVELS, sources=sources, count=12, progress=False)
+        dd.uncertain_wall(wall, motions, LEVELS, sources=sources, count=12, progress=False)
 
 
 @pytest.mark.parametrize(

@@ -241,8 +241,7 @@ contains
          type(response_type), intent(in) :: one, other
 
          are_alike = (one%collapsed .eqv. other%collapsed) .and. abs(one%edp - other%edp) <= agreement
-         if (one%collapsed .and. other%collapsed) &
-            & are_alike = rate*abs(one%time_of_peak - other%time_of_peak) <= certain
+         if (one%collapsed) are_alike = are_alike .and. rate*abs(one%time_of_peak - other%time_of_peak) <= certain
       end function are_alike
 
    end subroutine certify

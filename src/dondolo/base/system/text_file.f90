@@ -57,31 +57,13 @@ contains
       logical, intent(in), optional :: has_latin
 
       character(len=:), allocatable :: bytes_read
-      integer(int64) :: bytes
-      integer :: unit, stat
 
       text%file = file
-      call open_text(file, unit, bytes, error)
+      ! One thread at a time: a file that two rows of a catalogue name must not be open twice.
+      !$omp critical (open_file)
+      call load(file, longest, text%text, error)
+      !$omp end critical (open_file)
       if (allocated(error)) return
-      if (bytes > longest) then
-         close (unit)
-         call raise_input(error, file//': has '//to_text(bytes)//' bytes: must be at most '//to_text(longest))
-         return
-      end if
-      call check_room(bytes_of_byte*real(bytes, wp), error)
-      if (allocated(error)) then
-         close (unit)
-         call add_place(error, file)
-         return
-      end if
-      allocate (character(len=max(bytes, 0_int64)) :: text%text)
-      stat = 0
-      if (bytes > 0) read (unit, iostat=stat) text%text
-      close (unit)
-      if (stat /= 0) then
-         call raise_input(error, file//': cannot be read')
-         return
-      end if
       call settle(text)
       if (text%lines() == 0) then
          call raise_input(error, file//': the file is empty')
@@ -97,6 +79,40 @@ contains
       deallocate (text%first, text%last)
       call index_lines(text)
    end subroutine read_text_file
+
+   !> The bytes of a file
+   subroutine load(file, longest, content, error)
+      !> Path of the file
+      character(len=*), intent(in) :: file
+      !> Most bytes that it may have
+      integer(int64), intent(in) :: longest
+      !> What is in it
+      character(len=:), allocatable, intent(out) :: content
+      !> The file is missing, unreadable, empty or too large, for the memory too
+      type(error_type), allocatable, intent(out) :: error
+
+      integer(int64) :: bytes
+      integer :: unit, stat
+
+      call open_text(file, unit, bytes, error)
+      if (allocated(error)) return
+      if (bytes > longest) then
+         close (unit)
+         call raise_input(error, file//': has '//to_text(bytes)//' bytes: must be at most '//to_text(longest))
+         return
+      end if
+      call check_room(bytes_of_byte*real(bytes, wp), error)
+      if (allocated(error)) then
+         close (unit)
+         call add_place(error, file)
+         return
+      end if
+      allocate (character(len=max(bytes, 0_int64)) :: content)
+      stat = 0
+      if (bytes > 0) read (unit, iostat=stat) content
+      close (unit)
+      if (stat /= 0) call raise_input(error, file//': cannot be read')
+   end subroutine load
 
    !> Make UTF-8 with lines that end in LF or CRLF of what was read
    subroutine settle(text)

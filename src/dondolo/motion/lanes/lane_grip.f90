@@ -10,6 +10,7 @@ module dondolo_lane_grip
    use dondolo_lane_constants, only : lane_constants_type
    use dondolo_lane_state, only : lanes_type
    use dondolo_mechanism, only : mechanism_type
+   use dondolo_normal_form, only : highest_held
    use dondolo_response, only : tie_response_type
    use dondolo_rest, only : new_rest, rest_type
    use dondolo_tail, only : tail_type
@@ -172,7 +173,10 @@ contains
       type(lanes_type), intent(inout) :: lanes
       integer, intent(in) :: i
 
-      call constants%form%held(self%grip%force, self%grip%stiffness, lanes%a(i, :), lanes%fifth_a(i))
+      real(wp) :: a(0:highest_held)
+
+      call constants%form%held(self%grip%force, self%grip%stiffness, a, lanes%fifth_a(i))
+      lanes%a(i, :) = a
       lanes%above(i) = constants%form%coordinate(self%grip%above)
       lanes%below(i) = 0.0_wp
       if (self%grip%below > 0.0_wp) lanes%below(i) = constants%form%coordinate(self%grip%below)
