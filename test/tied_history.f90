@@ -140,15 +140,15 @@ contains
       type(wall_input_type), intent(inout) :: input
       type(tie_input_type), intent(in) :: ties(:)
 
-      call input%set('tie_height', ties%height)
-      call input%set('tie_depth', ties%depth)
-      call input%set('tie_area', ties%area)
-      call input%set('tie_length', ties%length)
-      call input%set('tie_modulus', ties%modulus)
-      call input%set('tie_strength', ties%strength)
-      call input%set('tie_preload', ties%preload)
-      call input%set('tie_strain', ties%strain)
-      call input%set('tie_anchor_force', ties%anchor_force)
+      call input%set('tie_height', [ties%height])
+      call input%set('tie_depth', [ties%depth])
+      call input%set('tie_area', [ties%area])
+      call input%set('tie_length', [ties%length])
+      call input%set('tie_modulus', [ties%modulus])
+      call input%set('tie_strength', [ties%strength])
+      call input%set('tie_preload', [ties%preload])
+      call input%set('tie_strain', [ties%strain])
+      call input%set('tie_anchor_force', [ties%anchor_force])
    end subroutine set_ties
 
    !> Transverse walls whose stones overlap those of the wall by much or next to nothing

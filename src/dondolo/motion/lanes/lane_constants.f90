@@ -23,7 +23,7 @@ module dondolo_lane_constants
 contains
 
    !> Constants of a mechanism
-   pure function new_lane_constants(mechanism, solver, is_shaken) result(constants)
+   function new_lane_constants(mechanism, solver, is_shaken) result(constants)
       class(mechanism_type), intent(in) :: mechanism
       !> Tolerances and limit
       type(solver_type), intent(in) :: solver

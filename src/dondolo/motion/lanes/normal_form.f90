@@ -102,7 +102,7 @@ module dondolo_normal_form
 contains
 
    !> The normal form of a mechanism up to a rotation
-   pure function new_normal_form(mechanism, limit, is_shaken) result(form)
+   function new_normal_form(mechanism, limit, is_shaken) result(form)
       class(mechanism_type), intent(in) :: mechanism
       !> Rotation up to which it is wanted [rad]
       real(wp), intent(in) :: limit
