@@ -166,7 +166,7 @@ contains
    end subroutine trace_lanes
 
    !> Move a lane
-   pure subroutine move(batch, from, to)
+   subroutine move(batch, from, to)
       type(lane_batch_type), intent(inout) :: batch
       !> The lane, and where it goes
       integer, intent(in) :: from, to
