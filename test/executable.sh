@@ -885,6 +885,8 @@ check "check: problems of a record" grep -qE ' strong .*  a PGA of 899.7 g, more
 check "check: warnings last" equal "$(tail -n 6 stdout | cut -c 1-24 | tr '\n' ';')" \
    ";warning: wall 'wall, one;warning: record 'still' ;warning: record 'strong';warning: levels up to 5 ;warning: scale factors a;"
 warned 's/height = 3.0/height = 0.2/' "wall 'wall, one': the height is less than the thickness: are they swapped?"
+warned 's/thickness/interlock_overlap = 0.4 interlock_course = 0.1 interlock_thickness = 0.3 interlock_spacing = 5 thickness/' \
+   "wall 'wall, one': interlock_overlap is more than the thickness of the wall: is it the length of a stone?"
 warned "s/one_sided'/two_block' bearing = 'centre'/" \
    "wall 'wall, one': a bearing or an eccentricity without overburden changes nothing: is the overburden missing?"
 good_case | sed "s/one_sided'/two_block' overburden = 8000 overburden_inertia = 0 bearing = 'inner' bearing_distance = 0.06/" >good2.nml

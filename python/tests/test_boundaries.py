@@ -178,11 +178,21 @@ def test_hints(tmp_path):
         dd.TwoBlockWall(3.0, 0.1 + 0.2, overburden=1.0, overburden_inertia=0.0, eccentricity=1.0)
 
 
+def interlocked(overlap, **sizes):
+    """A wall whose stones overlap those of transverse walls by so much."""
+    sizes = sizes or {"height": 3.0, "thickness": 0.25}
+    return dd.OneSidedWall(
+        **sizes, interlock_overlap=overlap, interlock_course=0.1, interlock_thickness=0.25, interlock_spacing=5.0
+    )
+
+
 @pytest.mark.parametrize(
     ("make", "levels", "code"),
     [
         (lambda: dd.OneSidedWall(0.25, 3.0), [0.2], "height_below_thickness"),
         (lambda: dd.TwoBlockWall(3.0, 0.3, eccentricity=0.1), [0.2], "load_place_without_load"),
+        (lambda: interlocked(0.3), [0.2], "overlap_above_thickness"),
+        (lambda: interlocked(0.46, section_height=[2.0, 1.0], section_thickness=[0.45, 0.3]), [0.2], "overlap_above_thickness"),
         (lambda: dd.OneSidedWall(3.0, 0.25), [1.0, 5.0], "levels_above_usual"),
     ],
 )
@@ -190,6 +200,14 @@ def test_slips_are_warned_of(make, levels, code, few):
     with pytest.warns(dd.DondoloWarning) as caught:
         dd.multiple_stripe(make(), few, levels, progress=False)
     assert code in [warning.message.code for warning in caught]
+
+
+@pytest.mark.parametrize(
+    "wall", [interlocked(0.25), interlocked(0.44, section_height=[2.0, 1.0], section_thickness=[0.3, 0.45])]
+)
+def test_stones_as_long_as_the_thickness_are_usual(wall, few, recwarn):
+    dd.multiple_stripe(wall, few, [0.2], progress=False)
+    assert "overlap_above_thickness" not in [getattr(found.message, "code", "") for found in recwarn]
 
 
 # Names that formats and terminals could take for their own signs, and those that stand for steps of the cursor

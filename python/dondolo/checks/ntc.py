@@ -174,7 +174,11 @@ class CodeCheck(Shown, Saved):
                 text += f", a_g S up to {self.capacities[method, state]:.4g} g"
             else:
                 count = [self.value(method, state, name) for name in ("beyond", "histories", "records")]
-                text += ", {:.0f} of {:.0f} histories of {:.0f} records beyond d_0*".format(*count)
+                text += ", {:.0f} of {:.0f} histories of {:.0f} records".format(*count)
+                # A symmetric wall has no other direction.
+                if count[1] == count[2] and self.wall.mechanism == "one_sided":
+                    text += " in one direction"
+                text += " beyond d_0*"
             facts.append((f"{method} {state}", text))
         return facts
 
@@ -236,7 +240,7 @@ def check_dynamic(
         Histories of the wall of the check with PGA for measure and a_g S of the site (`CodeCheck.pga`) among the
         levels; of records, one stripe is run.
     polarity : {'as_recorded', 'reversed', 'both'}
-        Of records.
+        Of records. A one-sided wall feels their sign: with 'both' it meets the criterion in either direction.
     solver : Solver, optional
         Of records.
 

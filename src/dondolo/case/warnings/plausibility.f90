@@ -3,6 +3,7 @@ module dondolo_plausibility
    use dondolo_kinds, only : wp
    use dondolo_lines, only : line_type
    use dondolo_property, only : is_list
+   use dondolo_rigid_body, only : same
    use dondolo_wall, only : wall_type
    use dondolo_wall_properties, only : wall_properties
    use dondolo_warning, only : warning_type, warnings_type
@@ -16,18 +17,20 @@ module dondolo_plausibility
 
    !> Codes of values that are less than usual, and more, and of those that do not go together
    character(len=24), parameter :: beyond_codes(2) = [character(len=24) :: 'value_below_usual', 'value_above_usual'], &
-      & together_codes(2) = [character(len=24) :: 'height_below_thickness', 'load_place_without_load']
+      & together_codes(3) = [character(len=24) :: 'height_below_thickness', 'load_place_without_load', &
+      & 'overlap_above_thickness']
 
    !> What there is to say of the values of walls: of those that are less than usual (1), and more (2); and of walls that
-   !> are thicker than high (1), and of the place of a load without a load (2)
+   !> are thicker than high (1), of the place of a load without a load (2), and of stones that overlap by more than the wall
+   !> is thick (3)
    type :: wall_warning_type
       !> Walls looked at
       integer :: walls = 0
       !> Walls outside the usual range of each property
-      integer :: number(2, together) = 0
+      integer :: number(size(together_codes), together) = 0
       !> Name and value of the first of them
-      type(line_type) :: first(2, together)
-      real(wp) :: value(2, together) = 0.0_wp
+      type(line_type) :: first(size(together_codes), together)
+      real(wp) :: value(size(together_codes), together) = 0.0_wp
    contains
       !> Look at a wall
       procedure :: look
@@ -45,7 +48,7 @@ contains
 
       real(wp), allocatable :: values(:)
       real(wp) :: low, high
-      logical :: outside(2)
+      logical :: outside(size(together_codes))
       integer :: i
 
       self%walls = self%walls + 1
@@ -56,7 +59,7 @@ contains
             ! No overburden is no mistake
             low = minval(values, mask=values > 0.0_wp)
             high = maxval(values)
-            call note(self, wall, i, [low < property%usual_least, .false.], low)
+            call note(self, wall, i, [low < property%usual_least], low)
             call note(self, wall, i, [.false., high > property%usual_most], high)
          end associate
       end do
@@ -64,9 +67,18 @@ contains
          outside(1) = input%number('height') < input%number('thickness')
          outside(2) = (wall%bears .or. abs(input%number('eccentricity')) > 0.0_wp) &
             & .and. .not. input%number('overburden') > 0.0_wp
+         outside(3) = input%number('interlock_overlap') > thickest(wall)*(1.0_wp + same)
          call note(self, wall, together, outside, 0.0_wp)
       end associate
    end subroutine look
+
+   !> Thickness of a wall, of storeys the largest [m]
+   pure real(wp) function thickest(wall)
+      type(wall_type), intent(in) :: wall
+
+      thickest = wall%input%number('thickness')
+      if (wall%input%has('section_thickness')) thickest = maxval(wall%input%list('section_thickness'))
+   end function thickest
 
    !> Note what there is to say of a wall
    subroutine note(self, wall, i, outside, value)
@@ -75,13 +87,13 @@ contains
       !> Number of a property, or `together`
       integer, intent(in) :: i
       !> What there is to say
-      logical, intent(in) :: outside(2)
+      logical, intent(in) :: outside(:)
       !> A value of the wall
       real(wp), intent(in) :: value
 
       integer :: k
 
-      do k = 1, 2
+      do k = 1, size(outside)
          if (.not. outside(k)) cycle
          self%number(k, i) = self%number(k, i) + 1
          if (self%number(k, i) > 1) cycle
@@ -101,10 +113,10 @@ contains
       integer :: i, k
 
       do i = 1, together
-         do k = 1, 2
+         do k = 1, size(together_codes)
             if (self%number(k, i) == 0) cycle
-            warning = warning_type(beyond_codes(k))
-            if (i == together) warning%code = together_codes(k)
+            warning = warning_type(together_codes(k))
+            if (i < together) warning%code = beyond_codes(k)
             call warning%about('wall', self%first(k, i)%text)
             if (i < together) then
                associate (property => wall_properties(i))

@@ -27,11 +27,17 @@ contains
       select case (warning%code)
       case ('value_below_usual', 'value_above_usual')
          call say_implausible(warning, text)
-      case ('height_below_thickness', 'load_place_without_load')
+      case ('height_below_thickness', 'load_place_without_load', 'overlap_above_thickness')
          call warning%get_word('wall', wall)
-         text = 'wall '''//wall//''': the height is less than the thickness: are they swapped?'
-         if (warning%code == 'load_place_without_load') text = 'wall '''//wall//''': a bearing or an eccentricity '// &
-            & 'without overburden changes nothing: is the overburden missing?'
+         text = 'wall '''//wall//''': '
+         select case (warning%code)
+         case ('height_below_thickness')
+            text = text//'the height is less than the thickness: are they swapped?'
+         case ('load_place_without_load')
+            text = text//'a bearing or an eccentricity without overburden changes nothing: is the overburden missing?'
+         case default
+            text = text//'interlock_overlap is more than the thickness of the wall: is it the length of a stone?'
+         end select
          call count_walls(warning, text)
       case ('levels_above_usual')
          call warning%get_word('im', im)
