@@ -872,6 +872,14 @@ warned 's/thickness/interlock_overlap = 0.1 interlock_course = 0.1 interlock_thi
 warned 's/thickness/tie_height = 2.8 tie_area = 1e-4 tie_length = 5 tie_preload = 50 thickness/' \
    "tie_preload = 50 Pa is less than 100000 Pa: is it in MPa, or a force?"
 warned "s/one_sided'/two_block' overburden = 15 overburden_inertia = 0/" "overburden = 15 N/m is less than 200 N/m: is it in kN/m?"
+for polarity in both reversed; do
+   good_case | sed "s/'both'/'$polarity'/; \$s/\$/\n\&check ag = 0.2, f0 = 2.5, tc_star = 0.35 \//" >one_way.nml
+   run one_way.nml
+   check "the criterion with $polarity records: exit code" equal "$rc" 0
+   check "the criterion with $polarity records: note of one direction" equal "$(grep -c 'takes each record in one direction only' stderr)" \
+      "$([ $polarity = both ] && echo 0 || echo 1)"
+done
+rm -rf out
 awk 'BEGIN { for (k = 0; k < 10; k++) print 0 }' >records/still.txt
 cp records/records.csv records/bad.csv
 echo 'still.txt,0.01,g,here' >>records/bad.csv

@@ -122,6 +122,10 @@ def test_histories_at_the_level_of_the_site(stripes, records):
     assert check.verified["dynamic", "SLV"] == (stripes.collapses[0] == 0 and mean <= 0.4 * 0.124568219781)
     # Records of their own: one stripe more
     assert dd.check_dynamic(check, records, polarity="both").rows == check.rows
+    assert "in one direction" not in repr(check)
+    assert "of 6 histories of 6 records in one direction beyond d_0*" in repr(dd.check_dynamic(check, records))
+    free = dd.check_ntc(dd.FreeStandingWall(3.0, 0.25), SITE)
+    assert "of 6 histories of 6 records beyond d_0*" in repr(dd.check_dynamic(free, records))
     with pytest.raises(dd.InputError, match=r"no level of 0\.24 g"):
         dd.check_dynamic(check, stripes[1:])
     with pytest.raises(dd.InputError, match="of the wall of the check"):
