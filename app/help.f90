@@ -11,52 +11,52 @@ module dondolo_help
       & 'dondolo: fragility of masonry walls that rock and overturn in earthquakes', &
       & '', &
       & '   dondolo CASE.nml             run a case and write its result files; also dondolo run CASE.nml', &
-      & '   dondolo --check CASE.nml     check the case and all its files, say what would run, run nothing', &
+      & '   dondolo --check CASE.nml     check the case and all its files and print what would run; run nothing', &
       & '   dondolo --walls A:B CASE.nml run rows A to B of a population only, into a file of counts', &
       & '   dondolo --merge CASE.nml COUNTS ...', &
       & '                                merge part files and write the result files', &
-      & '   dondolo --status OUTPUT ...  from another terminal: who runs, how far, what time is left', &
+      & '   dondolo --status OUTPUT ...  print, from another terminal, the progress of a run and the time left', &
       & '   dondolo --template [TASK]    print a commented case for a task: stripes (default), history, typology', &
       & '   dondolo --example NAME       print a ready case, parapet for example, that finds its records anywhere', &
       & '   dondolo --benchmark [S]      measure the speed on 1, 2, 4 ... threads, S seconds (1) each on one', &
       & '   dondolo --completion SHELL   print the completion for bash or zsh: eval "$(dondolo --completion bash)"', &
-      & '   dondolo --version            print the version, and the build variant for this processor', &
+      & '   dondolo --version            print the version and the build variant for this processor', &
       & '   dondolo --help               print this page', &
       & '', &
-      & 'Commands of the Python package, where it is installed (dondolo plot --help says more of each):', &
+      & 'Commands of the Python package, if it is installed (dondolo plot --help prints the options of plot):', &
       & '   dondolo plot PREFIX          draw the figures of a run from its result files', &
       & '   dondolo report PREFIX        write a report of a run: one HTML file; with --pdf, PDF', &
-      & '   dondolo xlsx PREFIX          write its tables into a workbook of Excel or LibreOffice', &
-      & '   dondolo nrml PREFIX          write its curves for OpenQuake', &
+      & '   dondolo xlsx PREFIX          write the tables of a run into a workbook of Excel or LibreOffice', &
+      & '   dondolo nrml PREFIX          write the curves of a run for OpenQuake', &
       & '   dondolo records CATALOGUE    print a table of the records of a catalogue', &
       & '   dondolo catalogue FOLDER     make a catalogue of the accelerograms in a folder', &
       & '', &
       & 'Options of a run or a benchmark:', &
-      & '   --threads N   number of threads instead of the case''s, most of a benchmark; 0: all, or OMP_NUM_THREADS', &
-      & '   --quiet       print warnings and errors only; of a benchmark, its figure of merit', &
+      & '   --threads N   number of threads, instead of the case''s; of a benchmark the most; 0: all, or OMP_NUM_THREADS', &
+      & '   --quiet       print only warnings and errors; of a benchmark, only its figure of merit', &
       & '', &
       & 'A case is a Fortran namelist file:', &
-      & '   &job          what is to be done: ''stripes'', ''history'' or ''typology''; where the results go', &
+      & '   &job          the task, ''stripes'', ''history'' or ''typology'', and the prefix of the result files', &
       & '   &wall         the wall (tasks stripes and history)', &
-      & '   &building     the building whose motion shakes it, if it does not stand on the ground', &
+      & '   &building     the building that the wall stands on, if not on the ground', &
       & '   &population   a table of walls (task typology)', &
-      & '   &uncertainty  what of one wall is uncertain, instead of a table of walls (task typology)', &
+      & '   &uncertainty  distributions of properties of one wall, instead of a table of walls (task typology)', &
       & '   &records      the catalogue of accelerograms', &
       & '   &stripes      the intensity measure and its levels (tasks stripes and typology)', &
       & '   &solver       tolerances and the rotation that counts as collapse', &
-      & '   &history      which record, and how strong (task history)', &
-      & '   &check        the site of a check by NTC 2018 beside the curves', &
-      & 'Groups &stripes and &history are allowed in any case: a task checks both and uses what it needs, so that', &
-      & 'one file serves to run the stripes of a wall and to look at one of its histories.', &
-      & 'Paths in a case are relative to the case, those of the results to the current folder.', &
+      & '   &history      the record and its level (task history)', &
+      & '   &check        the site of the checks by NTC 2018', &
+      & 'A case may have both &stripes and &history: both are checked and the task uses its own, so that one file', &
+      & 'serves for the stripes of a wall and for one of its time histories.', &
+      & 'Paths in a case are relative to its folder, those of results to the current folder.', &
       & '', &
-      & 'A population runs in blocks, and a checkpoint, OUTPUT.checkpoint, grows with them: a run that was killed', &
-      & 'goes on where it was when it is started again. At the end the checkpoint is removed.', &
+      & 'A population runs in blocks that are added to a checkpoint, OUTPUT.checkpoint, from which a killed run', &
+      & 'resumes when it is started again. At the end the checkpoint is removed.', &
       & '', &
-      & 'One run at a time writes an OUTPUT; its files are published at once, when all are whole.', &
+      & 'One run at a time may write to an OUTPUT; its files appear together, once all are complete.', &
       & '', &
-      & 'Exit code: 0 done; 1 failed while running; 2 wrong input, or another run is writing the output (nothing is', &
-      & 'run or written then). Ctrl-C, SIGTERM and SIGHUP end a run in order, with its checkpoint, and then the', &
+      & 'Exit codes: 0 success; 1 failure while running; 2 invalid input, or another run is writing to the output', &
+      & '(nothing is run or written then). Ctrl-C, SIGTERM and SIGHUP stop a run, keep its checkpoint and end the', &
       & 'process by the signal (130, 143 and 129 in a shell); a second signal ends it at once.']
 
 contains

@@ -66,13 +66,16 @@ def _parser() -> argparse.ArgumentParser:
     plot.add_argument(
         "prefixes",
         nargs="+",
-        help="what the names of the result files begin with, for example out/parapet",
+        help="prefix of the result files, for example out/parapet",
         metavar="PREFIX",
     )
     plot.add_argument(
-        "--format", default="png", help="png (default), pdf, svg, or any other that Matplotlib writes", metavar="FORMAT"
+        "--format",
+        default="png",
+        help="png (default), pdf, svg or another format of Matplotlib",
+        metavar="FORMAT",
     )
-    plot.add_argument("--animate", action="store_true", help="of a motion, also write an animation (GIF)")
+    plot.add_argument("--animate", action="store_true", help="also write an animation (GIF) of a time history")
     plot.set_defaults(run=_plot)
     report = commands.add_parser(
         "report",
@@ -80,8 +83,8 @@ def _parser() -> argparse.ArgumentParser:
         description="Write a report of a run from its CSV files, those of the executable or of "
         "Typology.write_results: one HTML file with figures, tables, inputs, checks and versions, which opens offline.",
     )
-    report.add_argument("prefix", help="what the names of the result files begin with, for example out/parapet")
-    report.add_argument("-o", "--output", help="the report; PREFIX_report.html if left out", metavar="FILE")
+    report.add_argument("prefix", help="prefix of the result files, for example out/parapet", metavar="PREFIX")
+    report.add_argument("-o", "--output", help="path of the report, PREFIX_report.html by default", metavar="FILE")
     report.add_argument(
         "--hazard",
         help="hazard curve of the site, for the annual frequency of collapse: a CSV table of the levels, titled with "
@@ -89,31 +92,31 @@ def _parser() -> argparse.ArgumentParser:
         metavar="FILE",
     )
     report.set_defaults(run=_report)
-    report.add_argument("--pdf", action="store_true", help="PDF, printed by Chromium or WeasyPrint, PREFIX_report.pdf")
+    report.add_argument("--pdf", action="store_true", help="write PREFIX_report.pdf instead, by Chromium or WeasyPrint")
     workbook = commands.add_parser(
         "xlsx",
         help="write the tables of a run into a workbook",
         description="Write all tables of a run into one workbook of Excel or LibreOffice: a sheet a table, and one of "
         "the case. Needs openpyxl.",
     )
-    workbook.add_argument("prefix", help="what the names of the result files begin with, for example out/parapet")
-    workbook.add_argument("-o", "--output", help="the workbook; PREFIX_tables.xlsx if left out", metavar="FILE")
+    workbook.add_argument("prefix", help="prefix of the result files, for example out/parapet", metavar="PREFIX")
+    workbook.add_argument("-o", "--output", help="path of the workbook, PREFIX_tables.xlsx by default", metavar="FILE")
     workbook.set_defaults(run=_workbook)
     nrml = commands.add_parser(
         "nrml",
         help="write the curves of a run for OpenQuake",
         description="Write the fragility curves of a run, read from its CSV files, as a fragility model of OpenQuake, "
         "NRML 0.5: of a population the mean curves, one function a group and mechanism, with its damage states; of a "
-        "wall its curve. Where a mean curve had to be raised is reported on stderr.",
+        "wall its curve. If a mean curve had to be raised, a message on stderr reports it.",
     )
-    nrml.add_argument("prefix", help="what the names of the result files begin with, for example out/population")
-    nrml.add_argument("-o", "--output", help="the file; PREFIX_fragility.xml if left out", metavar="FILE")
+    nrml.add_argument("prefix", help="prefix of the result files, for example out/population", metavar="PREFIX")
+    nrml.add_argument("-o", "--output", help="path of the model, PREFIX_fragility.xml by default", metavar="FILE")
     nrml.set_defaults(run=_nrml)
     records = commands.add_parser(
         "records",
         help="print a table of the records of a catalogue",
         description="Print a table of the records of a catalogue, as the executable's --check does: peaks, duration, "
-        "time step, and what looks odd about them.",
+        "time step and suspected problems.",
     )
     records.add_argument("catalogue", help="a CSV table with the column file", metavar="CATALOGUE")
     records.set_defaults(run=_records)
@@ -121,13 +124,15 @@ def _parser() -> argparse.ArgumentParser:
         "catalogue",
         help="make a catalogue of a folder of accelerogram files",
         description="Write a catalogue of all accelerogram files in a folder and the folders in it, one row a "
-        "channel. What cannot be read is named on stderr, with the reason, and so are vertical components, which are "
-        "left out.",
+        "channel. Files that cannot be read are listed on stderr with the reason, and so are vertical components, "
+        "which are left out.",
     )
-    catalogue.add_argument("folder", help="where the files are", metavar="FOLDER")
-    catalogue.add_argument("-o", "--output", help="the catalogue; FOLDER/catalogue.csv if left out", metavar="FILE")
-    catalogue.add_argument("--dt", type=float, help="time step for the files that do not state it", metavar="SECONDS")
-    catalogue.add_argument("--units", help="units for the files that do not state them, for example g", metavar="UNITS")
+    catalogue.add_argument("folder", help="folder of the files", metavar="FOLDER")
+    catalogue.add_argument(
+        "-o", "--output", help="path of the catalogue, by default FOLDER/catalogue.csv", metavar="FILE"
+    )
+    catalogue.add_argument("--dt", type=float, help="time step [s] of files that do not state it", metavar="SECONDS")
+    catalogue.add_argument("--units", help="units of files that do not state them, for example g", metavar="UNITS")
     catalogue.add_argument("--vertical", action="store_true", help="keep vertical components")
     catalogue.set_defaults(run=_catalogue)
     return parser

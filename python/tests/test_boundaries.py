@@ -192,7 +192,11 @@ def interlocked(overlap, **sizes):
         (lambda: dd.OneSidedWall(0.25, 3.0), [0.2], "height_below_thickness"),
         (lambda: dd.TwoBlockWall(3.0, 0.3, eccentricity=0.1), [0.2], "load_place_without_load"),
         (lambda: interlocked(0.3), [0.2], "overlap_above_thickness"),
-        (lambda: interlocked(0.46, section_height=[2.0, 1.0], section_thickness=[0.45, 0.3]), [0.2], "overlap_above_thickness"),
+        (
+            lambda: interlocked(0.46, section_height=[2.0, 1.0], section_thickness=[0.45, 0.3]),
+            [0.2],
+            "overlap_above_thickness",
+        ),
         (lambda: dd.OneSidedWall(3.0, 0.25), [1.0, 5.0], "levels_above_usual"),
     ],
 )
