@@ -78,7 +78,7 @@ contains
             call take_real(text%text, at, last, values(found), ok)
             if (ok .and. at <= last) ok = is_blank(text%text(at:at))
             if (.not. ok) then
-               call text%next_word(first, last, first, finish)
+               call text%next_word((first), last, first, finish)
                call raise_at(error, text, line, 'value '//to_text(found)//' = '''// &
                   & shown(text%text(first:finish))//''': must be a number')
                return

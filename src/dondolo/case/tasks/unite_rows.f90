@@ -6,8 +6,9 @@ module dondolo_unite_rows
    use dondolo_memory, only : check_room
    use dondolo_member, only : member_type
    use dondolo_population, only : population_reader_type
-   ! What the reader extends: without it gfortran 12 fails to write the module file.
+   ! What the reader extends: without these gfortran 12 or 16 fails to write the module file.
    use dondolo_population_roll, only : population_roll_type
+   use dondolo_population_table, only : population_table_type
    use dondolo_results, only : results_type
    use dondolo_row_result, only : row_result_type
    use dondolo_study, only : runs_of, study_type
