@@ -7,7 +7,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 # Debian releases and their Pythons
-releases=(bookworm:3.11 trixie:3.13)
+releases=(bookworm:3.11 trixie:3.13 forky:3.14)
 
 # The Python of a version, from PATH or from pyenv
 find_python() {

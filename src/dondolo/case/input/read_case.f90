@@ -86,9 +86,10 @@ contains
       if (allocated(error)) return
       if (case%job%task == 'stripes') then
          if (case%wall%mechanism%has_friction()) call note_friction(case, 'wall '''//case%wall%name()//''' has interlock_overlap')
-         if (allocated(case%check) .and. case%records_input%polarity /= 'both' .and. .not. case%wall%mechanism%two_sided) &
-            & call case%notes%add('&check: the criterion for time histories takes each record in one direction only; the wall '// &
-            & 'feels their sign, and polarity = ''both'' in &records takes both')
+         if (allocated(case%check) .and. case%records_input%polarity /= 'both' .and. .not. case%wall%mechanism%two_sided) then
+            call case%notes%add('&check: the criterion for time histories takes each record in one direction only; the wall '// &
+               & 'feels their sign, and polarity = ''both'' in &records takes both')
+         end if
       end if
       if (case%job%task == 'typology') then
          call survey(case, rows, error)
