@@ -31,8 +31,6 @@ LOOKS = {
     "SciPy, DOP853": {"color": GREY, "marker": "s"},
     "SciPy, LSODA": {"color": GREY, "marker": "^"},
     "SciPy, RK45/record": {"color": GREY, "marker": "o", "linestyle": ":", **OPEN},
-    "SciPy, DOP853/record": {"color": GREY, "marker": "s", "linestyle": ":", **OPEN},
-    "SciPy, LSODA/record": {"color": GREY, "marker": "^", "linestyle": ":", **OPEN},
     "GNU Octave, ode45": {"color": BLACK, "marker": "x"},
     "GNU Octave, ode45/sample": {"color": BLACK, "marker": "+"},
 }

@@ -16,7 +16,7 @@ from progress import say
 FOLDER = Path(__file__).resolve().parent
 BUILD, ENVIRONMENT = FOLDER / "build", FOLDER / ".venv"
 PYTHON = ENVIRONMENT / "bin" / "python"
-PATIENCE = 100  # seconds for one setting of a peer: more than any needs on a quiet machine
+PATIENCE = 150  # seconds for one setting of a peer: more than any needs on a quiet machine
 LARGE = 1e-6  # EDPs with larger errors are counted
 
 
@@ -101,9 +101,9 @@ PEERS = [
         {
             "RK45": (1e-6, 1e-9),
             "DOP853": (1e-6, 1e-9),
-            "LSODA": (1e-6, 1e-8),
+            # At 1e-8 solve_ivp fails to locate an event of LSODA
+            "LSODA": (1e-6,),
             "RK45/record": (1e-6, 1e-9),
-            "LSODA/record": (1e-6, 1e-9),
         },
         "scipy and numba from PyPI",
         part=16,
@@ -114,7 +114,7 @@ PEERS = [
     Peer(
         "GNU Octave",
         ("octave", "--no-gui", "--no-window-system", "--quiet", FOLDER / "peers" / "octave_ode45.m"),
-        {"ode45": (1e-6, 1e-9), "ode45/sample": (1e-6,)},
+        {"ode45": (1e-6, 1e-8), "ode45/sample": (1e-6,)},
         "octave",
         part=80,
         repeats=1,

@@ -118,13 +118,13 @@ def ratios(results, turns):
         *paragraph(
             f"For each program the cheapest setting with at most {100 * SHARE:g} % of the EDPs with an error above "
             f"1e-6 and at most {many(WRONG, 'wrong flag')}, or, if there is none, its most accurate setting. These "
-            f"settings ran in {many(rounds, 'round')}, in which every program has its turn, each in a process that is "
-            "warm. A third of the rounds ran before the second wall and the measurements of section 2, a third between "
-            f"them, and a third after both. A turn is as many calls as fit into {TURN:g} s, at least one, and counts by "
-            f"their median. A program that takes more than {SLOW:g} s has one turn in each third; one that takes more "
-            f"than {SLOWEST:g} s has none, and its time of the table above is compared with all rounds of dondolo. The "
-            "last columns are the times relative to those of dondolo's engines in the same round, at their defaults and "
-            "at a tight tolerance: median, and in brackets the least and the largest of the rounds."
+            f"settings ran in {many(rounds, 'round')}, in which every program has its turn, each in a warm process. "
+            "A third of the rounds ran before the second wall and the measurements of section 2, a third between them "
+            f"and a third after both. A turn is as many calls as fit in {TURN:g} s, at least one, and counts by their "
+            f"median. A program that takes more than {SLOW:g} s has one turn in each third; one that takes more than "
+            f"{SLOWEST:g} s has none, and its time of the table above is compared with all rounds of dondolo. The last "
+            "columns are the times relative to those of dondolo's engines in the same round, at their defaults and at "
+            "a tight tolerance: median, and in brackets the least and the largest of the rounds."
         ),
         *table(["program", "setting", "ms for all histories", "errors", "rounds", *heads], rows),
     ]
