@@ -29,7 +29,7 @@ def settings(results):
             each.name,
             f"{each.setting:g}",
             each.histories,
-            f"{each.ms_of_all:.3g}",
+            rounded(each.ms_of_all, 3),
             each.flags,
             each.above,
             small(each.worst),
@@ -57,7 +57,9 @@ def programs(results, turns, machine):
             "for them; how much they vary is stated for the best settings below."
         ),
         *bullets(METHODS),
-        *table(["program", "its time holds"], [[peer.name, peer.holds] for peer in (DONDOLO, *PEERS)]),
+        *table(
+            ["program", "its time holds"], {peer.name: [peer.name, peer.holds] for peer in (DONDOLO, *PEERS)}.values()
+        ),
         *paragraph(
             f"Versions: {'; '.join(versions)}. {'; '.join(machine)}. Absolute tolerances are one hundredth of the "
             "relative ones, in units of the capacity."
@@ -138,8 +140,8 @@ def ranged(values):
 def spread(median, least, largest):
     """A ratio with its range over the rounds."""
     if least == largest:
-        return f"{median:.3g}"
-    return f"{median:.3g} ({least:.3g} to {largest:.3g})"
+        return rounded(median, 3)
+    return f"{rounded(median, 3)} ({rounded(least, 3)} to {rounded(largest, 3)})"
 
 
 def limits(results, turns):
@@ -179,13 +181,13 @@ def speeds(results, turns):
                 factors[-1] += f" called from Python ({rounded(ratio(turns, key, lanes, 'own')[0])} of its own steps)"
     times = times_of(turns, *lanes).values()
     sentence = (
-        f"{mine.histories} time histories of one wall under recorded motions take {statistics.median(times):.2g} ms "
-        f"({min(times):.2g} to {max(times):.2g}) on one core in a call from Python (`{variant}`): "
+        f"{mine.histories} time histories of one wall under recorded motions take "
+        f"{rounded(statistics.median(times))} ms ({rounded(min(times))} to {rounded(max(times))}) on one core in a call from Python (`{variant}`): "
         f"{', '.join(factors)}, each at its cheapest setting that is accurate enough, all warm and in the same rounds."
     )
     return paragraph(sentence, indent="  ")[:-1]
 
 
-def rounded(value):
-    """A number with two digits."""
-    return f"{float(f'{value:.2g}'):g}"
+def rounded(value, digits=2):
+    """A number with so many digits that count, without an exponent."""
+    return f"{float(f'{value:.{digits}g}'):.10g}"
