@@ -182,8 +182,9 @@ def speeds(results, turns):
     times = times_of(turns, *lanes).values()
     sentence = (
         f"{mine.histories} time histories of one wall under recorded motions take "
-        f"{rounded(statistics.median(times))} ms ({rounded(min(times))} to {rounded(max(times))}) on one core in a call from Python (`{variant}`): "
-        f"{', '.join(factors)}, each at its cheapest setting that is accurate enough, all warm and in the same rounds."
+        f"{rounded(statistics.median(times))} ms ({rounded(min(times))} to {rounded(max(times))}) on one core in a "
+        f"call from Python (`{variant}`): {', '.join(factors)}, each at its cheapest setting that is accurate enough, "
+        "all warm and in the same rounds."
     )
     return paragraph(sentence, indent="  ")[:-1]
 
