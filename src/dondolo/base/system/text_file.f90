@@ -210,12 +210,8 @@ contains
          allocate (text%first(0), text%last(0))
          return
       end if
-      ! Of plain characters the loop takes many at a time
       associate (content => text%text)
-         count = 1
-         do i = begin, finish
-            count = count + merge(1, 0, iachar(content(i:i)) == line_feed)
-         end do
+         count = 1 + count_line_feeds(content(begin:finish))
          allocate (text%first(count), text%last(count))
          text%first(1) = begin
          text%last(count) = finish
@@ -248,6 +244,35 @@ contains
          end do
       end associate
    end subroutine index_lines
+
+   !> Number of line feeds
+   pure integer function count_line_feeds(text) result(count)
+      !> Text
+      character(len=*), intent(in) :: text
+
+      integer, parameter :: line_feed = 10
+      ! The lowest bit of each byte; words whose sum surely fits into each byte; every other byte, and of these every other
+      integer(int64), parameter :: ones = int(z'0101010101010101', int64), pairs = int(z'00ff00ff00ff00ff', int64), &
+         & fours = int(z'0000ffff0000ffff', int64), whole = int(z'00000000ffffffff', int64)
+      integer, parameter :: words = 127
+      integer(int64) :: sums
+      integer :: block, i
+
+      ! Eight sums side by side in the bytes of an integer, and several such integers at once
+      count = 0
+      do block = 1, len(text) - 8*words + 1, 8*words
+         sums = 0
+         do i = block, block + 8*(words - 1), 8
+            sums = sums + iand(shiftr(line_feeds(text(i:i + 7)), 7), ones)
+         end do
+         sums = iand(sums, pairs) + iand(shiftr(sums, 8), pairs)
+         sums = iand(sums, fours) + iand(shiftr(sums, 16), fours)
+         count = count + int(iand(sums, whole) + shiftr(sums, 32))
+      end do
+      do i = block, len(text)
+         count = count + merge(1, 0, iachar(text(i:i)) == line_feed)
+      end do
+   end function count_line_feeds
 
    !> Which of eight characters are line feeds: the highest bit of each of their bytes
    pure integer(int64) function line_feeds(text)
