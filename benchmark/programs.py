@@ -26,7 +26,7 @@ class Peer:
 
     Its command is called with PROBLEM METHOD SETTING REPEATS EVERY and prints its version, the seconds of the
     integration of each repeat, and EDP, collapse and impacts of every history. With 0 repeats it runs once for each
-    line of its standard input.
+    line of its standard input, if it waits.
     """
 
     name: str
@@ -38,6 +38,7 @@ class Peer:
     expected: float = 3.0  # seconds of one setting, start and compilation included, on a quiet machine
     holds: str = "the integration of all histories, compiled before"  # what its times are of
     takes_case: bool = False  # a case of dondolo in place of the problem
+    waits: bool = True  # takes turns: runs once for each line of its standard input with 0 repeats
 
     def quick(self):
         """The same peer with one setting per method, run once."""
@@ -120,6 +121,7 @@ PEERS = [
         repeats=1,
         expected=28.0,
         holds="its interpreted loop and right-hand side",
+        waits=False,
     ),
 ]
 

@@ -73,10 +73,10 @@ class Rounds:
         self.running = []  # (result, process)
         with ExitStack() as stack:
             for each in contestants(results):
-                if each.seconds > SLOWEST:
+                peer = peer_of(each)
+                if each.seconds > SLOWEST or not peer.waits:
                     self.turns.append(self.turn(0, each, each.seconds, each.own))
                     continue
-                peer = peer_of(each)
                 command = command_of(peer, case if peer.takes_case else path, each.method, each.setting, 0, problem)
                 pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
                 process = stack.enter_context(subprocess.Popen(command, text=True, **pipes))

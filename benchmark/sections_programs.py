@@ -124,9 +124,9 @@ def ratios(results, turns):
             "A third of the rounds ran before the second wall and the measurements of section 2, a third between them "
             f"and a third after both. A turn is as many calls as fit in {TURN:g} s, at least one, and counts by their "
             f"median. A program that takes more than {SLOW:g} s has one turn in each third; one that takes more than "
-            f"{SLOWEST:g} s has none, and its time of the table above is compared with all rounds of dondolo. The last "
-            "columns are the times relative to those of dondolo's engines in the same round, at their defaults and at "
-            "a tight tolerance: median, and in brackets the least and the largest of the rounds."
+            f"{SLOWEST:g} s has none, nor has Octave, and its time of the table above is compared with all rounds of "
+            "dondolo. The last columns are the times relative to those of dondolo's engines in the same round, at "
+            "their defaults and at a tight tolerance: median, and in brackets the least and the largest of the rounds."
         ),
         *table(["program", "setting", "ms for all histories", "errors", "rounds", *heads], rows),
     ]
