@@ -70,7 +70,7 @@ contains
                call check_published(settings%word(trim(name)), wall%word('mechanism'), error)
             end if
             call problems%take(error)
-            sources = [sources, uncertainty_properties(i)%name]
+            sources = [character(len=name_length) :: sources, name]
             distributions = [distributions, one]
          end associate
       end do
