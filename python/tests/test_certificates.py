@@ -172,6 +172,30 @@ def test_refusals(wall, few):
         _ = told + dd.certify(told, few, progress=False)
 
 
+@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+def test_only_stripes_are_certified(wall, few, run, tmp_path):
+    """Populations and single histories are refused, by Python and by the executable."""
+    rest = "must be Stripes; populations and single histories are not certified"
+    with pytest.raises(dd.InputError, match=f"stripes: is a Typology: {rest}"):
+        dd.certify(dd.typology([wall], few, [0.2, 0.4], progress=False), few)
+    with pytest.raises(dd.InputError, match=f"stripes: is a Response: {rest}"):
+        dd.certify(dd.simulate(wall, few[0], estimate_error=True), few)
+    shared = f"&records catalogue = '{ROOT}/data/records/synthetic44.csv' /\n&solver certify = .true. /\n"
+    tasks = {
+        "typology": f"&population file = '{ROOT}/data/walls/population.csv' /\n&stripes levels = 0.2, 0.4 /\n",
+        "history": "&wall mechanism = 'one_sided' height = 3.0 thickness = 0.25 /\n"
+        "&history record = '06_valnerina_1979_m5.8_a' scale = 1.0 /\n",
+    }
+    for task, own in tasks.items():
+        case = tmp_path / f"{task}.nml"
+        case.write_text(f"&job task = '{task}' output = '{tmp_path}/result' /\n{own}{shared}", encoding="utf-8")
+        told = run(case)
+        assert told.returncode == 2
+        said = "&solver: certify = .true.: only for task = 'stripes': populations and single histories are not certified"
+        assert said in told.stderr
+        assert not list(tmp_path.glob("result*"))
+
+
 def test_executable(tmp_path, records):
     """The executable writes the certificates that Python reads and computes."""
     case = tmp_path / "case.nml"
