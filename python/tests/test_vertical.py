@@ -136,7 +136,8 @@ def test_uplift_in_tables(records, run, tmp_path):
     case = tmp_path / "case.nml"
     text = (
         f"&job task = 'stripes' output = '{tmp_path}/VERTICAL' /\n&wall mechanism = 'one_sided' height = 3.0 "
-        "thickness = 0.25 name = 'wall' /\n&records catalogue = 'records.csv' polarity = 'both' vertical = 'VERTICAL' /\n"
+        "thickness = 0.25 name = 'wall' /\n"
+        "&records catalogue = 'records.csv' polarity = 'both' vertical = 'VERTICAL' /\n"
         "&stripes levels = 0.2, 1.0, 1.5, 3.0 edp_thresholds = 0.4, 1.0 /\n"
     )
     for vertical in ("recorded", "none"):

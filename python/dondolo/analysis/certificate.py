@@ -70,7 +70,8 @@ def certify(
     Raises
     ------
     InputError
-        No stripes, such as a typology; stripes without estimated errors, other records, or a build without quadruple precision.
+        No stripes, such as a typology; stripes without estimated errors, other records, or a build without quadruple
+        precision.
     Interrupted
         Ctrl-C; its `partial` has all stripes, with a status of 0 for the histories in doubt that were not run again
         yet.
@@ -86,9 +87,8 @@ def certify(
     from dondolo.analysis.stripes import Stripes
 
     if not isinstance(stripes, Stripes):
-        raise InputError(
-            f"stripes: is a {type(stripes).__name__}: must be Stripes; populations and single histories are not certified"
-        )
+        found = type(stripes).__name__
+        raise InputError(f"stripes: is a {found}: must be Stripes; populations and single histories are not certified")
     if stripes.edp_error is None:
         raise InputError("stripes: have no estimated errors: must be run with estimate_error = True")
     team = check_threads(threads)

@@ -35,7 +35,7 @@ class TieCounts(NamedTuple):
 
     @classmethod
     def of_rows(cls, ties: IntArray, levels: int, counts: IntArray, lengths: FloatArray) -> tuple[TieCounts, ...]:
-        """Those of rows, as Fortran sends them: of each row one number of a tie, a level after the other, then the next."""
+        """Those of rows, as Fortran sends them: of each row both kinds of numbers, level by level."""
         ends = np.cumsum(2 * levels * ties)[:-1]
         found = []
         for own, more in zip(np.split(counts, ends), np.split(lengths, ends), strict=True):

@@ -78,8 +78,8 @@ class Typology(Shown, Saved):
     kept_errors : KeptErrors
         The standard errors of results that were read back, in place of the flags; None for results of a run.
     ties : tuple of TieCounts
-        What the histories do to the ties of each row: how many make each `yielded` and `broken`, and its mean and largest
-        plastic elongation; None for results that were read back.
+        What the histories do to the ties of each row: how many make each `yielded` and `broken`, and its mean and
+        largest plastic elongation; None for results that were read back.
     """
 
     population: Population
