@@ -9,6 +9,8 @@ module dondolo_combine_rows
    use dondolo_population, only : population_reader_type
    use dondolo_population_counts, only : new_population_counts
    use dondolo_population_errors, only : population_errors_type
+   ! What the reader extends: without it gfortran 12 fails to write the module file.
+   use dondolo_population_roll, only : population_roll_type
    use dondolo_results, only : results_type, shown_rows
    use dondolo_row_result, only : row_result_type
    use dondolo_sensitivity, only : new_sensitivity
