@@ -73,7 +73,7 @@ def ties(folder):
         TITLE,
         "",
         *paragraph(
-            "A facade of 9 m by 0.5 m with ties at 8.5 and 5.5 m (docs/verification/two_ties.py), under the 44 recorded "
+            "A facade of 9 m by 0.5 m, ties at 8.5 and 5.5 m (docs/verification/two_ties.py), under the 44 recorded "
             f"accelerograms at {grid} g: {number} histories, all in 33 digits as in section 9 and not the doubtful "
             f"ones alone. {moving} move, {collapses} collapse, and {unsettled} are not computable. Found are EDPs with "
             "errors above 1e-6 that the estimated error finds; false, others that it doubts. No flag may be wrong, "
