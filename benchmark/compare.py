@@ -8,42 +8,83 @@ import platform
 import re
 import sys
 import tempfile
-import time
+from contextlib import ExitStack
+from dataclasses import replace
 from pathlib import Path
 
 import page
 from problem import ROOT, SINGLE_BLOCKS, problem, write_case
-from programs import BUILD, DONDOLO, PEERS, run_peer, say, weights, write_results
-from rounds import alternate, write_rounds
-from scaling import measure
+from programs import BUILD, DONDOLO, PEERS, run_peer, weights, write_results
+from progress import Progress, say
+from rounds import Rounds, write_rounds
+from scaling import measure, write_scaling
 
 OUT = ROOT / "out" / "benchmark"
-ROUNDS = 7  # of all programs in turns, for the ratios
+ROUNDS, QUICK_ROUNDS = 3, 1  # of all programs in turns, for the ratios, in each of the groups
 
 
-def compare(executable, records, quick):
-    """Run dondolo and its peers on the same histories; then the best settings of the first wall in turns."""
-    found, turns = [], []
-    for wall in SINGLE_BLOCKS[:1] if quick else SINGLE_BLOCKS:
-        each = problem(wall, records)
-        first = wall == SINGLE_BLOCKS[0]
-        say(f"{wall}, {len(each)} histories under {each.name} accelerograms")
-        # Slow peers run on the first wall only, all others with one setting per method on the second.
-        peers = [DONDOLO, *(peer for peer in PEERS if first or peer.part == 1)]
-        shares = weights(executable, each, 3)
-        own = []
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "problem.bin"
-            each.write(path)
-            case = write_case(folder, each.wall, each.motions, 1e-8)
-            for peer in peers:
-                all_settings = peer is DONDOLO or (first and not quick)
-                chosen = peer if all_settings else peer.quick()
-                own += run_peer(chosen, each, case if peer.takes_case else path, shares)
-            if first:
-                turns = alternate(executable, each, own, path, case, 2 if quick else ROUNDS)
-        found += own
-    return found, turns
+def compare(executable, records, quick, progress):
+    """Run dondolo and its peers on the same histories; results, turns of the best settings, and rows of the scaling.
+
+    The rounds come in three groups: after the first wall, after the second, and after the scaling.
+    """
+    found = []
+    problems = [problem(wall, records) for wall in (SINGLE_BLOCKS[:1] if quick else SINGLE_BLOCKS)]
+    plan(progress, problems, quick)
+    rounds = QUICK_ROUNDS if quick else ROUNDS
+    with tempfile.TemporaryDirectory() as folder, ExitStack() as stack:
+        turns = None
+        for each in problems:
+            say(f"{each.wall}, {len(each)} histories under {each.name} accelerograms")
+            own, path, case = settings(executable, each, folder, turns is None and not quick, progress)
+            found += own
+            if turns is None:
+                turns = stack.enter_context(Rounds(executable, each, own, path, case))
+            turns.group(rounds)
+            progress.finish("rounds")
+        rows = measure(executable, 1 if quick else 5)
+        progress.finish("scaling")
+        turns.group(rounds)
+        progress.finish("rounds")
+        return found, turns.turns, rows
+
+
+def chosen_peers(first, whole):
+    """Dondolo and the peers for a wall: slow ones run on the first only, all but dondolo there with every setting."""
+    peers = [peer for peer in PEERS if first or peer.part == 1]
+    return [DONDOLO, *(peer if whole else peer.quick() for peer in peers)]
+
+
+def plan(progress, problems, quick):
+    """Plan the steps of the benchmark."""
+    for each in problems:
+        first = each is problems[0]
+        factor = 1.0 if first else 1.7
+        progress.plan(f"{each.wall}, weights", 3.0)
+        for peer in chosen_peers(first, first and not quick):
+            for method, values in peer.methods.items():
+                progress.plan(f"{each.wall}, {peer.name}, {method}", factor * peer.expected * len(values))
+    for _ in range(len(problems) + 1):
+        progress.plan("rounds", 12.0 * (QUICK_ROUNDS if quick else ROUNDS))
+    progress.plan("scaling", 20.0 if quick else 70.0)
+
+
+def settings(executable, each, folder, whole, progress):
+    """Results of dondolo and its peers for one wall, and the files of the problem and of dondolo's case."""
+    path = Path(folder) / f"{each.wall}.bin"
+    each.write(path)
+    place = Path(folder) / each.wall
+    place.mkdir()
+    case = write_case(place, each.wall, each.motions, 1e-8)
+    shares = weights(executable, each, 3)
+    progress.finish(f"{each.wall}, weights")
+    found = []
+    for peer in chosen_peers(each.wall == SINGLE_BLOCKS[0], whole):
+        for method in peer.methods:
+            one = replace(peer, methods={method: peer.methods[method]})
+            found += run_peer(one, each, case if peer.takes_case else path, shares)
+            progress.finish(f"{each.wall}, {peer.name}, {method}")
+    return found, path, case
 
 
 def machine():
@@ -64,16 +105,16 @@ def main():
     """Run the whole benchmark."""
     executable, records = sys.argv[1:3]
     quick = "--quick" in sys.argv
-    start = time.monotonic()
+    progress = Progress()
     OUT.mkdir(parents=True, exist_ok=True)
-    results, turns = compare(executable, records, quick)
+    results, turns, rows = compare(executable, records, quick, progress)
     write_results(OUT / "programs.csv", results)
     write_rounds(OUT / "rounds.csv", turns)
-    measure(executable, OUT / "scaling.csv", 1 if quick else 3)
+    write_scaling(OUT / "scaling.csv", rows)
     (OUT / "machine.txt").write_text("\n".join(machine()) + "\n", encoding="utf-8")
     if not quick:
         page.write(OUT)
-    say(f"{time.monotonic() - start:.0f} s; the tables are in {OUT}")
+    say(f"{progress.elapsed():.0f} s; the tables are in {OUT}")
 
 
 if __name__ == "__main__":

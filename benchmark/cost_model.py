@@ -29,10 +29,10 @@ def growth(rows, kind):
 
 def serial_share(rows):
     """Share of the work that threads do not divide, by Amdahl's law and least squares; None: there is one thread."""
-    own = [row for row in rows if row["kind"] == "strong"]
-    threads, seconds = (np.array([row[what] for row in own]) for what in ("size", "value"))
+    own = [row for row in rows if row["kind"] == "strong efficiency"]
+    threads, efficiency = (np.array([row[what] for row in own]) for what in ("size", "value"))
     if len(own) < 2:
         return None
-    # t(n)/t(1) = s + (1 - s)/n
+    # t(n)/t(1) = 1/(n efficiency) = s + (1 - s)/n
     drop = 1.0 - 1.0 / threads
-    return max(0.0, float(drop @ (seconds / seconds[0] - 1.0 / threads) / (drop @ drop)))
+    return max(0.0, float(drop @ (1.0 / (threads * efficiency) - 1.0 / threads) / (drop @ drop)))

@@ -9,6 +9,7 @@ import numpy as np
 from dondolo.figures.style import BLACK, BLUE, GREY, LIGHT, RC, RED
 from matplotlib.ticker import NullFormatter
 from problem import ROOT
+from scaling import VALUES
 
 FOLDER = ROOT / "docs" / "figures"
 LOWEST = 1e-17  # errors of zero are drawn at this value
@@ -30,8 +31,6 @@ LOOKS = {
     "SciPy, DOP853": {"color": GREY, "marker": "s"},
     "SciPy, LSODA": {"color": GREY, "marker": "^"},
     "SciPy, RK45/record": {"color": GREY, "marker": "o", "linestyle": ":", **OPEN},
-    "SciPy, DOP853/record": {"color": GREY, "marker": "s", "linestyle": ":", **OPEN},
-    "SciPy, LSODA/record": {"color": GREY, "marker": "^", "linestyle": ":", **OPEN},
     "GNU Octave, ode45": {"color": BLACK, "marker": "x"},
     "GNU Octave, ode45/sample": {"color": BLACK, "marker": "+"},
 }
@@ -108,28 +107,24 @@ def scaling(rows):
             if kind == "threads":
                 looks = {"strong": {"marker": "o", "color": BLUE}, "weak": {"marker": "s", "color": RED}}
                 for which, look in looks.items():
-                    size, value = sped_up(rows, which)
-                    ax.plot(size, value, label=which, markersize=4.5, **look)
+                    own = [row for row in rows if row["kind"] == f"{which} efficiency"]
+                    size = np.array([row["size"] for row in own])
+                    middle, least, largest = (size * [row[what] for row in own] for what in VALUES)
+                    bars = np.array([middle - least, largest - middle])
+                    ax.errorbar(size, middle, bars, label=which, markersize=4.5, capsize=3, **look)
                 ax.plot(size, size, color=GREY, linewidth=1, zorder=0)
                 ax.legend()
             else:
                 own = [row for row in rows if row["kind"] == kind]
-                size, value = (np.array([row[what] for row in own]) for what in ("size", "value"))
+                size, value, least, largest = (np.array([row[what] for row in own]) for what in ("size", *VALUES))
+                unit = 1.0 if kind == "memory" else value[0]
                 if kind in ("records", "levels"):
-                    value = value / size / (value[0] / size[0])
-                elif kind != "memory":
-                    value = value / value[0]
-                ax.plot(size, value, marker="o", markersize=4.5, color=BLUE)
-                ax.set_ylim(0.0, 1.1 * max(value))
+                    unit = unit * size / size[0]
+                bars = np.array([value - least, largest - value]) / unit
+                ax.errorbar(size, value / unit, bars, marker="o", markersize=4.5, capsize=3, color=BLUE)
+                ax.set_ylim(0.0, 1.1 * max(largest / unit))
                 ax.set_xscale("log")
             ax.set_xticks(size, [f"{each:g}" for each in size])
             ax.set_xticks([], minor=True)
             ax.set(xlabel=xlabel, ylabel=ylabel)
     save(figure, "scaling")
-
-
-def sped_up(rows, kind):
-    """Threads, and the rate of histories relative to one thread."""
-    own = [row for row in rows if row["kind"] == kind]
-    rate = np.array([row["histories"] / row["value"] for row in own])
-    return np.array([row["size"] for row in own]), rate / rate[0]

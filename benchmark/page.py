@@ -6,6 +6,7 @@ import re
 from problem import ROOT
 from programs import read_results
 from rounds import read_rounds
+from scaling import VALUES
 from sections_programs import programs, speeds
 from sections_scaling import scaling
 
@@ -19,7 +20,7 @@ def write(folder):
     turns = read_rounds(folder / "rounds.csv")
     machine = (folder / "machine.txt").read_text(encoding="utf-8").splitlines()
     with open(folder / "scaling.csv", newline="", encoding="utf-8") as file:
-        numbers = ("size", "histories", "value")
+        numbers = ("size", "histories", *VALUES)
         rows = [row | {what: float(row[what]) for what in numbers} for row in csv.DictReader(file)]
     replace_between(ROOT / "docs" / "performance.md", [*programs(results, turns, machine), *scaling(rows)])
     # Within a paragraph, where a mark must not begin a line

@@ -1,18 +1,24 @@
 """The best setting of every program in turns, for ratios of times.
 
-Each round runs them one after the other, so that a machine that slows down affects all of them, and the spread of the
-ratios over the rounds shows how sure they are.
+Every program is one process that waits until its turn comes. In a round each has one turn, so that a machine that
+slows down affects all of them; the rounds come in groups at different times of the benchmark, so that the spread of the
+ratios shows what a machine does in the course of minutes too.
 """
 
 import csv
 import statistics
 import subprocess
+import time
+from contextlib import ExitStack
 from dataclasses import asdict, dataclass, fields
 
-from programs import BUILD, DONDOLO, PEERS, run_dondolo, say
+from programs import BUILD, DONDOLO, command_of, peer_of, run_dondolo
+from progress import say
 
 SHARE, WRONG = 0.01, 1  # acceptable share of histories with an error above 1e-6, acceptable number of wrong flags
-SLOW = 20.0  # seconds: a program that needs more for its histories is not run again in every round
+TURN = 0.3  # seconds: a program that needs less repeats its call until they are over, and the median counts
+SLOW = 2.0  # seconds: a program that needs more has one turn in each group of rounds
+SLOWEST = 20.0  # seconds: a program that needs more has no turns; the time of its settings counts
 
 #: What is measured beside the programs of `programs.csv`
 COLD, LIMIT = "dondolo, executable, cold", "arithmetic limit"
@@ -22,10 +28,11 @@ COLD, LIMIT = "dondolo, executable, cold", "arithmetic limit"
 class Turn:
     """Time of one program in one round."""
 
-    round: int
+    round: int  # 0: its setting alone, without rounds
     name: str  # program and method, or COLD or LIMIT
     setting: float
     ms: float  # all histories
+    own: float  # of it within the steps of a library that is called from Python; 0: not known
 
 
 def acceptable(result):
@@ -56,47 +63,102 @@ def contestants(results):
     return found + [chosen(several) for name, several in by_program(results).items() if name != DONDOLO.name]
 
 
-def alternate(executable, problem, results, path, case, rounds):
-    """Run the contestants in turns; return the times of all rounds."""
-    peers = {peer.name: peer for peer in (DONDOLO, *PEERS)}
-    turns = []
-    for number in range(1, rounds + 1):
-        for each in contestants(results):
-            if each.seconds > SLOW and number > 1:
-                continue
-            peer = peers[each.program]
-            every = len(problem) * peer.part // 880 or 1
-            # The first repeat warms up, but for programs that would take too long
-            repeats = 2 if each.seconds < 1.0 else 1
-            place = case if peer.takes_case else path
-            command = [*peer.command, place, each.method.split(",")[0], each.setting, repeats, every]
-            seconds = last_second(command)
-            ms = 1e3 * seconds * (each.ms_of_all / each.ms) * (len(problem) / each.histories)
-            turns.append(Turn(number, each.name, each.setting, ms))
-        cold = run_dondolo(executable, problem.wall, problem.motions, 1e-8, "lanes", 1)
-        turns.append(Turn(number, COLD, 1e-8, 1e3 * cold[0]))
-        if (BUILD / "arithmetic").is_file():
-            turns.append(Turn(number, LIMIT, 0.0, 1e3 * last_second([BUILD / "arithmetic", 3])))
-        say(f"round {number} of {rounds}")
-    return turns
+class Rounds:
+    """Programs that wait for their turns; a context that ends them."""
+
+    def __init__(self, executable, problem, results, path, case):
+        """Start the contestants among the results; path and case are what they are called with."""
+        self.executable, self.problem = executable, problem
+        self.turns, self.number = [], 0
+        self.running = []  # (result, process)
+        with ExitStack() as stack:
+            for each in contestants(results):
+                peer = peer_of(each)
+                if each.seconds > SLOWEST or not peer.waits:
+                    self.turns.append(self.turn(0, each, each.seconds, each.own))
+                    continue
+                command = command_of(peer, case if peer.takes_case else path, each.method, each.setting, 0, problem)
+                pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
+                process = stack.enter_context(subprocess.Popen(command, text=True, **pipes))
+                stack.callback(process.kill)
+                self.running.append((each, process))
+            self.stack = stack.pop_all()
+
+    def __enter__(self):
+        """Hand out the rounds."""
+        return self
+
+    def __exit__(self, *_):
+        """End the programs."""
+        self.stack.close()
+
+    def turn(self, number, result, seconds, own):
+        """Turn of a program; of a part of the histories, scaled to all of them."""
+        of_all = 1e3 * (result.ms_of_all / result.ms) * (len(self.problem) / result.histories)
+        return Turn(number, result.name, result.setting, of_all * seconds, of_all * own)
+
+    def group(self, rounds):
+        """Run some rounds."""
+        first = self.number + 1
+        for number in range(first, first + rounds):
+            for each, process in self.running:
+                if each.seconds > SLOW and number > first:
+                    continue
+                if number == 1 and each.seconds <= SLOW:
+                    call(process)  # warms up
+                seconds, own = several_calls(process)
+                self.turns.append(self.turn(number, each, seconds, own))
+            cold = run_dondolo(self.executable, self.problem.wall, self.problem.motions, 1e-8, "lanes", 1)
+            self.turns.append(Turn(number, COLD, 1e-8, 1e3 * cold[0], 0.0))
+            if (BUILD / "arithmetic").is_file():
+                self.turns.append(Turn(number, LIMIT, 0.0, 1e3 * loop_seconds(), 0.0))
+            self.number = number
+            say(f"round {number}")
 
 
-def last_second(command):
-    """Seconds of the last repeat of a program."""
-    done = subprocess.run([str(word) for word in command], check=True, capture_output=True, text=True)
-    return [float(line.split()[1]) for line in done.stdout.splitlines() if line.startswith("seconds ")][-1]
+def call(process):
+    """One call of a program that waits: seconds, and those within its own steps."""
+    process.stdin.write("\n")
+    process.stdin.flush()
+    own = 0.0
+    for line in process.stdout:
+        first, _, rest = line.partition(" ")
+        if first == "own":
+            own = float(rest)
+        elif first == "seconds":
+            return float(rest), own
+    raise RuntimeError(f"a program of the rounds ended: {' '.join(map(str, process.args))}")
 
 
-def times_of(turns, name, setting):
+def several_calls(process):
+    """Median of the calls of one turn."""
+    calls, start = [], time.monotonic()
+    while not calls or time.monotonic() - start < TURN:
+        calls.append(call(process))
+    return tuple(map(statistics.median, zip(*calls, strict=True)))
+
+
+def loop_seconds():
+    """Median of the seconds of the loop that shows what the processor can do."""
+    done = subprocess.run([BUILD / "arithmetic", "20"], check=True, capture_output=True, text=True)
+    return statistics.median(float(line.split()[1]) for line in done.stdout.splitlines())
+
+
+def times_of(turns, name, setting, what="ms"):
     """Milliseconds of a program in each round, as {round: ms}."""
-    return {turn.round: turn.ms for turn in turns if turn.name == name and turn.setting == setting}
+    return {turn.round: getattr(turn, what) for turn in turns if turn.name == name and turn.setting == setting}
 
 
-def ratio(turns, over, under):
-    """Median, least and largest ratio of the times of two programs (name, setting) over the rounds that both ran in."""
-    top, bottom = times_of(turns, *over), times_of(turns, *under)
+def ratio(turns, over, under, what="ms"):
+    """Median, least and largest ratio of the times of two programs (name, setting) over the rounds that both ran in.
+
+    A program without rounds is compared with all rounds of the other.
+    """
+    top, bottom = times_of(turns, *over, what), times_of(turns, *under)
+    if set(top) == {0}:
+        top = dict.fromkeys(bottom, top[0])
     ratios = [top[each] / bottom[each] for each in sorted(top.keys() & bottom.keys())]
-    return statistics.median(ratios), min(ratios), max(ratios), len(ratios)
+    return statistics.median(ratios), min(ratios), max(ratios)
 
 
 def write_rounds(path, turns):
@@ -110,7 +172,4 @@ def write_rounds(path, turns):
 def read_rounds(path):
     """Read the times of all rounds."""
     with open(path, newline="", encoding="utf-8") as file:
-        return [
-            Turn(int(row["round"]), row["name"], float(row["setting"]), float(row["ms"]))
-            for row in csv.DictReader(file)
-        ]
+        return [Turn(**{f.name: f.type(row[f.name]) for f in fields(Turn)}) for row in csv.DictReader(file)]

@@ -14,7 +14,6 @@ from pathlib import Path
 
 import numpy as np
 from problem import ROOT
-from programs import say
 
 import dondolo as dd
 
@@ -22,6 +21,7 @@ CATALOGUE = ROOT / "data" / "records" / "synthetic44.csv"
 LEVELS = np.linspace(0.05, 1.0, 20)
 VARIANTS = ("baseline", "avx2", "avx512")[: ("baseline", "avx2", "avx512", "native").index(dd.build_variant()) + 1]
 WALL = dd.OneSidedWall(height=3.0, thickness=0.25)
+VALUES = ("value", "least", "largest")  # median, least and largest of the repeats
 
 
 def walls(count):
@@ -59,18 +59,49 @@ def typology(executable, count, threads, folder, variant=None):
     return float(re.search(r"histories in +(\S+) s", printed).group(1)), peak
 
 
+def row(kind, size, histories, values):
+    """Row of the table: median and range of several values."""
+    return {
+        "kind": kind,
+        "size": size,
+        "histories": histories,
+        "value": statistics.median(values),
+        "least": min(values),
+        "largest": max(values),
+    }
+
+
 def threads(executable, repeats):
-    """Measure strong scaling, with a fixed population, and weak scaling, with one that grows with the threads."""
+    """Measure strong scaling, with a fixed population, and weak scaling, with one that grows with the threads.
+
+    The numbers of threads take turns; beside the seconds there are the efficiencies of each turn, relative to one
+    thread in the same turn.
+    """
     cores = os.cpu_count()
     counts = sorted({*(2**k for k in range(20) if 2**k <= cores), cores})
     rows = []
     for kind, walls_of in (("strong", lambda n: 40 * cores), ("weak", lambda n: 40 * n)):
+        seconds = {n: [] for n in counts}
+        for _ in range(repeats):
+            for n in counts:
+                with tempfile.TemporaryDirectory() as folder:
+                    seconds[n].append(typology(executable, walls_of(n), n, folder)[0])
         for n in counts:
-            with tempfile.TemporaryDirectory() as folder:
-                seconds = [typology(executable, walls_of(n), n, folder)[0] for _ in range(repeats)]
-            rows.append({"kind": kind, "size": n, "histories": 880 * walls_of(n), "value": statistics.median(seconds)})
-        say(f"threads, {kind}: {counts}")
+            share = walls_of(n) / walls_of(1) / n
+            efficiency = [share * one / several for one, several in zip(seconds[1], seconds[n], strict=True)]
+            rows.append(row(kind, n, 880 * walls_of(n), seconds[n]))
+            rows.append(row(f"{kind} efficiency", n, 880 * walls_of(n), efficiency))
     return rows
+
+
+def variants(executable, repeats):
+    """Measure every build variant that this processor supports, on one thread, in turns."""
+    seconds = {name: [] for name in VARIANTS}
+    for _ in range(repeats):
+        for name in VARIANTS:
+            with tempfile.TemporaryDirectory() as folder:
+                seconds[name].append(typology(executable, 16, 1, folder, name)[0])
+    return [row("variant", place, 880 * 16, seconds[name]) for place, name in enumerate(VARIANTS)]
 
 
 def memory(executable):
@@ -79,30 +110,19 @@ def memory(executable):
     for count in (1, 4, 16, 64, 256):
         with tempfile.TemporaryDirectory() as folder:
             _, peak = typology(executable, count, os.cpu_count(), folder)
-        rows.append({"kind": "memory", "size": count, "histories": 880 * count, "value": peak})
-    say("memory")
+        rows.append(row("memory", count, 880 * count, [peak]))
     return rows
 
 
-def variants(executable, repeats):
-    """Measure every build variant that this processor supports, on one thread."""
-    rows = []
-    for place, name in enumerate(VARIANTS):
-        with tempfile.TemporaryDirectory() as folder:
-            seconds = [typology(executable, 16, 1, folder, name)[0] for _ in range(repeats)]
-        rows.append({"kind": "variant", "size": place, "histories": 880 * 16, "value": statistics.median(seconds)})
-    say("build variants")
-    return rows
-
-
-def timed(wall, records, levels, repeats):
-    """Seconds of a multiple stripe analysis on one thread."""
+def timed(several, records, levels, repeats):
+    """Seconds of multiple stripe analyses of some walls on one thread, after a run that is not timed."""
     found = []
-    for _ in range(repeats):
+    for _ in range(repeats + 1):
         start = time.perf_counter()
-        dd.multiple_stripe(wall, records, levels, threads=1, progress=False)
+        for wall in several:
+            dd.multiple_stripe(wall, records, levels, threads=1, progress=False)
         found.append(time.perf_counter() - start)
-    return statistics.median(found)
+    return found[1:]
 
 
 def costs(repeats):
@@ -110,25 +130,24 @@ def costs(repeats):
     records = dd.read_catalogue(CATALOGUE)
     rows = []
 
-    def add(kind, size, histories, seconds):
-        rows.append({"kind": kind, "size": size, "histories": histories, "value": seconds})
+    def add(kind, size, walls_of, records_of, levels):
+        seconds = timed(walls_of, records_of, levels, repeats)
+        rows.append(row(kind, size, len(walls_of) * len(records_of) * len(levels), seconds))
 
     for count in (1, 2, 4, 8):
-        seconds = sum(timed(wall, records, LEVELS, repeats) for wall in walls(count))
-        add("walls", count, count * len(records) * len(LEVELS), seconds)
+        add("walls", count, walls(count), records, LEVELS)
     for count in (6, 11, 22, 44):
-        add("records", count, count * len(LEVELS), timed(WALL, records[:count], LEVELS, repeats))
+        add("records", count, [WALL], records[:count], LEVELS)
     for count in (5, 10, 20, 40, 80):
-        add("levels", count, count * len(records), timed(WALL, records, np.linspace(0.05, 1.0, count), repeats))
+        add("levels", count, [WALL], records, np.linspace(0.05, 1.0, count))
     for times in (1, 2, 4, 8):
         # The same motion repeated: a record of several shocks
         longer = [dd.Record(np.tile(r.acceleration, times), r.dt, name=r.name) for r in records]
-        add("shocks", times, len(records) * len(LEVELS), timed(WALL, longer, LEVELS, repeats))
+        add("shocks", times, [WALL], longer, LEVELS)
     for parts in (1, 2, 4, 8):
         # Linear interpolation, like the record itself: the same input, and the same motion
         finer = [dd.Record(refined(r.acceleration, parts), r.dt / parts, name=r.name) for r in records]
-        add("samples", parts, len(records) * len(LEVELS), timed(WALL, finer, LEVELS, repeats))
-    say("walls, levels, length and sampling of records")
+        add("samples", parts, [WALL], finer, LEVELS)
     return rows
 
 
@@ -138,10 +157,14 @@ def refined(acceleration, parts):
     return np.interp(places, np.arange(len(acceleration)), acceleration)
 
 
-def measure(executable, path, repeats):
-    """Measure everything and write a table: kind, size, histories, value [s, or MiB for memory]."""
-    rows = threads(executable, repeats) + variants(executable, repeats) + costs(repeats) + memory(executable)
+def measure(executable, repeats):
+    """Measure everything: rows of kind, size, histories, and value, least and largest [s, or MiB for memory]."""
+    return threads(executable, repeats) + variants(executable, repeats) + costs(repeats) + memory(executable)
+
+
+def write_scaling(path, rows):
+    """Write a table of what `measure` found."""
     with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, ["kind", "size", "histories", "value"])
+        writer = csv.DictWriter(file, ["kind", "size", "histories", *VALUES])
         writer.writeheader()
         writer.writerows(rows)

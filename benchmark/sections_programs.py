@@ -5,7 +5,7 @@ import statistics
 import figures
 from markdown import bullets, many, paragraph, small, table
 from programs import DONDOLO, PEERS
-from rounds import COLD, LIMIT, SHARE, SLOW, WRONG, by_program, chosen, ratio, times_of
+from rounds import COLD, LIMIT, SHARE, SLOW, SLOWEST, TURN, WRONG, by_program, chosen, ratio, times_of
 
 METHODS = [
     "*C++ by hand*: one or several Nyström steps of order four from sample to sample; events by Newton's method on the "
@@ -29,7 +29,7 @@ def settings(results):
             each.name,
             f"{each.setting:g}",
             each.histories,
-            f"{each.ms_of_all:.3g}",
+            rounded(each.ms_of_all, 3),
             each.flags,
             each.above,
             small(each.worst),
@@ -54,17 +54,20 @@ def programs(results, turns, machine):
             "the peak at q' = 0, and the motion after the record by its energy. Programs in the same language share "
             "all source except the integration. All run on one core, in a warm process: reading and compilation "
             "are over before the clock starts. Times are medians of several repeats where a program is not too slow "
-            "for them."
+            "for them; how much they vary is stated for the best settings below."
         ),
         *bullets(METHODS),
-        *table(["program", "its time holds"], [[peer.name, peer.holds] for peer in (DONDOLO, *PEERS)]),
+        *table(
+            ["program", "its time holds"], {peer.name: [peer.name, peer.holds] for peer in (DONDOLO, *PEERS)}.values()
+        ),
         *paragraph(
             f"Versions: {'; '.join(versions)}. {'; '.join(machine)}. Absolute tolerances are one hundredth of the "
             "relative ones, in units of the capacity."
         ),
         *paragraph(
-            "Slow programs run only a part of the histories. Their times are divided by the ratio of the mean times "
-            "per history that rk45, which runs history by history, needs for that part and for all histories."
+            f"Slow programs run only a part of the histories: {parts(first)}. Their times are divided by the ratio of "
+            "the mean times per history that rk45, which runs history by history, needs for that part and for all "
+            "histories."
         ),
         "![error against time per history](figures/performance_work.png)",
         "",
@@ -74,6 +77,17 @@ def programs(results, turns, machine):
         own = [each for each in results if each.wall == name]
         lines += [*paragraph(f"`{name}`, {own[0].accelerograms} accelerograms"), *table(head, settings(own))]
     return lines + ratios(first, turns) + limits(first, turns)
+
+
+def parts(results):
+    """Programs that ran a part of the histories, in words."""
+    most = max(each.histories for each in results)
+    found = {}
+    for each in results:
+        if each.histories < most:
+            found.setdefault((each.program, each.histories), []).append(each.method)
+    words = (f"{name} ({', '.join(dict.fromkeys(methods))}) {n}" for (name, n), methods in found.items())
+    return f"{'; '.join(words)} of {most}"
 
 
 def ratios(results, turns):
@@ -87,27 +101,17 @@ def ratios(results, turns):
             continue
         best = chosen(several)
         key = (best.name, best.setting)
-        several_rounds = [ratio(turns, key, under) for under in (*engines, tight)]
-        rows.append(
-            [
-                program,
-                f"{best.name.partition(', ')[2]}, {best.setting:g}",
-                f"{statistics.median(times_of(turns, *key).values()):.4g}",
-                f"{best.above} of {best.histories}, {many(best.flags, 'wrong flag')}",
-                several_rounds[0][3],
-                *(spread(*each[:3]) for each in several_rounds),
-            ]
-        )
-        if best.own > 0.0:
-            part = best.own / best.seconds
+        errors = f"{best.above} of {best.histories}, {many(best.flags, 'wrong flag')}"
+        for what, name in (("ms", program), *((("own", f"{program}, own steps"),) if best.own > 0.0 else ())):
+            times = times_of(turns, *key, what)
             rows.append(
                 [
-                    f"{program}, own steps",
-                    rows[-1][1],
-                    f"{part * statistics.median(times_of(turns, *key).values()):.4g}",
-                    "the same",
-                    several_rounds[0][3],
-                    *(spread(*(part * value for value in each[:3])) for each in several_rounds),
+                    name,
+                    f"{best.name.partition(', ')[2]}, {best.setting:g}",
+                    ranged(list(times.values())),
+                    errors,
+                    len(set(times) - {0}) or "none",
+                    *(spread(*ratio(turns, key, under, what)) for under in (*engines, tight)),
                 ]
             )
     heads = [f"times `{name.partition(', ')[2]}`" for name, _ in engines] + ["times `lanes`, 1e-12"]
@@ -116,20 +120,28 @@ def ratios(results, turns):
         *paragraph(
             f"For each program the cheapest setting with at most {100 * SHARE:g} % of the EDPs with an error above "
             f"1e-6 and at most {many(WRONG, 'wrong flag')}, or, if there is none, its most accurate setting. These "
-            f"settings ran in turns, {many(rounds, 'round')}, the second of two calls each; a program that takes more "
-            f"than {SLOW:g} s ran in the first only. The last columns are the times relative to those of dondolo's "
-            "engines in the same round, at their defaults and at a tight tolerance: median, and in brackets the least "
-            "and the largest of the rounds."
+            f"settings ran in {many(rounds, 'round')}, in which every program has its turn, each in a warm process. "
+            "A third of the rounds ran before the second wall and the measurements of section 2, a third between them "
+            f"and a third after both. A turn is as many calls as fit in {TURN:g} s, at least one, and counts by their "
+            f"median. A program that takes more than {SLOW:g} s has one turn in each third; one that takes more than "
+            f"{SLOWEST:g} s has none, nor has Octave, and its time of the table above is compared with all rounds of "
+            "dondolo. The last columns are the times relative to those of dondolo's engines in the same round, at "
+            "their defaults and at a tight tolerance: median, and in brackets the least and the largest of the rounds."
         ),
         *table(["program", "setting", "ms for all histories", "errors", "rounds", *heads], rows),
     ]
 
 
+def ranged(values):
+    """Median of some times, and in brackets the least and the largest."""
+    return spread(statistics.median(values), min(values), max(values))
+
+
 def spread(median, least, largest):
     """A ratio with its range over the rounds."""
     if least == largest:
-        return f"{median:.3g}"
-    return f"{median:.3g} ({least:.3g} to {largest:.3g})"
+        return rounded(median, 3)
+    return f"{rounded(median, 3)} ({rounded(least, 3)} to {rounded(largest, 3)})"
 
 
 def limits(results, turns):
@@ -138,19 +150,18 @@ def limits(results, turns):
     histories = next(each.histories for each in results if each.name == lanes[0])
     warm, cold = (list(times_of(turns, *key).values()) for key in (lanes, (COLD, 1e-8)))
     lines = paragraph(
-        f"The {histories} histories take the engine `lanes` {statistics.median(warm):.3g} ms "
-        f"({min(warm):.3g} to {max(warm):.3g}) in a call from Python that is warm. The executable, started anew, needs "
-        f"{statistics.median(cold):.3g} ms ({min(cold):.3g} to {max(cold):.3g}) for the same, the reading of the "
-        "records before it left aside."
+        f"The {histories} histories take the engine `lanes` {ranged(warm)} ms in a call from Python that is warm. The "
+        f"executable, started anew, needs {ranged(cold)} ms for the same, without the reading of the records before it."
     )
-    if not times_of(turns, LIMIT, 0.0):
+    loop = list(times_of(turns, LIMIT, 0.0).values())
+    if not loop:
         return lines
-    loop = statistics.median(times_of(turns, LIMIT, 0.0).values())
-    median, least, largest, _ = ratio(turns, lanes, (LIMIT, 0.0))
+    median, least, largest = ratio(turns, lanes, (LIMIT, 0.0))
     return lines + paragraph(
         f"In the same rounds a loop of 3.24e6 times 90 fused multiplications and additions in the widest vectors of "
-        f"the processor, which computes nothing else, takes {loop:.3g} ms. The call from Python takes "
-        f"{spread(median, least, largest)} times as long."
+        f"the processor, which computes nothing else, takes {ranged(loop)} ms. The call from Python takes "
+        f"{spread(median, least, largest)} times as long. The loop measures the processor, so that machines can be "
+        "compared; it is not a count of the operations of the histories."
     )
 
 
@@ -164,17 +175,20 @@ def speeds(results, turns):
     for program in ("Boost.odeint", "heyoka", "SciPy"):
         own = [each for each in first if each.program == program]
         if own:
-            best = chosen(own)
-            times = float(f"{ratio(turns, (best.name, best.setting), lanes)[0]:.2g}")
-            factors.append(f"{times:g} times as fast as {program}")
-            if best.own > 0.0:
-                factors[-1] += (
-                    f" called from Python ({float(f'{times * best.own / best.seconds:.2g}'):g} of its own steps)"
-                )
+            key = (chosen(own).name, chosen(own).setting)
+            factors.append(f"{rounded(ratio(turns, key, lanes)[0])} times as fast as {program}")
+            if chosen(own).own > 0.0:
+                factors[-1] += f" called from Python ({rounded(ratio(turns, key, lanes, 'own')[0])} of its own steps)"
     times = times_of(turns, *lanes).values()
     sentence = (
-        f"{mine.histories} time histories of one wall under recorded motions take {statistics.median(times):.2g} ms "
-        f"on one core in a call from Python (`{variant}`): {', '.join(factors)}, each at its "
-        "cheapest setting that is accurate enough, all warm and in the same rounds."
+        f"{mine.histories} time histories of one wall under recorded motions take "
+        f"{rounded(statistics.median(times))} ms ({rounded(min(times))} to {rounded(max(times))}) on one core in a "
+        f"call from Python (`{variant}`): {', '.join(factors)}, each at its cheapest setting that is accurate enough, "
+        "all warm and in the same rounds."
     )
     return paragraph(sentence, indent="  ")[:-1]
+
+
+def rounded(value, digits=2):
+    """A number with so many digits that count, without an exponent."""
+    return f"{float(f'{value:.{digits}g}'):.10g}"

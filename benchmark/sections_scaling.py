@@ -3,7 +3,7 @@
 import cost_model
 import figures
 from markdown import paragraph, table
-from scaling import VARIANTS
+from scaling import VALUES, VARIANTS
 
 
 def scaling(rows):
@@ -14,7 +14,9 @@ def scaling(rows):
         "",
         *paragraph(
             "The default engine is run with the embedded synthetic accelerograms, at 20 levels unless stated "
-            "otherwise. Strong scaling has a fixed population of walls, weak scaling one that grows with the threads."
+            "otherwise. Strong scaling has a fixed population of walls, weak scaling one that grows with the threads. "
+            "The numbers of threads ran in turns, and an efficiency is relative to one thread in the same turn. In "
+            "brackets are the least and the largest value."
         ),
         "![threads, sizes, memory](figures/performance_scaling.png)",
         "",
@@ -22,12 +24,12 @@ def scaling(rows):
     head = ["scaling", "threads", "histories", "s", "histories per second", "efficiency"]
     body = []
     for kind in ("strong", "weak"):
-        size, gain = figures.sped_up(rows, kind)
-        own = [row for row in rows if row["kind"] == kind]
-        for row, n, each in zip(own, size, gain, strict=True):
-            rate = row["histories"] / row["value"]
-            work = [f"{row['histories']:g}", f"{row['value']:.3g}", f"{rate:.3g}"]
-            body.append([kind, f"{n:g}", *work, f"{each / n:.2f}"])
+        efficiencies = {r["size"]: r for r in rows if r["kind"] == f"{kind} efficiency"}
+        for r in (r for r in rows if r["kind"] == kind):
+            rate = r["histories"] / r["value"]
+            gain = efficiencies[r["size"]]
+            work = [f"{r['histories']:g}", ranged(r), f"{rate:.3g}"]
+            body.append([kind, f"{r['size']:g}", *work, ranged(gain, digits=2) if r["size"] > 1 else "1"])
     lines += table(head, body)
     names = {
         "walls": "walls, a call for each",
@@ -37,7 +39,7 @@ def scaling(rows):
         "samples": "samples for each one of the record, interpolated linearly",
     }
     body = [
-        [names[r["kind"]], f"{r['size']:g}", f"{r['histories']:g}", f"{1e3 * r['value'] / r['histories']:.3g}"]
+        [names[r["kind"]], f"{r['size']:g}", f"{r['histories']:g}", ranged(r, 1e3 / r["histories"])]
         for r in rows
         if r["kind"] in names
     ]
@@ -45,12 +47,17 @@ def scaling(rows):
     lines += model(rows)
     own = [row for row in rows if row["kind"] == "variant"]
     body = [
-        [VARIANTS[int(r["size"])], f"{1e3 * r['value'] / r['histories']:.3g}", f"{own[0]['value'] / r['value']:.3g}"]
-        for r in own
+        [VARIANTS[int(r["size"])], ranged(r, 1e3 / r["histories"]), f"{own[0]['value'] / r['value']:.2g}"] for r in own
     ]
     lines += table(["build variant", "ms per history", "speed-up"], body)
     body = [[f"{r['histories']:g}", f"{r['value']:.1f}"] for r in rows if r["kind"] == "memory" and r["value"] > 0.0]
     return lines + table(["histories", "peak memory, MiB"], body)
+
+
+def ranged(row, factor=1.0, digits=3):
+    """Median of a row, and in brackets its least and largest value."""
+    middle, least, largest = (f"{factor * row[what]:.{digits}g}" for what in VALUES)
+    return middle if least == largest else f"{middle} ({least} to {largest})"
 
 
 def model(rows):

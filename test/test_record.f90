@@ -4,7 +4,7 @@ program test_record
    use dondolo_catalogue, only : read_catalogue, record_rows_type
    use dondolo_csv_reader, only : csv_reader_type
    use dondolo_csv_row, only : cell_type, split_row, text_cell
-   use dondolo_encoding, only : is_utf8, take_utf16
+   use dondolo_encoding, only : is_ascii, is_utf8, take_utf16
    use dondolo_error, only : error_type, status_missing
    use dondolo_kinds, only : wp
    use dondolo_limits, only : longest_case
@@ -191,6 +191,7 @@ contains
       call read_text_file('', text, error, longest_case)
       call check(allocated(error), 'no name')
       call test_line_ends()
+      call test_ascii()
    end subroutine test_text_file
 
    !> Line ends are looked for in eight characters at once: they are found wherever they stand among them
@@ -220,6 +221,25 @@ contains
       end do
       call check(wrong == 0, to_text(wrong)//' lines are found wrongly')
    end subroutine test_line_ends
+
+   !> Bytes that are not ASCII are looked for among eight at once: they are found wherever they are
+   subroutine test_ascii()
+      character(len=19) :: text
+      integer :: code, place, length, wrong
+
+      wrong = 0
+      do code = 0, 255
+         do length = 1, len(text)
+            do place = 1, length
+               text = repeat(achar(127 - 126*modulo(place, 2)), len(text))
+               text(place:place) = achar(code)
+               if (is_ascii(text(:length)) .neqv. (code > 0 .and. code < 128)) wrong = wrong + 1
+            end do
+         end do
+      end do
+      call check(wrong == 0, to_text(wrong)//' texts are wrongly taken for ASCII, or not')
+      call check(is_ascii(''), 'no bytes are ASCII')
+   end subroutine test_ascii
 
    !> Tables that are right
    subroutine test_csv()

@@ -24,10 +24,11 @@ def main():
 
     stripes = call()
     print("version dondolo", version("dondolo"), dd.build_variant())
-    for _ in range(int(repeats)):
+    # 0 repeats: one for each line of standard input
+    for _ in range(int(repeats)) if int(repeats) else sys.stdin:
         start = time.perf_counter()
         stripes = call()
-        print("seconds", time.perf_counter() - start)
+        print("seconds", time.perf_counter() - start, flush=True)
     # Level by level, as in the tables of the reference
     for edp, collapsed in zip(
         stripes.edp.ravel()[:: int(every)], stripes.collapsed.ravel()[:: int(every)], strict=True

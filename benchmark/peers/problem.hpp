@@ -44,7 +44,7 @@ struct Outcome {
 struct Request {
    std::string method;
    double setting;  // tolerance, or steps per sample
-   int repeats;
+   int repeats;  // 0: one for each line of standard input
    int every;  // stride: run every n-th history
 };
 
@@ -80,7 +80,7 @@ inline Problem read_problem(const char *path) {
    return problem;
 }
 
-// Run all histories as often as required; print version, seconds of each repeat, and one line per history.
+// Run all histories as often as required, or each time that a line comes in; print version, seconds of each repeat, and one line per history.
 // make(request, problem) returns a function of a history.
 template <class Make>
 int run_peer(int argc, char **argv, const std::string &version, Make make) {
@@ -93,13 +93,20 @@ int run_peer(int argc, char **argv, const std::string &version, Make make) {
    auto simulate = make(request, problem);
    std::printf("version %s\n", version.c_str());
    std::vector<Outcome> outcomes;
-   for (int repeat = 0; repeat < request.repeats; ++repeat) {
+   const auto more = [&request](int repeat) {
+      if (request.repeats > 0) return repeat < request.repeats;
+      for (int c; (c = std::getchar()) != EOF;)
+         if (c == '\n') return true;
+      return false;
+   };
+   for (int repeat = 0; more(repeat); ++repeat) {
       outcomes.clear();
       const auto start = std::chrono::steady_clock::now();
       for (std::size_t i = 0; i < problem.histories.size(); i += request.every)
          outcomes.push_back(simulate(problem.histories[i]));
       const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
       std::printf("seconds %.9f\n", seconds.count());
+      std::fflush(stdout);
    }
    for (const Outcome &each : outcomes) std::printf("%.17g %d %d\n", each.edp, each.collapsed, each.impacts);
    return 0;

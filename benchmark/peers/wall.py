@@ -164,8 +164,13 @@ def read_problem(path):
     return wall, [(scale * samples[int(record)], sizes[int(record), 0]) for record, scale in pairs]
 
 
+def turns(repeats):
+    """As many turns as repeats, or, with 0, one for each line of standard input."""
+    return range(repeats) if repeats else sys.stdin
+
+
 def run_peer(version, make):
-    """Run all histories the required number of times, with arguments PROBLEM METHOD SETTING REPEATS EVERY.
+    """Run all histories as often as `turns` says, with arguments PROBLEM METHOD SETTING REPEATS EVERY.
 
     make(wall, method, setting) returns a function of all histories (accelerogram and time step), already compiled. It
     may add up in its attribute `own` the seconds that a library called from Python spends in its own steps.
@@ -175,13 +180,15 @@ def run_peer(version, make):
     histories = histories[:: int(every)]
     run_all = make(wall, method, float(setting))
     print("version", version)
-    for _ in range(int(repeats)):
+    outcomes = []
+    for _ in turns(int(repeats)):
         if hasattr(run_all, "own"):
             run_all.own = 0.0
         start = time.perf_counter()
         outcomes = run_all(histories)
-        print("seconds", time.perf_counter() - start)
+        seconds = time.perf_counter() - start
         if hasattr(run_all, "own"):
             print("own", run_all.own)
+        print("seconds", seconds, flush=True)
     for edp, collapsed, impacts in outcomes:
         print(repr(float(edp)), int(collapsed), int(impacts))

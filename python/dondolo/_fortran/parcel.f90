@@ -25,6 +25,8 @@ module dondolo_parcel
       procedure, private :: add_reals
       !> Add numbers after those that are there
       generic :: add => add_integers, add_reals
+      !> Add reals and take them away
+      procedure :: move_reals
       !> Add a note to the lines
       procedure :: add_note
    end type parcel_type
@@ -37,8 +39,11 @@ contains
       !> Integers
       integer(c_int), intent(in) :: integers(:)
 
-      if (.not. allocated(self%integers)) allocate (self%integers(0))
-      self%integers = [self%integers, integers]
+      if (allocated(self%integers)) then
+         self%integers = [self%integers, integers]
+      else
+         self%integers = integers
+      end if
    end subroutine add_integers
 
    !> Add reals
@@ -47,9 +52,26 @@ contains
       !> Reals
       real(c_double), intent(in) :: reals(:)
 
-      if (.not. allocated(self%reals)) allocate (self%reals(0))
-      self%reals = [self%reals, reals]
+      if (allocated(self%reals)) then
+         self%reals = [self%reals, reals]
+      else
+         self%reals = reals
+      end if
    end subroutine add_reals
+
+   !> Add reals that are not needed any more: without a copy if they are the first, which millions of samples are
+   subroutine move_reals(self, reals)
+      class(parcel_type), intent(inout) :: self
+      !> Reals
+      real(c_double), allocatable, intent(inout) :: reals(:)
+
+      if (allocated(self%reals)) then
+         call self%add(reals)
+         deallocate (reals)
+      else
+         call move_alloc(reals, self%reals)
+      end if
+   end subroutine move_reals
 
    !> Add how something was read, where there is something to say of it
    subroutine add_note(self, note)

@@ -85,7 +85,7 @@ contains
          reals(from + 1:from + verticals(i)) = records(i)%vertical
          from = from + verticals(i)
       end do
-      call parcel%add(reals)
+      call parcel%move_reals(reals)
       do i = 1, size(records)
          do k = 1, records(i)%metadata%count()
             associate (entry => records(i)%metadata%entries(k))

@@ -82,16 +82,37 @@ contains
          call raise_input(error, 'name = '''//shown(name)//''': '//trim(name_problem(name)))
          return
       end if
-      do i = 1, size(acceleration)
-         if (abs(acceleration(i)) <= largest_acceleration) cycle
+      i = first_implausible(acceleration, 1.0_wp)
+      if (i > 0) then
          call raise_input(error, 'sample '//to_text(i)//' = '//to_text(acceleration(i))//' m/s2: '// &
             & 'must be a number between -'//to_text(largest_acceleration)//' and '//to_text(largest_acceleration))
          return
-      end do
+      end if
       record%name = name
       record%dt = dt
       record%acceleration = acceleration
    end subroutine new_record
+
+   !> The first sample that is no acceleration of the ground; 0 if there is none
+   pure integer function first_implausible(samples, factor) result(first)
+      !> Samples
+      real(wp), intent(in) :: samples(:)
+      !> Factor that makes them accelerations [m/s2]
+      real(wp), intent(in) :: factor
+
+      integer :: i, wrong
+
+      ! Without an exit the loop takes several at once; a NaN is not below the limit either
+      wrong = 0
+      do i = 1, size(samples)
+         wrong = wrong + merge(0, 1, abs(factor*samples(i)) <= largest_acceleration)
+      end do
+      first = 0
+      if (wrong == 0) return
+      do first = 1, size(samples)
+         if (.not. abs(factor*samples(first)) <= largest_acceleration) return
+      end do
+   end function first_implausible
 
    !> Peak ground acceleration [m/s2]
    elemental function pga(self)
@@ -140,12 +161,12 @@ contains
             & to_text(self%duration())//' s as the record, or by less than a step longer or shorter')
          return
       end if
-      do i = 1, size(vertical)
-         if (abs(factor*vertical(i)) <= largest_acceleration) cycle
+      i = first_implausible(vertical, factor)
+      if (i > 0) then
          call raise_input(error, 'vertical: sample '//to_text(i)//' = '//to_text(factor*vertical(i))//' m/s2: '// &
             & 'must be a number between -'//to_text(largest_acceleration)//' and '//to_text(largest_acceleration))
          return
-      end do
+      end if
       if (.not. abs(dt - self%dt) > same_step*self%dt) then
          self%vertical = factor*vertical
       else

@@ -19,6 +19,9 @@ module dondolo_text_file
    !> What may follow the last line: NUL, tab, line feed, carriage return, Ctrl-Z (end of file under DOS), blank
    character(len=*), parameter :: padding = achar(0)//achar(9)//achar(10)//achar(13)//achar(26)//' '
 
+   !> Does the first character of a text become the lowest byte of an integer?
+   logical, parameter :: first_is_lowest = transfer(1_int64, 'a') == achar(1)
+
    !> The text of a file and where its lines are
    type :: text_file_type
       !> Path of the file
@@ -195,7 +198,8 @@ contains
       type(text_file_type), intent(inout) :: text
 
       integer, parameter :: line_feed = 10, return = 13
-      integer :: begin, finish, count, i
+      integer(int64) :: marks
+      integer :: begin, finish, count, i, at
 
       begin = 1
       if (len(text%text) >= 3) then
@@ -206,30 +210,31 @@ contains
          allocate (text%first(0), text%last(0))
          return
       end if
-      ! Of plain characters the loop takes many at a time
       associate (content => text%text)
-         count = 1
-         do i = begin, finish
-            count = count + merge(1, 0, iachar(content(i:i)) == line_feed)
-         end do
+         count = 1 + count_line_feeds(content(begin:finish))
          allocate (text%first(count), text%last(count))
          text%first(1) = begin
          text%last(count) = finish
          count = 1
          i = begin
-         do while (i <= finish)
-            if (i + 7 <= finish) then
-               if (.not. has_line_feed(content(i:i + 7))) then
-                  i = i + 8
-                  cycle
-               end if
-            end if
-            do i = i, min(i + 7, finish)
-               if (iachar(content(i:i)) /= line_feed) cycle
-               text%last(count) = i - 1
-               count = count + 1
-               text%first(count) = i + 1
+         if (first_is_lowest) then
+            do i = begin, finish - 7, 8
+               marks = line_feeds(content(i:i + 7))
+               do while (marks /= 0)
+                  at = i + trailz(marks)/8
+                  text%last(count) = at - 1
+                  count = count + 1
+                  text%first(count) = at + 1
+                  ! Without the lowest bit
+                  marks = iand(marks, marks - 1)
+               end do
             end do
+         end if
+         do at = i, finish
+            if (iachar(content(at:at)) /= line_feed) cycle
+            text%last(count) = at - 1
+            count = count + 1
+            text%first(count) = at + 1
          end do
          do i = 1, count - 1
             do while (text%last(i) >= text%first(i))
@@ -240,19 +245,47 @@ contains
       end associate
    end subroutine index_lines
 
-   !> Is one of eight characters a line feed? All are looked at as one integer, of which a byte is zero then
-   pure logical function has_line_feed(text)
+   !> Number of line feeds
+   pure integer function count_line_feeds(text) result(count)
+      !> Text
+      character(len=*), intent(in) :: text
+
+      integer, parameter :: line_feed = 10
+      ! The lowest bit of each byte; words whose sum surely fits into each byte; every other byte, and of these every other
+      integer(int64), parameter :: ones = int(z'0101010101010101', int64), pairs = int(z'00ff00ff00ff00ff', int64), &
+         & fours = int(z'0000ffff0000ffff', int64), whole = int(z'00000000ffffffff', int64)
+      integer, parameter :: words = 127
+      integer(int64) :: sums
+      integer :: block, i
+
+      ! Eight sums side by side in the bytes of an integer, and several such integers at once
+      count = 0
+      do block = 1, len(text) - 8*words + 1, 8*words
+         sums = 0
+         do i = block, block + 8*(words - 1), 8
+            sums = sums + iand(shiftr(line_feeds(text(i:i + 7)), 7), ones)
+         end do
+         sums = iand(sums, pairs) + iand(shiftr(sums, 8), pairs)
+         sums = iand(sums, fours) + iand(shiftr(sums, 16), fours)
+         count = count + int(iand(sums, whole) + shiftr(sums, 32))
+      end do
+      do i = block, len(text)
+         count = count + merge(1, 0, iachar(text(i:i)) == line_feed)
+      end do
+   end function count_line_feeds
+
+   !> Which of eight characters are line feeds: the highest bit of each of their bytes
+   pure integer(int64) function line_feeds(text)
       !> Eight characters
       character(len=8), intent(in) :: text
 
       integer(int64), parameter :: feeds = int(z'0a0a0a0a0a0a0a0a', int64), low = int(z'7f7f7f7f7f7f7f7f', int64)
       integer(int64) :: bytes
 
+      ! A byte is zero then; its highest bit after this tells whether any bit of it is set
       bytes = ieor(transfer(text, bytes), feeds)
-      ! The highest bit of each byte tells whether another one of it is set
-      bytes = ior(iand(bytes, low) + low, bytes)
-      has_line_feed = iand(bytes, not(low)) /= not(low)
-   end function has_line_feed
+      line_feeds = not(ior(ior(iand(bytes, low) + low, bytes), low))
+   end function line_feeds
 
    !> Number of lines
    pure function lines(self)

@@ -164,8 +164,9 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(len=1) :: separator
-      integer :: begin, line, cell, cells, i, first(most_cells), last(most_cells)
-      real(wp), allocatable :: values(:, :)
+      integer :: begin, line, rows, cell, cells, i, first(most_cells), last(most_cells)
+      ! Line by line, so that those of a single column are the channel's
+      real(wp), allocatable :: values(:)
       integer, allocatable :: time_first(:), time_last(:)
       real(wp) :: dt
       logical :: ok
@@ -184,12 +185,13 @@ contains
       call check_room(32.0_wp*real(cells, wp)*real(text%lines(), wp), error)
       call add_place(error, text%file)
       if (allocated(error)) return
-      allocate (values(cells, text%lines() - begin + 1))
+      rows = text%lines() - begin + 1
+      allocate (values(cells*rows))
       ! Where the times stand; in a single column there are none
-      allocate (time_first(merge(size(values, 2), 0, cells > 1)), time_last(merge(size(values, 2), 0, cells > 1)))
+      allocate (time_first(merge(rows, 0, cells > 1)), time_last(merge(rows, 0, cells > 1)))
       do line = begin, text%lines()
          i = line - begin + 1
-         call read_row(text, line, separator, values(:, i), first(1), last(1), ok)
+         call read_row(text, line, separator, values(cells*(i - 1) + 1:cells*i), first(1), last(1), ok)
          if (ok .and. cells > 1) then
             time_first(i) = first(1)
             time_last(i) = last(1)
@@ -199,7 +201,7 @@ contains
          return
       end do
       dt = 0.0_wp
-      if (cells > 1) call check_equal_steps(text, begin, values(1, :), time_first, time_last, dt, error)
+      if (cells > 1) call check_equal_steps(text, begin, values(1::cells), time_first, time_last, dt, error)
       if (allocated(error)) then
          if (separator == ',' .and. index(text%text(text%first(begin):), '.') == 0) then
             error%message = error%message//' (columns separated by commas need decimal points)'
@@ -209,10 +211,11 @@ contains
       allocate (samples%channels(max(cells - 1, 1)))
       do i = 1, size(samples%channels)
          cell = min(i + 1, cells)
-         samples%channels(i)%values = values(cell, :)
+         if (cells > 1) samples%channels(i)%values = values(cell::cells)
          samples%channels(i)%dt = dt
          if (cells > 2) samples%channels(i)%name = 'column '//to_text(cell)
       end do
+      if (cells == 1) call move_alloc(values, samples%channels(1)%values)
       call read_top(text, begin, cells, samples, error)
    end subroutine read_plain
 
