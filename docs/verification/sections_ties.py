@@ -57,6 +57,7 @@ def ties(folder):
     number, moving = len(rows), sum(np.count_nonzero(each.edp > 0.0) for each in levels)
     collapses = sum(np.count_nonzero(each.edp >= 1.0) for each in levels)
     unsettled = sum(np.count_nonzero(~each.computable) for each in levels)
+    computable = np.concatenate([each.computable for each in levels])
     lines = []
     for engine, rtol in RUNS:
         error, wrong, doubted = (
@@ -64,10 +65,13 @@ def ties(folder):
             for parts in zip(*(each.errors(records, engine, rtol) for each in levels), strict=True)
         )
         off = error > LARGE
-        found = f"{np.count_nonzero(off & doubted)}, {np.count_nonzero(~off & doubted)}"
-        lines.append(
-            [engine, power(rtol), wrong.sum(), f"{off.sum()} ({100.0 * off.mean():.1f} %)", found, small(error.max())]
-        )
+        cells = [f"{off.sum()} ({100.0 * off.mean():.1f} %)", (off & computable).sum()]
+        cells += [
+            f"{np.count_nonzero(off & doubted)}, {np.count_nonzero(~off & doubted)}",
+            small(error[computable].max()),
+        ]
+        met = "met" if not wrong.any() and off.mean() <= MOST else "missed"
+        lines.append([engine, power(rtol), wrong.sum(), *cells, met])
     grid = ", ".join(f"{each.level:g}" for each in levels)
     return [
         TITLE,
@@ -76,10 +80,11 @@ def ties(folder):
             "A facade of 9 m by 0.5 m, ties at 8.5 and 5.5 m (docs/verification/two_ties.py), under the 44 recorded "
             f"accelerograms at {grid} g: {number} histories, all in 33 digits as in section 9 and not the doubtful "
             f"ones alone. {moving} move, {collapses} collapse, and {unsettled} are not computable. Found are EDPs with "
-            "errors above 1e-6 that the estimated error finds; false, others that it doubts. No flag may be wrong, "
-            f"and at most {100.0 * MOST:.0f} % of the EDPs may have errors above 1e-6."
+            "errors above 1e-6 that the estimated error finds; false, others that it doubts; the largest error is that "
+            f"of the computable ones. No flag may be wrong, and at most {100.0 * MOST:.0f} % of all EDPs may have errors "
+            "above 1e-6."
         ),
-        *table(["engine", "rtol", "wrong flags", "> 1e-6", "found, false", "largest error"], lines),
+        *table(["engine", "rtol", "wrong flags", "> 1e-6", "computable", "found, false", "largest", ""], lines),
     ]
 
 

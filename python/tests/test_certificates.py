@@ -116,12 +116,13 @@ def test_two_ties_under_recorded_motions(recorded, engine):
     wall = dd.OneSidedWall(9.0, 0.5, **tie)
     assert len(rows) % 44 == 0 < len(rows)
     assert sum(float(row["edp"]) >= 1.0 for row in rows) > len(rows) // 10
-    table = []
+    sample = {"quadruple": [], "not_computable": []}
     for k, row in enumerate(rows):
         if k % 3 == 0 or row["status"] == "not_computable":
             numbers = (float(row[what]) for what in ("scale", "edp", "edp_lowest", "edp_highest"))
-            table.append((wall, row["record"], *numbers, row["status"]))
-    assert check_estimates(recorded, table, engine) <= len(table) // 50
+            sample[row["status"]].append((wall, row["record"], *numbers, row["status"]))
+    assert 100 * check_estimates(recorded, sample["quadruple"], engine) <= len(sample["quadruple"])
+    check_estimates(recorded, sample["not_computable"], engine)
 
 
 @pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
