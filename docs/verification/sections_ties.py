@@ -81,8 +81,8 @@ def ties(folder):
             f"accelerograms at {grid} g: {number} histories, all in 33 digits as in section 9 and not the doubtful "
             f"ones alone. {moving} move, {collapses} collapse, and {unsettled} are not computable. Found are EDPs with "
             "errors above 1e-6 that the estimated error finds; false, others that it doubts; the largest error is that "
-            f"of the computable ones. No flag may be wrong, and at most {100.0 * MOST:.0f} % of all EDPs may have errors "
-            "above 1e-6."
+            f"of the computable ones. No flag may be wrong, and at most {100.0 * MOST:.0f} % of all EDPs may be "
+            "off by more than 1e-6."
         ),
         *table(["engine", "rtol", "wrong flags", "> 1e-6", "computable", "found, false", "largest", ""], lines),
     ]
