@@ -44,8 +44,9 @@ contains
 
       team = 1
       if (present(threads)) team = threads
-      ensemble%record = record
-      ensemble%scale = scale
+      ! Not by assignment, for which gfortran compares bounds that are not there yet: a sanitizer takes that for an overflow
+      allocate (ensemble%record, source=record)
+      allocate (ensemble%scale, source=scale)
       in_lanes = solver
       in_lanes%engine = 'lanes'
       copies = records

@@ -12,6 +12,7 @@ from sections_accuracy import LARGE, cost, targets, truth, work_precision
 from sections_flags import ORDINARY, doubts, estimates, flags, largest_shift, wrong_flags
 from sections_loaded import loaded
 from sections_shortcuts import ALL, shortcut_errors, shortcuts, tests
+from sections_ties import ties
 from sections_walls import walls
 from study import DEFAULT, TIGHT, collect
 
@@ -70,7 +71,7 @@ def write(study, executable, records):
         *summary(study, missed),
     ]
     lines += truth(study) + work_precision(study) + third + flags(study) + estimates(study) + shortcuts(study) + tests()
-    lines += loaded(executable, records) + walls(records)
+    lines += loaded(executable, records) + walls(records) + ties(records)
     (ROOT / "docs" / "verification.md").write_text("\n".join(lines).rstrip() + "\n", encoding="utf-8")
 
 

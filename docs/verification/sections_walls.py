@@ -93,8 +93,10 @@ def walls(folder):
 def main():
     """Replace the section."""
     warnings.simplefilter("ignore", dd.DondoloWarning)
-    before = PAGE.read_text(encoding="utf-8").split(TITLE)[0].rstrip()
-    PAGE.write_text(before + "\n\n" + "\n".join(walls(sys.argv[1])).rstrip() + "\n", encoding="utf-8")
+    before, _, there = PAGE.read_text(encoding="utf-8").partition(TITLE)
+    _, mark, after = there.partition("\n## ")
+    section = "\n".join(walls(sys.argv[1])).rstrip() + "\n"
+    PAGE.write_text(before.rstrip() + "\n\n" + section + mark + after, encoding="utf-8")
 
 
 if __name__ == "__main__":

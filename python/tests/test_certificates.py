@@ -107,6 +107,25 @@ def test_further_walls_under_recorded_motions(recorded, engine):
 
 
 @pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+@pytest.mark.parametrize("engine", ["lanes", "rk45"])
+def test_two_ties_under_recorded_motions(recorded, engine):
+    """A facade with two ties, all of whose histories are in 33 digits: every third, and those not computable."""
+    with open(TABLES / "two_ties_recorded.csv", newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    tie = {"tie_height": [8.5, 5.5], "tie_area": 5e-5, "tie_length": 8.0, "tie_preload": 3e7}
+    wall = dd.OneSidedWall(9.0, 0.5, **tie)
+    assert len(rows) % 44 == 0 < len(rows)
+    assert sum(float(row["edp"]) >= 1.0 for row in rows) > len(rows) // 10
+    sample = {"quadruple": [], "not_computable": []}
+    for k, row in enumerate(rows):
+        if k % 3 == 0 or row["status"] == "not_computable":
+            numbers = (float(row[what]) for what in ("scale", "edp", "edp_lowest", "edp_highest"))
+            sample[row["status"]].append((wall, row["record"], *numbers, row["status"]))
+    assert 100 * check_estimates(recorded, sample["quadruple"], engine) <= len(sample["quadruple"])
+    check_estimates(recorded, sample["not_computable"], engine)
+
+
+@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
 def test_certificates_are_those_of_the_table(synthetic):
     """Of the hard histories that 33 digits settle: the EDP of the table, whatever double precision says."""
     table = [row for row in hard("synthetic") if row[-1] == "quadruple" and row[3] < 1.0]
@@ -170,6 +189,30 @@ def test_refusals(wall, few):
         dd.certify(told, few[:1])
     with pytest.raises(dd.InputError, match="only one is certified"):
         _ = told + dd.certify(told, few, progress=False)
+
+
+@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+def test_only_stripes_are_certified(wall, few, run, tmp_path):
+    """Populations and single histories are refused, by Python and by the executable."""
+    rest = "must be Stripes; populations and single histories are not certified"
+    with pytest.raises(dd.InputError, match=f"stripes: is a Typology: {rest}"):
+        dd.certify(dd.typology([wall], few, [0.2, 0.4], progress=False), few)
+    with pytest.raises(dd.InputError, match=f"stripes: is a Response: {rest}"):
+        dd.certify(dd.simulate(wall, few[0], estimate_error=True), few)
+    shared = f"&records catalogue = '{ROOT}/data/records/synthetic44.csv' /\n&solver certify = .true. /\n"
+    tasks = {
+        "typology": f"&population file = '{ROOT}/data/walls/population.csv' /\n&stripes levels = 0.2, 0.4 /\n",
+        "history": "&wall mechanism = 'one_sided' height = 3.0 thickness = 0.25 /\n"
+        "&history record = '06_valnerina_1979_m5.8_a' scale = 1.0 /\n",
+    }
+    for task, own in tasks.items():
+        case = tmp_path / f"{task}.nml"
+        case.write_text(f"&job task = '{task}' output = '{tmp_path}/result' /\n{own}{shared}", encoding="utf-8")
+        told = run(case)
+        assert told.returncode == 2
+        rest = "only for task = 'stripes': populations and single histories are not certified"
+        assert f"&solver: certify = .true.: {rest}" in told.stderr
+        assert not list(tmp_path.glob("result*"))
 
 
 def test_executable(tmp_path, records):

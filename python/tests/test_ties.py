@@ -137,7 +137,18 @@ def test_broken_ties_of_populations(run, tmp_path, facade, record):
         run(case)
         expected += [line for line in (tmp_path / "one_ties.csv").read_text().splitlines() if line[0] != "#"][1:]
     assert found[1:] == expected
+    # Python's tables, of a run and of one that was saved
+    assert len(expected) == 9
+    for k, one in enumerate((curves, dd.load(tmp_path / "curves.npz"))):
+        one.write_results(tmp_path / f"python{k}")
+        mine = (tmp_path / f"python{k}_ties.csv").read_text().splitlines()
+        assert [line for line in mine if line[0] != "#"] == found
+    assert list(curves.to_frame("ties")["broken"]) == [int(line.split(",")[7]) for line in expected]
     read = dd.read_results(tmp_path / "all")
+    with pytest.raises(dd.InputError, match="table = 'ties'"):
+        read.typology.to_frame("ties")
+    dd.typology([walls[1]], [record], levels, progress=False).write_results(tmp_path / "bare")
+    assert not (tmp_path / "bare_ties.csv").exists()
     with pytest.raises(dd.InputError, match="read back"):
         read.typology.broken_ties  # noqa: B018
 

@@ -125,6 +125,50 @@ def test_stripes(records):
         stripes + bare
 
 
+def test_uplift_in_tables(records, run, tmp_path):
+    """Histories with uplift, one by one and of each stripe: the same in the tables of Python and of the executable."""
+    rows = ["file,dt_s,units,vertical"]
+    for k, record in enumerate(records):
+        for name, samples in (("h", record.acceleration), ("v", record.vertical)):
+            (tmp_path / f"{name}{k}.txt").write_text("\n".join(map(repr, samples.tolist())), encoding="utf-8")
+        rows.append(f"h{k}.txt,{record.dt!r},m/s2,v{k}.txt")
+    (tmp_path / "records.csv").write_text("\n".join(rows) + "\n", encoding="utf-8")
+    case = tmp_path / "case.nml"
+    text = (
+        f"&job task = 'stripes' output = '{tmp_path}/VERTICAL' /\n&wall mechanism = 'one_sided' height = 3.0 "
+        "thickness = 0.25 name = 'wall' /\n"
+        "&records catalogue = 'records.csv' polarity = 'both' vertical = 'VERTICAL' /\n"
+        "&stripes levels = 0.2, 1.0, 1.5, 3.0 edp_thresholds = 0.4, 1.0 /\n"
+    )
+    for vertical in ("recorded", "none"):
+        case.write_text(text.replace("VERTICAL", vertical), encoding="utf-8")
+        run(case)
+    wall = dd.OneSidedWall(3.0, 0.25, name="wall")
+    read = dd.read_catalogue(tmp_path / "records.csv", vertical="recorded")
+    mine = dd.multiple_stripe(wall, read, [0.2, 1.0, 1.5, 3.0], polarity="both", progress=False)
+    theirs = dd.read_results(tmp_path / "recorded").stripes
+    assert np.array_equal(theirs.uplift, mine.uplift)
+    assert mine.uplifts.tolist() == mine.uplift.sum(axis=1).tolist()
+    assert mine.uplifts[0] == 0 < mine.uplifts[1] < mine.uplifts[-1]
+
+    def lines(path):
+        return [line for line in path.read_text(encoding="utf-8").splitlines() if line[0] != "#"]
+
+    for table in ("histories", "stripes"):
+        mine.to_csv(tmp_path / "mine.csv", table)
+        found = lines(tmp_path / f"recorded_{table}.csv")
+        # Python's stripes have the last state alone.
+        kept = [line for line in found if table == "histories" or not line.split(",")[-2].startswith("4.0")]
+        assert kept == lines(tmp_path / "mine.csv")
+        assert found[0].endswith(",uplift")
+        assert "uplift" not in lines(tmp_path / f"none_{table}.csv")[0]
+    counts = [int(line.split(",")[-1]) for line in lines(tmp_path / "recorded_stripes.csv")[1:]]
+    assert counts == 2 * mine.uplifts.tolist()
+    still = dd.read_results(tmp_path / "none").stripes
+    assert still.uplift is None
+    assert still.uplifts is None
+
+
 def test_uplift_is_no_collapse():
     """Falling ground for an instant, in a record that hardly moves the wall."""
     record = dd.Record([0.0, -0.5, 0.5, 0.0, 0.0], 0.01, vertical=[0.0, 0.0, -5.0, 0.0, 0.0])

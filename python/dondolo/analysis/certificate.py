@@ -70,7 +70,8 @@ def certify(
     Raises
     ------
     InputError
-        Stripes without estimated errors, other records, or a build without quadruple precision.
+        No stripes, such as a typology; stripes without estimated errors, other records, or a build without quadruple
+        precision.
     Interrupted
         Ctrl-C; its `partial` has all stripes, with a status of 0 for the histories in doubt that were not run again
         yet.
@@ -82,7 +83,13 @@ def certify(
     tolerance of 1e-12, 1e-14, 1e-16 and 1e-18 until two neighbours agree to 1e-7, and then with factors on its record
     one unit in the last place smaller and greater (docs/certification.md).
     """
-    if getattr(stripes, "edp_error", None) is None:
+    # These two modules need each other: tables of stripes name the statuses.
+    from dondolo.analysis.stripes import Stripes
+
+    if not isinstance(stripes, Stripes):
+        found = type(stripes).__name__
+        raise InputError(f"stripes: is a {found}: must be Stripes; populations and single histories are not certified")
+    if stripes.edp_error is None:
         raise InputError("stripes: have no estimated errors: must be run with estimate_error = True")
     team = check_threads(threads)
     as_flag("progress", progress)

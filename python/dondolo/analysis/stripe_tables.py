@@ -42,6 +42,8 @@ def histories_table(stripes: Stripes) -> tables.Table:
         table["status"] = [Certified(one).name.lower() if one else "" for one in stripes.status[ran]]
         table["edp_lowest"] = stripes.edp_lowest[ran]
         table["edp_highest"] = stripes.edp_highest[ran]
+    if stripes.uplift is not None:
+        table["uplift"] = stripes.uplift[ran].astype(int)
     return table
 
 
@@ -52,13 +54,17 @@ def stripes_table(
     edp_thresholds: ArrayLike,
     exceedances: np.ndarray[Any, Any],
     histories: ArrayLike,
+    uplift: ArrayLike | None = None,
 ) -> tables.Table:
-    """Columns of ``_stripes.csv``; exceedances are (thresholds, levels, walls), histories (levels, walls)."""
+    """Columns of ``_stripes.csv``; exceedances are (thresholds, levels, walls), histories (levels, walls).
+
+    With vertical motion one wall has its histories with uplift, (levels,).
+    """
     thresholds = np.asarray(edp_thresholds)
     states, number = len(thresholds), len(levels)
     counts = exceedances.transpose(2, 0, 1).ravel()
     sizes = np.repeat(np.asarray(histories).T[:, None, :], states, axis=1).ravel()
-    return {
+    table = {
         "wall": [wall.name for wall in walls for _ in range(states * number)],
         "mechanism": [wall.mechanism for wall in walls for _ in range(states * number)],
         "im": [im] * len(counts),
@@ -68,3 +74,4 @@ def stripes_table(
         "fraction": counts / sizes,
         "edp_threshold": np.tile(np.repeat(thresholds, number), len(walls)),
     }
+    return table if uplift is None else table | {"uplift": np.tile(uplift, states * len(walls))}

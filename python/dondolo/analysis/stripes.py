@@ -162,6 +162,14 @@ class Stripes(Shown, Saved):
         return self.collapses / self.histories
 
     @property
+    def uplifts(self) -> np.ndarray[Any, np.dtype[np.int64]] | None:
+        """Histories of each stripe with `uplift`, shape (levels,); None without vertical motion."""
+        if self.uplift is None:
+            return None
+        counts: np.ndarray[Any, np.dtype[np.int64]] = self.uplift.sum(axis=1)
+        return counts
+
+    @property
     def theta_bounds(self) -> tuple[float, float]:
         """Theta if all histories collapse that are not computable and may, and if none of them does.
 
@@ -439,6 +447,7 @@ class Stripes(Shown, Saved):
                 [self.edp_limit],
                 self.collapses[None, :, None],
                 self.histories[:, None],
+                self.uplifts,
             ),
             "walls": lambda: walls_table([self.wall]),
         }

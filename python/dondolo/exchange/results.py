@@ -319,6 +319,7 @@ def _stripes(
         edp_limit=edp_limit,
         work=work,
         edp_error=matrix(table.numbers("edp_error")) if "edp_error" in table else None,
+        uplift=matrix(table.numbers("uplift")) == 1.0 if "uplift" in table else None,
         **certified,
     )
 

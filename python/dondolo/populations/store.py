@@ -21,6 +21,7 @@ from dondolo.analysis.request import Request
 from dondolo.analysis.work import Work
 from dondolo.curves.sample import cluster_labels
 from dondolo.populations.flags import Flags
+from dondolo.populations.tie_counts import TieCounts
 
 IntArray = NDArray[np.int32]
 
@@ -34,8 +35,8 @@ class Contents(NamedTuple):
         Which rows.
     exceedances : ndarray of int, shape (states, levels, rows)
         How many histories reach each state; 0 for rows that are not there.
-    broken : tuple of ndarray of int, shape (levels, ties)
-        How many histories break each tie of the rows that are there.
+    ties : tuple of TieCounts
+        What the histories do to the ties of each row that is there.
     flags : Flags
         Which do, of the rows that are there.
     work : Work
@@ -44,7 +45,7 @@ class Contents(NamedTuple):
 
     complete: NDArray[np.bool_]
     exceedances: IntArray
-    broken: tuple[IntArray, ...]
+    ties: tuple[TieCounts, ...]
     flags: Flags
     work: Work
 
@@ -93,17 +94,16 @@ class Store:
         request, rows = self._request, len(self._request.walls)
         complete, counts = self._state()
         states, levels = len(self._states), len(request.levels)
-        numbers = receive(*_core.stores.read_store(self._handle)).integers
+        numbers, lengths, _ = receive(*_core.stores.read_store(self._handle))
         histories, reached, ties, rest = np.split(numbers[:-1], np.cumsum([rows, rows * states * levels, rows]))
-        of_ties, bits = np.split(rest, [levels * ties.sum()])
-        each = np.split(of_ties, levels * np.cumsum(ties[complete])[:-1])
-        broken = tuple(one.reshape(levels, -1) for one in each) if complete.any() else ()
+        of_ties, bits = np.split(rest, [2 * levels * ties.sum()])
+        tied = TieCounts.of_rows(ties[complete], levels, of_ties, lengths) if complete.any() else ()
         exceedances = np.ascontiguousarray(np.moveaxis(reached.reshape(rows, states, levels), 0, -1))
         packed = bits.view(np.uint8)[: numbers[-1]]
         events, checksums = zip(*((record.event, record.checksum) for record in request.records), strict=True)
         labels = cluster_labels(len(events), events, checksums)
         flags = Flags(histories[complete], levels, states, request.runs, labels, packed)
-        return Contents(complete, exceedances, broken, flags, Work.of(counts))
+        return Contents(complete, exceedances, tied, flags, Work.of(counts))
 
     def _state(self) -> tuple[NDArray[np.bool_], FloatArray]:
         there, counts, stat, message = _core.stores.store_state(self._handle, len(self._request.walls))

@@ -103,8 +103,8 @@ def typology(
     result = combine(people, request.im, request.levels, states, run.exceedances, histories, rows, run.work)
     chosen = np.flatnonzero(rows[run.complete])
     flags, told = run.flags.chosen(chosen), (*plan.warnings, *result.warnings)
-    broken = tuple(run.broken[i] for i in chosen)
-    result = with_clustered_errors(dataclasses.replace(result, flags=flags, warnings=told, broken=broken), flags)
+    ties = tuple(run.ties[i] for i in chosen)
+    result = with_clustered_errors(dataclasses.replace(result, flags=flags, warnings=told, ties=ties), flags)
     if not whole.all():
         raise Interrupted(f"interrupted: {whole.sum()} of {len(whole)} walls are complete", result)
     warn(result.warnings)

@@ -30,13 +30,14 @@ from dondolo.populations.curve import Group, IntArray, PopulationCurve, flat_pop
 from dondolo.populations.errors import KeptErrors, with_clustered_errors
 from dondolo.populations.flags import Flags
 from dondolo.populations.rows import curves_of_rows, curves_of_walls, packed, packed_walls, unpacked, unpacked_walls
+from dondolo.populations.tie_counts import TieCounts, tie_table
 from dondolo.walls.population import Population
 from dondolo.walls.wall import Wall
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-_Table = Literal["typology", "fragility", "stripes", "walls"]
+_Table = Literal["typology", "fragility", "stripes", "walls", "ties"]
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -76,8 +77,9 @@ class Typology(Shown, Saved):
         What was warned of: by the run, and of the curves of this state.
     kept_errors : KeptErrors
         The standard errors of results that were read back, in place of the flags; None for results of a run.
-    broken : tuple of ndarray of int, shape (levels, ties)
-        Histories that break each tie of each row; None for results that were read back.
+    ties : tuple of TieCounts
+        What the histories do to the ties of each row: how many make each `yielded` and `broken`, and its mean and
+        largest plastic elongation; None for results that were read back.
     """
 
     population: Population
@@ -93,7 +95,7 @@ class Typology(Shown, Saved):
     flags: Flags | None = None
     warnings: tuple[DondoloWarning, ...] = ()
     kept_errors: KeptErrors | None = None
-    broken: tuple[IntArray, ...] | None = None
+    ties: tuple[TieCounts, ...] | None = None
     _states: dict[float, Typology] = field(default_factory=dict)
 
     @property
@@ -121,10 +123,10 @@ class Typology(Shown, Saved):
         InputError
             The results were read back from tables; ``*_ties.csv`` has these shares.
         """
-        if self.broken is None:
+        if self.ties is None:
             raise InputError("broken_ties: not of results that were read back; *_ties.csv has them")
         histories = self.histories.T.astype(np.float64)
-        return tuple(counts / runs[:, None] for counts, runs in zip(self.broken, histories, strict=True))
+        return tuple(own.broken / runs[:, None] for own, runs in zip(self.ties, histories, strict=True))
 
     @functools.cached_property
     def _flat(self) -> tuple[FlatPopulation, tuple[FloatArray, IntArray]]:
@@ -202,7 +204,7 @@ class Typology(Shown, Saved):
                 state = with_clustered_errors(dataclasses.replace(state, flags=flags), flags)
             elif self.kept_errors is not None:
                 state = self.kept_errors.put_into(state, int(place[0]))
-            self._states[value] = dataclasses.replace(state, broken=self.broken)
+            self._states[value] = dataclasses.replace(state, ties=self.ties)
             warn(warning.placed(f"damage state {value:g}: ") for warning in state.warnings)
         return self._states[value]
 
@@ -353,7 +355,7 @@ class Typology(Shown, Saved):
         return draw_damage_states(self, ax, edp_thresholds, mechanism, group)
 
     def _tables(self) -> dict[_Table, Any]:
-        return {
+        found: dict[_Table, Any] = {
             "typology": lambda: typology_table(self),
             "fragility": self._curves_table,
             "stripes": lambda: stripes_table(
@@ -361,6 +363,10 @@ class Typology(Shown, Saved):
             ),
             "walls": lambda: self.population._table(),
         }
+        ties = self.ties
+        if ties is not None and any(own.broken.size for own in ties):
+            found["ties"] = lambda: tie_table(self.walls, self.im, self.levels, ties, self.histories)
+        return found
 
     def _curves_table(self) -> tables.Table:
         states = [self.at(edp).curves for edp in self.edp_thresholds]
@@ -368,13 +374,15 @@ class Typology(Shown, Saved):
         return fragility_table(walls, [curve for row in zip(*states, strict=True) for curve in row])
 
     def to_frame(self, table: _Table = "typology") -> Any:
-        """One of the tables 'typology', 'fragility', 'stripes' and 'walls' as a pandas DataFrame."""
+        """One of the tables 'typology', 'fragility', 'stripes', 'walls' and 'ties' as a pandas DataFrame."""
         return tables.frame(tables.choose(self._tables(), table))
 
     def to_csv(
         self, path: str | os.PathLike[str], table: _Table = "typology", *, spreadsheet_safe: bool = False
     ) -> None:
-        """Write one of the tables 'typology', 'fragility', 'stripes' and 'walls' as the executable does.
+        """Write one of the tables 'typology', 'fragility', 'stripes', 'walls' and 'ties' as the executable does.
+
+        There is one of ties if any wall has ties and the results were not read back.
 
         With `spreadsheet_safe` an apostrophe stands before names that a spreadsheet would take for formulas.
         """
@@ -394,7 +402,7 @@ class Typology(Shown, Saved):
     def _stored(self) -> dict[str, Any]:
         """What a file has of it: all but what follows from the rest."""
         names = ("population", "im", "levels", "edp_thresholds", "exceedances", "histories", "groups", "work", "flags")
-        stored = {name: getattr(self, name) for name in (*names, "warnings", "kept_errors", "broken")}
+        stored = {name: getattr(self, name) for name in (*names, "warnings", "kept_errors", "ties")}
         return stored | {"rows": packed(self.curves), "walls": packed_walls(self.population, self.combined)}
 
     @classmethod

@@ -19,7 +19,8 @@ module dondolo_stripes
    implicit none
    private
 
-   public :: stripes_type, multiple_stripe, plan_stripes, planned_work, run_histories, run_part, histories_of, take_motions
+   public :: stripes_type, multiple_stripe, plan_stripes, planned_work, run_histories, run_part, histories_of, take_motions, &
+      & find_lifts
 
    !> Memory that a history of the plan takes while it is run, once or three times [bytes]
    real(wp), parameter :: bytes_of_history = 110.0_wp, bytes_of_three_runs = 210.0_wp
@@ -289,6 +290,24 @@ contains
          counts(j) = count(self%response(:, j)%collapsed)
       end do
    end function collapses
+
+   !> In which histories the ground accelerates downwards by g or more at some instant
+   pure subroutine find_lifts(stripes, falls, gravity, lifts)
+      type(stripes_type), intent(in) :: stripes
+      !> Largest downward acceleration of the ground under each record [m/s2]
+      real(wp), intent(in) :: falls(:)
+      !> What g is [m/s2]
+      real(wp), intent(in) :: gravity
+      !> Does it fall away? (histories, levels)
+      logical, allocatable, intent(out) :: lifts(:, :)
+
+      integer :: j
+
+      allocate (lifts(size(stripes%record), size(stripes%levels)))
+      do j = 1, size(stripes%levels)
+         lifts(:, j) = stripes%ran(:, j) .and. stripes%scale(:, j)*falls(stripes%record) >= gravity
+      end do
+   end subroutine find_lifts
 
    !> Histories that reach a threshold in each stripe
    pure function exceedances(self, threshold) result(counts)

@@ -285,10 +285,14 @@ contains
 
       type(group_type) :: group
 
+      if (case%job%task /= 'stripes' .and. case%solver%solver%certify) then
+         group = namelist%group('solver')
+         call group%refuse('certify', 'only for task = ''stripes'': populations and single histories are not certified', error)
+         return
+      end if
       if (case%job%task == 'typology' .and. case%solver%solver%estimate_error) then
          group = namelist%group('solver')
-         call group%refuse(trim(merge('certify       ', 'estimate_error', case%solver%solver%certify)), &
-            & 'only for task = ''stripes'' and ''history'', which keep every EDP', error)
+         call group%refuse('estimate_error', 'only for task = ''stripes'' and ''history'', which keep every EDP', error)
          return
       end if
       group = namelist%group('stripes')

@@ -18,7 +18,7 @@ module dondolo_report_rows
 
    public :: make_wall_head, make_wall_row, stripes_head, make_stripes_row, fragility_head, make_fragility_row
    public :: union_head, make_union_row
-   public :: certified_head, make_certified_cells
+   public :: certified_head, make_certified_cells, uplift_head
    public :: typology_head, make_typology_row, history_head, make_history_row, make_wall_cells
 
    !> Names of the columns of each table
@@ -34,6 +34,7 @@ module dondolo_report_rows
       & union_head = 'wall,group,mechanisms,im,im_level,histories,collapses,fraction,independent_fraction,'// &
       & 'edp_threshold,theta,beta,se_ln_theta,se_beta,status,errors,clusters,independent_theta,independent_beta', &
       & certified_head = ',status,edp_lowest,edp_highest', &
+      & uplift_head = ',uplift', &
       & history_head = 'wall,mechanism,record,polarity,im,im_level,scale,edp,collapsed,impacts,time_of_peak_s'
 
 contains

@@ -43,6 +43,8 @@ module dondolo_results
       type(response_type), allocatable :: response(:, :)
       !> What they do to the ties of the wall (ties, levels)
       type(tie_tally_type), allocatable :: tallies(:, :)
+      !> Histories of each stripe in which the ground falls away from the wall; not allocated without vertical motion
+      integer, allocatable :: uplift(:)
       !> How they are certified, if they are (histories, levels)
       type(certified_type), allocatable :: certified(:, :)
       !> Then: bounds of each EDP threshold, since the last digit of the input decides some outcomes

@@ -8,13 +8,14 @@ module dondolo_row_reports
    use dondolo_member, only : member_type
    use dondolo_population, only : population_reader_type
    use dondolo_report_rows, only : certified_head, fragility_head, history_head, make_certified_cells, make_fragility_row, &
-      & make_history_row, make_stripes_row, make_wall_cells, make_wall_head, make_wall_row, stripes_head
+      & make_history_row, make_stripes_row, make_wall_cells, make_wall_head, make_wall_row, stripes_head, &
+      & uplift_head
    use dondolo_result_files, only : result_files_type
    use dondolo_results, only : results_type, row_counts_type
    use dondolo_row_result, only : row_result_type
-   use dondolo_stripes, only : plan_stripes, stripes_type
+   use dondolo_stripes, only : find_lifts, plan_stripes, stripes_type
    use dondolo_study, only : study_type
-   use dondolo_text, only : to_table
+   use dondolo_text, only : to_table, to_text
    use dondolo_tie_rows, only : make_tie_row, tie_head
    implicit none
    private
@@ -134,9 +135,12 @@ contains
          line = history_head
          if (case%solver%solver%estimate_error) line = line//',edp_error'
          if (case%solver%solver%certify) line = line//certified_head
+         if (tells_uplift(case)) line = line//uplift_head
          call files%line(line)
       case ('_stripes.csv')
-         call files%line(stripes_head)
+         line = stripes_head
+         if (tells_uplift(case)) line = line//uplift_head
+         call files%line(line)
       case ('_fragility.csv')
          call files%line(fragility_head)
       case ('_ties.csv')
@@ -145,6 +149,13 @@ contains
          call files%line(check_row_head)
       end select
    end subroutine write_names
+
+   !> Do the tables say in which histories the ground falls away from the wall? Those of one wall do
+   pure logical function tells_uplift(case)
+      type(case_type), intent(in) :: case
+
+      tells_uplift = case%job%task == 'stripes' .and. case%suite%has_vertical()
+   end function tells_uplift
 
    !> How many values each property of the walls has at most
    function list_lengths(case) result(lengths)
@@ -199,21 +210,24 @@ contains
       type(study_type) :: study
       type(stripes_type) :: plan
       character(len=:), allocatable :: cells, line, last, certified
+      logical, allocatable :: lifts(:, :)
       integer :: i, j
 
       call case%make_study(study)
       call plan_stripes(plan, member%wall, study, error)
       if (allocated(error)) return
+      if (tells_uplift(case)) call find_lifts(plan, case%suite%falls, member%wall%gravity, lifts)
       call make_wall_cells(member%wall, case%job%spreadsheet_safe, cells)
-      last = ''
       do j = 1, size(plan%levels)
          do i = 1, size(plan%record)
             if (.not. plan%ran(i, j)) cycle
+            last = ''
             if (case%solver%solver%estimate_error) last = ','//to_table(row%response(i, j)%edp_error)
             if (case%solver%solver%certify) then
                call make_certified_cells(row%certified(i, j), certified)
                last = last//certified
             end if
+            if (allocated(lifts)) last = last//','//to_text(merge(1, 0, lifts(i, j)))
             call make_history_row(cells, text_cell(case%suite%records(plan%record(i))%name, &
                & case%job%spreadsheet_safe), plan%polarity(i), plan%im, &
                & plan%levels(j), plan%scale(i, j), row%response(i, j), line)
@@ -258,6 +272,7 @@ contains
          do j = 1, size(case%stripes%levels)
             call make_stripes_row(cells, case%stripes%scaling%name, case%stripes%levels(j), row%histories(j), &
                & row%reached(j, k), case%stripes%thresholds(k), line)
+            if (allocated(row%uplift)) line = line//','//to_text(row%uplift(j))
             call files%line(line)
          end do
       end do

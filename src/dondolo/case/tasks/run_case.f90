@@ -19,7 +19,7 @@ module dondolo_run_case
    use dondolo_results, only : results_type
    use dondolo_population_case, only : run_population_case
    use dondolo_simulate, only : simulate
-   use dondolo_stripes, only : multiple_stripe, plan_stripes, planned_work, stripes_type
+   use dondolo_stripes, only : find_lifts, multiple_stripe, plan_stripes, planned_work, stripes_type
    use dondolo_survey, only : check_size
    use dondolo_study, only : study_type
    use dondolo_tie_tallies, only : tally_ties
@@ -155,6 +155,7 @@ contains
       type(study_type) :: study
       type(stripes_type) :: stripes
       type(scale_warning_type) :: scales
+      logical, allocatable :: lifts(:, :)
 
       call case%make_study(study, team)
       call multiple_stripe(stripes, case%wall, study, error, progress)
@@ -187,6 +188,10 @@ contains
          call move_alloc(stripes%certified, results%row%certified)
       end if
       call tally_ties(case%wall%mechanism, stripes%response, stripes%ran, results%row%tallies)
+      if (case%suite%has_vertical()) then
+         call find_lifts(stripes, case%suite%falls, case%wall%gravity, lifts)
+         results%row%uplift = count(lifts, dim=1)
+      end if
       call move_alloc(stripes%response, results%row%response)
    end subroutine run_stripes
 

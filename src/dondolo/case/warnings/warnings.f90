@@ -7,7 +7,7 @@ module dondolo_warnings
    use dondolo_record, only : record_type
    use dondolo_record_table, only : pga_limit
    use dondolo_response, only : largest_sure_error, response_type
-   use dondolo_stripes, only : stripes_type
+   use dondolo_stripes, only : find_lifts, stripes_type
    use dondolo_study, only : study_type
    use dondolo_suite, only : suite_type
    use dondolo_typology, only : typology_type
@@ -148,16 +148,16 @@ contains
       !> What g is for the wall [m/s2]
       real(wp), intent(in) :: gravity
 
-      logical :: lifts(size(stripes%record))
+      logical, allocatable :: lifts(:, :)
       integer :: j
 
+      call find_lifts(stripes, suite%falls, gravity, lifts)
       do j = 1, size(stripes%levels)
-         lifts = stripes%scale(:, j)*suite%falls(stripes%record) >= gravity
-         if (self%lifting == 0 .and. any(lifts)) then
+         if (self%lifting == 0 .and. any(lifts(:, j))) then
             self%lifting_level = stripes%levels(j)
-            self%lifting_record = suite%records(stripes%record(findloc(lifts, .true., dim=1)))%name
+            self%lifting_record = suite%records(stripes%record(findloc(lifts(:, j), .true., dim=1)))%name
          end if
-         self%lifting = self%lifting + count(lifts, kind=int64)
+         self%lifting = self%lifting + count(lifts(:, j), kind=int64)
       end do
    end subroutine look_at_falls
 
