@@ -9,6 +9,7 @@ program test_floors
    use dondolo_kinds, only : pi, wp
    use dondolo_record, only : new_record, record_type
    use dondolo_settings, only : group_settings_type, new_settings
+   use dondolo_settings_check, only : check_settings
    use dondolo_suite, only : new_suite, suite_type
    implicit none
 
@@ -37,7 +38,7 @@ contains
       call settings%set('damping', damping)
       call settings%set('participation', participation)
       call settings%set('refine', refine)
-      call settings%check(problems)
+      call check_settings(settings, problems)
       call new_building(building, settings, problems)
       call check(problems%count == 0, 'building')
    end function building_of

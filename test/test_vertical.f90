@@ -14,6 +14,7 @@ program test_vertical
    use dondolo_rest, only : new_rest, rest_type
    use dondolo_rk45, only : simulate_rk45
    use dondolo_settings, only : group_settings_type, new_settings
+   use dondolo_settings_check, only : check_settings
    use dondolo_solver, only : solver_type
    use dondolo_wall, only : new_wall, wall_type
    use lane_runs, only : run_alone
@@ -213,7 +214,7 @@ contains
       call settings%set('period', [0.2_wp])
       call settings%set('participation', [1.2_wp])
       call settings%set('refine', 4)
-      call settings%check(problems)
+      call check_settings(settings, problems)
       call new_building(building, settings, problems)
       ground = accelerogram([0.0_wp, 1.0_wp, -1.0_wp, 0.5_wp], 0.05_wp)
       ground%vertical = [1.0_wp, 3.0_wp, -2.0_wp, 4.0_wp]

@@ -238,6 +238,13 @@ def test_results_of_functions_have_specified_lengths(root):
     assert found == set()
 
 
+def test_no_submodules(root):
+    """For each module that reaches one gfortran 12 writes a second file, and at some of them it stops with an internal error."""
+    files = [file for folder in ("src", "app", "python/dondolo") for file in root.glob(f"{folder}/**/*.[fF]90")]
+    assert len(files) > 100
+    assert [file.name for file in files if re.search(r"(?m)^\s*submodule *\(", file.read_text())] == []
+
+
 def test_procedures_that_compute_release_the_lock(root):
     """Those that compute release it; the others are as quick as the lock."""
     text = "".join(path.read_text() for path in boundary(root))

@@ -9,6 +9,7 @@ module buildings
    use dondolo_property, only : is_list
    use dondolo_record, only : new_record, record_type
    use dondolo_settings, only : group_settings_type, new_settings
+   use dondolo_settings_check, only : check_settings
    use dondolo_text, only : to_text
    implicit none
    private
@@ -92,7 +93,7 @@ contains
          end associate
          next = next + given(k)
       end do
-      call settings%check(problems)
+      call check_settings(settings, problems)
       if (problems%count == 0) call new_building(building, settings, problems)
       call problems%raise(error)
    end subroutine set_building

@@ -5,6 +5,7 @@ module dondolo_check_input
    use dondolo_kinds, only : wp
    use dondolo_property, only : blank, choices_length, is_list, is_text, most_choices, property_type
    use dondolo_settings, only : settings_type
+   use dondolo_settings_check, only : check_settings
    use dondolo_text, only : to_text
    implicit none
    private
@@ -68,7 +69,7 @@ contains
       type(problems_type), intent(inout) :: problems
 
       call settings%fill()
-      call settings%check(problems)
+      call check_settings(settings, problems)
       call take_list('ag', input%ag)
       call take_list('f0', input%f0)
       call take_list('tc_star', input%tc_star)

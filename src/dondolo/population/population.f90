@@ -15,6 +15,7 @@ module dondolo_population
    use dondolo_population_roll, only : population_roll_type
    use dondolo_property, only : find_property
    use dondolo_settings, only : group_settings_type, new_settings
+   use dondolo_settings_check, only : check_settings
    use dondolo_text, only : to_text
    use dondolo_variants, only : stated_wall_type
    use dondolo_wall, only : new_wall
@@ -334,7 +335,7 @@ contains
       call new_settings(own, member_properties)
       if (.not. allocated(self%facade)) call self%read_cells(self%member_columns, own, problems)
       call own%fill()
-      call own%check(problems)
+      call check_settings(own, problems)
       ! Spreadsheets round to -0, whose bits do not stand in the order of its value.
       self%own%weight = abs(own%number('weight'))
       if (allocated(self%facade)) self%own%weight = self%facade%weight(self%row)

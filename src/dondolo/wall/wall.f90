@@ -13,6 +13,7 @@ module dondolo_wall
    use dondolo_one_sided, only : new_one_sided, one_sided_restitution, one_sided_type
    use dondolo_property, only : check_number, name_length
    use dondolo_restitution, only : restitution_type
+   use dondolo_settings_check, only : check_settings
    use dondolo_text, only : brief, rounded, to_text
    use dondolo_two_block, only : new_two_block, overburden_type, two_block_type
    use dondolo_wall_body, only : is_bare, read_wall_body, take_sections, wall_body_type
@@ -139,7 +140,7 @@ contains
       call wall%input%fill(mechanism)
       call wall%input%set('name', trim(wall%input%word('name')))
       if (wall%bears .and. .not. input%has('eccentricity')) call wall%input%clear('eccentricity')
-      call wall%input%check(problems, 'mechanism', mechanism)
+      call check_settings(wall%input, problems, 'mechanism', mechanism)
       if (problems%count == 0 .and. wall%input%gives(is_of_building)) then
          allocate (wall%building)
          call new_building(wall%building, wall%input, problems)

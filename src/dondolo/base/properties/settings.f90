@@ -1,6 +1,5 @@
 !> Settings: the values that the properties of a table have, where they have one.
 module dondolo_settings
-   use dondolo_error, only : problems_type
    use dondolo_kinds, only : wp
    use dondolo_property, only : find_property, has_owner, is_list, is_text, is_words, number_of_choices, number_of_words, &
       & property_type
@@ -63,8 +62,10 @@ module dondolo_settings
       procedure :: clear
       !> Give properties without a value their defaults
       procedure :: fill
-      !> Check what is there against the table
-      procedure :: check
+      !> The first name that was set and stands in no row of the table
+      procedure :: get_unknown
+      !> Is the value of a property a list?
+      procedure :: has_list
       procedure, private :: place, prepare, make_room, is_listed
    end type settings_type
 
@@ -84,19 +85,6 @@ module dondolo_settings
          !> Name of the property, in lower case
          character(len=*), intent(in) :: name
       end function find_interface
-   end interface
-
-   interface
-      !> Check what is there against the table: `name = value: what is allowed`
-      module subroutine check(self, problems, label, owner)
-         class(settings_type), intent(in) :: self
-         !> Takes what is wrong
-         type(problems_type), intent(inout) :: problems
-         !> Property that says what has properties, for messages: 'mechanism'
-         character(len=*), intent(in), optional :: label
-         !> Its value: what has only other properties is refused; empty: nothing is said of them
-         character(len=*), intent(in), optional :: owner
-      end subroutine check
    end interface
 
    !> Settings of a group of a namelist
@@ -249,6 +237,28 @@ contains
       i = self%place(name)
       if (i > 0) has_word = allocated(self%words(i)%text)
    end function has_word
+
+   !> The first name that was set and stands in no row of the table
+   pure subroutine get_unknown(self, name)
+      class(settings_type), intent(in) :: self
+      !> It; not allocated: there is none
+      character(len=:), allocatable, intent(out) :: name
+
+      if (allocated(self%unknown)) name = self%unknown
+   end subroutine get_unknown
+
+   !> Is the value of a property a list?
+   pure logical function has_list(self, name)
+      class(settings_type), intent(in) :: self
+      !> Name of the property, in lower case
+      character(len=*), intent(in) :: name
+
+      integer :: i
+
+      has_list = .false.
+      i = self%place(name)
+      if (i > 0) has_list = self%is_listed(i)
+   end function has_list
 
    !> A list of numbers
    pure function list(self, name)

@@ -1,36 +1,52 @@
 !> The check of settings against their table, and the values as its messages show them.
-submodule(dondolo_settings) dondolo_settings_check
+module dondolo_settings_check
+   use dondolo_error, only : problems_type
+   use dondolo_kinds, only : wp
    use dondolo_plain, only : name_problem, shown
    use dondolo_property, only : check_number, check_word, has_owner, is_integer, is_list, is_real, is_text, is_words, &
-      & name_length, number_of_choices, number_of_words
+      & name_length, number_of_choices, property_type
+   use dondolo_settings, only : settings_type
    use dondolo_spelling, only : meant
    use dondolo_text, only : join, to_text
    implicit none
+   private
+
+   public :: check_settings
 
 contains
 
    !> Check what is there against the table: `name = value: what is allowed`
-   module procedure check
+   subroutine check_settings(settings, problems, label, owner)
+      class(settings_type), intent(in) :: settings
+      !> Takes what is wrong
+      type(problems_type), intent(inout) :: problems
+      !> Property that says what has properties, for messages: 'mechanism'
+      character(len=*), intent(in), optional :: label
+      !> Its value: what has only other properties is refused; empty: nothing is said of them
+      character(len=*), intent(in), optional :: owner
+
       type(property_type), pointer :: table(:)
       character(len=name_length), allocatable :: names(:)
-      character(len=:), allocatable :: allowed
+      character(len=:), allocatable :: allowed, unknown, word
+      real(wp), allocatable :: list(:)
       integer :: i, k
 
-      call self%get_table(table)
-      if (allocated(self%unknown)) then
+      call settings%get_table(table)
+      call settings%get_unknown(unknown)
+      if (allocated(unknown)) then
          names = table%name
-         call problems%note(self%unknown//': no such variable; there are '//join(names)//trim(meant(self%unknown, names)))
+         call problems%note(unknown//': no such variable; there are '//join(names)//trim(meant(unknown, names)))
       end if
       do i = 1, size(table)
          associate (property => table(i))
             if (present(owner)) then
                if (.not. has_owner(property, owner)) then
-                  if (len(owner) > 0 .and. is_known(i)) call problems%note(trim(property%name)//' = '// &
-                     & value_text(self, i)//': only for '//label//' = '//one_of(property%owners))
+                  if (len(owner) > 0 .and. settings%has(trim(property%name))) call problems%note(trim(property%name)//' = '// &
+                     & value_text(settings, trim(property%name))//': only for '//label//' = '//one_of(property%owners))
                   cycle
                end if
             end if
-            if (.not. is_known(i)) then
+            if (.not. settings%has(trim(property%name))) then
                if (.not. property%required) cycle
                allowed = 'must be given'
                if (len_trim(property%names) > 0) allowed = allowed//', '//trim(property%names)
@@ -41,34 +57,25 @@ contains
             end if
             select case (property%kind)
             case (is_text, is_words)
-               call check_word(property, self%words(i)%text, allowed)
-               if (len_trim(name_problem(self%words(i)%text)) > 0) allowed = trim(name_problem(self%words(i)%text))
+               word = settings%word(trim(property%name))
+               call check_word(property, word, allowed)
+               if (len_trim(name_problem(word)) > 0) allowed = trim(name_problem(word))
             case (is_real, is_integer)
-               call check_number(property, self%numbers(i), allowed)
+               call check_number(property, settings%number(trim(property%name)), allowed)
             case (is_list)
                if (allocated(allowed)) deallocate (allowed)
-               do k = 1, size(self%lists(i)%values)
-                  if (.not. allocated(allowed)) call check_number(property, self%lists(i)%values(k), allowed)
+               list = settings%list(trim(property%name))
+               do k = 1, size(list)
+                  if (.not. allocated(allowed)) call check_number(property, list(k), allowed)
                end do
             case default
                if (allocated(allowed)) deallocate (allowed)
             end select
-            if (allocated(allowed)) call problems%note(trim(property%name)//' = '//value_text(self, i)//': '//allowed)
+            if (allocated(allowed)) call problems%note(trim(property%name)//' = '// &
+               & value_text(settings, trim(property%name))//': '//allowed)
          end associate
       end do
-
-   contains
-
-      !> Has a property a value?
-      pure logical function is_known(at)
-         !> Its place
-         integer, intent(in) :: at
-
-         is_known = allocated(self%known)
-         if (is_known) is_known = self%known(at)
-      end function is_known
-
-   end procedure check
+   end subroutine check_settings
 
    !> Length of names as a choice
    pure integer function one_of_length(names)
@@ -97,45 +104,49 @@ contains
    end function one_of
 
    !> Length of a value as it stands in messages
-   pure integer function value_length(self, at)
-      class(settings_type), intent(in) :: self
-      !> Place of a property that has a value
-      integer, intent(in) :: at
+   pure integer function value_length(settings, name)
+      class(settings_type), intent(in) :: settings
+      !> Name of a property that has a value
+      character(len=*), intent(in) :: name
 
+      real(wp), allocatable :: list(:)
       integer :: i
 
-      if (allocated(self%words(at)%text)) then
-         value_length = len(shown(self%words(at)%text)) + 2
-      else if (self%is_listed(at)) then
-         value_length = sum([(len(to_text(self%lists(at)%values(i))) + 2, i=1, size(self%lists(at)%values))]) - 2
+      if (settings%has_word(name)) then
+         value_length = len(shown(settings%word(name))) + 2
+      else if (settings%has_list(name)) then
+         list = settings%list(name)
+         value_length = sum([(len(to_text(list(i))) + 2, i=1, size(list))]) - 2
       else
-         value_length = len(to_text(self%numbers(at)))
+         value_length = len(to_text(settings%number(name)))
       end if
    end function value_length
 
    !> A value as it stands in messages
-   pure function value_text(self, at) result(text)
-      class(settings_type), intent(in) :: self
-      !> Place of a property that has a value
-      integer, intent(in) :: at
+   pure function value_text(settings, name) result(text)
+      class(settings_type), intent(in) :: settings
+      !> Name of a property that has a value
+      character(len=*), intent(in) :: name
       !> Text, in quotes if it is one
-      character(len=value_length(self, at)) :: text
+      character(len=value_length(settings, name)) :: text
 
+      real(wp), allocatable :: list(:)
       integer :: i, length
 
-      if (allocated(self%words(at)%text)) then
-         text = ''''//shown(self%words(at)%text)//''''
-      else if (self%is_listed(at)) then
+      if (settings%has_word(name)) then
+         text = ''''//shown(settings%word(name))//''''
+      else if (settings%has_list(name)) then
+         list = settings%list(name)
          length = 0
-         do i = 1, size(self%lists(at)%values)
+         do i = 1, size(list)
             if (i > 1) text(length + 1:) = ', '
             if (i > 1) length = length + 2
-            text(length + 1:) = to_text(self%lists(at)%values(i))
-            length = length + len(to_text(self%lists(at)%values(i)))
+            text(length + 1:) = to_text(list(i))
+            length = length + len(to_text(list(i)))
          end do
       else
-         text = to_text(self%numbers(at))
+         text = to_text(settings%number(name))
       end if
    end function value_text
 
-end submodule dondolo_settings_check
+end module dondolo_settings_check

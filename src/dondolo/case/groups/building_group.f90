@@ -4,6 +4,7 @@ module dondolo_building_group
    use dondolo_error, only : error_type, problems_type
    use dondolo_namelist_group, only : group_type
    use dondolo_settings, only : group_settings_type, new_settings
+   use dondolo_settings_check, only : check_settings
    use dondolo_settings_group, only : read_values
    use dondolo_wall_properties, only : wall_input_type
    implicit none
@@ -30,7 +31,7 @@ contains
       call new_settings(settings, building_properties)
       call read_values(group, settings, error)
       if (allocated(error)) return
-      call settings%check(problems)
+      call check_settings(settings, problems)
       if (problems%count == 0) call new_building(building, settings, problems)
       call problems%raise(error)
       call group%locate(error)

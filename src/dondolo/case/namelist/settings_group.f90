@@ -7,6 +7,7 @@ module dondolo_settings_group
    use dondolo_property, only : find_property, has_owner, is_integer, is_list, is_logical, is_number_or_name, is_text, &
       & is_words, name_length, property_type
    use dondolo_settings, only : settings_type
+   use dondolo_settings_check, only : check_settings
    implicit none
    private
 
@@ -97,7 +98,7 @@ contains
       call read_values(group, settings, error)
       if (allocated(error)) return
       call settings%fill()
-      call settings%check(problems)
+      call check_settings(settings, problems)
       call problems%raise(error)
       call group%locate(error)
    end subroutine read_settings

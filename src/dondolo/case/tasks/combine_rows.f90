@@ -3,17 +3,14 @@ module dondolo_combine_rows
    use dondolo_case, only : case_type
    use dondolo_clustered, only : cluster_errors
    use dondolo_designs, only : compare_designs
-   use dondolo_error, only : error_type, raise_failure
+   use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_member, only : member_type
-   use dondolo_population, only : population_reader_type
    use dondolo_population_counts, only : new_population_counts
    use dondolo_population_errors, only : population_errors_type
-   ! What the reader extends: without these gfortran 12 or 16 fails to write the module file.
-   use dondolo_population_roll, only : population_roll_type
-   use dondolo_population_table, only : population_table_type
    use dondolo_results, only : results_type, shown_rows
    use dondolo_row_result, only : row_result_type
+   use dondolo_rows_again, only : rows_again_type
    use dondolo_sensitivity, only : new_sensitivity
    use dondolo_study, only : runs_of, study_type
    use dondolo_typology, only : combine_population, typology_type
@@ -180,19 +177,14 @@ contains
       !> The table has changed
       type(error_type), allocatable, intent(out) :: error
 
-      type(population_reader_type) :: reader
+      type(rows_again_type) :: rows
       type(member_type) :: member
       integer :: i
-      logical :: found
 
       allocate (results%shown(min(shown_rows, case%survey%rows)))
-      call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false., &
-         & facade=case%facade)
+      call rows%open(case, error)
       do i = 1, case%survey%rows
-         if (.not. allocated(error)) call reader%next(member, found, error)
-         if (.not. allocated(error) .and. .not. found) then
-            call raise_failure(error, case%population_path()//': has changed while it was read')
-         end if
+         call rows%next(member, error)
          if (allocated(error)) exit
          associate (curve => results%population%curve(size(case%stripes%thresholds), i))
             call fits%look(curve, member%wall%name())
@@ -203,7 +195,7 @@ contains
             results%shown(i)%curve = curve
          end associate
       end do
-      call reader%close()
+      call rows%close()
    end subroutine look_at_rows
 
 end module dondolo_combine_rows

@@ -1,16 +1,13 @@
 !> Walls and facades with several mechanisms, counted in the same histories, out of what the stores of a population hold.
 module dondolo_unite_rows
    use dondolo_case, only : case_type
-   use dondolo_error, only : error_type, raise_failure
+   use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_memory, only : check_room
    use dondolo_member, only : member_type
-   use dondolo_population, only : population_reader_type
-   ! What the reader extends: without these gfortran 12 or 16 fails to write the module file.
-   use dondolo_population_roll, only : population_roll_type
-   use dondolo_population_table, only : population_table_type
    use dondolo_results, only : results_type
    use dondolo_row_result, only : row_result_type
+   use dondolo_rows_again, only : rows_again_type
    use dondolo_study, only : runs_of, study_type
    use dondolo_unions, only : count_means, mean_unions, union_builder_type, union_type, unions_type, wall_union
    implicit none
@@ -80,26 +77,21 @@ contains
       !> The table has changed
       type(error_type), allocatable, intent(out) :: error
 
-      type(population_reader_type) :: reader
+      type(rows_again_type) :: rows
       type(member_type) :: member
       integer :: i, next
-      logical :: found
 
       next = 1
-      call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false., &
-         & facade=case%facade)
+      call rows%open(case, error)
       do i = 1, first(unions%wall(size(unions%wall)))
-         if (.not. allocated(error)) call reader%next(member, found, error)
-         if (.not. allocated(error) .and. .not. found) then
-            call raise_failure(error, case%population_path()//': has changed while it was read')
-         end if
+         call rows%next(member, error)
          if (allocated(error)) exit
          if (first(unions%wall(next)) /= i) cycle
          unions%name(next)%text = member%wall%name()
          if (len(member%facade) > 0) unions%name(next)%text = member%facade
          next = next + 1
       end do
-      call reader%close()
+      call rows%close()
    end subroutine name_unions
 
 end module dondolo_unite_rows
