@@ -18,6 +18,7 @@ from dondolo.analysis.overturning import Window as Window
 from dondolo.analysis.overturning import overturning_spectrum as overturning_spectrum
 from dondolo.analysis.response import Response as Response
 from dondolo.analysis.response import simulate as simulate
+from dondolo.analysis.sliding import friction_demand as friction_demand
 from dondolo.analysis.solver import Solver as Solver
 from dondolo.analysis.stripe_runs import multiple_stripe as multiple_stripe
 from dondolo.analysis.stripes import Stripes as Stripes

@@ -2,6 +2,7 @@
 
 import os
 import subprocess
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -202,6 +203,36 @@ def test_base_forces(records, wall):
     # A block that only rests has its weight.
     rests = (q == 0.0) & (response.velocity == 0.0)
     assert normal[rests] == pytest.approx(mass * (9.81 + upwards[rests]), rel=1e-12)
+
+
+@pytest.mark.parametrize("wall", [dd.OneSidedWall(3.0, 0.25), dd.FreeStandingWall(2.0, 0.4)])
+def test_friction_demand(records, wall):
+    """That of every history by its own forces; a block that only just starts needs no more than it did to start."""
+    start = np.tan(wall.slenderness_angle)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", dd.DondoloWarning)
+        stripes = dd.multiple_stripe(wall, records[:3], [0.01, 0.3, 0.6], progress=False)
+        demand = dd.friction_demand(stripes, records[:3], progress=False)
+        assert demand.shape == stripes.edp.shape
+        assert (demand[0] == 0.0).all()
+        for level, history in np.argwhere(stripes.edp > 0.0):
+            factor = stripes.scale[level, history] * stripes.polarity[history]
+            response = dd.simulate(wall, records[history % 3], factor)
+            assert response.edp == stripes.edp[level, history]
+            normal, shear = response.base_forces()
+            moves = (response.rotation != 0.0) | (response.velocity != 0.0)
+            rocking = np.max((abs(shear) / normal)[moves], initial=start)
+            least = np.inf if normal[moves].min() <= 0.0 else rocking
+            assert demand[level, history] == pytest.approx(least, rel=1e-12)
+        just = dd.Record(np.array([0.0, -1.001, 0.0]) * start * 9.81, 0.02)
+        assert dd.simulate(wall, just).friction_demand() == pytest.approx(start, rel=5e-3)
+        two = dd.multiple_stripe(dd.TwoBlockWall(3.0, 0.25), records[:1], [0.8], progress=False)
+    with pytest.raises(dd.InputError, match="must be one rectangular block"):
+        dd.friction_demand(two, records[:1], progress=False)
+    with pytest.raises(dd.InputError, match="is not there"):
+        dd.friction_demand(stripes, records[1:2], progress=False)
+    with pytest.raises(dd.InputError, match="no stripes"):
+        dd.friction_demand(demand, records, progress=False)
 
 
 def test_base_forces_refusals(records):

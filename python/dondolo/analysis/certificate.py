@@ -93,7 +93,7 @@ def certify(
         raise InputError("stripes: have no estimated errors: must be run with estimate_error = True")
     team = check_threads(threads)
     as_flag("progress", progress)
-    return run_again(stripes, _records_of(stripes, records), team, progress)
+    return run_again(stripes, records_of(stripes, records), team, progress)
 
 
 def run_again(stripes: Stripes, records: Sequence[Record], threads: int, progress: bool) -> Stripes:
@@ -144,7 +144,7 @@ def run_again(stripes: Stripes, records: Sequence[Record], threads: int, progres
     return so_far()
 
 
-def _records_of(stripes: Stripes, records: Any) -> list[Record]:
+def records_of(stripes: Stripes, records: Any) -> list[Record]:
     """The records that stripes were run with, in their order."""
     found = {(record.name, record.checksum): record for record in records_at_levels(records, stripes.levels)[0]}
     several = []

@@ -134,6 +134,36 @@ class Response(Shown, Saved):
         shear = mass * ground + side * (lever * turning + vertical_lever * velocity**2)
         return normal, shear
 
+    def friction_demand(self) -> float:
+        """Largest coefficient of friction that the block needs while it rocks, so that it does not slide.
+
+        Returns
+        -------
+        float
+            Largest abs(shear) / normal of `base_forces` in the rows in which it moves, and at least the tangent of the
+            slenderness angle, which it needs where it begins to; 0 if it does not move, infinite where it would lift
+            off.
+
+        Raises
+        ------
+        DondoloError
+            The response has no time history.
+        InputError
+            A wall of two blocks, or one that is more than a rectangular block.
+
+        Notes
+        -----
+        What an impact needs is left out: there the forces are impulses.
+        """
+        normal, shear = self.base_forces()
+        moves = (np.asarray(self.rotation) != 0.0) | (np.asarray(self.velocity) != 0.0)
+        if not moves.any():
+            return 0.0
+        normal, shear = normal[moves], np.abs(shear[moves])
+        if (normal <= 0.0).any():
+            return float("inf")
+        return float(max(np.max(shear / normal), np.tan(self.wall.slenderness_angle)))
+
     @property
     def peak_rotation(self) -> float:
         """Signed rotation at the peak [rad]; positive without a time history, which has the side."""
