@@ -172,3 +172,9 @@ double dondolo_seconds_since(const char *since)
       return -1.0;
    return difftime(time(NULL), timegm(&parts));
 }
+
+/* Number of the last error of the system */
+int dondolo_errno(void)
+{
+   return errno;
+}

@@ -88,10 +88,10 @@ module dondolo_system
          integer(c_int), value :: descriptor
       end function c_isatty
 
-      !> Number of the last error of the system: IERRNO of GNU Fortran
-      integer(c_int) function gnu_errno() bind(c, name='_gfortran_ierrno_i4')
+      !> Number of the last error of the system
+      integer(c_int) function c_errno() bind(c, name='dondolo_errno')
          import :: c_int
-      end function gnu_errno
+      end function c_errno
 
       !> Say what a signal is to do
       type(c_ptr) function c_signal(number, handler) bind(c, name='signal')
@@ -297,9 +297,9 @@ contains
 
       ! Nothing sets the number to 0, but a call that fails sets it: to remove a folder without a name.
       call remove_folder('')
-      number = gnu_errno()
+      number = c_errno()
       flush (output_unit)
-      output_arrives = gnu_errno() == number
+      output_arrives = c_errno() == number
    end function output_arrives
 
    !> Go on where a file would grow beyond the limit of the process (ulimit -f): writing then fails as on a full disk
