@@ -71,6 +71,7 @@ contains
          & 1.246_wp, 1.564_wp, 2.014_wp, 2.417_wp, 3.021_wp, 3.625_wp, 4.028_wp, 4.431_wp, 5.035_wp]
       real(wp), parameter :: collapses(16) = [0, 0, 0, 0, 0, 4, 13, 23, 38, 41, 44, 45, 45, 45, 45, 45]
       type(fragility_type) :: curve
+      type(wall_type) :: wall
       type(stripes_type) :: stripes
       type(warnings_type) :: warnings
       type(lines_type) :: sentences
@@ -90,7 +91,7 @@ contains
       call check_close(curve%beta, 0.684495_wp, 1.0e-6_wp, 'beta')
       stripes%levels = [1.0_wp, 1.5_wp, 2.0_wp]
       allocate(stripes%response(59, 3))
-      call warn_of_fit(wall_type(), stripes, curve, warnings)
+      call warn_of_fit(wall, stripes, curve, warnings)
       call check(warnings%count == 1, 'one warning')
       call warning_sentences(warnings, sentences)
       call check_text(sentences%line(1)%text, &

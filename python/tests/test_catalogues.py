@@ -241,3 +241,20 @@ def test_only_a_catalogue_is_replaced(folder, tmp_path):
     assert code == 2
     assert "walls.csv: exists, and is no catalogue of dondolo" in err
     assert survey.read_text() == "name,mechanism,height,thickness\n"
+
+
+@pytest.mark.skipif(not Path("/proc/self/fd").is_dir(), reason="no list of open files")
+@pytest.mark.parametrize("vertical", ["none", "recorded"])
+@pytest.mark.parametrize(
+    "text",
+    ["file,dt_s,units\na.txt,.01,g\n", "file,dt_s,units,vertical\na.txt,.01,g,\n", "file,dt\na.txt,.01\n", "x\n1\n", ""],
+)
+def test_refused_catalogues_are_closed(tmp_path, text, vertical):
+    """Else a program that goes on would run out of files."""
+    path = tmp_path / "bad.csv"
+    path.write_text(text)
+    before = len(os.listdir("/proc/self/fd"))
+    for _ in range(3):
+        with pytest.raises(dd.InputError):
+            dd.read_catalogue(path, vertical=vertical)
+    assert len(os.listdir("/proc/self/fd")) == before

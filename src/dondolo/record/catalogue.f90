@@ -83,6 +83,7 @@ contains
       if (allocated(error)) return
       if (present(vertical_factor) .and. table%column('vertical') == 0) then
          call raise_input(error, file//': no column ''vertical'': must name the vertical component of each record')
+         call table%close()
          return
       end if
       if (present(note)) note = table%note()
