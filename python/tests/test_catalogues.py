@@ -247,7 +247,13 @@ def test_only_a_catalogue_is_replaced(folder, tmp_path):
 @pytest.mark.parametrize("vertical", ["none", "recorded"])
 @pytest.mark.parametrize(
     "text",
-    ["file,dt_s,units\na.txt,.01,g\n", "file,dt_s,units,vertical\na.txt,.01,g,\n", "file,dt\na.txt,.01\n", "x\n1\n", ""],
+    [
+        "file,dt_s,units\na.txt,.01,g\n",
+        "file,dt_s,units,vertical\na.txt,.01,g,\n",
+        "file,dt\na.txt,.01\n",
+        "x\n1\n",
+        "",
+    ],
 )
 def test_refused_catalogues_are_closed(tmp_path, text, vertical):
     """Else a program that goes on would run out of files."""
