@@ -56,6 +56,8 @@ module dondolo_settings
       !> Set a value
       generic :: set => set_number, set_integer, set_word, set_logical, set_list
       procedure, private :: set_number, set_integer, set_word, set_logical, set_list
+      !> Which properties have a value
+      procedure :: given
       !> How many values each property has
       procedure :: lengths
       !> Take a value away
@@ -157,6 +159,16 @@ contains
       gives = .false.
       if (allocated(self%known)) gives = any(self%known .and. asked)
    end function gives
+
+   !> Which properties have a value
+   pure subroutine given(self, properties)
+      class(settings_type), intent(in) :: self
+      !> Whether each one has, in the order of the table
+      logical, intent(out) :: properties(:)
+
+      properties = .false.
+      if (allocated(self%known)) properties = self%known
+   end subroutine given
 
    !> How many values each property has: those of a list, else 1 or 0
    pure function lengths(self)

@@ -29,9 +29,12 @@ contains
       character(len=name_length), allocatable :: names(:)
       character(len=:), allocatable :: allowed, unknown, word
       real(wp), allocatable :: list(:)
+      logical, allocatable :: given(:)
       integer :: i, k
 
       call settings%get_table(table)
+      allocate (given(size(table)))
+      call settings%given(given)
       call settings%get_unknown(unknown)
       if (allocated(unknown)) then
          names = table%name
@@ -41,12 +44,12 @@ contains
          associate (property => table(i))
             if (present(owner)) then
                if (.not. has_owner(property, owner)) then
-                  if (len(owner) > 0 .and. settings%has(trim(property%name))) call problems%note(trim(property%name)//' = '// &
+                  if (len(owner) > 0 .and. given(i)) call problems%note(trim(property%name)//' = '// &
                      & value_text(settings, trim(property%name))//': only for '//label//' = '//one_of(property%owners))
                   cycle
                end if
             end if
-            if (.not. settings%has(trim(property%name))) then
+            if (.not. given(i)) then
                if (.not. property%required) cycle
                allowed = 'must be given'
                if (len_trim(property%names) > 0) allowed = allowed//', '//trim(property%names)
