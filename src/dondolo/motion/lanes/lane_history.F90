@@ -4,14 +4,15 @@
 !> rules that all engines share (dondolo_history, dondolo_rest, dondolo_events; docs/theory.md, section 4).
 module dondolo_lane_history
    use, intrinsic :: iso_c_binding, only : c_int
+   use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_events, only : impact, level_above, level_below, limit_reached, no_event, turning
-   use dondolo_history, only : history_type, starting_acceleration
+   use dondolo_history, only : history_type
    use dondolo_interrupt, only : look_for_interrupt
    use dondolo_kinds, only : wp
    use dondolo_lane_constants, only : lane_constants_type
    use dondolo_lane_grip, only : lane_grip_type
-   use dondolo_lane_state, only : event_possible, lane_width, lanes_type, part_if_held, step_too_long
-   use dondolo_lane_series, only : allowed_part, find_first, find_first_level, rate, value
+   use dondolo_lane_state, only : event_possible, lane_width, lanes_type, part_if_held, step_taken, step_too_long
+   use dondolo_lane_series, only : allowed_part, find_first, find_first_level, find_impacts, rate, undecided, value
    use dondolo_mechanism, only : mechanism_type
    use dondolo_normal_form, only : y_limit
    use dondolo_queue, only : queue_type
@@ -25,7 +26,7 @@ module dondolo_lane_history
    implicit none
    private
 
-   public :: lane_batch_type, add_row, begin, begin_still, resolve
+   public :: lane_batch_type, add_row, begin, begin_still, find_lane_events, resolve
 
    !> A history in a lane. Its interval and time are those of its last event
    type, extends(history_type) :: lane_history_type
@@ -37,10 +38,26 @@ module dondolo_lane_history
       logical :: over = .false.
    end type lane_history_type
 
+   !> What is found in the steps of flagged lanes, one after another
+   type :: found_type
+      !> Number of flagged lanes, and which they are
+      integer :: n = 0, lane(lane_width) = 0
+      !> The series of their motions, the part of the step that is allowed, and their largest y so far
+      real(wp) :: d(lane_width, 0:9) = 0.0_wp, last(lane_width) = 1.0_wp, peak(lane_width) = 0.0_wp
+      !> The first event, or `undecided`
+      integer(int64) :: event(lane_width) = no_event
+      !> Its place, the coordinate there, and its rate of change
+      real(wp) :: x(lane_width) = 1.0_wp, y(lane_width) = 0.0_wp, v(lane_width) = 0.0_wp
+   end type found_type
+
    !> The lanes of one thread, with all that their histories need
    type :: lane_batch_type
       !> State of the lanes
       type(lanes_type) :: lanes
+      !> Number of those at work, side by side
+      integer :: active = 0
+      !> Their events
+      type(found_type) :: found
       !> The history in each lane
       type(lane_history_type) :: history(lane_width)
       !> The ties in each lane; not allocated for a wall without
@@ -111,43 +128,57 @@ contains
       end associate
    end subroutine begin_still
 
-   !> Take the step of a flagged lane, up to the first event in it
-   pure subroutine resolve(batch, i)
-      !> The lanes, and the one
+   !> Find the first event in the step of each flagged lane
+   pure subroutine find_lane_events(batch)
       type(lane_batch_type), intent(inout) :: batch
-      integer, intent(in) :: i
 
-      real(wp) :: y, d(0:9), part, h
-      logical :: heeds
-      integer :: event
+      real(wp) :: counted
+      integer :: i, n
 
-      associate (lanes => batch%lanes, history => batch%history(i), constants => batch%constants)
-         if (lanes%flag(i) >= event_possible) then
-            associate (step => lanes%step(i))
-               d = [lanes%y(i), lanes%v(i)*step, lanes%series(i, :)]
-               d(2) = starting_acceleration(d(0), d(1), d(2))
-               part = 1.0_wp
-               if (lanes%flag(i) == step_too_long) then
-                  part = allowed_part(d, step, smallest_step*lanes%dt(i), merge(part_if_held, 1.0_wp, constants%form%is_held), &
+      counted = merge(part_if_held, 1.0_wp, batch%constants%form%is_held)
+      n = 0
+      associate (lanes => batch%lanes, found => batch%found, constants => batch%constants)
+         do i = 1, batch%active
+            if (lanes%flag(i) == step_taken) cycle
+            n = n + 1
+            found%lane(n) = i
+            found%d(n, 0) = lanes%y(i)
+            found%d(n, 1) = lanes%v(i)*lanes%step(i)
+            found%d(n, 2:) = lanes%series(i, :)
+            if (lanes%y(i) == 0.0_wp .and. lanes%v(i) == 0.0_wp) found%d(n, 2) = max(0.0_wp, found%d(n, 2))
+            found%peak(n) = lanes%peak(i)
+            found%last(n) = 1.0_wp
+            if (lanes%flag(i) == step_too_long) then
+               associate (part => found%last(n), step => lanes%step(i))
+                  part = allowed_part(found%d(n, :), step, smallest_step*lanes%dt(i), counted, &
                      & constants%form%fifth(lanes%fifth_a(i), lanes%u(i), lanes%heavier(i)), constants%solver%rtol, constants%atol)
                   if (part < 1.0_wp) then
                      lanes%next_span(i) = part*step
                      lanes%span(i) = part*step
                   end if
-               end if
-               event = no_event
-               if (part*step > shortest_motion*lanes%dt(i)) then
-                  call find_first(d, lanes%peak(i), part, event)
-                  if (allocated(batch%grips)) then
-                     call batch%grips(i)%heed(heeds)
-                     if (heeds) call find_first_level(d, lanes%below(i), lanes%above(i), part, event)
-                  end if
-               end if
-               h = part*step
-               y = value(d, part)
-               lanes%y(i) = y
-               if (h > 0.0_wp) lanes%v(i) = rate(d, part)/step
-            end associate
+               end associate
+            end if
+         end do
+         found%n = n
+         if (n > 0) call find_impacts((n + 7)/8*8, found%d, found%peak, found%last, found%x, found%y, found%v, found%event)
+      end associate
+   end subroutine find_lane_events
+
+   !> Take the step of a flagged lane, up to the first event in it
+   pure subroutine resolve(batch, n)
+      !> The lanes
+      type(lane_batch_type), intent(inout) :: batch
+      !> Place of the one among the flagged lanes
+      integer, intent(in) :: n
+
+      real(wp) :: part, h
+      integer :: i, event
+
+      i = batch%found%lane(n)
+      associate (lanes => batch%lanes, history => batch%history(i), constants => batch%constants)
+         if (lanes%flag(i) >= event_possible) then
+            call find_event(batch, n, part, event)
+            h = part*lanes%step(i)
             if (event == no_event .and. .not. lanes%time(i) + h < lanes%dt(i)) then
                call next_sample(lanes, i, batch%set)
                if (associated(batch%trace)) call add_row(batch, i)
@@ -163,9 +194,9 @@ contains
             case (turning)
                lanes%v(i) = 0.0_wp
                ! Between two impacts it may turn below the peak.
-               if (y > lanes%peak(i)) call set_peak(batch, i)
+               if (lanes%y(i) > lanes%peak(i)) call set_peak(batch, i)
                if (allocated(batch%grips)) call batch%grips(i)%turn(constants, lanes, i)
-               history%collapsed = .not. y < y_limit
+               history%collapsed = .not. lanes%y(i) < y_limit
                history%over = history%collapsed
             case (limit_reached)
                lanes%y(i) = y_limit
@@ -179,6 +210,45 @@ contains
          if (history%over) call finish(batch, i)
       end associate
    end subroutine resolve
+
+   !> The first event in the step of a flagged lane, and the motion there
+   pure subroutine find_event(batch, n, part, event)
+      !> The lanes
+      type(lane_batch_type), intent(inout) :: batch
+      !> Place of the one among the flagged lanes
+      integer, intent(in) :: n
+      !> The part of its step up to the event, or to where the step ends
+      real(wp), intent(out) :: part
+      !> The event
+      integer, intent(out) :: event
+
+      real(wp) :: d(0:9)
+      logical :: is_known, heeds
+
+      associate (i => batch%found%lane(n), lanes => batch%lanes, found => batch%found)
+         part = found%x(n)
+         event = int(found%event(n))
+         is_known = event /= undecided .and. .not. allocated(batch%grips) &
+            & .and. found%last(n)*lanes%step(i) > shortest_motion*lanes%dt(i)
+         if (is_known) then
+            lanes%y(i) = found%y(n)
+            lanes%v(i) = found%v(n)/lanes%step(i)
+            return
+         end if
+         d = found%d(n, :)
+         part = found%last(n)
+         event = no_event
+         if (part*lanes%step(i) > shortest_motion*lanes%dt(i)) then
+            call find_first(d, lanes%peak(i), part, event)
+            if (allocated(batch%grips)) then
+               call batch%grips(i)%heed(heeds)
+               if (heeds) call find_first_level(d, lanes%below(i), lanes%above(i), part, event)
+            end if
+         end if
+         lanes%y(i) = value(d, part)
+         if (part*lanes%step(i) > 0.0_wp) lanes%v(i) = rate(d, part)/lanes%step(i)
+      end associate
+   end subroutine find_event
 
    !> The lane reaches its next sample
    pure subroutine next_sample(lanes, i, set)

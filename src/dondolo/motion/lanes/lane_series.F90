@@ -1,13 +1,18 @@
 !> The motion within one step of a lane, a power series in the part x of the step that has passed, and the first event in it.
 module dondolo_lane_series
+   use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_bernstein, only : nowhere
    use dondolo_events, only : find_event, find_level, impact, level_above, level_below, no_event, turning
    use dondolo_kinds, only : wp
+   use dondolo_lane_state, only : lane_width
    use dondolo_normal_form, only : y_limit
    implicit none
    private
 
-   public :: allowed_part, find_first, find_first_level, rate, value
+   public :: allowed_part, find_first, find_first_level, find_impacts, rate, undecided, value
+
+   !> Not an event: the motion is not of a shape that find_impacts knows
+   integer, parameter :: undecided = -1
 
    !> Part that is taken of what the tolerance allows by the last terms of a series
    real(wp), parameter :: safety = 0.9_wp
@@ -44,6 +49,81 @@ contains
          x = max(0.2_wp*x, safety*x*(tolerance/error)**(1.0_wp/6.0_wp))
       end do
    end function allowed_part
+
+   !> The first events of several steps of a simple shape, most of those that are looked at: a start; a fall; a rise below the
+   !> largest y so far, and a fall. Nothing branches here either
+   pure subroutine find_impacts(n, d, peak, last_part, x, y, v, event)
+      !> Steps, in whole vectors
+      integer, intent(in) :: n
+      !> The series of their motions
+      real(wp), intent(in) :: d(lane_width, 0:9)
+      !> Largest y so far
+      real(wp), intent(in) :: peak(lane_width)
+      !> Where the steps end
+      real(wp), intent(in) :: last_part(lane_width)
+      !> Places of the events or ends, coordinates there, and their rates of change; of steps in whole vectors
+      real(wp), intent(inout) :: x(lane_width), y(lane_width), v(lane_width)
+      !> No event, impact or undecided
+      integer(int64), intent(inout) :: event(lane_width)
+
+      integer, parameter :: iterations = 3
+      integer(int64), parameter :: is_impact = impact, is_none = no_event, is_undecided = undecided
+      ! Motions of another shape give nonsense, which must not overflow.
+      real(wp), parameter :: smallest = 1.0e-60_wp
+      real(wp) :: last, z, zz, z4, y_end, v_end, bend_end, fastest, most_bent, root, slow, change, y_z, v_z, bend_z
+      real(wp) :: starts, falls, is_found, is_simple
+      integer :: i, iteration
+
+      !$omp simd
+      do i = 1, n
+         associate (d0 => d(i, 0), d1 => d(i, 1), d2 => d(i, 2), d3 => d(i, 3), d4 => d(i, 4), d5 => d(i, 5), d6 => d(i, 6), &
+            & d7 => d(i, 7), d8 => d(i, 8), d9 => d(i, 9))
+            last = last_part(i)
+            zz = last*last
+            z4 = zz*zz
+            y_end = (d0 + last*d1) + zz*(d2 + last*d3) + z4*((d4 + last*d5) + zz*(d6 + last*d7) + z4*(d8 + last*d9))
+            v_end = (d1 + 2.0_wp*d2*last) + zz*(3.0_wp*d3 + 4.0_wp*d4*last) &
+               & + z4*((5.0_wp*d5 + 6.0_wp*d6*last) + zz*(7.0_wp*d7 + 8.0_wp*d8*last) + z4*(9.0_wp*d9))
+            bend_end = (2.0_wp*d2 + 6.0_wp*d3*last) + zz*((12.0_wp*d4 + 20.0_wp*d5*last) + zz*(30.0_wp*d6))
+            ! The velocity and its rate exceed the larger of their ends by no more than their second derivatives allow.
+            fastest = max(d1, v_end) + zz*(0.75_wp*abs(d3) + last*(3.0_wp*abs(d4) + last*8.0_wp*abs(d5)))
+            most_bent = max(2.0_wp*d2, bend_end) &
+               & + zz*(3.0_wp*abs(d4) + last*16.0_wp*(abs(d5) + last*3.0_wp*abs(d6)))
+            ! Conditions hold where they are positive: a start, in which the third derivative rules; a fall; a rise that stays
+            ! below the peak, and a fall.
+            starts = min(y_limit - y_end, d3 - 4.0_wp*last*(abs(d4) + last*(abs(d5) + last*abs(d6))))
+            starts = merge(starts, -1.0_wp, abs(d0) + abs(d1) <= 0.0_wp)
+            falls = max(-fastest, min(min(-most_bent, d1), min(-v_end, peak(i) - (d0 + last*d1))))
+            ! Halley's method, from the zero of the parabola at the start
+            root = sqrt(max(0.0_wp, d1*d1 - 4.0_wp*d0*d2))
+            z = merge(2.0_wp*d0/max(root - d1, smallest), (d1 + root)/max(-2.0_wp*d2, smallest), d1 < 0.0_wp)
+            z = merge(z, last, z > 0.0_wp .and. z < last)
+            !GCC$ unroll 3
+            do iteration = 1, iterations
+               zz = z*z
+               z4 = zz*zz
+               y_z = (d0 + z*d1) + zz*(d2 + z*d3) + z4*((d4 + z*d5) + zz*(d6 + z*d7) + z4*(d8 + z*d9))
+               v_z = (d1 + 2.0_wp*d2*z) + zz*(3.0_wp*d3 + 4.0_wp*d4*z) &
+                  & + z4*((5.0_wp*d5 + 6.0_wp*d6*z) + zz*(7.0_wp*d7 + 8.0_wp*d8*z) + z4*(9.0_wp*d9))
+               bend_z = (2.0_wp*d2 + 6.0_wp*d3*z) + zz*((12.0_wp*d4 + 20.0_wp*d5*z) + zz*(30.0_wp*d6))
+               slow = 1.0_wp/min(v_z, -smallest)
+               change = -y_z*slow
+               change = change*(1.0_wp - 0.5_wp*change*bend_z*slow)
+               z = min(max(z + change, 0.0_wp), last)
+            end do
+            is_found = min(min(third_order*z - abs(change), z), -v_z)
+            zz = z*z
+            z4 = zz*zz
+            v_z = (d1 + 2.0_wp*d2*z) + zz*(3.0_wp*d3 + 4.0_wp*d4*z) &
+               & + z4*((5.0_wp*d5 + 6.0_wp*d6*z) + zz*(7.0_wp*d7 + 8.0_wp*d8*z) + z4*(9.0_wp*d9))
+            is_simple = max(starts, min(falls, merge(is_found, falls, y_end <= 0.0_wp)))
+            x(i) = merge(z, last, y_end <= 0.0_wp)
+            y(i) = merge(0.0_wp, y_end, y_end <= 0.0_wp)
+            v(i) = merge(v_z, v_end, y_end <= 0.0_wp)
+            event(i) = merge(merge(is_impact, is_none, y_end <= 0.0_wp), is_undecided, is_simple > 0.0_wp)
+         end associate
+      end do
+   end subroutine find_impacts
 
    !> The first event of a step: at once where the motion is of a simple shape, else from its Bernstein form
    pure subroutine find_first(d, peak, x, event)

@@ -7,9 +7,9 @@ module dondolo_lanes
    use dondolo_kinds, only : wp
    use dondolo_lane_constants, only : lane_constants_type
    use dondolo_lane_grip, only : lane_grip_type
-   use dondolo_lane_history, only : add_row, begin, begin_still, lane_batch_type, resolve
+   use dondolo_lane_history, only : add_row, begin, begin_still, find_lane_events, lane_batch_type, resolve
    use dondolo_lane_kernel, only : step_lanes
-   use dondolo_lane_state, only : lane_width, step_taken
+   use dondolo_lane_state, only : event_possible, lane_width
    use dondolo_mechanism, only : mechanism_type
    use dondolo_queue, only : queue_type
    use dondolo_record, only : record_type
@@ -36,7 +36,7 @@ contains
       type(work_type), intent(inout) :: work
 
       type(lane_batch_type) :: batch
-      integer :: active, i
+      integer :: i, n
 
       batch%mechanism => mechanism
       batch%constants => constants
@@ -44,38 +44,25 @@ contains
       batch%set => set
       batch%queue => queue
       if (constants%form%is_held) allocate (batch%grips(lane_width))
-      active = 0
-      do while (active < lane_width)
-         if (.not. is_filled(active + 1)) exit
-         active = active + 1
+      do while (batch%active < lane_width)
+         if (.not. is_filled(batch%active + 1)) exit
+         batch%active = batch%active + 1
       end do
-      do while (active > 0)
-         if (constants%form%is_shaken) then
-            call step_lanes(batch%lanes, active, constants%form, set%samples, constants%solver%rtol, constants%atol, &
-               & set%verticals)
-         else
-            call step_lanes(batch%lanes, active, constants%form, set%samples, constants%solver%rtol, constants%atol)
-         end if
-         batch%work%steps = batch%work%steps + active
-         i = 1
-         do while (i <= active)
-            if (batch%lanes%flag(i) /= step_taken) then
-               call resolve(batch, i)
-               if (batch%history(i)%over) then
-                  call queue%report()
-                  if (.not. is_filled(i)) then
-                     ! The last lane moves in, so that those at work stay side by side.
-                     call move(batch, active, i)
-                     ! What it leaves behind may be stepped as part of a vector, but gets nowhere: at y = 0 no step is
-                     ! taken. Else it would run past the samples of its record.
-                     batch%lanes%y(active) = 0.0_wp
-                     batch%lanes%v(active) = 0.0_wp
-                     active = active - 1
-                     cycle
-                  end if
-               end if
-            end if
-            i = i + 1
+      do while (batch%active > 0)
+         call step(batch)
+         ! From the last on, so that the lane that moves in where no history is left has been seen
+         do n = batch%found%n, 1, -1
+            i = batch%found%lane(n)
+            if (.not. batch%history(i)%over) cycle
+            call queue%report()
+            if (is_filled(i)) cycle
+            ! The last lane moves in, so that those at work stay side by side.
+            call move(batch, batch%active, i)
+            ! What it leaves behind may be stepped as part of a vector, but gets nowhere: at y = 0 no step is taken. Else
+            ! it would run past the samples of its record.
+            batch%lanes%y(batch%active) = 0.0_wp
+            batch%lanes%v(batch%active) = 0.0_wp
+            batch%active = batch%active - 1
          end do
       end do
       batch%work%evaluations = batch%work%steps
@@ -102,6 +89,27 @@ contains
       end function is_filled
 
    end subroutine simulate_lanes
+
+   !> A step of every lane at work, with what happens in it
+   subroutine step(batch)
+      type(lane_batch_type), intent(inout) :: batch
+
+      integer :: n
+
+      associate (constants => batch%constants, set => batch%set)
+         if (constants%form%is_shaken) then
+            call step_lanes(batch%lanes, batch%active, constants%form, set%samples, constants%solver%rtol, constants%atol, &
+               & set%verticals)
+         else
+            call step_lanes(batch%lanes, batch%active, constants%form, set%samples, constants%solver%rtol, constants%atol)
+         end if
+      end associate
+      batch%work%steps = batch%work%steps + batch%active
+      call find_lane_events(batch)
+      do n = 1, batch%found%n
+         call resolve(batch, n)
+      end do
+   end subroutine step
 
    !> The motion of one history, by the steps that it takes in a batch: at every sample and before and after every impact,
    !> until rest or the end of the still ground after the record
@@ -134,18 +142,14 @@ contains
       batch%trace => trace
       if (constants%form%is_held) allocate (batch%grips(lane_width))
       call begin(batch, 1, 1)
+      batch%active = 1
       do while (.not. (batch%history(1)%over .or. trace%lacks_memory))
-         next = batch%lanes%next(1)
-         if (constants%form%is_shaken) then
-            call step_lanes(batch%lanes, 1, constants%form, set%samples, constants%solver%rtol, constants%atol, set%verticals)
-         else
-            call step_lanes(batch%lanes, 1, constants%form, set%samples, constants%solver%rtol, constants%atol)
-         end if
-         if (batch%lanes%next(1) > next) call add_row(batch, 1)
-         if (batch%lanes%flag(1) == step_taken) cycle
          ! At its end a history looks ahead with its ties; the trace goes on from how they are now.
          if (allocated(batch%grips)) grip = batch%grips(1)
-         call resolve(batch, 1)
+         next = batch%lanes%next(1)
+         call step(batch)
+         ! Of a flagged lane it has been added.
+         if (batch%lanes%flag(1) < event_possible .and. batch%lanes%next(1) > next) call add_row(batch, 1)
          if (.not. batch%history(1)%over .or. batch%history(1)%record /= 1) cycle
          if (allocated(batch%grips)) call batch%grips(1)%responses(batch%history(1)%peak, trace%ties)
          if (.not. rocks_on()) cycle
