@@ -291,13 +291,17 @@ contains
       !> True only if it is certain
       logical, intent(out) :: ends
 
-      real(wp) :: push, weight, here, other, here_next, other_next, least_here, least_other, growth, elapsed, energy, highest
+      ! Growth is kept as a quotient, which is cheaper than a quotient for each sample, within this range.
+      real(wp), parameter :: largest_divisor = 1.0e100_wp
+      real(wp) :: push, weight, here, other, here_next, other_next, least_here, least_other, growth, divisor, elapsed, energy
+      real(wp) :: highest
       integer :: i
 
       ends = .false.
       associate (a => record%acceleration, dt => record%dt, n => size(record%acceleration), e => self%restitution, &
          & interval => bounce%interval, time => bounce%time, side => bounce%side)
          growth = 1.0_wp
+         divisor = 1.0_wp
          elapsed = -time
          energy = 0.5_wp*margin*self%inertia*bounce%speed**2
          highest = min(self%height, bounce%peak)
@@ -322,13 +326,18 @@ contains
             least_here = min(least_here, here_next)
             least_other = min(least_other, other_next)
             if (.not. min(least_here, least_other) > 0.0_wp) return
-            ! Without a branch, which no processor could foresee
-            growth = growth*max(1.0_wp, here_next/here, other_next/other)
-            if (energy*growth > highest*min(least_here, least_other) .or. growth > largest_growth) return
+            ! The larger rise of the two, without a branch, which no processor could foresee
+            growth = growth*max(here*other, here_next*other, here*other_next)
+            divisor = divisor*(here*other)
+            if (energy*growth > highest*min(least_here, least_other)*divisor .or. growth > largest_growth*divisor) return
             elapsed = elapsed + dt
             ! The square of duration <= elapsed, without a quotient
             if (8.0_wp*energy*growth*self%inertia*(least_other + e*least_here)**2 &
-               & <= (elapsed*(1.0_wp - e**2)*least_here*least_other)**2) exit
+               & <= (elapsed*(1.0_wp - e**2)*least_here*least_other)**2*divisor) exit
+            if (divisor > largest_divisor .or. divisor*largest_divisor < 1.0_wp) then
+               growth = growth/divisor
+               divisor = 1.0_wp
+            end if
             here = here_next
             other = other_next
          end do

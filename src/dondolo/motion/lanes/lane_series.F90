@@ -71,7 +71,7 @@ contains
       ! Motions of another shape give nonsense, which must not overflow.
       real(wp), parameter :: smallest = 1.0e-60_wp
       real(wp) :: last, z, zz, z4, y_end, v_end, bend_end, fastest, most_bent, root, slow, change, y_z, v_z, bend_z
-      real(wp) :: starts, falls, is_found, is_simple
+      real(wp) :: starts, rises, falls, is_found, is_simple
       integer :: i, iteration
 
       !$omp simd
@@ -89,11 +89,12 @@ contains
             fastest = max(d1, v_end) + zz*(0.75_wp*abs(d3) + last*(3.0_wp*abs(d4) + last*8.0_wp*abs(d5)))
             most_bent = max(2.0_wp*d2, bend_end) &
                & + zz*(3.0_wp*abs(d4) + last*16.0_wp*(abs(d5) + last*3.0_wp*abs(d6)))
-            ! Conditions hold where they are positive: a start, in which the third derivative rules; a fall; a rise that stays
-            ! below the peak, and a fall.
+            ! Conditions hold where they are positive: a start, in which the third derivative rules; a fall, from the start on
+            ! or after a rise that stays below the peak, as the parabola that bends least does.
             starts = min(y_limit - y_end, d3 - 4.0_wp*last*(abs(d4) + last*(abs(d5) + last*abs(d6))))
             starts = merge(starts, -1.0_wp, abs(d0) + abs(d1) <= 0.0_wp)
-            falls = max(-fastest, min(min(-most_bent, d1), min(-v_end, peak(i) - (d0 + last*d1))))
+            rises = min(d1, min(d0 + last*d1 - peak(i), d1*d1 + 2.0_wp*(peak(i) - d0)*most_bent))
+            falls = max(-fastest, min(min(-most_bent, -v_end), -rises))
             ! Halley's method, from the zero of the parabola at the start
             root = sqrt(max(0.0_wp, d1*d1 - 4.0_wp*d0*d2))
             z = merge(2.0_wp*d0/max(root - d1, smallest), (d1 + root)/max(-2.0_wp*d2, smallest), d1 < 0.0_wp)
