@@ -9,9 +9,9 @@ module dondolo_lane_state
    public :: lanes_type, lane_width, part_if_held
    public :: step_taken, record_over, event_possible, step_too_long
 
-   !> Number of lanes: two vectors at least, so that one computes while the other waits for its own results; no more, so
-   !> that threads at the end of their work still have full ones
-   integer, parameter :: lane_width = 128
+   !> Most lanes: so many that those with an event in the same step fill a vector, and so few that all stay in the cache next to
+   !> the processor
+   integer, parameter :: lane_width = 64
 
    !> Part of the last three terms of a step that counts as its error where ties hold the wall. It vibrates on them, and
    !> the first term that is left out is (w h)^3/504 of the first of these three, less than 1/4000 where w h < 1/2

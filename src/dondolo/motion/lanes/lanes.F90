@@ -4,6 +4,7 @@
 !> are seen to one by one (dondolo_lane_history). A lane whose history is over takes the next from the queue, so that
 !> vectors stay full. What a history gives depends neither on its lane nor on those beside it.
 module dondolo_lanes
+   use, intrinsic :: omp_lib, only : omp_get_num_threads
    use dondolo_kinds, only : wp
    use dondolo_lane_constants, only : lane_constants_type
    use dondolo_lane_grip, only : lane_grip_type
@@ -36,7 +37,7 @@ contains
       type(work_type), intent(inout) :: work
 
       type(lane_batch_type) :: batch
-      integer :: i, n
+      integer :: i, n, most
 
       batch%mechanism => mechanism
       batch%constants => constants
@@ -44,7 +45,8 @@ contains
       batch%set => set
       batch%queue => queue
       if (constants%form%is_held) allocate (batch%grips(lane_width))
-      do while (batch%active < lane_width)
+      most = most_lanes(size(queue%record), omp_get_num_threads())
+      do while (batch%active < most)
          if (.not. is_filled(batch%active + 1)) exit
          batch%active = batch%active + 1
       end do
@@ -89,6 +91,20 @@ contains
       end function is_filled
 
    end subroutine simulate_lanes
+
+   !> Lanes for each thread of a team: no more than a part of its histories, so that none has all that are left at the end
+   !> while others wait
+   pure integer function most_lanes(histories, threads)
+      !> Histories in the queue
+      integer, intent(in) :: histories
+      !> Threads that share them
+      integer, intent(in) :: threads
+
+      integer, parameter :: rounds = 4, fewest = 16
+
+      most_lanes = lane_width
+      if (threads > 1) most_lanes = min(lane_width, max(fewest, histories/(rounds*threads)/8*8))
+   end function most_lanes
 
    !> A step of every lane at work, with what happens in it
    subroutine step(batch)
