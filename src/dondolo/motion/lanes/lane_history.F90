@@ -132,7 +132,7 @@ contains
    pure subroutine find_lane_events(batch)
       type(lane_batch_type), intent(inout) :: batch
 
-      real(wp) :: counted
+      real(wp) :: counted, d(0:9)
       integer :: i, n
 
       counted = merge(part_if_held, 1.0_wp, batch%constants%form%is_held)
@@ -150,7 +150,8 @@ contains
             found%last(n) = 1.0_wp
             if (lanes%flag(i) == step_too_long) then
                associate (part => found%last(n), step => lanes%step(i))
-                  part = allowed_part(found%d(n, :), step, smallest_step*lanes%dt(i), counted, &
+                  d = found%d(n, :)
+                  part = allowed_part(d, step, smallest_step*lanes%dt(i), counted, &
                      & constants%form%fifth(lanes%fifth_a(i), lanes%u(i), lanes%heavier(i)), constants%solver%rtol, constants%atol)
                   if (part < 1.0_wp) then
                      lanes%next_span(i) = part*step
@@ -223,27 +224,28 @@ contains
       integer, intent(out) :: event
 
       real(wp) :: d(0:9)
-      logical :: is_known, heeds
+      logical :: heeds
 
       associate (i => batch%found%lane(n), lanes => batch%lanes, found => batch%found)
-         part = found%x(n)
-         event = int(found%event(n))
-         is_known = event /= undecided .and. .not. allocated(batch%grips) &
-            & .and. found%last(n)*lanes%step(i) > shortest_motion*lanes%dt(i)
-         if (is_known) then
-            lanes%y(i) = found%y(n)
-            lanes%v(i) = found%v(n)/lanes%step(i)
-            return
-         end if
-         d = found%d(n, :)
          part = found%last(n)
          event = no_event
          if (part*lanes%step(i) > shortest_motion*lanes%dt(i)) then
-            call find_first(d, lanes%peak(i), part, event)
-            if (allocated(batch%grips)) then
-               call batch%grips(i)%heed(heeds)
-               if (heeds) call find_first_level(d, lanes%below(i), lanes%above(i), part, event)
+            part = found%x(n)
+            event = int(found%event(n))
+            if (event /= undecided .and. .not. allocated(batch%grips)) then
+               lanes%y(i) = found%y(n)
+               lanes%v(i) = found%v(n)/lanes%step(i)
+               return
             end if
+         end if
+         d = found%d(n, :)
+         if (event == undecided) then
+            part = found%last(n)
+            call find_first(d, lanes%peak(i), part, event)
+         end if
+         if (allocated(batch%grips) .and. found%last(n)*lanes%step(i) > shortest_motion*lanes%dt(i)) then
+            call batch%grips(i)%heed(heeds)
+            if (heeds) call find_first_level(d, lanes%below(i), lanes%above(i), part, event)
          end if
          lanes%y(i) = value(d, part)
          if (part*lanes%step(i) > 0.0_wp) lanes%v(i) = rate(d, part)/lanes%step(i)

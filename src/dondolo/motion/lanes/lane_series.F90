@@ -126,7 +126,8 @@ contains
       end do
    end subroutine find_impacts
 
-   !> The first event of a step: at once where the motion is of a simple shape, else from its Bernstein form
+   !> The first event of a step that find_impacts leaves undecided: at once where the motion rises and falls, else from its
+   !> Bernstein form
    pure subroutine find_first(d, peak, x, event)
       !> The series of the motion
       real(wp), intent(in) :: d(0:9)
@@ -137,25 +138,14 @@ contains
       !> The event
       integer, intent(out) :: event
 
-      real(wp) :: y, v, fastest, most_bent, turn, highest, place, b(0:9)
+      real(wp) :: y, v, most_bent, turn, highest, place, b(0:9)
 
       event = no_event
       y = value(d, x)
-      ! A start: y''' > 0 rules.
-      if (d(0) == 0.0_wp .and. d(1) == 0.0_wp .and. y < y_limit .and. &
-         & d(3) > 4.0_wp*x*(abs(d(4)) + x*(abs(d(5)) + x*abs(d(6))))) return
       v = rate(d, x)
-      ! y' and y'' exceed the larger of their ends by no more than their second derivatives allow.
-      fastest = max(d(1), v) + x**2*(0.75_wp*abs(d(3)) + x*(3.0_wp*abs(d(4)) + x*8.0_wp*abs(d(5))))
+      ! y'' exceeds the larger of its ends by no more than its second derivative allows.
       most_bent = max(2.0_wp*d(2), bend(d, x)) &
          & + x**2*(3.0_wp*abs(d(4)) + x*16.0_wp*(abs(d(5)) + x*3.0_wp*abs(d(6))))
-      if (fastest < 0.0_wp) then
-         ! It falls all the way.
-         if (y > 0.0_wp) return
-         event = impact
-         x = place_of_zero(d, x)
-         return
-      end if
       if (most_bent < 0.0_wp .and. d(1) > 0.0_wp .and. v < 0.0_wp) then
          ! It rises and then falls.
          turn = place_of_turn(d, x)
