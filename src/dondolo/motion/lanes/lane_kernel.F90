@@ -59,23 +59,35 @@ contains
             call step_harmonic_16(lanes, rounded, form, samples, rtol, atol)
          end if
       else if (form%is_shaken) then
-         if (form%degree == degrees(1)) then
+         select case (form%degree)
+         case (degrees(1))
             call step_shaken_8(lanes, rounded, form, samples, verticals, rtol, atol)
-         else if (form%degree == degrees(2)) then
-            call step_shaken_14(lanes, rounded, form, samples, verticals, rtol, atol)
-         else if (form%degree == degrees(3)) then
+         case (degrees(2))
+            call step_shaken_13(lanes, rounded, form, samples, verticals, rtol, atol)
+         case (degrees(3))
+            call step_shaken_15(lanes, rounded, form, samples, verticals, rtol, atol)
+         case (degrees(4))
+            call step_shaken_18(lanes, rounded, form, samples, verticals, rtol, atol)
+         case (degrees(5))
             call step_shaken_22(lanes, rounded, form, samples, verticals, rtol, atol)
-         else
+         case default
             call step_shaken_32(lanes, rounded, form, samples, verticals, rtol, atol)
-         end if
-      else if (form%degree == degrees(1)) then
-         call step_8(lanes, rounded, form, samples, rtol, atol)
-      else if (form%degree == degrees(2)) then
-         call step_14(lanes, rounded, form, samples, rtol, atol)
-      else if (form%degree == degrees(3)) then
-         call step_22(lanes, rounded, form, samples, rtol, atol)
+         end select
       else
-         call step_32(lanes, rounded, form, samples, rtol, atol)
+         select case (form%degree)
+         case (degrees(1))
+            call step_8(lanes, rounded, form, samples, rtol, atol)
+         case (degrees(2))
+            call step_13(lanes, rounded, form, samples, rtol, atol)
+         case (degrees(3))
+            call step_15(lanes, rounded, form, samples, rtol, atol)
+         case (degrees(4))
+            call step_18(lanes, rounded, form, samples, rtol, atol)
+         case (degrees(5))
+            call step_22(lanes, rounded, form, samples, rtol, atol)
+         case default
+            call step_32(lanes, rounded, form, samples, rtol, atol)
+         end select
       end if
    end subroutine step_lanes
 
@@ -84,24 +96,16 @@ contains
 #define LANE_STEP step_held_14
 #define LANE_DEGREE 14
 #include "lane_step.inc"
-#undef LANE_STEP
-#undef LANE_DEGREE
 #define LANE_STEP step_held_22
 #define LANE_DEGREE 22
 #include "lane_step.inc"
-#undef LANE_STEP
-#undef LANE_DEGREE
 #define LANE_SHAKEN
 #define LANE_STEP step_shaken_held_14
 #define LANE_DEGREE 14
 #include "lane_step.inc"
-#undef LANE_STEP
-#undef LANE_DEGREE
 #define LANE_STEP step_shaken_held_22
 #define LANE_DEGREE 22
 #include "lane_step.inc"
-#undef LANE_STEP
-#undef LANE_DEGREE
 #undef LANE_SHAKEN
 #undef LANE_HELD
 #undef LANE_A
@@ -109,65 +113,53 @@ contains
 #define LANE_STEP step_8
 #define LANE_DEGREE 8
 #include "lane_step.inc"
-#undef LANE_STEP
-#undef LANE_DEGREE
-#define LANE_STEP step_14
-#define LANE_DEGREE 14
+#define LANE_STEP step_13
+#define LANE_DEGREE 13
 #include "lane_step.inc"
-#undef LANE_STEP
-#undef LANE_DEGREE
+#define LANE_STEP step_15
+#define LANE_DEGREE 15
+#include "lane_step.inc"
+#define LANE_STEP step_18
+#define LANE_DEGREE 18
+#include "lane_step.inc"
 #define LANE_STEP step_22
 #define LANE_DEGREE 22
 #include "lane_step.inc"
-#undef LANE_STEP
-#undef LANE_DEGREE
 #define LANE_STEP step_32
 #define LANE_DEGREE 32
 #include "lane_step.inc"
-#undef LANE_STEP
-#undef LANE_DEGREE
 #define LANE_HARMONIC
 #define LANE_STEP step_harmonic_10
 #define LANE_DEGREE 10
 #include "lane_step.inc"
-#undef LANE_STEP
-#undef LANE_DEGREE
 #define LANE_STEP step_harmonic_16
 #define LANE_DEGREE 16
 #include "lane_step.inc"
-#undef LANE_STEP
-#undef LANE_DEGREE
 #define LANE_SHAKEN
 #define LANE_STEP step_shaken_harmonic_10
 #define LANE_DEGREE 10
 #include "lane_step.inc"
-#undef LANE_STEP
-#undef LANE_DEGREE
 #define LANE_STEP step_shaken_harmonic_16
 #define LANE_DEGREE 16
 #include "lane_step.inc"
-#undef LANE_STEP
-#undef LANE_DEGREE
 #undef LANE_HARMONIC
 #define LANE_STEP step_shaken_8
 #define LANE_DEGREE 8
 #include "lane_step.inc"
-#undef LANE_STEP
-#undef LANE_DEGREE
-#define LANE_STEP step_shaken_14
-#define LANE_DEGREE 14
+#define LANE_STEP step_shaken_13
+#define LANE_DEGREE 13
 #include "lane_step.inc"
-#undef LANE_STEP
-#undef LANE_DEGREE
+#define LANE_STEP step_shaken_15
+#define LANE_DEGREE 15
+#include "lane_step.inc"
+#define LANE_STEP step_shaken_18
+#define LANE_DEGREE 18
+#include "lane_step.inc"
 #define LANE_STEP step_shaken_22
 #define LANE_DEGREE 22
 #include "lane_step.inc"
-#undef LANE_STEP
-#undef LANE_DEGREE
 #define LANE_STEP step_shaken_32
 #define LANE_DEGREE 32
 #include "lane_step.inc"
-#undef LANE_STEP
-#undef LANE_DEGREE
 
 end module dondolo_lane_kernel

@@ -27,20 +27,20 @@ module dondolo_normal_form
    public :: normal_form_type, new_normal_form
    public :: degrees, highest_degree, harmonic_degrees, highest_harmonic, held_degrees, highest_held
 
-   !> Degrees of the polynomials to choose from: a slender block, most walls, the rest, walls that lift heavy masses
-   integer, parameter :: degrees(4) = [8, 14, 22, 32]
-   integer, parameter :: highest_degree = degrees(4)
+   !> Degrees of the polynomials to choose from: a slender block, most walls, stocky ones, walls that lift heavy masses
+   integer, parameter :: degrees(6) = [8, 13, 15, 18, 22, 32]
+   integer, parameter :: highest_degree = degrees(6)
 
    !> Degrees of the polynomials of cos(w z): up to a slender block, and up to one of w = pi/4
    integer, parameter :: harmonic_degrees(2) = [10, 16]
    integer, parameter :: highest_harmonic = harmonic_degrees(2)
 
    !> Degrees of the polynomials of walls with ties
-   integer, parameter :: held_degrees(2) = degrees(2:3)
+   integer, parameter :: held_degrees(2) = [14, 22]
    integer, parameter :: highest_held = held_degrees(2)
 
    !> Highest degree whose powers keep the rounding of the series that they are made of
-   integer, parameter :: highest_full = degrees(3)
+   integer, parameter :: highest_full = degrees(5)
 
    !> Nodes that the functions are sampled at
    integer, parameter :: nodes = 40
@@ -81,8 +81,8 @@ module dondolo_normal_form
       real(wp) :: unit = 0.0_wp
       !> Are x and q the same?
       logical, private :: is_identity = .false.
-      !> Series of the rotation [rad] over z, and of x [rad] over the rotation
-      real(wp), private :: q(0:nodes) = 0.0_wp, x(0:nodes) = 0.0_wp
+      !> Series of the rotation [rad] over z, and of x [rad] over the rotation, as far as they are more than rounding
+      real(wp), allocatable, private :: q(:), x(:)
       !> Limit rotation [rad]
       real(wp), private :: limit = 0.0_wp
    contains
@@ -133,7 +133,7 @@ contains
          ! x(q), and the rotations at the nodes in x by Newton's method
          series = chebyshev_series(stretch)
          if (degree_of(series) > highest_degree) return
-         form%x = 0.5_wp*limit*chebyshev_integral(series)
+         form%x = 0.5_wp*limit*chebyshev_integral(series(:max(1, degree_of(series))))
          form%unit = 0.5_wp*sum(form%x)
          do i = 1, nodes
             target = form%unit*(1.0_wp + z(i))
@@ -143,7 +143,8 @@ contains
                q(i) = min(max(q(i), 0.0_wp), limit)
             end do
          end do
-         form%q(:nodes - 1) = chebyshev_series(q)
+         series = chebyshev_series(q)
+         form%q = series(:degree_of(series))
          call sample(wall, q, inertia, stretch, a, b, d)
       end if
       a = a/form%unit
