@@ -16,7 +16,7 @@ program test_lane_kernel
    real(wp), parameter :: samples(8) = [0.0_wp, 1.0_wp, -2.0_wp, 0.5_wp, 3.0_wp, -1.0_wp, 0.0_wp, 0.0_wp]
 
    type(random_type) :: random
-   type(normal_form_type) :: forms(8)
+   type(normal_form_type) :: forms(9)
    type(wall_type) :: wall
    integer :: i
 
@@ -32,6 +32,8 @@ program test_lane_kernel
    forms(7) = new_normal_form(wall%mechanism, wall%mechanism%capacity)
    wall = made('two_block', 6.0_wp, 0.1_wp)
    forms(8) = new_normal_form(wall%mechanism, 0.1_wp*wall%mechanism%capacity)
+   wall = made('two_block', 3.0_wp, 0.25_wp)
+   forms(9) = new_normal_form(wall%mechanism, 1.6_wp*wall%mechanism%capacity)
    random = new_random(31, 0)
    call suite('series')
    call check(all(forms%exists) .and. &

@@ -33,8 +33,8 @@ program test_normal_form
    call test_random_walls()
    call test_degrees()
    call test_existence()
-   print '(a, 3es9.1, 2(a, i0), a, 4(1x, i0), a, 2(1x, i0))', 'worst', worst, '; forms ', with_form, ', none ', without_form, &
-      & '; degrees', of_degree, '; harmonic', harmonic
+   print '(a, 3es9.1, 2(a, i0), a, *(1x, i0))', 'worst', worst, '; forms ', with_form, ', none ', without_form, &
+      & '; of each degree, harmonic ones last', of_degree, harmonic
    call finish()
 
 contains
@@ -228,8 +228,9 @@ contains
       call suite('degrees')
       call check(degree_of(a_wall(1), 1.0_wp) == harmonic_degrees(1), 'a slender block')
       call check(degree_of(made('one_sided', 1.0_wp, 0.9_wp), 1.5_wp) == harmonic_degrees(2), 'a squat block')
-      call check(degree_of(made('two_block', 3.0_wp, 0.25_wp), 2.0_wp) == degrees(3), 'a two-block wall far out')
-      call check(degree_of(a_wall(5), 1.0_wp) == degrees(4), 'a wall that lifts a heavy mass')
+      call check(degree_of(made('two_block', 3.0_wp, 0.25_wp), 1.6_wp) == degrees(4), 'a two-block wall far out')
+      call check(degree_of(made('two_block', 3.0_wp, 0.25_wp), 2.0_wp) == degrees(5), 'a two-block wall farther out')
+      call check(degree_of(a_wall(5), 1.0_wp) == degrees(6), 'a wall that lifts a heavy mass')
    end subroutine test_degrees
 
    !> Degree of the form of a wall
