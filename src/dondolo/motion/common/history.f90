@@ -158,11 +158,13 @@ contains
       !> Whether it does
       logical, intent(out) :: at_rest
 
-      real(wp) :: moment, energy
+      real(wp) :: vertical, moment, energy
 
       energy = 0.5_wp*rest%inertia*speed**2
       self%tiny_bounces = merge(self%tiny_bounces + 1, 0, energy < rest%tiny_energy)
-      moment = rest%inward_moment(self%side, ground, abs(self%scale)*record%vertical_at(self%interval, self%time))
+      vertical = 0.0_wp
+      if (allocated(record%vertical)) vertical = abs(self%scale)*record%vertical_at(self%interval, self%time)
+      moment = rest%inward_moment(self%side, ground, vertical)
       at_rest = speed == 0.0_wp .or. self%tiny_bounces > most_tiny_bounces
       if (at_rest .or. moment <= 0.0_wp) return
       at_rest = 2.0_wp*speed*rest%inertia <= shortest_motion*record%dt*moment

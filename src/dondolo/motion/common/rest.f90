@@ -293,47 +293,57 @@ contains
 
       ! Growth is kept as a quotient, which is cheaper than a quotient for each sample, within this range.
       real(wp), parameter :: largest_divisor = 1.0e100_wp
-      real(wp) :: push, weight, here, other, here_next, other_next, least_here, least_other, growth, divisor, elapsed, energy
-      real(wp) :: highest
+      real(wp) :: push_of_ground, weight_of_ground, e, loss, dt, highest, energy, longest
+      real(wp) :: push, weight, here, other, here_next, other_next, least_here, least_other, least, growth, divisor, elapsed
+      logical :: is_shaken
       integer :: i
 
       ends = .false.
-      associate (a => record%acceleration, dt => record%dt, n => size(record%acceleration), e => self%restitution, &
-         & interval => bounce%interval, time => bounce%time, side => bounce%side)
+      is_shaken = allocated(record%vertical)
+      e = self%restitution
+      dt = record%dt
+      associate (a => record%acceleration, n => size(record%acceleration), interval => bounce%interval, &
+         & time => bounce%time, side => bounce%side)
+         push_of_ground = side*scale*self%lever
+         weight_of_ground = self%vertical_lever*abs(scale)
+         loss = 1.0_wp - e**2
+         highest = min(self%height, bounce%peak)
+         energy = 0.5_wp*margin*self%inertia*bounce%speed**2
+         longest = 8.0_wp*energy*self%inertia
          growth = 1.0_wp
          divisor = 1.0_wp
          elapsed = -time
-         energy = 0.5_wp*margin*self%inertia*bounce%speed**2
-         highest = min(self%height, bounce%peak)
          push = 0.0_wp
-         if (interval < n) push = side*scale*self%lever*(a(interval) + (a(interval + 1) - a(interval))*(time/dt))
-         weight = self%vertical_lever*abs(scale)*record%vertical_at(interval, time)
+         if (interval < n) push = push_of_ground*(a(interval) + (a(interval + 1) - a(interval))*(time/dt))
+         weight = 0.0_wp
+         if (is_shaken) weight = weight_of_ground*record%vertical_at(interval, time)
          call least_moments(self, push, weight, here, other)
          ! Would it be over before the sample that stops it, if its moments were no less than now?
          if (stopper > interval) then
-            if (8.0_wp*energy*self%inertia*(other + e*here)**2 &
-               & > (((real(stopper - 1 - interval, wp)*dt - time)*(1.0_wp - e**2))*here*other)**2) return
+            if (longest*(other + e*here)**2 > (((real(stopper - 1 - interval, wp)*dt - time)*loss)*here*other)**2) return
          end if
          least_here = here
          least_other = other
          do i = min(interval, n), n
             push = 0.0_wp
-            if (i < n) push = side*scale*self%lever*a(i + 1)
             weight = 0.0_wp
-            if (i < n .and. allocated(record%vertical)) weight = self%vertical_lever*abs(scale)*record%vertical(i + 1)
+            if (i < n) then
+               push = push_of_ground*a(i + 1)
+               if (is_shaken) weight = weight_of_ground*record%vertical(i + 1)
+            end if
             call least_moments(self, push, weight, here_next, other_next)
             if (.not. min(here_next, other_next) > 0.0_wp) stopper = i + 1
             least_here = min(least_here, here_next)
             least_other = min(least_other, other_next)
-            if (.not. min(least_here, least_other) > 0.0_wp) return
+            least = min(least_here, least_other)
+            if (.not. least > 0.0_wp) return
             ! The larger rise of the two, without a branch, which no processor could foresee
             growth = growth*max(here*other, here_next*other, here*other_next)
             divisor = divisor*(here*other)
-            if (energy*growth > highest*min(least_here, least_other)*divisor .or. growth > largest_growth*divisor) return
+            if (energy*growth > highest*least*divisor .or. growth > largest_growth*divisor) return
             elapsed = elapsed + dt
             ! The square of duration <= elapsed, without a quotient
-            if (8.0_wp*energy*growth*self%inertia*(least_other + e*least_here)**2 &
-               & <= (elapsed*(1.0_wp - e**2)*least_here*least_other)**2*divisor) exit
+            if (longest*growth*(least_other + e*least_here)**2 <= (elapsed*loss*least_here*least_other)**2*divisor) exit
             if (divisor > largest_divisor .or. divisor*largest_divisor < 1.0_wp) then
                growth = growth/divisor
                divisor = 1.0_wp
