@@ -1,7 +1,7 @@
 !> What --benchmark prints: how fast this build is on this machine, and a fingerprint of what it computes.
 module dondolo_benchmark
    use, intrinsic :: iso_fortran_env, only : compiler_options, compiler_version, int64, output_unit
-   use dondolo_benchmark_walls, only : make_work, operations_per_step, repeat_walls
+   use dondolo_benchmark_walls, only : make_work, operations_per_step, repeat_walls, walls_of_each
    use dondolo_case, only : case_type
    use dondolo_ensemble, only : name_engines
    use dondolo_error, only : error_type
@@ -30,10 +30,22 @@ module dondolo_benchmark
       integer :: collapses(size(mechanism_names)) = 0, histories(size(mechanism_names)) = 0
       !> Sum of all EDPs, each rounded to a millionth [1e-6]
       integer(int64) :: edps = 0
-      !> What was computed, and multiplications and additions of its steps
-      type(work_type) :: work
-      real(wp) :: operations = 0.0_wp
    end type outcome_type
+
+   !> Time of some walls, and what was computed in it
+   type :: measured_type
+      !> Median of several measurements [s]
+      real(wp) :: seconds = 0.0_wp
+      !> Counts of one of them
+      type(work_type) :: work
+      !> Multiplications and additions of the steps of one of them
+      real(wp) :: operations = 0.0_wp
+   contains
+      !> Histories a second
+      procedure :: histories_per_second
+      !> Multiplications and additions of the steps a second
+      procedure :: operations_per_second
+   end type measured_type
 
 contains
 
@@ -51,17 +63,17 @@ contains
       type(case_type) :: work
       type(member_type), allocatable :: walls(:)
       type(outcome_type) :: fingerprint
+      type(measured_type) :: once, alone, strong, weak
       character(len=160) :: line
-      real(wp) :: once, alone, strong, weak, histories, arithmetic
+      real(wp) :: limit
       integer :: copies, team
 
       call make_work(work, walls, error)
       if (.not. allocated(error)) call find_fingerprint(work, walls, fingerprint, error)
       if (.not. allocated(error)) call measure(work, walls, 1, 1, once, error)
       if (allocated(error)) return
-      copies = max(1, nint(seconds/once))
-      histories = real(copies, wp)*real(sum(fingerprint%histories), wp)
-      if (.not. quiet) call print_head(work, size(walls), fingerprint, copies)
+      copies = max(1, nint(seconds/once%seconds))
+      if (.not. quiet) call print_head(work, size(walls), once%work, copies)
       team = 1
       do
          call measure(work, walls, copies, team, strong, error)
@@ -69,24 +81,27 @@ contains
          if (.not. allocated(error) .and. team > 1) call measure(work, walls, copies*team, team, weak, error)
          if (allocated(error)) return
          if (team == 1) alone = strong
-         write (line, '(i7, 2(i14, f10.2, f12.3))') team, nint(histories/strong), alone/strong, &
-            & alone/(strong*real(team, wp)), nint(histories*real(team, wp)/weak), real(team, wp)*alone/weak, alone/weak
+         associate (gain => alone%seconds/strong%seconds, efficiency => alone%seconds/weak%seconds)
+            write (line, '(i7, 2(i14, f10.2, f12.3))') team, nint(strong%histories_per_second()), gain, &
+               & gain/real(team, wp), nint(weak%histories_per_second()), real(team, wp)*efficiency, efficiency
+         end associate
          if (.not. quiet) write (output_unit, '(a)') trim(line)
          flush (output_unit)
          if (team == threads) exit
          team = min(2*team, threads)
       end do
       if (.not. quiet) write (output_unit, '(a)') ''
-      write (output_unit, '(a)') 'figure of merit: '//to_text(nint(histories*real(team, wp)/weak))// &
-         & ' histories a second on '//counted(team, 'thread')//', '//to_text(nint(histories/weak))//' on each'
+      write (output_unit, '(a)') 'figure of merit: '//to_text(nint(weak%histories_per_second()))// &
+         & ' histories a second on '//counted(team, 'thread')//', '// &
+         & to_text(nint(weak%histories_per_second()/real(team, wp)))//' on each'
       if (quiet) return
-      arithmetic = best_arithmetic(team, 0.1_wp*seconds)
-      write (output_unit, '(a)') 'arithmetic of the steps: '//rounded(1.0e-9_wp*rate_of(fingerprint, once=weak, &
-         & copies=copies*team))//'e9 operations a second, '//rounded(100.0_wp*rate_of(fingerprint, once=weak, &
-         & copies=copies*team)/arithmetic)//' % of the '//rounded(1.0e-9_wp*arithmetic)// &
-         & 'e9 of a loop of multiplications and additions', &
-         & '   (the loop as this executable is compiled: an engine with wider vectors can exceed 100 %)', ''
-      call print_fingerprint(fingerprint)
+      limit = best_arithmetic(team, 0.1_wp*seconds)
+      write (output_unit, '(a)') 'arithmetic of the steps: '//rounded(1.0e-9_wp*weak%operations_per_second())// &
+         & 'e9 operations a second, '//rounded(100.0_wp*weak%operations_per_second()/limit)//' % of the '// &
+         & rounded(1.0e-9_wp*limit)//'e9 of a loop of multiplications and additions', &
+         & '   (the loop as this executable is compiled: an engine with wider vectors can exceed 100 %)'
+      call print_mechanisms(work, walls, copies*team, team, limit, error)
+      if (.not. allocated(error)) call print_fingerprint(fingerprint)
    end subroutine run_benchmark
 
    !> Run the work once, and keep what can be compared
@@ -114,22 +129,19 @@ contains
          fingerprint%collapses(kind) = fingerprint%collapses(kind) + sum(stripes%collapses())
          fingerprint%histories(kind) = fingerprint%histories(kind) + size(stripes%response)
          fingerprint%edps = fingerprint%edps + sum(nint(1.0e6_wp*stripes%response%edp, int64))
-         fingerprint%operations = fingerprint%operations + real(operations_per_step(case, walls(i)%wall), wp) &
-            & *real(stripes%work%steps, wp)
-         call fingerprint%work%add(stripes%work)
       end do
    end subroutine find_fingerprint
 
    !> Time that the work takes, several times over
-   subroutine measure(case, walls, copies, threads, seconds, error)
+   subroutine measure(case, walls, copies, threads, found, error)
       type(case_type), intent(in), target :: case
       type(member_type), intent(in) :: walls(:)
       !> How many times over
       integer, intent(in) :: copies
       !> Number of threads
       integer, intent(in) :: threads
-      !> Median of several measurements [s]
-      real(wp), intent(out) :: seconds
+      !> Time, and what was computed in it
+      type(measured_type), intent(out) :: found
       !> It could not be run
       type(error_type), allocatable, intent(out) :: error
 
@@ -147,8 +159,27 @@ contains
          spent(i) = seconds_since(start)
       end do
       ! The median of three
-      seconds = sum(spent) - maxval(spent) - minval(spent)
+      found%seconds = sum(spent) - maxval(spent) - minval(spent)
+      do i = 1, size(rows)
+         call found%work%add(rows(i)%work)
+         found%operations = found%operations + real(rows(i)%work%steps, wp) &
+            & *real(operations_per_step(case, walls(modulo(i - 1, size(walls)) + 1)%wall), wp)
+      end do
    end subroutine measure
+
+   !> Histories a second
+   pure real(wp) function histories_per_second(self)
+      class(measured_type), intent(in) :: self
+
+      histories_per_second = real(self%work%histories, wp)/self%seconds
+   end function histories_per_second
+
+   !> Multiplications and additions of the steps a second
+   pure real(wp) function operations_per_second(self)
+      class(measured_type), intent(in) :: self
+
+      operations_per_second = self%operations/self%seconds
+   end function operations_per_second
 
    !> The fastest of several measurements: what the machine can do
    real(wp) function best_arithmetic(threads, seconds)
@@ -165,49 +196,63 @@ contains
       end do
    end function best_arithmetic
 
-   !> Multiplications and additions of steps a second
-   pure real(wp) function rate_of(fingerprint, once, copies)
-      !> What the work gives
-      type(outcome_type), intent(in) :: fingerprint
-      !> Time of a measurement [s]
-      real(wp), intent(in) :: once
-      !> How many times over the work was done in it
-      integer, intent(in) :: copies
-
-      rate_of = fingerprint%operations*real(copies, wp)/once
-   end function rate_of
-
    !> Print what is measured, and of what
-   subroutine print_head(case, walls, fingerprint, copies)
+   subroutine print_head(case, walls, work, copies)
       type(case_type), intent(in) :: case
       !> Number of its walls
       integer, intent(in) :: walls
-      !> What it gives
-      type(outcome_type), intent(in) :: fingerprint
+      !> What is computed, once
+      type(work_type), intent(in) :: work
       !> How many times over it is done
       integer, intent(in) :: copies
 
       character(len=:), allocatable :: engines
 
-      call name_engines(fingerprint%work, engines)
+      call name_engines(work, engines)
       write (output_unit, '(a)') 'dondolo '//dondolo_version_text//', benchmark', '', &
          & 'processor: '//trim(processor_name()), &
          & 'machine: '//trim(surroundings()), &
          & 'compiler: '//compiler_version()//', real'//to_text(storage_size(1.0_wp)), &
          & 'options: '//compiler_options(), &
          & 'engine: '//engines
-      associate (work => fingerprint%work)
-         write (output_unit, '(a)') 'work: '//to_text(walls)//' walls, '// &
-            & to_text(size(case%suite%records))//' synthetic accelerograms, '//to_text(size(case%stripes%levels))// &
-            & ' levels, '//to_text(copies)//' times over', &
-            & '   '//to_text(work%histories)//' histories, '//to_text(work%still)//' of them never move; '// &
-            & to_text(work%intervals)//' sample intervals, the wall rocks in '//to_text(work%rocked)//'; '// &
-            & to_text(work%steps)//' steps', ''
-      end associate
+      write (output_unit, '(a)') 'work: '//to_text(walls)//' walls, '// &
+         & to_text(size(case%suite%records))//' synthetic accelerograms, '//to_text(size(case%stripes%levels))// &
+         & ' levels, '//to_text(copies)//' times over', &
+         & '   '//to_text(work%histories)//' histories, '//to_text(work%still)//' of them never move; '// &
+         & to_text(work%intervals)//' sample intervals, the wall rocks in '//to_text(work%rocked)//'; '// &
+         & to_text(work%steps)//' steps', ''
       write (output_unit, '(a7, 2a36)') '', 'this work', 'this work for each thread'
       write (output_unit, '(a7, 2(a14, a10, a12))') 'threads', 'histories/s', 'speed-up', 'efficiency', &
          & 'histories/s', 'speed-up', 'efficiency'
    end subroutine print_head
+
+   !> Measure the walls of each mechanism by themselves, and print it
+   subroutine print_mechanisms(case, walls, copies, threads, limit, error)
+      type(case_type), intent(in) :: case
+      type(member_type), intent(in) :: walls(:)
+      !> How many times over
+      integer, intent(in) :: copies
+      !> Number of threads
+      integer, intent(in) :: threads
+      !> Multiplications and additions a second of a loop of nothing else
+      real(wp), intent(in) :: limit
+      !> It could not be run
+      type(error_type), allocatable, intent(out) :: error
+
+      type(measured_type) :: found
+      character(len=80) :: line
+      integer :: i
+
+      write (output_unit, '(a16, 3a20)') 'mechanism', 'histories/s', '1e9 operations/s', '% of the loop'
+      do i = 1, size(mechanism_names)
+         call measure(case, walls((i - 1)*walls_of_each + 1:i*walls_of_each), copies, threads, found, error)
+         if (allocated(error)) return
+         write (line, '(a16, i20, 2f20.2)') trim(mechanism_names(i)), nint(found%histories_per_second()), &
+            & 1.0e-9_wp*found%operations_per_second(), 100.0_wp*found%operations_per_second()/limit
+         write (output_unit, '(a)') trim(line)
+      end do
+      write (output_unit, '(a)') ''
+   end subroutine print_mechanisms
 
    !> Print what can be compared with other machines
    subroutine print_fingerprint(fingerprint)

@@ -13,10 +13,13 @@ module dondolo_benchmark_walls
    implicit none
    private
 
-   public :: make_work, repeat_walls, operations_per_step
+   public :: make_work, repeat_walls, operations_per_step, walls_of_each
 
    !> Heights and thicknesses of the walls of each mechanism [m]
    real(wp), parameter :: heights(3) = [1.5_wp, 3.0_wp, 5.0_wp], thicknesses(3) = [0.25_wp, 0.30_wp, 0.60_wp]
+
+   !> Walls of each mechanism; they come one mechanism after the other
+   integer, parameter :: walls_of_each = size(heights)
 
    !> Levels of the PGA [g]
    real(wp), parameter :: levels(10) = [0.1_wp, 0.2_wp, 0.3_wp, 0.4_wp, 0.5_wp, 0.6_wp, 0.7_wp, 0.8_wp, 0.9_wp, 1.0_wp]
@@ -36,14 +39,14 @@ contains
       type(record_type), allocatable :: records(:)
       integer :: i, j, number
 
-      allocate (records(2*size(synthetic44)), members(size(mechanism_names)*size(heights)))
+      allocate (records(2*size(synthetic44)), members(size(mechanism_names)*walls_of_each))
       do i = 1, size(records)
          call suite_record((i + 1)/2, 2 - modulo(i, 2), records(i), error)
          if (allocated(error)) return
       end do
       number = 0
       do i = 1, size(mechanism_names)
-         do j = 1, size(heights)
+         do j = 1, walls_of_each
             number = number + 1
             input = wall_input_type()
             call input%set('mechanism', trim(mechanism_names(i)))

@@ -456,6 +456,12 @@ check "benchmark: one and two threads" equal "$(awk 'NF == 7 && $1 ~ /^[0-9]+$/ 
 check "benchmark: collapses of each mechanism" equal \
    "$(awk '/ collapses in 1320 histories$/ { printf "%s%d ", $1, ($2 > 0 && $2 < 1320) }' stdout)" \
    "one_sided:1 free_standing:1 two_block:1 "
+# Three columns of numbers; the rates lie within a factor of ten of each other, and so do the mechanisms' and that of all.
+check "benchmark: operations a second of each mechanism" equal \
+   "$(awk '/^arithmetic of the steps/ { all = $5 / 1e9 }
+      NF == 4 && $1 ~ /^(one_sided|free_standing|two_block)$/ {
+         printf "%s:%d ", $1, ($2 > 0 && $3 > 0.1*all && $3 < 10*all && $4 > 0) }' stdout)" \
+   "one_sided:1 free_standing:1 two_block:1 "
 sed -n '/^fingerprint/,$p' stdout >fingerprint
 run --benchmark=0.001 --threads=1
 check "benchmark: the same results from one thread" diff fingerprint <(sed -n '/^fingerprint/,$p' stdout)
