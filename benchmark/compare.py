@@ -1,6 +1,7 @@
 """Run the benchmark: python compare.py EXECUTABLE RECORDS [--quick].
 
-Tables are written to out/benchmark, and without --quick docs/performance.md and the speeds in README.md from them.
+Tables are written to out/benchmark. Without --quick the ratios are appended to runs.csv, and docs/performance.md and
+the speeds in README.md are written from the tables.
 """
 
 import os
@@ -12,7 +13,9 @@ from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 
+import arithmetic
 import page
+import runs
 from problem import ROOT, SINGLE_BLOCKS, problem, write_case
 from programs import BUILD, DONDOLO, PEERS, run_peer, weights, write_results
 from progress import Progress, say
@@ -20,7 +23,7 @@ from rounds import Rounds, write_rounds
 from scaling import measure, write_scaling
 
 OUT = ROOT / "out" / "benchmark"
-ROUNDS, QUICK_ROUNDS = 3, 1  # of all programs in turns, for the ratios, in each of the groups
+ROUNDS, QUICK_ROUNDS = (3, 2, 2), (1, 1)  # of all programs in turns, for the ratios, in each of the groups
 
 
 def compare(executable, records, quick, progress):
@@ -31,20 +34,20 @@ def compare(executable, records, quick, progress):
     found = []
     problems = [problem(wall, records) for wall in (SINGLE_BLOCKS[:1] if quick else SINGLE_BLOCKS)]
     plan(progress, problems, quick)
-    rounds = QUICK_ROUNDS if quick else ROUNDS
+    *rounds, last = QUICK_ROUNDS if quick else ROUNDS
     with tempfile.TemporaryDirectory() as folder, ExitStack() as stack:
         turns = None
-        for each in problems:
+        for each, count in zip(problems, rounds, strict=True):
             say(f"{each.wall}, {len(each)} histories under {each.name} accelerograms")
             own, path, case = settings(executable, each, folder, turns is None and not quick, progress)
             found += own
             if turns is None:
                 turns = stack.enter_context(Rounds(executable, each, own, path, case))
-            turns.group(rounds)
+            turns.group(count)
             progress.finish("rounds")
-        rows = measure(executable, 1 if quick else 5)
+        rows = measure(executable, 1 if quick else 7)
         progress.finish("scaling")
-        turns.group(rounds)
+        turns.group(last)
         progress.finish("rounds")
         return found, turns.turns, rows
 
@@ -64,9 +67,9 @@ def plan(progress, problems, quick):
         for peer in chosen_peers(first, first and not quick):
             for method, values in peer.methods.items():
                 progress.plan(f"{each.wall}, {peer.name}, {method}", factor * peer.expected * len(values))
-    for _ in range(len(problems) + 1):
-        progress.plan("rounds", 12.0 * (QUICK_ROUNDS if quick else ROUNDS))
-    progress.plan("scaling", 20.0 if quick else 70.0)
+    for count in QUICK_ROUNDS if quick else ROUNDS:
+        progress.plan("rounds", 22.0 * count)
+    progress.plan("scaling", 20.0 if quick else 100.0)
 
 
 def settings(executable, each, folder, whole, progress):
@@ -112,7 +115,11 @@ def main():
     write_rounds(OUT / "rounds.csv", turns)
     write_scaling(OUT / "scaling.csv", rows)
     (OUT / "machine.txt").write_text("\n".join(machine()) + "\n", encoding="utf-8")
+    run, ratios = runs.new_run(arithmetic.measured(executable)), runs.figures(results, turns, rows)
+    (OUT / "run.csv").unlink(missing_ok=True)
+    runs.append(OUT / "run.csv", run, ratios)
     if not quick:
+        runs.append(runs.FILE, run, ratios)
         page.write(OUT)
     say(f"{progress.elapsed():.0f} s; the tables are in {OUT}")
 

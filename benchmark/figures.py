@@ -1,17 +1,18 @@
 """Figures of docs/performance.md."""
 
+from dataclasses import asdict
+
 import matplotlib
 
 matplotlib.use("agg")
 
+import cost_model
 import matplotlib.pyplot as plt
 import numpy as np
-from dondolo.figures.style import BLACK, BLUE, GREY, LIGHT, RC, RED
+from dondolo.figures.style import BLACK, BLUE, BRICK, GREY, LIGHT, RC, RED, mechanism_name
 from matplotlib.ticker import NullFormatter
-from problem import ROOT
-from scaling import VALUES
+from programs import DONDOLO
 
-FOLDER = ROOT / "docs" / "figures"
 LOWEST = 1e-17  # errors of zero are drawn at this value
 OPEN = {"markerfacecolor": "white"}
 LOOKS = {
@@ -41,15 +42,16 @@ MEASURES = (
 )
 
 
-def save(figure, name):
+def save(figure, folder, name):
     """Write a figure under the name used in the page."""
-    FOLDER.mkdir(exist_ok=True)
-    figure.savefig(FOLDER / f"performance_{name}.png", dpi=100)
+    folder.mkdir(exist_ok=True)
+    figure.savefig(folder / f"performance_{name}.png", dpi=100)
     plt.close(figure)
 
 
-def work(results):
+def work(folder, results):
     """Draw error against time per history, for every program."""
+    by_dondolo = [each for each in results if each.program == DONDOLO.name]
     with plt.rc_context(RC):
         figure, axes = plt.subplots(2, 2, figsize=(9.6, 9.6), sharex=True, layout="constrained")
         for name, look in LOOKS.items():
@@ -71,13 +73,18 @@ def work(results):
             ax.set(xlabel="time per history [ms]")
             ax.xaxis.set_minor_formatter(NullFormatter())
         for ax, (what, _) in zip(axes.flat, MEASURES, strict=False):
-            for theirs, color, label in ((True, LIGHT, "the others"), (False, "#F2C9AE", "dondolo")):
-                own = [each for each in results if (each.program != "dondolo") == theirs]
+            ax.set(xlim=ax.get_xlim(), ylim=ax.get_ylim())
+            for look, own in (
+                ({"color": LIGHT, "label": "front of the others"}, [r for r in results if r.program != DONDOLO.name]),
+                ({"color": BRICK, "label": "front of dondolo", "linestyle": (0, (1.6, 0.5))}, by_dondolo),
+            ):
                 times, errors = front(own, what)
-                ax.step(times, errors, where="post", color=color, linewidth=5, zorder=0, label=f"front of {label}")
+                # From the upper end of the axes to their right end
+                corners = [times[0], *times, ax.get_xlim()[1]], [ax.get_ylim()[1], *errors, errors[-1]]
+                ax.step(*corners, where="post", linewidth=5, zorder=0, **look)
         handles = axes[0, 0].get_legend_handles_labels()
         figure.legend(*handles, loc="outside lower center", ncols=4)
-    save(figure, "work")
+    save(figure, folder, "work")
 
 
 def front(results, what):
@@ -91,40 +98,101 @@ def front(results, what):
     return times, errors
 
 
-def scaling(rows):
-    """Draw time against threads, walls, levels, length and sampling of the records; memory against histories."""
-    panels = (
-        ("threads", "threads", "speed-up"),
-        ("records", "records", "time per record / of the fewest"),
-        ("levels", "levels", "time per level / of the fewest"),
-        ("shocks", "length of the records", "time / of the shortest"),
-        ("samples", "samples for one of the record", "time / of one"),
-        ("memory", "walls", "peak memory [MiB]"),
-    )
+# Kind of row, label of the size, label of the value, and whether the time is divided by the size
+PANELS = (
+    ("walls", "walls, a call for each", "time per wall [ms]", True),
+    ("records", "records", "time per record [ms]", True),
+    ("levels", "levels", "time per level [ms]", True),
+    ("shocks", "repetitions of the record", "time [ms]", False),
+    ("samples", "samples for one of the record", "time [ms]", False),
+)
+MODEL = {"color": BLACK, "linewidth": 1.1, "linestyle": "--"}
+
+
+def scaling(folder, rows):
+    """Draw time against threads, walls, records, levels, length and sampling, with the fitted growth; and memory."""
     with plt.rc_context(RC):
-        figure, axes = plt.subplots(2, 3, figsize=(9.6, 5.6), layout="constrained")
-        for ax, (kind, xlabel, ylabel) in zip(axes.flat, panels, strict=True):
-            if kind == "threads":
-                looks = {"strong": {"marker": "o", "color": BLUE}, "weak": {"marker": "s", "color": RED}}
-                for which, look in looks.items():
-                    own = [row for row in rows if row["kind"] == f"{which} efficiency"]
-                    size = np.array([row["size"] for row in own])
-                    middle, least, largest = (size * [row[what] for row in own] for what in VALUES)
-                    bars = np.array([middle - least, largest - middle])
-                    ax.errorbar(size, middle, bars, label=which, markersize=4.5, capsize=3, **look)
-                ax.plot(size, size, color=GREY, linewidth=1, zorder=0)
-                ax.legend()
-            else:
-                own = [row for row in rows if row["kind"] == kind]
-                size, value, least, largest = (np.array([row[what] for row in own]) for what in ("size", *VALUES))
-                unit = 1.0 if kind == "memory" else value[0]
-                if kind in ("records", "levels"):
-                    unit = unit * size / size[0]
-                bars = np.array([value - least, largest - value]) / unit
-                ax.errorbar(size, value / unit, bars, marker="o", markersize=4.5, capsize=3, color=BLUE)
-                ax.set_ylim(0.0, 1.1 * max(largest / unit))
-                ax.set_xscale("log")
-            ax.set_xticks(size, [f"{each:g}" for each in size])
-            ax.set_xticks([], minor=True)
-            ax.set(xlabel=xlabel, ylabel=ylabel)
-    save(figure, "scaling")
+        figure, axes = plt.subplots(2, 4, figsize=(12.0, 5.8), layout="constrained")
+        speed_ups(axes[0, 0], rows)
+        for ax, (kind, xlabel, ylabel, is_divided) in zip(axes.flat[1:], PANELS, strict=False):
+            own = [row for row in rows if row["kind"] == kind]
+            size = np.array([row["size"] for row in own])
+            unit = 1e3 / (size if is_divided else 1.0)
+            draw_spreads(
+                ax, size, own, unit, label="measured; threads: strong scaling", color=BLUE, marker="o", linestyle="none"
+            )
+            fine = np.geomspace(size[0], size[-1], 60)
+            model = 1e3 * cost_model.modelled(rows, kind, fine) / (fine if is_divided else 1.0)
+            ax.plot(fine, model, label="fitted growth; threads: Amdahl's law", **MODEL)
+            ax.set(xscale="log", xlabel=xlabel, ylabel=ylabel)
+            from_zero(ax)
+            ticks(ax, size)
+        own = [row for row in rows if row["kind"] == "memory"]
+        size = [row["histories"] for row in own]
+        axes[1, 2].plot(size, [row["median"] for row in own], marker="o", markersize=4.5, color=BLUE)
+        axes[1, 2].set(xscale="log", xlabel="histories", ylabel="peak memory [MiB]")
+        from_zero(axes[1, 2])
+        axes[1, 3].axis("off")
+        drawn = [ax.get_legend_handles_labels() for ax in (axes[0, 0], axes[0, 1])]
+        handles, labels = ([*threads, *sizes] for threads, sizes in zip(*drawn, strict=True))
+        axes[1, 3].legend(handles, labels, loc="center left")
+    save(figure, folder, "scaling")
+
+
+def speed_ups(ax, rows):
+    """Draw speed-up against threads, with Amdahl's law."""
+    looks = {
+        "strong": {"marker": "o", "color": BLUE},
+        "weak": {"marker": "s", "color": RED, "label": "weak scaling", **OPEN},
+    }
+    for kind, look in looks.items():
+        own = [row for row in rows if row["kind"] == f"{kind} efficiency"]
+        size = np.array([row["size"] for row in own])
+        draw_spreads(ax, size, own, size, linestyle="none", **look)
+    share = cost_model.serial_share(rows)
+    fine = np.linspace(1.0, size[-1], 60)
+    ax.plot(fine, fine, color=GREY, linewidth=1, zorder=0, label="ideal")
+    if share is not None:
+        ax.plot(fine, cost_model.speed_up(share, fine), **MODEL)
+    ax.set(xlabel="threads", ylabel="speed-up")
+    ticks(ax, size)
+
+
+def from_zero(ax):
+    """Let the ordinate begin at zero and end above what is drawn."""
+    ax.set_ylim(0.0, 1.08 * ax.dataLim.ymax)
+
+
+def draw_spreads(ax, size, rows, unit, **look):
+    """Draw medians, with bars from the lower to the upper quartile."""
+    middle, bars = bars_of(rows)
+    ax.errorbar(size, unit * middle, unit * bars, markersize=4.5, capsize=3, **look)
+
+
+def bars_of(rows):
+    """Medians, and the lengths of bars to the lower and to the upper quartile."""
+    middle, lower, upper = (np.array([row[what] for row in rows]) for what in ("median", "lower", "upper"))
+    return middle, np.array([middle - lower, upper - middle])
+
+
+def ticks(ax, size):
+    """Ticks at the sizes, and nowhere else."""
+    ax.set_xticks(size, [f"{each:g}" for each in size])
+    ax.set_xticks([], minor=True)
+
+
+def arithmetic(folder, shares):
+    """Draw the share of the arithmetic limit that each mechanism reaches, from {mechanism: spread}."""
+    with plt.rc_context(RC):
+        figure, ax = plt.subplots(figsize=(7.2, 2.6), layout="constrained")
+        places, rows = np.arange(len(shares)), [asdict(share.times(100.0)) for share in shares.values()]
+        medians, bars = bars_of(rows)
+        ax.barh(places, medians, height=0.55, color=BRICK, edgecolor=BLACK, label="steps of the engine, median")
+        ax.errorbar(medians, places, xerr=bars, fmt="none", color=BLACK, capsize=4, label="quartiles of the rounds")
+        ax.axvline(100.0, color=BLACK, linestyle="--", label="loop of multiplications and additions")
+        ax.set_yticks(places, [mechanism_name(each) for each in shares])
+        ax.invert_yaxis()
+        ax.grid(axis="y", visible=False)
+        ax.set(xlabel="operations per second / those of the loop [%]", xlim=(0.0, 105.0))
+        figure.legend(loc="outside lower center", ncols=3)
+    save(figure, folder, "arithmetic")

@@ -1,34 +1,45 @@
 """Write docs/performance.md, its figures and the speeds in README.md from out/benchmark: python page.py."""
 
-import csv
 import re
 
+import figures
+import runs
 from problem import ROOT
 from programs import read_results
-from rounds import read_rounds
-from scaling import VALUES
+from rounds import read_rounds, shares
+from scaling import read_scaling
 from sections_programs import programs, speeds
+from sections_runs import earlier_runs
 from sections_scaling import scaling
 
-# What this writes stands between these lines; all else on the page stays.
+# What this writes is between these lines; all else on the page stays.
 BEGIN, END = "<!-- begin: written by ./run benchmark -->", "<!-- end: written by ./run benchmark -->"
 
 
-def write(folder):
-    """Write the page, its figures and the speeds in the README."""
-    results = read_results(folder / "programs.csv")
-    turns = read_rounds(folder / "rounds.csv")
-    machine = (folder / "machine.txt").read_text(encoding="utf-8").splitlines()
-    with open(folder / "scaling.csv", newline="", encoding="utf-8") as file:
-        numbers = ("size", "histories", *VALUES)
-        rows = [row | {what: float(row[what]) for what in numbers} for row in csv.DictReader(file)]
-    replace_between(ROOT / "docs" / "performance.md", [*programs(results, turns, machine), *scaling(rows)])
+def write(tables, root=ROOT, log=runs.FILE):
+    """Write the page, its figures and the speeds in the README under a root, from tables and the file of all runs."""
+    results = read_results(tables / "programs.csv")
+    turns = read_rounds(tables / "rounds.csv")
+    rows = read_scaling(tables / "scaling.csv")
+    machine = (tables / "machine.txt").read_text(encoding="utf-8").splitlines()
+    own = runs.read(tables / "run.csv")
+    first = [each for each in results if each.wall == results[0].wall]
+    folder = root / "docs" / "figures"
+    figures.work(folder, first)
+    figures.arithmetic(folder, shares(turns))
+    figures.scaling(folder, rows)
+    sections = [
+        *programs(results, turns, machine),
+        *scaling(rows),
+        *earlier_runs(runs.read(log) | own, next(iter(own))),
+    ]
+    replace_between(root / "docs" / "performance.md", sections)
     # Within a paragraph, where a mark must not begin a line
-    replace_between(ROOT / "README.md", speeds(results, turns), around="")
+    replace_between(root / "README.md", speeds(results, turns), around="")
 
 
 def replace_between(path, lines, around="\n"):
-    """Replace what stands between the marks of a page."""
+    """Replace what is between the marks of a page."""
     text = path.read_text(encoding="utf-8")
     body = around + "\n".join(lines).strip() + around
     found = re.subn(f"{BEGIN}.*?{END}", lambda _: f"{BEGIN}{body}{END}", text, flags=re.DOTALL)

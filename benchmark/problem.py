@@ -12,8 +12,8 @@ import dondolo as dd
 ROOT = Path(__file__).resolve().parents[1]
 
 # The histories, their reference and the count of errors are those of docs/verification; modules of this folder have
-# priority.
-sys.path.append(str(ROOT / "docs" / "verification"))
+# priority, and both before installed packages of the same name.
+sys.path.insert(1, str(ROOT / "docs" / "verification"))
 
 from cases import TABLES, Motions, motions, read_table, write_case  # noqa: E402
 from histories import Errors, Histories  # noqa: E402

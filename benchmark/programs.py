@@ -6,6 +6,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
+import time
 from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 
@@ -234,14 +235,16 @@ def parse(printed):
 
 
 def run_dondolo(executable, wall, motions, rtol, engine, repeats):
-    """Seconds of the histories of each repeat, a new process of the executable each time."""
-    seconds = []
+    """Seconds of the whole command and of its histories, of each repeat, a new process of the executable each time."""
+    whole, histories = [], []
     with tempfile.TemporaryDirectory() as folder:
         case = write_case(folder, wall, motions, rtol, threads=1, solver=f"engine = '{engine}'")
         for _ in range(repeats):
+            start = time.perf_counter()
             done = subprocess.run([executable, case], check=True, capture_output=True, text=True)
-            seconds.append(float(re.search(r"histories in +(\S+) s", done.stdout).group(1)))
-        return seconds
+            whole.append(time.perf_counter() - start)
+            histories.append(float(re.search(r"histories in +(\S+) s", done.stdout).group(1)))
+        return whole, histories
 
 
 def weights(executable, problem, repeats):
@@ -250,7 +253,7 @@ def weights(executable, problem, repeats):
     Measured with rk45, which runs history by history.
     """
     strides = {stride(peer, problem) for peer in PEERS}
-    seconds = run_dondolo(executable, problem.wall, problem.motions, 1e-8, "rk45", repeats)
+    _, seconds = run_dondolo(executable, problem.wall, problem.motions, 1e-8, "rk45", repeats)
     of_all = statistics.median(seconds) / len(problem)
     found = {1: 1.0}
     for every in sorted(strides - {1}):
@@ -281,7 +284,7 @@ def seconds_of(executable, problem, chosen, repeats):
                     row = rows[member]
                     writer.writerow(row | {"file": problem.motions.catalogue.parent / row["file"]})
             part = Motions(catalogue, f"levels = {', '.join(map(repr, map(float, own)))}")
-            seconds = run_dondolo(executable, problem.wall, part, 1e-8, "rk45", repeats)
+            _, seconds = run_dondolo(executable, problem.wall, part, 1e-8, "rk45", repeats)
             total += statistics.median(seconds)
     return total
 

@@ -12,16 +12,19 @@ import time
 from contextlib import ExitStack
 from dataclasses import asdict, dataclass, fields
 
+import arithmetic
 from programs import BUILD, DONDOLO, command_of, peer_of, run_dondolo
 from progress import say
+from spread import Spread
 
 SHARE, WRONG = 0.01, 1  # acceptable share of histories with an error above 1e-6, acceptable number of wrong flags
 TURN = 0.3  # seconds: a program that needs less repeats its call until they are over, and the median counts
-SLOW = 2.0  # seconds: a program that needs more has one turn in each group of rounds
 SLOWEST = 20.0  # seconds: a program that needs more has no turns; the time of its settings counts
 
 #: What is measured beside the programs of `programs.csv`
-COLD, LIMIT = "dondolo, executable, cold", "arithmetic limit"
+COLD, LIMIT = "dondolo, command, cold", "arithmetic limit"
+#: Name of the turns of the engine's arithmetic for a mechanism: milliseconds of 1e9 operations
+ARITHMETIC = "1e9 operations, "
 
 
 @dataclass(frozen=True)
@@ -29,10 +32,10 @@ class Turn:
     """Time of one program in one round."""
 
     round: int  # 0: its setting alone, without rounds
-    name: str  # program and method, or COLD or LIMIT
+    name: str  # program and method, or COLD, LIMIT or ARITHMETIC and a mechanism
     setting: float
     ms: float  # all histories
-    own: float  # of it within the steps of a library that is called from Python; 0: not known
+    own: float  # of it in the steps of a library called from Python, or in the histories of COLD; 0: not known
 
 
 def acceptable(result):
@@ -58,8 +61,8 @@ def by_program(results):
 
 def contestants(results):
     """Dondolo's engines by default and the tight one, and the chosen setting of each other program."""
-    own = [each for each in results if each.program == DONDOLO.name]
-    found = [each for each in own if each.setting == 1e-8 or (each.method, each.setting) == ("lanes", 1e-12)]
+    own = references(results).values()
+    found = [each for each in results if (each.name, each.setting) in own]
     return found + [chosen(several) for name, several in by_program(results).items() if name != DONDOLO.name]
 
 
@@ -102,14 +105,15 @@ class Rounds:
         first = self.number + 1
         for number in range(first, first + rounds):
             for each, process in self.running:
-                if each.seconds > SLOW and number > first:
-                    continue
-                if number == 1 and each.seconds <= SLOW:
+                if number == 1:
                     call(process)  # warms up
                 seconds, own = several_calls(process)
                 self.turns.append(self.turn(number, each, seconds, own))
-            cold = run_dondolo(self.executable, self.problem.wall, self.problem.motions, 1e-8, "lanes", 1)
-            self.turns.append(Turn(number, COLD, 1e-8, 1e3 * cold[0], 0.0))
+            arguments = (self.executable, self.problem.wall, self.problem.motions, 1e-8, "lanes", 1)
+            (whole,), (histories,) = run_dondolo(*arguments)
+            self.turns.append(Turn(number, COLD, 1e-8, 1e3 * whole, 1e3 * histories))
+            for mechanism, rate in arithmetic.measured(self.executable).rates.items():
+                self.turns.append(Turn(number, ARITHMETIC + mechanism, 0.0, 1e3 / rate, 0.0))
             if (BUILD / "arithmetic").is_file():
                 self.turns.append(Turn(number, LIMIT, 0.0, 1e3 * loop_seconds(), 0.0))
             self.number = number
@@ -150,15 +154,42 @@ def times_of(turns, name, setting, what="ms"):
 
 
 def ratio(turns, over, under, what="ms"):
-    """Median, least and largest ratio of the times of two programs (name, setting) over the rounds that both ran in.
+    """Spread of the ratio of the times of two programs (name, setting) over the rounds that both ran in.
 
     A program without rounds is compared with all rounds of the other.
     """
     top, bottom = times_of(turns, *over, what), times_of(turns, *under)
     if set(top) == {0}:
         top = dict.fromkeys(bottom, top[0])
-    ratios = [top[each] / bottom[each] for each in sorted(top.keys() & bottom.keys())]
-    return statistics.median(ratios), min(ratios), max(ratios)
+    return Spread.of(top[each] / bottom[each] for each in top.keys() & bottom.keys())
+
+
+def compared(results):
+    """What the rounds compare, as (name, result, what): the chosen setting of each other program, or its own steps."""
+    for program, several in by_program(results).items():
+        if program != DONDOLO.name:
+            best = chosen(several)
+            yield program, best, "ms"
+            if best.own > 0.0:
+                yield f"{program}, own steps", best, "own"
+
+
+def references(results):
+    """Engines of dondolo that the others are compared with, as {name: (name, setting)}."""
+    own = [each for each in results if each.program == DONDOLO.name]
+    engines = {each.method: (each.name, each.setting) for each in own if each.setting == 1e-8}
+    return engines | {"lanes, 1e-12": ("dondolo, lanes", 1e-12)}
+
+
+def shares(turns):
+    """Share of the limit of the processor's arithmetic that the steps reach, as {mechanism: spread}."""
+    names = dict.fromkeys(turn.name for turn in turns if turn.name.startswith(ARITHMETIC))
+    if not times_of(turns, LIMIT, 0.0):
+        return {}
+    return {
+        name.removeprefix(ARITHMETIC): ratio(turns, (LIMIT, 0.0), (name, 0.0)).times(1.0 / arithmetic.LOOP)
+        for name in names
+    }
 
 
 def write_rounds(path, turns):

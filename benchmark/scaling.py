@@ -6,14 +6,15 @@ The engine is the default one. Accelerograms are the embedded synthetic ones.
 import csv
 import os
 import re
-import statistics
 import subprocess
 import tempfile
 import time
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
 from problem import ROOT
+from spread import NAMES, Spread
 
 import dondolo as dd
 
@@ -21,7 +22,6 @@ CATALOGUE = ROOT / "data" / "records" / "synthetic44.csv"
 LEVELS = np.linspace(0.05, 1.0, 20)
 VARIANTS = ("baseline", "avx2", "avx512")[: ("baseline", "avx2", "avx512", "native").index(dd.build_variant()) + 1]
 WALL = dd.OneSidedWall(height=3.0, thickness=0.25)
-VALUES = ("value", "least", "largest")  # median, least and largest of the repeats
 
 
 def walls(count):
@@ -60,15 +60,13 @@ def typology(executable, count, threads, folder, variant=None):
 
 
 def row(kind, size, histories, values):
-    """Row of the table: median and range of several values."""
-    return {
-        "kind": kind,
-        "size": size,
-        "histories": histories,
-        "value": statistics.median(values),
-        "least": min(values),
-        "largest": max(values),
-    }
+    """Row of the table: the spread of several values."""
+    return {"kind": kind, "size": size, "histories": histories} | asdict(Spread.of(values))
+
+
+def spread_of(row):
+    """Spread of a row."""
+    return Spread(*(row[name] for name in NAMES))
 
 
 def threads(executable, repeats):
@@ -95,13 +93,21 @@ def threads(executable, repeats):
 
 
 def variants(executable, repeats):
-    """Measure every build variant that this processor supports, on one thread, in turns."""
+    """Measure every build variant that this processor supports, on one thread, in turns.
+
+    Beside the seconds there is the speed-up of each turn relative to the first variant.
+    """
     seconds = {name: [] for name in VARIANTS}
     for _ in range(repeats):
         for name in VARIANTS:
             with tempfile.TemporaryDirectory() as folder:
                 seconds[name].append(typology(executable, 16, 1, folder, name)[0])
-    return [row("variant", place, 880 * 16, seconds[name]) for place, name in enumerate(VARIANTS)]
+    rows = []
+    for place, name in enumerate(VARIANTS):
+        gains = [slow / fast for slow, fast in zip(seconds[VARIANTS[0]], seconds[name], strict=True)]
+        rows.append(row("variant", place, 880 * 16, seconds[name]))
+        rows.append(row("variant speed-up", place, 880 * 16, gains))
+    return rows
 
 
 def memory(executable):
@@ -158,13 +164,20 @@ def refined(acceleration, parts):
 
 
 def measure(executable, repeats):
-    """Measure everything: rows of kind, size, histories, and value, least and largest [s, or MiB for memory]."""
+    """Measure everything: rows of kind, size, histories, and spread [s, or MiB for memory]."""
     return threads(executable, repeats) + variants(executable, repeats) + costs(repeats) + memory(executable)
 
 
 def write_scaling(path, rows):
     """Write a table of what `measure` found."""
     with open(path, "w", newline="", encoding="utf-8") as file:
-        writer = csv.DictWriter(file, ["kind", "size", "histories", *VALUES])
+        writer = csv.DictWriter(file, ["kind", "size", "histories", *NAMES])
         writer.writeheader()
         writer.writerows(rows)
+
+
+def read_scaling(path):
+    """Read a table of what `measure` found."""
+    numbers = ("size", "histories", *NAMES)
+    with open(path, newline="", encoding="utf-8") as file:
+        return [row | {name: float(row[name]) for name in numbers} for row in csv.DictReader(file)]

@@ -1,11 +1,22 @@
 """Comparison of dondolo with other programs on the same histories."""
 
-import statistics
-
-import figures
 from markdown import bullets, many, paragraph, small, table
 from programs import DONDOLO, PEERS
-from rounds import COLD, LIMIT, SHARE, SLOW, SLOWEST, TURN, WRONG, by_program, chosen, ratio, times_of
+from rounds import (
+    COLD,
+    LIMIT,
+    SHARE,
+    SLOWEST,
+    TURN,
+    WRONG,
+    chosen,
+    compared,
+    ratio,
+    references,
+    shares,
+    times_of,
+)
+from spread import Spread, rounded
 
 METHODS = [
     "*C++ by hand*: one or several Nyström steps of order four from sample to sample; events by Newton's method on the "
@@ -43,7 +54,6 @@ def programs(results, turns, machine):
     """Section 1."""
     wall = results[0].wall
     first = [each for each in results if each.wall == wall]
-    figures.work(first)
     versions = dict.fromkeys(each.version for each in results)
     lines = [
         "## 1. Other programs",
@@ -69,6 +79,10 @@ def programs(results, turns, machine):
             "the mean times per history that rk45, which runs history by history, needs for that part and for all "
             "histories."
         ),
+        *paragraph(
+            "A front in the figure joins the settings that no other of dondolo, or of the other programs, beats in "
+            "both time and error."
+        ),
         "![error against time per history](figures/performance_work.png)",
         "",
     ]
@@ -92,83 +106,77 @@ def parts(results):
 
 def ratios(results, turns):
     """Table of the times of other programs relative to dondolo, from the rounds."""
-    own = [(each.name, each.setting) for each in results if each.program == DONDOLO.name]
-    engines = [each for each in own if each[1] == 1e-8]
-    tight = ("dondolo, lanes", 1e-12)
+    engines = references(results)
     rows = []
-    for program, several in by_program(results).items():
-        if program == DONDOLO.name:
-            continue
-        best = chosen(several)
+    for name, best, what in compared(results):
         key = (best.name, best.setting)
-        errors = f"{best.above} of {best.histories}, {many(best.flags, 'wrong flag')}"
-        for what, name in (("ms", program), *((("own", f"{program}, own steps"),) if best.own > 0.0 else ())):
-            times = times_of(turns, *key, what)
-            rows.append(
-                [
-                    name,
-                    f"{best.name.partition(', ')[2]}, {best.setting:g}",
-                    ranged(list(times.values())),
-                    errors,
-                    len(set(times) - {0}) or "none",
-                    *(spread(*ratio(turns, key, under, what)) for under in (*engines, tight)),
-                ]
-            )
-    heads = [f"times `{name.partition(', ')[2]}`" for name, _ in engines] + ["times `lanes`, 1e-12"]
+        times = times_of(turns, *key, what)
+        rows.append(
+            [
+                name,
+                f"{best.method}, {best.setting:g}",
+                Spread.of(times.values()).stated(),
+                f"{best.above} of {best.histories}, {many(best.flags, 'wrong flag')}",
+                len(set(times) - {0}) or "none",
+                *(ratio(turns, key, under, what).stated() for under in engines.values()),
+            ]
+        )
     rounds = max(turn.round for turn in turns)
+    heads = [f"times `{engine}`" for engine in engines]
     return [
         *paragraph(
             f"For each program the cheapest setting with at most {100 * SHARE:g} % of the EDPs with an error above "
             f"1e-6 and at most {many(WRONG, 'wrong flag')}, or, if there is none, its most accurate setting. These "
-            f"settings ran in {many(rounds, 'round')}, in which every program has its turn, each in a warm process. "
-            "A third of the rounds ran before the second wall and the measurements of section 2, a third between them "
-            f"and a third after both. A turn is as many calls as fit in {TURN:g} s, at least one, and counts by their "
-            f"median. A program that takes more than {SLOW:g} s has one turn in each third; one that takes more than "
-            f"{SLOWEST:g} s has none, nor has Octave, and its time of the table above is compared with all rounds of "
-            "dondolo. The last columns are the times relative to those of dondolo's engines in the same round, at "
-            "their defaults and at a tight tolerance: median, and in brackets the least and the largest of the rounds."
+            f"settings ran in {many(rounds, 'round')}, in which every program has its turn, each in a process that is "
+            "warm after a call that is not timed. Some of the rounds ran before the second wall and the measurements "
+            "of section 2, some between them and some after both. A turn is as many calls as fit in "
+            f"{TURN:g} s, at least one, and counts by their median. A program that takes more than {SLOWEST:g} s has "
+            "no turns, nor has Octave, and its time of the table above is compared with all rounds of dondolo. The "
+            "last columns are the times relative to those of dondolo's engines in the same round, at their defaults "
+            "and at a tight tolerance. Times and ratios are given as median, lower to upper quartile, and in brackets "
+            "the least and the largest of the rounds."
         ),
         *table(["program", "setting", "ms for all histories", "errors", "rounds", *heads], rows),
     ]
 
 
-def ranged(values):
-    """Median of some times, and in brackets the least and the largest."""
-    return spread(statistics.median(values), min(values), max(values))
-
-
-def spread(median, least, largest):
-    """A ratio with its range over the rounds."""
-    if least == largest:
-        return rounded(median, 3)
-    return f"{rounded(median, 3)} ({rounded(least, 3)} to {rounded(largest, 3)})"
-
-
 def limits(results, turns):
     """What dondolo's own times hold, and how far they are from the limit of the processor."""
-    lanes = ("dondolo, lanes", 1e-8)
+    lanes = references(results)["lanes"]
     histories = next(each.histories for each in results if each.name == lanes[0])
-    warm, cold = (list(times_of(turns, *key).values()) for key in (lanes, (COLD, 1e-8)))
-    lines = paragraph(
-        f"The {histories} histories take the engine `lanes` {ranged(warm)} ms in a call from Python that is warm. The "
-        f"executable, started anew, needs {ranged(cold)} ms for the same, without the reading of the records before it."
+    warm, whole, cold = (
+        Spread.of(times_of(turns, *key).values()).stated() for key in (lanes, (COLD, 1e-8), (COLD, 1e-8, "own"))
     )
-    loop = list(times_of(turns, LIMIT, 0.0).values())
+    lines = paragraph(
+        f"The {histories} histories take the engine `lanes` {warm} ms in a call from Python that is warm. The whole "
+        f"command `dondolo CASE.nml` takes {whole} ms, from the start of the process to its end, with the reading of "
+        f"the records and the writing of the results; its histories take {cold} ms of it."
+    )
+    loop = times_of(turns, LIMIT, 0.0).values()
     if not loop:
         return lines
-    median, least, largest = ratio(turns, lanes, (LIMIT, 0.0))
-    return lines + paragraph(
+    lines += paragraph(
         f"In the same rounds a loop of 3.24e6 times 90 fused multiplications and additions in the widest vectors of "
-        f"the processor, which computes nothing else, takes {ranged(loop)} ms. The call from Python takes "
-        f"{spread(median, least, largest)} times as long. The loop measures the processor, so that machines can be "
-        "compared; it is not a count of the operations of the histories."
+        f"the processor, which computes nothing else, takes {Spread.of(loop).stated()} ms. The call from Python takes "
+        f"{ratio(turns, lanes, (LIMIT, 0.0)).stated()} times as long. The loop measures the processor, so that "
+        "machines can be compared; it is not a count of the operations of the histories."
     )
+    lines += paragraph(
+        "`dondolo --benchmark` counts the multiplications and additions of the engine's steps, a fused one as two, and "
+        "ran on one thread in the same rounds, with the embedded synthetic accelerograms. Impacts, the starts of "
+        "rocking and all else that is no step take time and are not counted."
+    )
+    lines += table(
+        ["mechanism", "% of the operations per second of the loop"],
+        [[f"`{mechanism}`", share.times(100.0).stated()] for mechanism, share in shares(turns).items()],
+    )
+    return [*lines, "![share of the arithmetic limit by mechanism](figures/performance_arithmetic.png)", ""]
 
 
 def speeds(results, turns):
     """The speeds of the README, from the same rounds."""
     first = [each for each in results if each.wall == results[0].wall]
-    lanes = ("dondolo, lanes", 1e-8)
+    lanes = references(first)["lanes"]
     mine = next(each for each in first if each.name == lanes[0])
     variant = mine.version.split()[-1]
     factors = []
@@ -176,19 +184,15 @@ def speeds(results, turns):
         own = [each for each in first if each.program == program]
         if own:
             key = (chosen(own).name, chosen(own).setting)
-            factors.append(f"{rounded(ratio(turns, key, lanes)[0])} times as fast as {program}")
+            factors.append(f"{rounded(ratio(turns, key, lanes).median)} times as fast as {program}")
             if chosen(own).own > 0.0:
-                factors[-1] += f" called from Python ({rounded(ratio(turns, key, lanes, 'own')[0])} of its own steps)"
-    times = times_of(turns, *lanes).values()
+                steps = ratio(turns, key, lanes, "own").median
+                factors[-1] += f" called from Python ({rounded(steps)} of its own steps)"
+    times = Spread.of(times_of(turns, *lanes).values())
     sentence = (
         f"{mine.histories} time histories of one wall under recorded motions take "
-        f"{rounded(statistics.median(times))} ms ({rounded(min(times))} to {rounded(max(times))}) on one core in a "
+        f"{rounded(times.median)} ms (quartiles {rounded(times.lower)} and {rounded(times.upper)}) on one core in a "
         f"call from Python (`{variant}`): {', '.join(factors)}, each at its cheapest setting that is accurate enough, "
         "all warm and in the same rounds."
     )
     return paragraph(sentence, indent="  ")[:-1]
-
-
-def rounded(value, digits=2):
-    """A number with so many digits that count, without an exponent."""
-    return f"{float(f'{value:.{digits}g}'):.10g}"

@@ -1,22 +1,21 @@
 """Scaling with threads and sizes, and memory."""
 
 import cost_model
-import figures
 from markdown import paragraph, table
-from scaling import VALUES, VARIANTS
+from scaling import VARIANTS, spread_of
 
 
 def scaling(rows):
     """Section 2."""
-    figures.scaling(rows)
     lines = [
         "## 2. Threads, sizes, memory",
         "",
         *paragraph(
             "The default engine is run with the embedded synthetic accelerograms, at 20 levels unless stated "
             "otherwise. Strong scaling has a fixed population of walls, weak scaling one that grows with the threads. "
-            "The numbers of threads ran in turns, and an efficiency is relative to one thread in the same turn. In "
-            "brackets are the least and the largest value."
+            "The numbers of threads ran in turns, and an efficiency is relative to one thread in the same turn. "
+            "All are given as median, lower to upper quartile, and in brackets the least and the largest value. Lines "
+            "are the fitted growth, stated below."
         ),
         "![threads, sizes, memory](figures/performance_scaling.png)",
         "",
@@ -26,10 +25,10 @@ def scaling(rows):
     for kind in ("strong", "weak"):
         efficiencies = {r["size"]: r for r in rows if r["kind"] == f"{kind} efficiency"}
         for r in (r for r in rows if r["kind"] == kind):
-            rate = r["histories"] / r["value"]
+            rate = r["histories"] / r["median"]
             gain = efficiencies[r["size"]]
-            work = [f"{r['histories']:g}", ranged(r), f"{rate:.3g}"]
-            body.append([kind, f"{r['size']:g}", *work, ranged(gain, digits=2) if r["size"] > 1 else "1"])
+            work = [f"{r['histories']:g}", spread_of(r).stated(), f"{rate:.3g}"]
+            body.append([kind, f"{r['size']:g}", *work, spread_of(gain).stated(2)])
     lines += table(head, body)
     names = {
         "walls": "walls, a call for each",
@@ -39,31 +38,27 @@ def scaling(rows):
         "samples": "samples for each one of the record, interpolated linearly",
     }
     body = [
-        [names[r["kind"]], f"{r['size']:g}", f"{r['histories']:g}", ranged(r, 1e3 / r["histories"])]
-        for r in rows
-        if r["kind"] in names
+        [names[r["kind"]], f"{r['size']:g}", f"{r['histories']:g}", per_history(r)] for r in rows if r["kind"] in names
     ]
     lines += table(["parameter", "size", "histories", "ms per history"], body)
     lines += model(rows)
+    gains = [spread_of(row).stated(2) for row in rows if row["kind"] == "variant speed-up"]
     own = [row for row in rows if row["kind"] == "variant"]
-    body = [
-        [VARIANTS[int(r["size"])], ranged(r, 1e3 / r["histories"]), f"{own[0]['value'] / r['value']:.2g}"] for r in own
-    ]
+    body = [[VARIANTS[int(r["size"])], per_history(r), gain] for r, gain in zip(own, gains, strict=True)]
     lines += table(["build variant", "ms per history", "speed-up"], body)
-    body = [[f"{r['histories']:g}", f"{r['value']:.1f}"] for r in rows if r["kind"] == "memory" and r["value"] > 0.0]
+    body = [[f"{r['histories']:g}", f"{r['median']:.1f}"] for r in rows if r["kind"] == "memory" and r["median"] > 0.0]
     return lines + table(["histories", "peak memory, MiB"], body)
 
 
-def ranged(row, factor=1.0, digits=3):
-    """Median of a row, and in brackets its least and largest value."""
-    middle, least, largest = (f"{factor * row[what]:.{digits}g}" for what in VALUES)
-    return middle if least == largest else f"{middle} ({least} to {largest})"
+def per_history(row):
+    """Spread of the milliseconds per history."""
+    return spread_of(row).times(1e3 / row["histories"]).stated()
 
 
 def model(rows):
     """The fitted cost model in words."""
     (call, record, history), error = cost_model.of_call(rows)
-    walls, shocks, samples = (cost_model.growth(rows, kind) for kind in ("walls", "shocks", "samples"))
+    walls, shocks, samples = (cost_model.growth(rows, kind)[1] for kind in ("walls", "shocks", "samples"))
     serial = cost_model.serial_share(rows)
     text = (
         f"A call takes {1e3 * call:.2g} ms + {1e3 * record:.2g} ms for each record + {1e3 * history:.2g} ms for each "

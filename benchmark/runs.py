@@ -1,0 +1,134 @@
+"""Ratios of every full run, in runs.csv, and their comparison with earlier runs."""
+
+import csv
+import subprocess
+from dataclasses import astuple, dataclass, fields, replace
+from datetime import UTC, datetime
+from pathlib import Path
+
+from problem import ROOT
+from rounds import LIMIT, compared, ratio, references, shares, times_of
+from scaling import VARIANTS, spread_of
+
+FILE = Path(__file__).resolve().parent / "runs.csv"
+SOURCES = ("src", "app", "python", "benchmark", "meson.build", ":!benchmark/runs.csv")
+UNCOMMITTED = "+"  # ends the commit of a run whose sources were not committed
+
+
+@dataclass(frozen=True)
+class Run:
+    """Date of a run, and what it ran: runs are compared if all but the date agree."""
+
+    date: str  # UTC
+    commit: str
+    processor: str
+    variant: str
+    compiler: str  # and its options
+    version: str
+
+    @property
+    def is_committed(self):
+        """Whether the commit says what was run."""
+        return not self.commit.endswith(UNCOMMITTED)
+
+    def is_comparable(self, other):
+        """Whether another run is of the same sources, compiler and machine."""
+        return self.is_committed and replace(other, date=self.date) == self
+
+
+@dataclass(frozen=True)
+class Figure:
+    """A ratio of a run: its name, median and quartiles."""
+
+    name: str
+    median: float
+    lower: float
+    upper: float
+
+    def agrees(self, other):
+        """Whether each median lies between the quartiles of the other."""
+        return self.lower <= other.median <= self.upper and other.lower <= self.median <= other.upper
+
+
+def new_run(report):
+    """Run of now, of an executable with this report of --benchmark."""
+    date = datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
+    return Run(date, commit(), report.processor, report.variant, report.compiler, report.version)
+
+
+def commit():
+    """Commit of the sources, with UNCOMMITTED at its end if they differ from it or there is none."""
+    try:
+        found = git("rev-parse", "--short=12", "HEAD")
+        return found + (UNCOMMITTED if git("status", "--porcelain", "--", *SOURCES) else "")
+    except (OSError, subprocess.CalledProcessError):
+        return UNCOMMITTED
+
+
+def git(*words):
+    """What a command of git prints."""
+    return subprocess.run(["git", *words], cwd=ROOT, check=True, capture_output=True, text=True).stdout.strip()
+
+
+def figures(results, turns, rows):
+    """Ratios of a run. A program without rounds has none."""
+    first = [each for each in results if each.wall == results[0].wall]
+    found = {}
+    for name, best, what in compared(first):
+        key = (best.name, best.setting)
+        if set(times_of(turns, *key)) == {0}:
+            continue
+        for engine, under in references(first).items():
+            label = f"{name}, {best.method}, {best.setting:g} / {engine}"
+            found[label] = ratio(turns, key, under, what)
+    if times_of(turns, LIMIT, 0.0):
+        found["lanes / arithmetic limit"] = ratio(turns, references(first)["lanes"], (LIMIT, 0.0))
+    found |= {f"share of the arithmetic limit, {mechanism}": share for mechanism, share in shares(turns).items()}
+    for row in rows:
+        size = int(row["size"])
+        if row["kind"] in ("strong efficiency", "weak efficiency") and size > 1:
+            found[f"{row['kind']}, {size} threads"] = spread_of(row)
+        if row["kind"] == "variant speed-up" and size > 0:
+            found[f"speed-up of {VARIANTS[size]}"] = spread_of(row)
+    return [Figure(name, *(float(f"{x:.4g}") for x in astuple(spread)[:3])) for name, spread in found.items()]
+
+
+COLUMNS = [field.name for field in fields(Run)] + ["figure", "median", "lower quartile", "upper quartile"]
+
+
+def append(path, run, found):
+    """Append the ratios of a run to a file, which is made if there is none."""
+    is_new = not path.is_file()
+    with open(path, "a", newline="", encoding="utf-8") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        if is_new:
+            writer.writerow(COLUMNS)
+        writer.writerows([*astuple(run), *astuple(each)] for each in found)
+
+
+def read(path):
+    """Ratios of the runs of a file, as {run: ratios}; none if there is no file."""
+    found = {}
+    if path.is_file():
+        with open(path, newline="", encoding="utf-8") as file:
+            header, *rows = csv.reader(file)
+        if header != COLUMNS:
+            raise SystemExit(f"{path}: its columns must be {', '.join(COLUMNS)}")
+        for *about, name, median, lower, upper in rows:
+            found.setdefault(Run(*about), []).append(Figure(name, float(median), float(lower), float(upper)))
+    return found
+
+
+def earlier(runs, run):
+    """Those of several runs that were before a run and can be compared with it, the latest first."""
+    return sorted(
+        (each for each in runs if each.date < run.date and run.is_comparable(each)),
+        key=lambda each: each.date,
+        reverse=True,
+    )
+
+
+def pairs(found, others):
+    """Ratios that two runs have in common, as (this, other)."""
+    by_name = {each.name: each for each in others}
+    return [(each, by_name[each.name]) for each in found if each.name in by_name]

@@ -1,0 +1,266 @@
+"""The benchmark: spreads, the fitted growth, comparison of runs, and the page from made-up measurements."""
+
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "benchmark"))
+
+import arithmetic
+import cost_model
+import page
+import runs
+from programs import Result, write_results
+from rounds import ARITHMETIC, COLD, LIMIT, Turn, write_rounds
+from runs import Figure, Run
+from scaling import row, write_scaling
+from sections_runs import earlier_runs
+from spread import Spread
+
+RUN = Run("2026-03-01T10:00:00Z", "0123456789ab", "a processor", "avx2", "GCC version 12.2.0, -O3", "0.1.0")
+BEFORE = replace(RUN, date="2026-02-01T10:00:00Z")
+RATIOS = [5.0, 6.0, 7.0, 8.0, 9.0, 10.0, 11.0]  # of the seven rounds; quartiles 6.5 and 9.5
+
+
+def test_spread():
+    spread = Spread.of(reversed(RATIOS))
+    assert spread == Spread(8.0, 6.5, 9.5, 5.0, 11.0)
+    assert spread.stated() == "8, 6.5 to 9.5 (5 to 11)"
+    assert spread.times(2.0) == Spread(16.0, 13.0, 19.0, 10.0, 22.0)
+    assert Spread.of([2.345]).stated(2) == "2.3"
+
+
+@pytest.mark.parametrize(
+    ("mine", "theirs", "agrees"),
+    [
+        ((8.0, 7.0, 9.0), (8.5, 7.5, 9.5), True),
+        ((8.0, 7.0, 9.0), (9.5, 7.5, 11.0), False),  # the other median is outside
+        ((8.0, 6.0, 12.0), (11.0, 10.0, 13.0), False),  # this median is outside
+        ((8.0, 8.0, 8.0), (8.0, 8.0, 8.0), True),
+    ],
+)
+def test_agreement(mine, theirs, agrees):
+    one, other = Figure("a", *mine), Figure("a", *theirs)
+    assert one.agrees(other) == other.agrees(one) == agrees
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"processor": "another"},
+        {"commit": "ba9876543210"},
+        {"commit": RUN.commit + runs.UNCOMMITTED},
+        {"compiler": "GCC version 12.2.0, -O2"},
+        {"variant": "avx512"},
+        {"version": "0.2.0"},
+        {"date": "2026-04-01T10:00:00Z"},  # later
+    ],
+)
+def test_runs_that_are_not_compared(change):
+    assert runs.earlier([BEFORE, RUN], RUN) == [BEFORE]
+    assert runs.earlier([replace(BEFORE, **change), RUN], RUN) == []
+
+
+def test_uncommitted_runs_are_never_judged():
+    run, before = (replace(each, commit=each.commit + runs.UNCOMMITTED) for each in (RUN, BEFORE))
+    assert runs.earlier([before, run], run) == []
+    assert "not committed" in " ".join(earlier_runs({before: [], run: []}, run))
+
+
+def test_section_of_earlier_runs():
+    oldest = replace(RUN, date="2026-01-01T10:00:00Z")
+    found = {
+        oldest: [Figure("a", 1.0, 0.9, 1.1)],
+        BEFORE: [Figure("a", 1.0, 0.9, 1.1), Figure("b", 2.0, 1.9, 2.1), Figure("gone", 1.0, 1.0, 1.0)],
+        RUN: [Figure("a", 1.05, 0.95, 1.15), Figure("b", 2.2, 2.1, 2.3), Figure("new", 1.0, 1.0, 1.0)],
+    }
+    lines = earlier_runs(found, RUN)
+    assert f"| {BEFORE.date} | 1 of 2 ratios |" in lines
+    assert f"| {oldest.date} | 1 of 1 ratio |" in lines
+    assert "| a | 1.05, 0.95 to 1.15 | 1, 0.9 to 1.1 | yes |" in lines
+    assert "| b | 2.2, 2.1 to 2.3 | 2, 1.9 to 2.1 | no |" in lines
+    assert not any("new" in line or "gone" in line for line in lines)
+
+
+def test_file_of_runs(tmp_path):
+    path = tmp_path / "runs.csv"
+    assert runs.read(path) == {}
+    found = [Figure("Boost.odeint, cut, 1e-08 / lanes", 8.0, 6.5, 9.5)]
+    runs.append(path, BEFORE, found)
+    runs.append(path, RUN, found)
+    assert runs.read(path) == {BEFORE: found, RUN: found}
+    path.write_text("date,commit\n")
+    with pytest.raises(SystemExit, match="columns"):
+        runs.read(path)
+
+
+def test_commit(tmp_path, monkeypatch):
+    """Sources that differ from the commit are marked; documents and the file of runs do not count."""
+    monkeypatch.setattr(runs, "ROOT", tmp_path)
+    assert runs.commit() == runs.UNCOMMITTED
+    names = [tmp_path / name for name in ("src/a.f90", "benchmark/runs.csv", "docs/page.md")]
+    for name in names:
+        name.parent.mkdir()
+        name.write_text("one\n")
+    who = ["-c", "user.name=test", "-c", "user.email=test@example.org"]
+    for words in (["init", "-q"], ["add", "."], [*who, "commit", "-q", "-m", "one"]):
+        subprocess.run(["git", *words], cwd=tmp_path, check=True)
+    clean = runs.commit()
+    assert len(clean) == 12
+    names[1].write_text("two\n")
+    names[2].write_text("two\n")
+    assert runs.commit() == clean
+    names[0].write_text("two\n")
+    assert runs.commit() == clean + runs.UNCOMMITTED
+
+
+def test_report_of_the_executable(executable):
+    command = [executable, "--benchmark", "0.001", "--threads", "1"]
+    report = arithmetic.parse(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+    assert list(report.rates) == ["one_sided", "free_standing", "two_block"]
+    assert all(rate > 0.01 for rate in report.rates.values())
+    assert report.compiler.startswith("GCC")
+    assert " -O3" in report.compiler
+    assert "/" not in report.compiler
+
+
+def made_up_rows(call=2e-3, record=3e-4, history=4e-5, serial=0.1):
+    """Rows of the scaling by known laws."""
+    rows = []
+    for n in (1, 2, 4):
+        gain = cost_model.speed_up(serial, n)
+        for kind in ("strong", "weak"):
+            rows += [row(kind, n, 880, [1.0 / gain]), row(f"{kind} efficiency", n, 880, [gain / n])]
+    for n in (6, 11, 44):
+        rows.append(row("records", n, 20 * n, [call + record * n + history * 20 * n]))
+    for n in (5, 20, 80):
+        rows.append(row("levels", n, 44 * n, [call + record * 44 + history * 44 * n]))
+    for kind, power in {"walls": 1.0, "shocks": 0.9, "samples": 0.7}.items():
+        rows += [row(kind, n, 880, [0.02 * n**power]) for n in (1, 2, 4)]
+    rows += [row("variant", 0, 880, [0.5]), row("variant speed-up", 0, 880, [1.0])]
+    return [*rows, row("memory", 1, 880, [11.5])]
+
+
+def test_cost_model():
+    rows = made_up_rows()
+    constants, error = cost_model.of_call(rows)
+    assert constants == pytest.approx([2e-3, 3e-4, 4e-5], rel=1e-9)
+    assert error < 1e-9
+    assert cost_model.growth(rows, "shocks") == pytest.approx((0.02, 0.9))
+    assert cost_model.serial_share(rows) == pytest.approx(0.1)
+    # The lines of the figure go through measurements that obey the laws.
+    for kind in ("walls", "records", "levels", "shocks", "samples"):
+        own = [each for each in rows if each["kind"] == kind]
+        size, seconds = (np.array([each[what] for each in own]) for what in ("size", "median"))
+        assert cost_model.modelled(rows, kind, size) == pytest.approx(seconds), kind
+
+
+def test_cost_model_states_what_it_leaves_unexplained():
+    rows = made_up_rows()
+    next(each for each in rows if each["kind"] == "levels")["median"] *= 1.5
+    assert cost_model.of_call(rows)[1] > 0.05
+
+
+def test_one_thread_has_no_serial_share():
+    rows = [each for each in made_up_rows() if "efficiency" not in each["kind"] or each["size"] == 1]
+    assert cost_model.serial_share(rows) is None
+
+
+def result(program, method, setting, ms, histories=880, own=0.0):
+    """Result of a program that takes some milliseconds for all histories."""
+    times = (1e-3 * ms * histories / 880, own, ms / 880, ms / 880)
+    return Result(
+        "one_sided", "recorded", program, f"{program} 1", method, setting, histories, *times, 0, 1, 1e-5, 1e-12, 1e-9
+    )
+
+
+@pytest.fixture
+def tables(tmp_path):
+    """Tables as the benchmark writes them: engine lanes takes 20 ms, Boost.odeint RATIOS times as long."""
+    folder = tmp_path / "tables"
+    folder.mkdir()
+    results = [
+        result("dondolo", "rk45", 1e-8, 200.0),
+        result("dondolo", "lanes", 1e-8, 20.0),
+        result("dondolo", "lanes", 1e-12, 30.0),
+        result("Boost.odeint", "cut", 1e-8, 160.0),
+        result("heyoka", "batch", 1e-9, 2000.0, own=0.25),
+        result("SciPy", "RK45", 1e-6, 1e5, histories=55),
+        result("GNU Octave", "ode45", 1e-6, 4e6, histories=11),
+    ]
+    turns = [Turn(0, "GNU Octave, ode45", 1e-6, 4e6, 0.0)]
+    for number, ratio in enumerate(RATIOS, 1):
+        turns += [
+            Turn(number, "dondolo, rk45", 1e-8, 200.0, 0.0),
+            Turn(number, "dondolo, lanes", 1e-8, 20.0, 0.0),
+            Turn(number, "dondolo, lanes", 1e-12, 30.0, 0.0),
+            Turn(number, "Boost.odeint, cut", 1e-8, 20.0 * ratio, 0.0),
+            Turn(number, "heyoka, batch", 1e-9, 2000.0, 250.0),
+            Turn(number, "SciPy, RK45", 1e-6, 1e5, 0.0),
+            Turn(number, COLD, 1e-8, 70.0, 18.0),
+            Turn(number, LIMIT, 0.0, 10.0, 0.0),
+            # A quarter of the operations per second of the loop
+            Turn(number, f"{ARITHMETIC}one_sided", 0.0, 40.0 / arithmetic.LOOP, 0.0),
+        ]
+    write_results(folder / "programs.csv", results)
+    write_rounds(folder / "rounds.csv", turns)
+    write_scaling(folder / "scaling.csv", made_up_rows())
+    (folder / "machine.txt").write_text("processor: a processor\n")
+    runs.append(folder / "run.csv", RUN, runs.figures(results, turns, made_up_rows()))
+    return folder
+
+
+@pytest.fixture
+def site(tmp_path):
+    """A page and a README with marks."""
+    (tmp_path / "docs").mkdir()
+    (tmp_path / "docs" / "performance.md").write_text(
+        f"# Performance\n\n{page.BEGIN}\nwritten before\n{page.END}\n\n## 4. Kept\n"
+    )
+    (tmp_path / "README.md").write_text(f"- **Fast.** {page.BEGIN}written before{page.END} Kept.\n")
+    return tmp_path
+
+
+def test_page(tables, site):
+    page.write(tables, site, site / "runs.csv")
+    text = (site / "docs" / "performance.md").read_text()
+    assert "written before" not in text
+    assert text.endswith(f"{page.END}\n\n## 4. Kept\n")
+    boost = next(line for line in text.splitlines() if line.startswith("| Boost.odeint | cut, 1e-08 |"))
+    assert "| 160, 130 to 190 (100 to 220) | 1 of 880, 0 wrong flags | 7 | 0.8, 0.65 to 0.95 (0.5 to 1.1) |" in boost
+    assert "| 8, 6.5 to 9.5 (5 to 11) |" in boost
+    assert "| heyoka, own steps | batch, 1e-09 | 250 | 1 of 880, 0 wrong flags | 7 | 1.25 | 12.5 |" in text
+    assert "| GNU Octave | ode45, 1e-06 | 4000000 | 1 of 11, 0 wrong flags | none | 20000 |" in text
+    assert "| `one_sided` | 25 |" in text
+    words = " ".join(text.split())
+    assert "command `dondolo CASE.nml` takes 70 ms" in words
+    assert "its histories take 18 ms of it" in words
+    assert "A call takes 2 ms + 0.3 ms for each record + 0.04 ms for each history" in words
+    assert "no earlier run of the same commit" in words
+    readme = (site / "README.md").read_text()
+    assert "8 times as fast as Boost.odeint" in readme
+    assert readme.endswith(f"{page.END} Kept.\n")
+    for name in ("work", "arithmetic", "scaling"):
+        assert (site / f"docs/figures/performance_{name}.png").stat().st_size > 10_000
+
+
+def test_page_compares_with_an_earlier_run(tables, site):
+    (found,) = runs.read(tables / "run.csv").values()
+    names = [each.name for each in found]
+    assert "Boost.odeint, cut, 1e-08 / lanes" in names
+    assert "share of the arithmetic limit, one_sided" in names
+    assert not any("Octave" in name for name in names)
+    other = [replace(each, median=2 * each.median, lower=2 * each.lower, upper=2 * each.upper) for each in found[:2]]
+    runs.append(site / "runs.csv", BEFORE, other + found[2:])
+    page.write(tables, site, site / "runs.csv")
+    assert f"| {BEFORE.date} | {len(found) - 2} of {len(found)} ratios |" in (site / "docs/performance.md").read_text()
+
+
+def test_page_without_marks(tables, site):
+    (site / "docs" / "performance.md").write_text("# Performance\n")
+    with pytest.raises(SystemExit, match="one pair"):
+        page.write(tables, site, site / "runs.csv")
