@@ -172,7 +172,9 @@ contains
       call check_close(case%wall%mechanism%trigger_acceleration(), 5.0_wp/12.0_wp, 1.0e-14_wp, &
          & 'gravity enters the wall')
       call case%make_study(study)
-      call check_close(study%scale_to(case%wall, 1, 1), 0.1_wp*5.0_wp/case%suite%peaks(1), 1.0e-15_wp, 'and the levels')
+      associate (scales => study%scales(case%wall))
+         call check_close(scales(1, 1), 0.1_wp*5.0_wp/case%suite%peaks(1), 1.0e-15_wp, 'and the levels')
+      end associate
    end subroutine test_defaults
 
    !> Levels from a grid
@@ -314,8 +316,10 @@ contains
       call case%make_study(study)
       call check(study%runs(1, 1) .and. .not. study%runs(1, 2) .and. study%runs(2, 1) .and. study%runs(2, 2), &
          & 'without a level a record runs at all')
-      call check_close(study%scale_to(case%wall, 1, 1), 1.25_wp, 0.0_wp, 'factor that is given')
-      call check_close(study%scale_to(case%wall, 2, 2), 0.5_wp*9.81_wp/case%suite%peaks(2), 1.0e-15_wp, 'and computed')
+      associate (scales => study%scales(case%wall))
+         call check_close(scales(1, 1), 1.25_wp, 0.0_wp, 'factor that is given')
+         call check_close(scales(2, 2), 0.5_wp*9.81_wp/case%suite%peaks(2), 1.0e-15_wp, 'and computed')
+      end associate
       call check(maxval(abs(study%share() - [1.0_wp, 0.5_wp])) <= 0.0_wp, 'share of the records')
    end subroutine check_factors
 

@@ -325,7 +325,7 @@ contains
       type(stripes_type) :: stripes, by_pga
       type(error_type), allocatable :: error
       character(len=12) :: name
-      real(wp) :: a(500), value, level, unit
+      real(wp) :: a(500), value, level, unit, factors(1)
       integer :: i
 
       call suite('levels')
@@ -348,7 +348,8 @@ contains
          call new_scaling(scaling, trim(name), error)
          call check_ok(error, name)
          value = scaling%measure%of(records(1))
-         scaled = record_of(scaling%factor(level, value, wall)*a, 0.01_wp)
+         factors = scaling%factors(level, [value], wall)
+         scaled = record_of(factors(1)*a, 0.01_wp)
          unit = scaling%measure%level_size(wall%gravity)
          if (name == 'pga/a0') unit = wall%mechanism%trigger_acceleration()
          if (name == 'p*pgv/a0') unit = g*tan(wall%alpha)/sqrt(0.75_wp*g/sqrt(1.0_wp + 0.15_wp**2))

@@ -201,8 +201,11 @@ class Record:
     def event(self) -> str:
         """Earthquake of the record, else station and date of the recording, else '': see `Fragility.clusters`."""
         # As in dondolo_clusters
-        station, date = (self.metadata.get(key, "") for key in ("station", "date"))
-        return self.metadata.get("event", "") or (f"{station} {date}" if station and date else "")
+        event = self.metadata.get("event", "")
+        if event:
+            return event
+        station, date = self.metadata.get("station", ""), self.metadata.get("date", "")
+        return f"{station} {date}" if station and date else ""
 
     @property
     def duration(self) -> float:

@@ -28,8 +28,8 @@ module dondolo_scaling
       !> The measure of the record
       type(measure_type) :: measure
    contains
-      !> Factor that scales a record to a level
-      procedure :: factor
+      !> Factors that scale records to a level
+      procedure :: factors
       !> Does the factor depend on the wall?
       procedure :: needs_wall
       !> Unit of the levels, empty for a number
@@ -81,21 +81,21 @@ contains
       scaling%name = ''
    end function unscaled
 
-   !> Factor that scales a record to a level
-   pure function factor(self, level, value, wall) result(scale)
+   !> Factors that scale records to a level
+   pure function factors(self, level, values, wall)
       class(scaling_type), intent(in) :: self
       !> Level, in its unit
       real(wp), intent(in) :: level
-      !> Value of the measure for the record as it stands
-      real(wp), intent(in) :: value
+      !> Values of the measure for the records as they stand
+      real(wp), intent(in) :: values(:)
       type(wall_type), intent(in) :: wall
-      !> The factor; 0 for a record without motion
-      real(wp) :: scale
+      !> The factors; 0 for a record without motion
+      real(wp) :: factors(size(values))
 
       real(wp) :: level_size
 
       if (len(self%name) == 0) then
-         scale = level
+         factors = level
          return
       end if
       level_size = self%measure%level_size(wall%gravity)
@@ -103,10 +103,10 @@ contains
       if (self%name == 'p*pgv/a0') then
          level_size = wall%mechanism%trigger_acceleration()/wall%mechanism%frequency_parameter()
       end if
-      scale = 0.0_wp
-      if (value > 0.0_wp) scale = level*level_size/value
-      if (self%measure%power() == 2) scale = sqrt(scale)
-   end function factor
+      factors = 0.0_wp
+      where (values > 0.0_wp) factors = level*level_size/values
+      if (self%measure%power() == 2) factors = sqrt(factors)
+   end function factors
 
    !> Does the factor depend on the wall, beyond its gravity?
    pure logical function needs_wall(self)

@@ -81,6 +81,7 @@ contains
       !> What cannot be run: `variable = value: what is allowed`; or lack of memory
       type(error_type), allocatable, intent(out) :: error
 
+      real(wp), allocatable :: scales(:, :)
       integer :: i, j
 
       call study%check(wall, error)
@@ -94,11 +95,11 @@ contains
          if (.not. allocated(error)) call study%check_scales(wall, error)
          if (allocated(error)) return
          allocate (stripes%response(histories, levels), stripes%ran(histories, levels))
-         allocate (stripes%scale(histories, levels), source=0.0_wp)
+         scales = study%scales(wall)
+         stripes%scale = scales(stripes%record, :)
          do j = 1, levels
             do i = 1, histories
                stripes%ran(i, j) = study%runs(stripes%record(i), j)
-               if (stripes%ran(i, j)) stripes%scale(i, j) = study%scale_to(wall, stripes%record(i), j)
             end do
          end do
       end associate
@@ -187,9 +188,11 @@ contains
       type(floors_type), pointer :: floors
       type(suite_type), pointer :: motions
       integer, allocatable :: record(:), polarity(:)
+      real(wp), allocatable :: scales(:, :)
       integer :: i, j, k, place
 
       call choose_polarities(study, wall, record, polarity)
+      scales = study%scales(wall)
       allocate (ensemble%record(range(2) - range(1) + 1), ensemble%scale(range(2) - range(1) + 1))
       k = 0
       do j = 1, size(study%levels)
@@ -199,7 +202,7 @@ contains
             k = k + 1
             if (k < range(1) .or. k > range(2)) cycle
             ensemble%record(k - range(1) + 1) = record(i)
-            ensemble%scale(k - range(1) + 1) = real(polarity(i), wp)*study%scale_to(wall, record(i), j)
+            ensemble%scale(k - range(1) + 1) = real(polarity(i), wp)*scales(record(i), j)
          end do
       end do
       call take_motions(study, wall, threads, own, floors, place, motions)

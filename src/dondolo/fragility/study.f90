@@ -62,8 +62,8 @@ module dondolo_study
       procedure :: runs
       !> Share of the records that run at each level
       procedure :: share
-      !> Factor that scales a record to a level for a wall
-      procedure :: scale_to
+      !> Factors that scale each record to each level for a wall
+      procedure :: scales
       !> Check that no record is scaled beyond all measure
       procedure :: check_scales
    end type study_type
@@ -203,21 +203,21 @@ contains
          & real(size(self%factor, 1), wp)
    end function share
 
-   !> Factor that scales a record to a level for a wall
-   pure real(wp) function scale_to(self, wall, record, level) result(scale)
+   !> Factors that scale each record to each level for a wall
+   pure function scales(self, wall)
       class(study_type), intent(in) :: self
       type(wall_type), intent(in) :: wall
-      !> Number of the record
-      integer, intent(in) :: record
-      !> Number of the level; the record runs at it
-      integer, intent(in) :: level
+      !> A factor for each (records, levels); 0 where the record does not run
+      real(wp) :: scales(size(self%values), size(self%levels))
 
-      if (allocated(self%factor)) then
-         scale = self%factor(record, level)
-         if (scale > 0.0_wp) return
-      end if
-      scale = self%scaling%factor(self%levels(level), self%values(record), wall)
-   end function scale_to
+      integer :: j
+
+      do j = 1, size(self%levels)
+         scales(:, j) = self%scaling%factors(self%levels(j), self%values, wall)
+      end do
+      if (.not. allocated(self%factor)) return
+      where (.not. self%factor < 0.0_wp) scales = self%factor
+   end function scales
 
    !> Check that no record is scaled beyond all measure
    subroutine check_scales(self, wall, error)
@@ -226,12 +226,14 @@ contains
       !> The first that is, at its highest level
       type(error_type), allocatable, intent(out) :: error
 
+      real(wp), allocatable :: scales(:, :)
       integer :: i, j
 
+      scales = self%scales(wall)
       do i = 1, size(self%suite%records)
          do j = size(self%levels), 1, -1
             if (.not. self%runs(i, j)) cycle
-            if (.not. self%scale_to(wall, i, j)*self%suite%peaks(i) <= largest_acceleration) then
+            if (.not. scales(i, j)*self%suite%peaks(i) <= largest_acceleration) then
                call raise_input(error, 'levels = '//to_text(self%levels(j))//': scales record '''// &
                   & self%suite%records(i)%name//''' beyond '//to_text(largest_acceleration)//' m/s2')
                return

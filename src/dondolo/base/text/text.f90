@@ -157,6 +157,8 @@ contains
          if (value < 0.0_wp) text = '-Infinity'
          return
       end if
+      call make_short(value, text)
+      if (allocated(text)) return
       ! A decimal of so many digits that reads back is the shortest one with zeros at its end.
       do digits = precision(value), precision(value) + 3
          write (format, '(a, i0, a)') '(es48.', digits - 1, 'e4)'
@@ -166,6 +168,35 @@ contains
       end do
       call make_plain(trim(adjustl(buffer)), text)
    end subroutine make_real
+
+   !> The text of a number of few decimals, as most are, without a WRITE: a whole number by a power of ten, both exact
+   pure subroutine make_short(value, text)
+      !> Number
+      real(wp), intent(in) :: value
+      !> Its text; not allocated: it is longer
+      character(len=:), allocatable, intent(out) :: text
+
+      integer, parameter :: most_decimals = 6
+      real(wp), parameter :: smallest = 1.0e-4_wp, largest = 1.0e15_wp
+      real(wp) :: power
+      integer(int64) :: whole
+      integer :: decimals, missing
+
+      if (.not. (abs(value) >= smallest .and. abs(value) < largest)) return
+      power = 1.0_wp
+      do decimals = 0, most_decimals
+         if (.not. abs(value)*power < largest) return
+         whole = nint(abs(value)*power, int64)
+         if (real(whole, wp)/power == abs(value)) exit
+         power = 10.0_wp*power
+      end do
+      if (decimals > most_decimals) return
+      text = count_to_text(whole)
+      missing = decimals + 1 - len(text)
+      if (missing > 0) text = repeat('0', missing)//text
+      if (decimals > 0) text = text(:len(text) - decimals)//'.'//text(len(text) - decimals + 1:)
+      if (value < 0.0_wp) text = '-'//text
+   end subroutine make_short
 
    !> Rewrite d.dddE+0xx as a plain decimal where that is short
    pure subroutine make_plain(scientific, text)

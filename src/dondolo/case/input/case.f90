@@ -113,7 +113,8 @@ contains
 
       if (allocated(self%history%im_level)) then
          values = self%suite%values(self%stripes%scaling%measure, self%job%threads)
-         scale = self%stripes%scaling%factor(self%history%im_level, values(self%history%record), self%wall)
+         values = self%stripes%scaling%factors(self%history%im_level, values, self%wall)
+         scale = values(self%history%record)
       else
          scale = self%history%scale
       end if

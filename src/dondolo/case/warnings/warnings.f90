@@ -117,16 +117,15 @@ contains
       type(study_type), intent(in) :: study
       type(wall_type), intent(in) :: wall
 
-      real(wp) :: expected, times
+      real(wp) :: expected(size(study%values)), times
       integer :: i, j
 
       do j = 1, size(study%levels)
+         expected = study%scaling%factors(study%levels(j), study%values, wall)
          do i = 1, size(study%factor, 1)
-            if (.not. study%factor(i, j) > 0.0_wp) cycle
-            expected = study%scaling%factor(study%levels(j), study%values(i), wall)
-            if (.not. expected > 0.0_wp) cycle
+            if (.not. (study%factor(i, j) > 0.0_wp .and. expected(i) > 0.0_wp)) cycle
             self%given = self%given + 1
-            times = (study%factor(i, j)/expected)**study%scaling%measure%power()
+            times = (study%factor(i, j)/expected(i))**study%scaling%measure%power()
             if (max(times, 1.0_wp/times) <= off_level) cycle
             self%off = self%off + 1
             if (max(times, 1.0_wp/times) <= max(self%farthest, 1.0_wp/self%farthest)) cycle
