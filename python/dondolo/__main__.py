@@ -16,6 +16,7 @@ from dondolo._base.files import whole_file
 from dondolo._fortran.records import catalogue_table
 from dondolo.exchange.fragility_model import Curve
 from dondolo.exchange.mean_functions import taxonomy_of
+from dondolo.figures.layout import lay_out
 from dondolo.records.catalogues import build_catalogue
 
 
@@ -248,15 +249,13 @@ def _save(path: str, kind: str, draw: Callable[[], Any]) -> None:
     """Draw a figure into a file, which appears whole or not at all."""
     import matplotlib.pyplot as plt
 
+    # PNG as small as by the default of 6, in two thirds of the time
+    options = {"pil_kwargs": {"compress_level": 3}} if kind == "png" else {}
     figure = draw().figure
     try:
-        engine = figure.get_layout_engine()
-        if engine is not None and kind == "png":
-            # Laid out here, since savefig would draw everything once more for that
-            engine.execute(figure)
-            figure.set_layout_engine("none")
+        lay_out(figure)
         with whole_file(path) as part:
-            figure.savefig(part, format=kind)
+            figure.savefig(part, format=kind, **options)
     except ValueError as error:
         raise dd.InputError(f"--format {kind}: {str(error).splitlines()[0]}") from None
     finally:

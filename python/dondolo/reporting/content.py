@@ -10,6 +10,7 @@ from datetime import datetime
 from typing import Any
 
 from dondolo._fortran.records import blank_unit, unit_of
+from dondolo.figures.layout import lay_out
 from dondolo.reporting.numerals import Numeral, number
 
 # Rows of a table that are written; what is left out is said
@@ -17,6 +18,8 @@ ROWS = 500
 # A drawing is embedded as SVG up to this size, and as pixels beyond: many thin curves make large drawings
 _SVG_BYTES = 600_000
 _DOTS_PER_INCH = 180
+# Around a drawing [inch]
+_MARGIN = 0.1
 
 
 @dataclass(frozen=True)
@@ -108,14 +111,16 @@ def figure(draw: Callable[[], Any], alt: str) -> Figure:
     axes = draw()
     drawing = (axes if hasattr(axes, "figure") else axes[0]).figure
     try:
+        lay_out(drawing)
+        shown = drawing.get_tightbbox().padded(_MARGIN)
         # The same bytes every time: no date, and names in the drawing by a fixed salt.
-        with mpl.rc_context({"svg.hashsalt": "dondolo", "savefig.bbox": "tight"}):
+        with mpl.rc_context({"svg.hashsalt": "dondolo"}):
             stream = io.BytesIO()
-            drawing.savefig(stream, format="svg", metadata={"Date": None})
+            drawing.savefig(stream, format="svg", metadata={"Date": None}, bbox_inches=shown)
             kind = "svg+xml"
             if stream.tell() > _SVG_BYTES:
                 stream, kind = io.BytesIO(), "png"
-                drawing.savefig(stream, format="png", dpi=_DOTS_PER_INCH)
+                drawing.savefig(stream, format="png", dpi=_DOTS_PER_INCH, bbox_inches=shown)
     finally:
         plt.close(drawing)
     return Figure(f"data:image/{kind};base64,{base64.b64encode(stream.getvalue()).decode()}", alt)
