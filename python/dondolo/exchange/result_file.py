@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
@@ -84,12 +84,15 @@ class ResultFile:
                 self._lines.append(head + rows.line_num)
                 if len(row) != len(names):
                     raise ValueError(f"{self.place(-1)}: {len(row)} cells: must be {len(names)} as in the header")
-                body.append([unguarded(cell) for cell in row])
+                body.append(row)
         except csv.Error as error:
             raise ValueError(f"line {head + rows.line_num}: {error}") from error
         if not body:
             raise ValueError("no rows")
-        return dict(zip(names, map(list, zip(*body, strict=True)), strict=True))
+        columns: Iterable[list[str]] = map(list, zip(*body, strict=True))
+        if any("'" in line for line in lines):
+            columns = ([unguarded(cell) for cell in column] for column in columns)
+        return dict(zip(names, columns, strict=True))
 
     @contextmanager
     def reading(self) -> Iterator[None]:
