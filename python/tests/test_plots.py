@@ -12,7 +12,10 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from dondolo.figures.layout import lay_out
 from dondolo.walls.shape import shape
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
 from matplotlib.image import imread
 from scipy import stats
 
@@ -142,9 +145,14 @@ def test_typology_shows_every_wall_and_the_mean(records):
     mean = line(ax, "weighted mean")
     np.testing.assert_allclose(mean.get_ydata(), people["all"].mean(mean.get_xdata()))
     grid = mean.get_xdata()
-    thin = [drawn for drawn in ax.get_lines() if len(drawn.get_xdata()) == len(grid)]
-    # Walls, edges of the band and median, mean, lognormal
-    assert len(thin) == 3 + 3 + 1 + people["all"].fit.has_fit
+    smooth = [drawn for drawn in ax.get_lines() if len(drawn.get_xdata()) == len(grid)]
+    # Edges of the band and median, mean, lognormal
+    assert len(smooth) == 3 + 1 + people["all"].fit.has_fit
+    (thin,) = (drawn for drawn in ax.collections if isinstance(drawn, LineCollection))
+    assert len(thin.get_segments()) == 3
+    for corners, curve in zip(thin.get_segments(), people["all"].probabilities(grid), strict=True):
+        assert corners[[0, -1], 0].tolist() == [grid[0], grid[-1]]
+        np.testing.assert_allclose(np.interp(grid, *corners.T), curve, rtol=0.0, atol=1e-3)
     np.testing.assert_array_equal(line(ax, "fractions").get_ydata(), people["all"].mean_fraction)
     assert people["one_sided"].plot().get_title(loc="left") == "one-sided"
     with pytest.raises(dd.InputError, match="must be one of"):
@@ -272,6 +280,21 @@ def test_animation_follows_the_motion(motion, tmp_path):
     assert (tmp_path / "motion.gif").stat().st_size > 10_000
     with pytest.raises(dd.InputError, match="must be positive"):
         motion.animate(speed=0.0)
+
+
+def test_a_figure_that_is_laid_out_is_drawn_once(motion, tmp_path, monkeypatch):
+    figure = motion.plot()[0].figure
+    drawn = []
+    original = Axes.draw
+    monkeypatch.setattr(Axes, "draw", lambda self, renderer: drawn.append(self) or original(self, renderer))
+    lay_out(figure)
+    assert drawn == []
+    figure.savefig(tmp_path / "history.png")
+    assert len(drawn) == len(figure.axes) == 2
+    # The same figure as one that savefig lays out
+    other = motion.plot()[0].figure
+    other.savefig(tmp_path / "other.png")
+    np.testing.assert_array_equal(imread(tmp_path / "history.png"), imread(tmp_path / "other.png"))
 
 
 def command(*arguments, folder):

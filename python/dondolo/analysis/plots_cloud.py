@@ -61,7 +61,7 @@ def draw_cloud(cloud: Cloud, ax: Axes | None) -> Axes:
     ax.set_ylim(bottom, 2.2 * limit)
     ax.set_xlabel(style.im_label(cloud.im))
     ax.set_ylabel("EDP = largest rotation / capacity")
-    ax.set_title(cloud.wall.name, loc="left", parse_math=False)
+    style.title(ax, cloud.wall.name)
     if cloud.collapse.status in ("ok", "separated"):
         right = ax.twinx()
         right.plot(grid, cloud.collapse(grid), color=style.RED, linewidth=1.6)

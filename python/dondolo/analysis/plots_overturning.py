@@ -53,6 +53,6 @@ def draw_spectrum(spectrum: OverturningSpectrum, ax: Axes | None) -> Axes:
     ax.set_xlabel("frequency of the pulse $\\omega_p / p$")
     one_block = spectrum.wall.mechanism != "two_block"
     ax.set_ylabel("amplitude $a_p / (g\\,\\tan\\alpha)$" if one_block else "amplitude / trigger acceleration")
-    ax.set_title(f"{spectrum.wall.name}, {spectrum.pulse}", loc="left", parse_math=False)
+    style.title(ax, f"{spectrum.wall.name}, {spectrum.pulse}")
     style.legend(ax, loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=2)
     return ax

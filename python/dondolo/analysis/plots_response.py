@@ -32,9 +32,7 @@ def draw_history(response: Response, ax: Iterable[Axes] | None) -> style.Panels:
     name = "trigger acceleration" if getattr(wall, "interlock_overlap", None) is None else "trigger, first motion"
     above.plot([], [], color=style.RED, linewidth=0.9, linestyle="--", label=name)
     above.set_ylabel("ground\nacceleration [g]")
-    above.set_title(
-        f"{wall.name}, record {response.record.name}, scale {response.scale:.4g}", loc="left", parse_math=False
-    )
+    style.title(above, f"{wall.name}, record {response.record.name}, scale {response.scale:.4g}")
     style.legend(above, loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.0)
 
     ratio = rotation / wall.capacity_angle
@@ -95,7 +93,7 @@ def animate(response: Response, frames_per_second: float, speed: float) -> FuncA
     (point,) = right.plot([], [], linestyle="none", marker="o", color=style.RED)
     right.set_xlabel("time [s]")
     right.set_ylabel("rotation / capacity")
-    right.set_title(f"{wall.name}, record {response.record.name}", loc="left", parse_math=False)
+    style.title(right, f"{wall.name}, record {response.record.name}")
     instants = np.arange(time[0], time[-1] + 0.5 * pace / rate, pace / rate)
 
     def draw(frame: int) -> list[Any]:

@@ -59,7 +59,7 @@ def draw_stripes(stripes: Stripes, ax: Axes | None) -> Axes:
     ax.set_xlim(0.0, 1.05 * levels.max())
     ax.set_xlabel(style.im_label(stripes.im))
     ax.set_ylabel("EDP = largest rotation / capacity")
-    ax.set_title(stripes.wall.name, loc="left", parse_math=False)
+    style.title(ax, stripes.wall.name)
     if stripes.status is None:
         style.legend(ax, loc="upper left", bbox_to_anchor=(0.0, 0.8))
     else:
@@ -133,7 +133,7 @@ def draw_incremental(incremental: Incremental, ax: Axes | None) -> Axes:
     ax.set_ylim(0.0, 1.05 * levels[-1])
     ax.set_xlabel("EDP = largest rotation / capacity")
     ax.set_ylabel(style.im_label(stripes.im))
-    ax.set_title(stripes.wall.name, loc="left", parse_math=False)
+    style.title(ax, stripes.wall.name)
     style.legend(ax, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2, handlelength=3.2)
     return ax
 

@@ -71,7 +71,7 @@ def draw_fragility(
     ax.set_xlabel(style.im_label(fragility.im))
     ax.set_ylabel("probability of collapse")
     if fragility.wall is not None and label is None:
-        ax.set_title(fragility.wall.name, loc="left", parse_math=False)
+        style.title(ax, fragility.wall.name)
     style.legend(ax, loc="upper left" if label is None else "lower right")
     return ax
 

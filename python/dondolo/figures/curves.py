@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
 # Points of a curve; enough for a smooth line
 POINTS = 301
+# How far a thin curve of probabilities may be from its points; a pixel is ten times as much
+_OFF = 4e-4
 # What tells lines apart in grey
 LINES: tuple[Any, ...] = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, (1, 3)))
 _MARKERS = "osD^v<>"
@@ -29,6 +31,25 @@ def grid(levels: ArrayLike) -> NDArray[np.float64]:
 def axes(ax: Axes | None, rows: int) -> Axes:
     """The axes given, or those of a new figure with room for so many rows of a legend below."""
     return style.axes(ax, (6.0, 3.8 + 0.19 * rows))
+
+
+def thin(ax: Axes, x: NDArray[np.float64], many: NDArray[np.float64], width: float, alpha: float) -> None:
+    """Many thin curves (curves, points) as one artist, under everything else; the limits of the axes stay."""
+    from matplotlib.collections import LineCollection
+
+    lines = [np.column_stack([x[kept], y[kept]]) for y, kept in zip(many, _corners(many), strict=True)]
+    drawn = LineCollection(lines, colors=style.GREY, linewidths=width, alpha=alpha, zorder=1)
+    ax.add_collection(drawn, autolim=False)
+
+
+def _corners(many: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Which points of curves (curves, points) to draw: every tenth at least, and more where a curve bends."""
+    bends = np.abs(np.diff(many, 2, axis=1))
+    # A chord of n steps is off by bends n^2 / 8.
+    passed = np.floor(np.cumsum(0.1 + np.sqrt(bends / (8.0 * _OFF)), axis=1))
+    kept = np.ones(many.shape, dtype=bool)
+    kept[:, 1:-1] = np.diff(passed, axis=1, prepend=0.0) > 0.0
+    return kept
 
 
 def state_looks(thresholds: Sequence[float]) -> Iterator[tuple[float, dict[str, Any], dict[str, Any]]]:
@@ -49,7 +70,7 @@ def finish(ax: Axes, im: str, x: NDArray[np.float64], title: str, ylabel: str = 
     ax.set_ylim(-0.02, 1.02)
     ax.set_xlabel(style.im_label(im))
     ax.set_ylabel(ylabel)
-    ax.set_title(title, loc="left", parse_math=False)
+    style.title(ax, title)
     longest = max(map(len, ax.get_legend_handles_labels()[1]))
     style.legend(ax, loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=1 if longest > 36 else 2)
     return ax

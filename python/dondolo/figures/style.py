@@ -113,6 +113,12 @@ def plain_ticks(axis: Axis) -> None:
     axis.set_minor_formatter(NullFormatter())
 
 
+def title(ax: Axes, text: str, **options: Any) -> None:
+    """A title that holds names, which are no formulas."""
+    # With y given Matplotlib measures the ticks once less in every layout and drawing: no ticks are above these axes.
+    ax.set_title(text, loc="left", y=1.0, parse_math=False, **options)
+
+
 def legend(ax: Axes, **options: Any) -> None:
     """A legend without a frame, if there is something to explain; names in it are no formulas."""
     handles, labels = ax.get_legend_handles_labels()

@@ -30,8 +30,7 @@ def draw_curve(curve: PopulationCurve, ax: Axes | None) -> Axes:
     members = curve.members
     walls = len(members.weights)
     drawn = np.unique(np.linspace(0, walls - 1, _THIN).round().astype(int))
-    thin = curve.probabilities(grid)[drawn]
-    ax.plot(grid, thin.T, color=style.GREY, linewidth=0.5, alpha=0.5 if len(drawn) > 40 else 1.0, zorder=1)
+    curves.thin(ax, grid, curve.probabilities(grid)[drawn], 0.5, 0.5 if len(drawn) > 40 else 1.0)
     text = f"{len(drawn)} of {walls} walls" if len(drawn) < walls else style.counted(walls, "wall")
     ax.plot([], [], color=style.GREY, linewidth=0.5, label=text)
     _band(ax, curve, grid, style.BLUE)

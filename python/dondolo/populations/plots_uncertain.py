@@ -35,9 +35,9 @@ def _draw_curves(found: UncertainWall, ax: Any) -> None:
     """The curves of the sample with their mean, and that of the medians with the band of its records."""
     grid = curves.grid(found.typology.levels)
     walls = len(found.sample)
-    thin = found.curve.probabilities(grid)[np.unique(np.linspace(0, walls - 1, _THIN).round().astype(int))]
-    ax.plot(grid, thin.T, color=style.GREY, linewidth=0.4, alpha=0.4, zorder=1)
-    ax.plot([], [], color=style.GREY, linewidth=0.6, label=f"sample of the model, {len(thin)} of {walls} variants")
+    drawn = np.unique(np.linspace(0, walls - 1, _THIN).round().astype(int))
+    curves.thin(ax, grid, found.curve.probabilities(grid)[drawn], 0.4, 0.4)
+    ax.plot([], [], color=style.GREY, linewidth=0.6, label=f"sample of the model, {len(drawn)} of {walls} variants")
     middle = found.at_medians
     if middle.has_errors:
         low, high = middle.interval(grid)

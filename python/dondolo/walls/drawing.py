@@ -26,7 +26,7 @@ def draw_wall(wall: Wall, rotation: float, ax: Axes | None, note: str = "") -> A
     ax.plot(*now.hinges.T, linestyle="none", marker="o", color=style.RED, markersize=6, label="hinge", zorder=4)
     frame(ax, wall)
     draw_loads(ax, wall, rotation, now)
-    ax.set_title(f"{wall.name}\nrotation {rotation:.3g} rad{note}", loc="left", fontsize=9.5, parse_math=False)
+    style.title(ax, f"{wall.name}\nrotation {rotation:.3g} rad{note}", fontsize=9.5)
     # A legend's own marker would pass for one more hinge.
     base = now.hinges[0]
     right = base[0] > 0.5 * wall.thickness
