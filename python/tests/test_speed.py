@@ -36,7 +36,7 @@ def test_work(wall, records):
 
 
 def test_lanes_outrun_rk45(wall, records):
-    """Twelve times as fast with AVX-512, nine with AVX2, four and a half without; some six tenths of that are asked for."""
+    """Twelve times as fast with AVX-512, nine with AVX2, four and a half without; six tenths of that are asked for."""
     ratios = []
     for _ in range(5):
         slow, fast = timed(wall, records, "rk45"), timed(wall, records, "lanes")
