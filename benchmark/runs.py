@@ -57,9 +57,9 @@ def new_run(report):
 
 
 def commit():
-    """Commit of the sources, with UNCOMMITTED at its end if they differ from it or there is none."""
+    """Latest commit that changed the sources, with UNCOMMITTED at its end if they differ from it or there is none."""
     try:
-        found = git("rev-parse", "--short=12", "HEAD")
+        found = git("log", "-1", "--format=%H", "--", *SOURCES)[:12]
         return found + (UNCOMMITTED if git("status", "--porcelain", "--", *SOURCES) else "")
     except (OSError, subprocess.CalledProcessError):
         return UNCOMMITTED
