@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 # Points of a curve; enough for a smooth line
 POINTS = 301
-# How far a thin curve of probabilities may be from its points; a pixel is ten times as much
+# Chords of a thin curve of probabilities are off by about this much; a pixel is nearly ten times as much
 _OFF = 4e-4
 # What tells lines apart in grey
 LINES: tuple[Any, ...] = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, (1, 3)))
