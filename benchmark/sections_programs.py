@@ -191,8 +191,8 @@ def speeds(results, turns):
     times = Spread.of(times_of(turns, *lanes).values())
     sentence = (
         f"{mine.histories} time histories of one wall under recorded motions take "
-        f"{rounded(times.median)} ms (quartiles {rounded(times.lower)} and {rounded(times.upper)}) on one core in a "
-        f"call from Python (`{variant}`): {', '.join(factors)}, each at its cheapest setting that is accurate enough, "
+        f"{rounded(times.median, 3)} ms (quartiles {rounded(times.lower, 3)} and {rounded(times.upper, 3)}) on one core "
+        f"in a call from Python (`{variant}`): {', '.join(factors)}, each at its cheapest setting that is accurate enough, "
         "all warm and in the same rounds."
     )
     return paragraph(sentence, indent="  ")[:-1]

@@ -1,5 +1,7 @@
 """Comparison of a run of the benchmark with earlier ones."""
 
+import statistics
+
 from markdown import many, paragraph, table
 from runs import earlier, pairs
 from spread import rounded
@@ -25,19 +27,34 @@ def earlier_runs(runs, run):
         f"Runs of the same commit ({run.commit}), compiler options, processor, version and build variant in "
         "`benchmark/runs.csv`. A ratio of two runs agrees if each median lies between the quartiles of the other. "
         f"Quartiles hold half of the rounds: of runs that differ by chance alone, {BY_CHANCE} % of the ratios agree "
-        "with seven rounds each (simulated, normal errors)."
+        "with seven rounds each (simulated, normal errors). All rounds of a run share "
+        "its processes, so that what differs from process to process does not show in its quartiles. How far two runs are "
+        "apart is the difference of their medians."
     )
     body = []
     for other in others:
         common = pairs(found, runs[other])
         agree = sum(mine.agrees(theirs) for mine, theirs in common)
-        body.append([other.date, f"{agree} of {many(len(common), 'ratio')}"])
-    lines += table(["earlier run", "agree"], body)
+        apart = [abs(difference(mine, theirs)) for mine, theirs in common]
+        count = f"{agree} of {many(len(common), 'ratio')}"
+        body.append([other.date, count, f"{statistics.median(apart):.1f} %", f"{max(apart):.1f} %"])
+    lines += table(["earlier run", "agree", "median difference", "largest difference"], body)
     body = [
-        [mine.name, stated(mine), stated(theirs), "yes" if mine.agrees(theirs) else "no"]
+        [
+            mine.name,
+            stated(mine),
+            stated(theirs),
+            f"{difference(mine, theirs):+.1f} %",
+            "yes" if mine.agrees(theirs) else "no",
+        ]
         for mine, theirs in pairs(found, runs[latest])
     ]
-    return lines + table(["ratio", f"{run.date}", f"{latest.date}", "agree"], body)
+    return lines + table(["ratio", f"{run.date}", f"{latest.date}", "difference", "agree"], body)
+
+
+def difference(mine, theirs):
+    """By how much the median of a ratio is larger than that of an earlier run [%]."""
+    return 100.0 * (mine.median / theirs.median - 1.0)
 
 
 def stated(figure):

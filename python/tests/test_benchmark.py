@@ -79,10 +79,10 @@ def test_section_of_earlier_runs():
         RUN: [Figure("a", 1.05, 0.95, 1.15), Figure("b", 2.2, 2.1, 2.3), Figure("new", 1.0, 1.0, 1.0)],
     }
     lines = earlier_runs(found, RUN)
-    assert f"| {BEFORE.date} | 1 of 2 ratios |" in lines
-    assert f"| {oldest.date} | 1 of 1 ratio |" in lines
-    assert "| a | 1.05, 0.95 to 1.15 | 1, 0.9 to 1.1 | yes |" in lines
-    assert "| b | 2.2, 2.1 to 2.3 | 2, 1.9 to 2.1 | no |" in lines
+    assert f"| {BEFORE.date} | 1 of 2 ratios | 7.5 % | 10.0 % |" in lines
+    assert f"| {oldest.date} | 1 of 1 ratio | 5.0 % | 5.0 % |" in lines
+    assert "| a | 1.05, 0.95 to 1.15 | 1, 0.9 to 1.1 | +5.0 % | yes |" in lines
+    assert "| b | 2.2, 2.1 to 2.3 | 2, 1.9 to 2.1 | +10.0 % | no |" in lines
     assert not any("new" in line or "gone" in line for line in lines)
 
 
