@@ -189,10 +189,10 @@ def speeds(results, turns):
                 steps = ratio(turns, key, lanes, "own").median
                 factors[-1] += f" called from Python ({rounded(steps)} of its own steps)"
     times = Spread.of(times_of(turns, *lanes).values())
+    median, lower, upper = (rounded(value, 3) for value in (times.median, times.lower, times.upper))
     sentence = (
         f"{mine.histories} time histories of one wall under recorded motions take "
-        f"{rounded(times.median, 3)} ms (quartiles {rounded(times.lower, 3)} and {rounded(times.upper, 3)}) on one core "
-        f"in a call from Python (`{variant}`): {', '.join(factors)}, each at its cheapest setting that is accurate enough, "
-        "all warm and in the same rounds."
+        f"{median} ms (quartiles {lower} and {upper}) on one core in a call from Python (`{variant}`): "
+        f"{', '.join(factors)}, each at its cheapest setting that is accurate enough, all warm and in the same rounds."
     )
     return paragraph(sentence, indent="  ")[:-1]

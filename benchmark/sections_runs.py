@@ -27,9 +27,9 @@ def earlier_runs(runs, run):
         f"Runs of the same commit ({run.commit}), compiler options, processor, version and build variant in "
         "`benchmark/runs.csv`. A ratio of two runs agrees if each median lies between the quartiles of the other. "
         f"Quartiles hold half of the rounds: of runs that differ by chance alone, {BY_CHANCE} % of the ratios agree "
-        "with seven rounds each (simulated, normal errors). All rounds of a run share "
-        "its processes, so that what differs from process to process does not show in its quartiles. How far two runs are "
-        "apart is the difference of their medians."
+        "with seven rounds each (simulated, normal errors). All rounds of a run share its "
+        "processes, so that what differs from process to process does not show in its quartiles. How far two runs "
+        "are apart is the difference of their medians."
     )
     body = []
     for other in others:
