@@ -24,7 +24,7 @@ module stripes
    implicit none
    private
 
-   public :: new_study, choose_records, runs_of_records, plan, scales, run_block
+   public :: new_study, choose_records, runs_of_records, plan, run_block
 
 contains
 
@@ -110,12 +110,12 @@ contains
       call report(error, stat, message)
    end subroutine runs_of_records
 
-   !> Check what stripes of walls would be, without running them: histories of each in a stripe in which every record runs,
-   !> and the parcel of the warnings
-   subroutine plan(study, walls, w, histories, sent, stat, message)
+   !> Check what stripes of walls would be, without running them. The parcel's integers are the histories of each wall in a
+   !> stripe in which every record runs; then of those of the last wall the record (from 1) and the polarity of each, and
+   !> stripe by stripe 1 where it runs, else 0. Its reals are their scales, stripe by stripe, its lines the warnings
+   subroutine plan(study, walls, w, sent, stat, message)
       integer(c_int64_t), intent(in) :: study, walls
       integer(c_int), intent(in) :: w
-      integer(c_int), intent(out) :: histories(w)
       integer(c_int64_t), intent(out) :: sent(4)
       integer(c_int), intent(out) :: stat
       character(len=2048), intent(out) :: message
@@ -127,10 +127,9 @@ contains
       type(warnings_type) :: warnings
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
-      integer :: i
+      integer :: histories(w), i
       logical :: fresh
 
-      histories = 0
       call find_study(study, chosen, error)
       if (.not. allocated(error)) call find_walls(walls, people, error)
       do i = 1, w
@@ -156,39 +155,12 @@ contains
          call oddities%warn(warnings)
          call warn_of_records(chosen%suite%records, chosen%suite%peaks, people(1)%gravity, warnings)
          call scales%warn(warnings)
+         parcel%integers = [histories, stripes%record, stripes%polarity, merge(1, 0, stripes%ran)]
+         parcel%reals = [stripes%scale]
          call warning_objects(warnings, parcel%lines)
       end if
       call send(parcel, error, sent, stat, message)
    end subroutine plan
-
-   !> Record (from 1) and polarity of the k histories of a stripe of one wall, and their scales at all levels; ran: 1 where
-   !> one runs, else 0
-   subroutine scales(study, walls, number, k, m, record, polarity, scale, ran, stat, message)
-      integer(c_int64_t), intent(in) :: study, walls
-      integer(c_int), intent(in) :: number, k, m
-      integer(c_int), intent(out) :: record(k), polarity(k), ran(k, m), stat
-      real(c_double), intent(out) :: scale(k, m)
-      character(len=2048), intent(out) :: message
-      type(study_type), pointer :: chosen
-      type(wall_type), pointer :: people(:)
-      type(stripes_type) :: stripes
-      type(error_type), allocatable :: error
-
-      record = 0
-      polarity = 0
-      scale = 0
-      ran = 0
-      call find_study(study, chosen, error)
-      if (.not. allocated(error)) call find_walls(walls, people, error)
-      if (.not. allocated(error)) call plan_stripes(stripes, people(number), chosen, error)
-      if (.not. allocated(error)) then
-         record = stripes%record
-         polarity = stripes%polarity
-         scale = stripes%scale
-         ran = merge(1, 0, stripes%ran)
-      end if
-      call report(error, stat, message)
-   end subroutine scales
 
    !> Run `count` histories of walls `one` to `last`, which plan has checked, from number `first` of wall `one` on; they are
    !> numbered wall by wall and stripe by stripe. Counts of what was computed come in the order of work_names

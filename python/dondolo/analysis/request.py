@@ -139,21 +139,19 @@ class Request:
         check(stat, message)
         return np.asarray(runs, dtype=np.float64)
 
-    @property
+    @functools.cached_property
     def share(self) -> FloatArray:
         """Share of the records that run at each level, shape (levels,)."""
         return np.asarray(self.runs.mean(axis=0))
 
     def plan(self) -> Plan:
         """Check everything; nothing is run."""
-        study, people, walls = self._study.number, self._people.number, len(self.walls)
-        histories, *sent = _core.stripes.plan(study, people, walls)
-        found = unpack_warnings(receive(*sent).lines)
-        record, polarity, scale, ran, stat, message = _core.stripes.scales(
-            study, people, walls, histories[-1], len(self.levels)
-        )
-        check(stat, message)
-        return Plan(histories, record - 1, polarity, scale.T, ran.T == 1, found)
+        walls, levels = len(self.walls), len(self.levels)
+        integers, scale, lines = receive(*_core.stripes.plan(self._study.number, self._people.number, walls))
+        # Histories of each wall; of the last, record and polarity of each, and which run at each level
+        histories, rest = integers[:walls], integers[walls:].reshape(levels + 2, -1)
+        record, polarity, ran = rest[0] - 1, rest[1], rest[2:] == 1
+        return Plan(histories, record, polarity, scale.reshape(levels, -1), ran, unpack_warnings(lines))
 
     def totals(self, histories: IntArray) -> NDArray[np.int64]:
         """Histories of each wall in all stripes."""

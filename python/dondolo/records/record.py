@@ -197,7 +197,7 @@ class Record:
         """
         return 0.0 if self.vertical is None else max(0.0, -float(self.vertical.min()))
 
-    @property
+    @cached_property
     def event(self) -> str:
         """Earthquake of the record, else station and date of the recording, else '': see `Fragility.clusters`."""
         # As in dondolo_clusters
