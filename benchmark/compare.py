@@ -9,7 +9,6 @@ import platform
 import re
 import sys
 import tempfile
-from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
 
@@ -35,14 +34,14 @@ def compare(executable, records, quick, progress):
     problems = [problem(wall, records) for wall in (SINGLE_BLOCKS[:1] if quick else SINGLE_BLOCKS)]
     plan(progress, problems, quick)
     *rounds, last = QUICK_ROUNDS if quick else ROUNDS
-    with tempfile.TemporaryDirectory() as folder, ExitStack() as stack:
+    with tempfile.TemporaryDirectory() as folder:
         turns = None
         for each, count in zip(problems, rounds, strict=True):
             say(f"{each.wall}, {len(each)} histories under {each.name} accelerograms")
             own, path, case = settings(executable, each, folder, turns is None and not quick, progress)
             found += own
             if turns is None:
-                turns = stack.enter_context(Rounds(executable, each, own, path, case))
+                turns = Rounds(executable, each, own, path, case)
             turns.group(count)
             progress.finish("rounds")
         rows = measure(executable, 1 if quick else 7)

@@ -1,16 +1,16 @@
 """The best setting of every program in turns, for ratios of times.
 
-Every program is one process that waits until its turn comes. In a round each has one turn, so that a machine that
-slows down affects all of them; the rounds come in groups at different times of the benchmark, so that the spread of the
-ratios shows what a machine does in the course of minutes too.
+In a round each has one turn, so that a machine that slows down affects all of them. A program starts anew for every
+turn, and the rounds come in groups at different times of the benchmark: the spread of the ratios shows what differs
+from process to process, and what a machine does in the course of minutes.
 """
 
 import csv
 import statistics
 import subprocess
 import time
-from contextlib import ExitStack
 from dataclasses import asdict, dataclass, fields
+from operator import le
 
 import arithmetic
 from programs import BUILD, DONDOLO, command_of, peer_of, run_dondolo
@@ -59,41 +59,49 @@ def by_program(results):
     return found
 
 
+def as_accurate(results, yardstick):
+    """Cheapest setting of a program with no more errors than another result in any respect, None if there is none."""
+
+    def errors(each):
+        return each.flags / each.histories, each.share, each.worst
+
+    good = [each for each in results if all(map(le, errors(each), errors(yardstick)))]
+    return min(good, key=lambda each: each.ms_of_all, default=None)
+
+
+def opponents(results):
+    """Settings of the other programs that take turns, with their names: the chosen one, and one as accurate as lanes."""
+    lanes = next(each for each in results if (each.name, each.setting) == references(results)["lanes"])
+    for program, several in by_program(results).items():
+        if program != DONDOLO.name:
+            best, accurate = chosen(several), as_accurate(several, lanes)
+            yield program, best
+            if accurate not in (None, best):
+                yield f"{program}, as accurate", accurate
+
+
 def contestants(results):
-    """Dondolo's engines by default and the tight one, and the chosen setting of each other program."""
+    """Dondolo's engines by default and the tight one, and the settings of the other programs that take turns."""
     own = references(results).values()
     found = [each for each in results if (each.name, each.setting) in own]
-    return found + [chosen(several) for name, several in by_program(results).items() if name != DONDOLO.name]
+    return found + [each for _, each in opponents(results)]
 
 
 class Rounds:
-    """Programs that wait for their turns; a context that ends them."""
+    """Programs that have their turns in every round."""
 
     def __init__(self, executable, problem, results, path, case):
-        """Start the contestants among the results; path and case are what they are called with."""
+        """Choose the contestants among the results; path and case are what they are called with."""
         self.executable, self.problem = executable, problem
         self.turns, self.number = [], 0
-        self.running = []  # (result, process)
-        with ExitStack() as stack:
-            for each in contestants(results):
-                peer = peer_of(each)
-                if each.seconds > SLOWEST or not peer.waits:
-                    self.turns.append(self.turn(0, each, each.seconds, each.own))
-                    continue
-                command = command_of(peer, case if peer.takes_case else path, each.method, each.setting, 0, problem)
-                pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
-                process = stack.enter_context(subprocess.Popen(command, text=True, **pipes))
-                stack.callback(process.kill)
-                self.running.append((each, process))
-            self.stack = stack.pop_all()
-
-    def __enter__(self):
-        """Hand out the rounds."""
-        return self
-
-    def __exit__(self, *_):
-        """End the programs."""
-        self.stack.close()
+        self.programs = []  # (result, command)
+        for each in contestants(results):
+            peer = peer_of(each)
+            if each.seconds > SLOWEST or not peer.waits:
+                self.turns.append(self.turn(0, each, each.seconds, each.own))
+                continue
+            command = command_of(peer, case if peer.takes_case else path, each.method, each.setting, 0, problem)
+            self.programs.append((each, command))
 
     def turn(self, number, result, seconds, own):
         """Turn of a program; of a part of the histories, scaled to all of them."""
@@ -104,11 +112,8 @@ class Rounds:
         """Run some rounds."""
         first = self.number + 1
         for number in range(first, first + rounds):
-            for each, process in self.running:
-                if number == 1:
-                    call(process)  # warms up
-                seconds, own = several_calls(process)
-                self.turns.append(self.turn(number, each, seconds, own))
+            for each, command in self.programs:
+                self.turns.append(self.turn(number, each, *calls_of(command)))
             arguments = (self.executable, self.problem.wall, self.problem.motions, 1e-8, "lanes", 1)
             (whole,), (histories,) = run_dondolo(*arguments)
             self.turns.append(Turn(number, COLD, 1e-8, 1e3 * whole, 1e3 * histories))
@@ -134,11 +139,17 @@ def call(process):
     raise RuntimeError(f"a program of the rounds ended: {' '.join(map(str, process.args))}")
 
 
-def several_calls(process):
-    """Median of the calls of one turn."""
-    calls, start = [], time.monotonic()
-    while not calls or time.monotonic() - start < TURN:
-        calls.append(call(process))
+def calls_of(command):
+    """Median of the calls of one turn, of a new process that is warm after a call that is not timed."""
+    pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
+    with subprocess.Popen(command, text=True, **pipes) as process:
+        try:
+            call(process)
+            calls, start = [], time.monotonic()
+            while not calls or time.monotonic() - start < TURN:
+                calls.append(call(process))
+        finally:
+            process.kill()
     return tuple(map(statistics.median, zip(*calls, strict=True)))
 
 
@@ -165,13 +176,11 @@ def ratio(turns, over, under, what="ms"):
 
 
 def compared(results):
-    """What the rounds compare, as (name, result, what): the chosen setting of each other program, or its own steps."""
-    for program, several in by_program(results).items():
-        if program != DONDOLO.name:
-            best = chosen(several)
-            yield program, best, "ms"
-            if best.own > 0.0:
-                yield f"{program}, own steps", best, "own"
+    """What the rounds compare, as (name, result, what): settings of other programs, or their libraries' own steps."""
+    for name, best in opponents(results):
+        yield name, best, "ms"
+        if best.own > 0.0:
+            yield f"{name}, own steps", best, "own"
 
 
 def references(results):

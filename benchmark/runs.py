@@ -9,6 +9,7 @@ from pathlib import Path
 from problem import ROOT
 from rounds import LIMIT, compared, ratio, references, shares, times_of
 from scaling import VARIANTS, spread_of
+from spread import NAMES, Spread
 
 FILE = Path(__file__).resolve().parent / "runs.csv"
 SOURCES = ("src", "app", "python", "benchmark", "meson.build", ":!benchmark/runs.csv")
@@ -38,16 +39,20 @@ class Run:
 
 @dataclass(frozen=True)
 class Figure:
-    """A ratio of a run: its name, median and quartiles."""
+    """A ratio of a run: its name and its spread over the rounds."""
 
     name: str
-    median: float
-    lower: float
-    upper: float
+    spread: Spread
 
     def agrees(self, other):
+        """Whether each median lies between the least and the largest value of the other."""
+        mine, theirs = self.spread, other.spread
+        return mine.least <= theirs.median <= mine.largest and theirs.least <= mine.median <= theirs.largest
+
+    def agrees_closely(self, other):
         """Whether each median lies between the quartiles of the other."""
-        return self.lower <= other.median <= self.upper and other.lower <= self.median <= other.upper
+        mine, theirs = self.spread, other.spread
+        return mine.lower <= theirs.median <= mine.upper and theirs.lower <= mine.median <= theirs.upper
 
 
 def new_run(report):
@@ -90,10 +95,10 @@ def figures(results, turns, rows):
             found[f"{row['kind']}, {size} threads"] = spread_of(row)
         if row["kind"] == "variant speed-up" and size > 0:
             found[f"speed-up of {VARIANTS[size]}"] = spread_of(row)
-    return [Figure(name, *(float(f"{x:.4g}") for x in astuple(spread)[:3])) for name, spread in found.items()]
+    return [Figure(name, Spread(*(float(f"{x:.4g}") for x in astuple(spread)))) for name, spread in found.items()]
 
 
-COLUMNS = [field.name for field in fields(Run)] + ["figure", "median", "lower quartile", "upper quartile"]
+COLUMNS = [field.name for field in fields(Run)] + ["figure", *NAMES]
 
 
 def append(path, run, found):
@@ -103,7 +108,7 @@ def append(path, run, found):
         writer = csv.writer(file, lineterminator="\n")
         if is_new:
             writer.writerow(COLUMNS)
-        writer.writerows([*astuple(run), *astuple(each)] for each in found)
+        writer.writerows([*astuple(run), each.name, *astuple(each.spread)] for each in found)
 
 
 def read(path):
@@ -114,8 +119,10 @@ def read(path):
             header, *rows = csv.reader(file)
         if header != COLUMNS:
             raise SystemExit(f"{path}: its columns must be {', '.join(COLUMNS)}")
-        for *about, name, median, lower, upper in rows:
-            found.setdefault(Run(*about), []).append(Figure(name, float(median), float(lower), float(upper)))
+        about = len(fields(Run))
+        for row in rows:
+            spread = Spread(*map(float, row[about + 1 :]))
+            found.setdefault(Run(*row[:about]), []).append(Figure(row[about], spread))
     return found
 
 

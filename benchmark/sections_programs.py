@@ -9,7 +9,6 @@ from rounds import (
     SLOWEST,
     TURN,
     WRONG,
-    chosen,
     compared,
     ratio,
     references,
@@ -126,10 +125,12 @@ def ratios(results, turns):
     return [
         *paragraph(
             f"For each program the cheapest setting with at most {100 * SHARE:g} % of the EDPs with an error above "
-            f"1e-6 and at most {many(WRONG, 'wrong flag')}, or, if there is none, its most accurate setting. These "
-            f"settings ran in {many(rounds, 'round')}, in which every program has its turn, each in a process that is "
-            "warm after a call that is not timed. Some of the rounds ran before the second wall and the measurements "
-            "of section 2, some between them and some after both. A turn is as many calls as fit in "
+            f"1e-6 and at most {many(WRONG, 'wrong flag')}, or, if there is none, its most accurate setting; and *as "
+            "accurate* the cheapest with no more wrong flags, no larger share of errors above 1e-6 and no larger "
+            "error than `lanes` at its defaults, where that is another one. "
+            f"These settings ran in {many(rounds, 'round')}, in which every program has its turn, each in a new "
+            "process that is warm after a call that is not timed. Some of the rounds ran before the second wall and "
+            "the measurements of section 2, some between them and some after both. A turn is as many calls as fit in "
             f"{TURN:g} s, at least one, and counts by their median. A program that takes more than {SLOWEST:g} s has "
             "no turns, nor has Octave, and its time of the table above is compared with all rounds of dondolo. The "
             "last columns are the times relative to those of dondolo's engines in the same round, at their defaults "
@@ -179,20 +180,22 @@ def speeds(results, turns):
     lanes = references(first)["lanes"]
     mine = next(each for each in first if each.name == lanes[0])
     variant = mine.version.split()[-1]
-    factors = []
+    factors = {}
+    for name, best, what in compared(first):
+        factors[name] = rounded(ratio(turns, (best.name, best.setting), lanes, what).median)
+    words = []
     for program in ("Boost.odeint", "heyoka", "SciPy"):
-        own = [each for each in first if each.program == program]
-        if own:
-            key = (chosen(own).name, chosen(own).setting)
-            factors.append(f"{rounded(ratio(turns, key, lanes).median)} times as fast as {program}")
-            if chosen(own).own > 0.0:
-                steps = ratio(turns, key, lanes, "own").median
-                factors[-1] += f" called from Python ({rounded(steps)} of its own steps)"
+        if program in factors:
+            words.append(f"{factors[program]} times as fast as {program}")
+            if f"{program}, as accurate" in factors:
+                words[-1] += f" ({factors[f'{program}, as accurate']} at dondolo's accuracy)"
+            if f"{program}, own steps" in factors:
+                words[-1] += f" called from Python ({factors[f'{program}, own steps']} of its own steps)"
     times = Spread.of(times_of(turns, *lanes).values())
     median, lower, upper = (rounded(value, 3) for value in (times.median, times.lower, times.upper))
     sentence = (
         f"{mine.histories} time histories of one wall under recorded motions take "
         f"{median} ms (quartiles {lower} and {upper}) on one core in a call from Python (`{variant}`): "
-        f"{', '.join(factors)}, each at its cheapest setting that is accurate enough, all warm and in the same rounds."
+        f"{', '.join(words)}, each at its cheapest setting that is accurate enough, all warm and in the same rounds."
     )
     return paragraph(sentence, indent="  ")[:-1]

@@ -34,18 +34,26 @@ def test_spread():
     assert Spread.of([2.345]).stated(2) == "2.3"
 
 
+def figure(name, median, half=0.1):
+    """A ratio with quartiles at half of its range."""
+    return Figure(name, Spread(median, median - half, median + half, median - 2 * half, median + 2 * half))
+
+
 @pytest.mark.parametrize(
-    ("mine", "theirs", "agrees"),
+    ("mine", "theirs", "agrees", "closely"),
     [
-        ((8.0, 7.0, 9.0), (8.5, 7.5, 9.5), True),
-        ((8.0, 7.0, 9.0), (9.5, 7.5, 11.0), False),  # the other median is outside
-        ((8.0, 6.0, 12.0), (11.0, 10.0, 13.0), False),  # this median is outside
-        ((8.0, 8.0, 8.0), (8.0, 8.0, 8.0), True),
+        ((8.0, 1.0), (8.5, 1.0), True, True),
+        ((8.0, 1.0), (9.5, 2.0), True, False),  # the other median is outside my quartiles
+        ((8.0, 3.0), (11.0, 2.0), True, False),  # this median is outside the other quartiles
+        ((8.0, 1.0), (10.5, 2.0), False, False),
+        ((8.0, 2.0), (10.5, 1.0), False, False),
+        ((8.0, 0.0), (8.0, 0.0), True, True),
     ],
 )
-def test_agreement(mine, theirs, agrees):
-    one, other = Figure("a", *mine), Figure("a", *theirs)
+def test_agreement(mine, theirs, agrees, closely):
+    one, other = figure("a", *mine), figure("a", *theirs)
     assert one.agrees(other) == other.agrees(one) == agrees
+    assert one.agrees_closely(other) == other.agrees_closely(one) == closely
 
 
 @pytest.mark.parametrize(
@@ -74,22 +82,23 @@ def test_uncommitted_runs_are_never_judged():
 def test_section_of_earlier_runs():
     oldest = replace(RUN, date="2026-01-01T10:00:00Z")
     found = {
-        oldest: [Figure("a", 1.0, 0.9, 1.1)],
-        BEFORE: [Figure("a", 1.0, 0.9, 1.1), Figure("b", 2.0, 1.9, 2.1), Figure("gone", 1.0, 1.0, 1.0)],
-        RUN: [Figure("a", 1.05, 0.95, 1.15), Figure("b", 2.2, 2.1, 2.3), Figure("new", 1.0, 1.0, 1.0)],
+        oldest: [figure("a", 1.0)],
+        BEFORE: [figure("a", 1.0), figure("b", 2.0), figure("c", 3.0), figure("gone", 1.0)],
+        RUN: [figure("a", 1.05), figure("b", 2.15), figure("c", 3.3), figure("new", 1.0)],
     }
     lines = earlier_runs(found, RUN)
-    assert f"| {BEFORE.date} | 1 of 2 ratios | 7.5 % | 10.0 % |" in lines
-    assert f"| {oldest.date} | 1 of 1 ratio | 5.0 % | 5.0 % |" in lines
-    assert "| a | 1.05, 0.95 to 1.15 | 1, 0.9 to 1.1 | +5.0 % | yes |" in lines
-    assert "| b | 2.2, 2.1 to 2.3 | 2, 1.9 to 2.1 | +10.0 % | no |" in lines
+    assert f"| {BEFORE.date} | 2 of 3 ratios | 1 | 7.5 % | 10.0 % |" in lines
+    assert f"| {oldest.date} | 1 of 1 ratio | 1 | 5.0 % | 5.0 % |" in lines
+    assert "| a | 1.05, 0.95 to 1.15 (0.85 to 1.25) | 1, 0.9 to 1.1 (0.8 to 1.2) | +5.0 % | closely |" in lines
+    assert any(line.startswith("| b |") and line.endswith("| +7.5 % | yes |") for line in lines)
+    assert any(line.startswith("| c |") and line.endswith("| +10.0 % | no |") for line in lines)
     assert not any("new" in line or "gone" in line for line in lines)
 
 
 def test_file_of_runs(tmp_path):
     path = tmp_path / "runs.csv"
     assert runs.read(path) == {}
-    found = [Figure("Boost.odeint, cut, 1e-08 / lanes", 8.0, 6.5, 9.5)]
+    found = [figure("Boost.odeint, cut, 1e-08 / lanes", 8.0)]
     runs.append(path, BEFORE, found)
     runs.append(path, RUN, found)
     assert runs.read(path) == {BEFORE: found, RUN: found}
@@ -170,12 +179,11 @@ def test_one_thread_has_no_serial_share():
     assert cost_model.serial_share(rows) is None
 
 
-def result(program, method, setting, ms, histories=880, own=0.0):
+def result(program, method, setting, ms, histories=880, own=0.0, flags=0, above=1, worst=1e-5):
     """Result of a program that takes some milliseconds for all histories."""
     times = (1e-3 * ms * histories / 880, own, ms / 880, ms / 880)
-    return Result(
-        "one_sided", "recorded", program, f"{program} 1", method, setting, histories, *times, 0, 1, 1e-5, 1e-12, 1e-9
-    )
+    errors = (flags, above, worst, 1e-12, 1e-9)
+    return Result("one_sided", "recorded", program, f"{program} 1", method, setting, histories, *times, *errors)
 
 
 @pytest.fixture
@@ -187,7 +195,11 @@ def tables(tmp_path):
         result("dondolo", "rk45", 1e-8, 200.0),
         result("dondolo", "lanes", 1e-8, 20.0),
         result("dondolo", "lanes", 1e-12, 30.0),
-        result("Boost.odeint", "cut", 1e-8, 160.0),
+        result("Boost.odeint", "cut", 1e-8, 160.0, above=4),
+        result("Boost.odeint", "cut", 1e-10, 500.0, worst=2e-5),
+        result("Boost.odeint", "cut", 1e-12, 600.0, flags=1),
+        result("Boost.odeint", "cut", 1e-13, 720.0),
+        result("Boost.odeint", "cut", 1e-14, 800.0),
         result("heyoka", "batch", 1e-9, 2000.0, own=0.25),
         result("SciPy", "RK45", 1e-6, 1e5, histories=55),
         result("GNU Octave", "ode45", 1e-6, 4e6, histories=11),
@@ -199,6 +211,7 @@ def tables(tmp_path):
             Turn(number, "dondolo, lanes", 1e-8, 20.0, 0.0),
             Turn(number, "dondolo, lanes", 1e-12, 30.0, 0.0),
             Turn(number, "Boost.odeint, cut", 1e-8, 20.0 * ratio, 0.0),
+            Turn(number, "Boost.odeint, cut", 1e-13, 720.0, 0.0),
             Turn(number, "heyoka, batch", 1e-9, 2000.0, 250.0),
             Turn(number, "SciPy, RK45", 1e-6, 1e5, 0.0),
             Turn(number, COLD, 1e-8, 70.0, 18.0),
@@ -231,8 +244,9 @@ def test_page(tables, site):
     assert "written before" not in text
     assert text.endswith(f"{page.END}\n\n## 4. Kept\n")
     boost = next(line for line in text.splitlines() if line.startswith("| Boost.odeint | cut, 1e-08 |"))
-    assert "| 160, 130 to 190 (100 to 220) | 1 of 880, 0 wrong flags | 7 | 0.8, 0.65 to 0.95 (0.5 to 1.1) |" in boost
+    assert "| 160, 130 to 190 (100 to 220) | 4 of 880, 0 wrong flags | 7 | 0.8, 0.65 to 0.95 (0.5 to 1.1) |" in boost
     assert "| 8, 6.5 to 9.5 (5 to 11) |" in boost
+    assert "| Boost.odeint, as accurate | cut, 1e-13 | 720 | 1 of 880, 0 wrong flags | 7 | 3.6 | 36 | 24 |" in text
     assert "| heyoka, own steps | batch, 1e-09 | 250 | 1 of 880, 0 wrong flags | 7 | 1.25 | 12.5 |" in text
     assert "| GNU Octave | ode45, 1e-06 | 4000000 | 1 of 11, 0 wrong flags | none | 20000 |" in text
     assert "| `one_sided` | 25 |" in text
@@ -242,7 +256,7 @@ def test_page(tables, site):
     assert "A call takes 2 ms + 0.3 ms for each record + 0.04 ms for each history" in words
     assert "no earlier run of the same commit" in words
     readme = (site / "README.md").read_text()
-    assert "8 times as fast as Boost.odeint" in readme
+    assert "8 times as fast as Boost.odeint (36 at dondolo's accuracy)" in readme
     assert readme.endswith(f"{page.END} Kept.\n")
     for name in ("work", "arithmetic", "scaling"):
         assert (site / f"docs/figures/performance_{name}.png").stat().st_size > 10_000
@@ -254,7 +268,7 @@ def test_page_compares_with_an_earlier_run(tables, site):
     assert "Boost.odeint, cut, 1e-08 / lanes" in names
     assert "share of the arithmetic limit, one_sided" in names
     assert not any("Octave" in name for name in names)
-    other = [replace(each, median=2 * each.median, lower=2 * each.lower, upper=2 * each.upper) for each in found[:2]]
+    other = [Figure(each.name, each.spread.times(2.5)) for each in found[:2]]
     runs.append(site / "runs.csv", BEFORE, other + found[2:])
     page.write(tables, site, site / "runs.csv")
     assert f"| {BEFORE.date} | {len(found) - 2} of {len(found)} ratios |" in (site / "docs/performance.md").read_text()
