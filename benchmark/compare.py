@@ -67,7 +67,7 @@ def plan(progress, problems, quick):
             for method, values in peer.methods.items():
                 progress.plan(f"{each.wall}, {peer.name}, {method}", factor * peer.expected * len(values))
     for count in QUICK_ROUNDS if quick else ROUNDS:
-        progress.plan("rounds", 22.0 * count)
+        progress.plan("rounds", 38.0 * count)
     progress.plan("scaling", 20.0 if quick else 100.0)
 
 

@@ -16,15 +16,18 @@ program test_record_set
    type(record_type) :: records(size(lengths))
    type(record_set_type) :: set
    type(random_type) :: random
-   integer :: i, j
+   integer :: i, j, team
 
    random = new_random(4711, 0)
    do i = 1, size(lengths)
       records(i) = accelerogram([(between(random, -1.0_wp, 1.0_wp), j=1, lengths(i))], 0.01_wp)
    end do
-   call new_record_set(set, records)
-   call test_samples()
-   call test_search()
+   ! One thread and three join them alike
+   do team = 1, 3, 2
+      call new_record_set(set, records, team)
+      call test_samples()
+      call test_search()
+   end do
    call test_single_sample()
    call finish()
 

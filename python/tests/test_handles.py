@@ -50,12 +50,12 @@ def test_no_record_crosses_twice(few, replace_procedure):
 
 def test_use_after_free(few):
     suite, walls = upload(tuple(few)).number, upload_walls((dd.OneSidedWall(3.0, 0.25),))
-    handle, *_ = _core.records.new_suite(b"a", [2], [0.1], [1.0, 2.0], [0], [0.0])
+    handle, *_ = _core.records.new_suite(b"a", [2], [0.1], [1.0, 2.0], [0], [0.0], 1)
     study, stat, _ = _core.stripes.new_study(handle, b"pga", [0.1], b"both", b"auto", [1e-8, 1e-10, 1.0, 0.0, 0.0], 1)
     assert stat == 0
     _core.library.free(handle)
     _core.library.free(handle)
-    other, *_ = _core.records.new_suite(b"a", [2], [0.1], [1.0, 2.0], [0], [0.0])
+    other, *_ = _core.records.new_suite(b"a", [2], [0.1], [1.0, 2.0], [0], [0.0], 1)
     for number in (handle, -1, 0, 1, 2**40, 2**62, walls.number):
         *_, stat, message = _core.records.measure_suite(number, b"pga", 1)
         assert stat == 2

@@ -31,9 +31,9 @@ module records
 contains
 
    !> Upload records that Python has checked: a suite
-   subroutine new_suite(names, lengths, dt, r, acceleration, n, have_vertical, vertical, k, handle, stat, message)
+   subroutine new_suite(names, lengths, dt, r, acceleration, n, have_vertical, vertical, k, threads, handle, stat, message)
       character(len=*), intent(in) :: names
-      integer(c_int), intent(in) :: r, n, k, lengths(r), have_vertical(r)
+      integer(c_int), intent(in) :: r, n, k, lengths(r), have_vertical(r), threads
       real(c_double), intent(in) :: dt(r), acceleration(n), vertical(k)
       integer(c_int64_t), intent(out) :: handle
       integer(c_int), intent(out) :: stat
@@ -44,10 +44,11 @@ contains
       type(error_type), allocatable :: error
 
       handle = 0
-      call set_records(records, names, lengths, dt, acceleration, have_vertical, vertical, error)
+      call check_threads(threads, error)
+      if (.not. allocated(error)) call set_records(records, names, lengths, dt, acceleration, have_vertical, vertical, error)
       if (.not. allocated(error)) then
          allocate (suite)
-         call make_suite(suite, records)
+         call make_suite(suite, records, threads)
          content => suite
          call hold(content, handle)
       end if

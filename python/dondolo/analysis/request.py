@@ -103,7 +103,7 @@ class Request:
     @functools.cached_property
     def _study(self) -> Handle:
         """Records, levels and settings in Fortran."""
-        suite = upload_records(self.records)
+        suite = upload_records(self.records, self.threads)
         words = [as_text(what, getattr(self, what)) for what in ("im", "polarity", "engine")]
         if self.im:
             check(*_core.records.measure_suite(suite.number, words[0], self.threads))

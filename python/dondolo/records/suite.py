@@ -38,8 +38,8 @@ class Motion(Protocol):
     def __len__(self) -> int: ...
 
 
-def upload(records: tuple[Motion, ...]) -> Handle:
-    """The records as a suite in Fortran. The same records in the same order are uploaded once.
+def upload(records: tuple[Motion, ...], threads: int = 1) -> Handle:
+    """The records as a suite in Fortran, joined by threads. The same records in the same order are uploaded once.
 
     Each record keeps the suite that it was uploaded with last, and its place there: a suite lives as long as one of its
     records does, and has not come into another.
@@ -57,6 +57,7 @@ def upload(records: tuple[Motion, ...]) -> Handle:
         np.array([record.vertical is not None for record in records], dtype=np.int32),
         # f2py takes no empty arrays
         np.concatenate(verticals or [np.zeros(1)]),
+        threads,
     )
     check(stat, message)
     suite = Handle(handle)

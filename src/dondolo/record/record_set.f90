@@ -2,6 +2,7 @@
 module dondolo_record_set
    use dondolo_kinds, only : wp
    use dondolo_record, only : find_extremes, record_type
+   use dondolo_threads, only : team_of
    implicit none
    private
 
@@ -37,14 +38,19 @@ module dondolo_record_set
 
 contains
 
-   !> Join records
-   pure subroutine new_record_set(set, records)
+   !> Join records. Each thread writes the samples of some of them, which the system then places in the memory of the node
+   !> that the thread runs on: those of all records lie in the memory of all nodes
+   subroutine new_record_set(set, records, threads)
       !> Their samples together
       type(record_set_type), intent(out) :: set
       type(record_type), intent(in) :: records(:)
+      !> Number of threads, 0: all that OpenMP gives; one if absent
+      integer, intent(in), optional :: threads
 
-      integer :: i, j, k, samples, blocks, n
+      integer :: i, samples, blocks, team
 
+      team = 1
+      if (present(threads)) team = team_of(threads, size(records))
       allocate(set%offset(size(records)), set%length(size(records)), set%first_block(size(records)))
       samples = 0
       blocks = 0
@@ -57,30 +63,44 @@ contains
       end do
       allocate(set%samples(samples), set%lowest(blocks), set%highest(blocks), set%lowest_left(blocks), &
          & set%highest_left(blocks))
-      k = 0
+      !$omp parallel do num_threads(team) if(team > 1) default(none) shared(set, records)
       do i = 1, size(records)
-         associate (a => records(i)%acceleration, before => set%offset(i))
-            n = set%length(i)
-            set%samples(before + 1:before + n) = a
-            set%samples(before + n + 1:before + n + 2) = 0.0_wp
-            do j = 1, n, block_size
-               k = k + 1
-               call find_extremes(a(j:min(j + block_size - 1, n)), set%lowest(k), set%highest(k))
-            end do
-            set%lowest_left(k) = set%lowest(k)
-            set%highest_left(k) = set%highest(k)
-            do j = k - 1, set%first_block(i) + 1, -1
-               set%lowest_left(j) = min(set%lowest(j), set%lowest_left(j + 1))
-               set%highest_left(j) = max(set%highest(j), set%highest_left(j + 1))
-            end do
-         end associate
+         call add_record(set, i, records(i)%acceleration)
       end do
+      !$omp end parallel do
       do i = 1, size(records)
          if (.not. allocated(records(i)%vertical)) cycle
          call add_verticals(set, records)
          return
       end do
    end subroutine new_record_set
+
+   !> Join the samples of one record
+   pure subroutine add_record(set, record, a)
+      !> Samples of the records together
+      type(record_set_type), intent(inout) :: set
+      !> Number of the record
+      integer, intent(in) :: record
+      !> Its samples [m/s2]
+      real(wp), intent(in) :: a(:)
+
+      integer :: j, k, n
+
+      n = size(a)
+      associate (before => set%offset(record), first => set%first_block(record))
+         set%samples(before + 1:before + n) = a
+         set%samples(before + n + 1:before + n + 2) = 0.0_wp
+         do k = first + (n - 1)/block_size + 1, first + 1, -1
+            j = (k - first - 1)*block_size + 1
+            call find_extremes(a(j:min(j + block_size - 1, n)), set%lowest(k), set%highest(k))
+            set%lowest_left(k) = set%lowest(k)
+            set%highest_left(k) = set%highest(k)
+            if (j + block_size > n) cycle
+            set%lowest_left(k) = min(set%lowest(k), set%lowest_left(k + 1))
+            set%highest_left(k) = max(set%highest(k), set%highest_left(k + 1))
+         end do
+      end associate
+   end subroutine add_record
 
    !> Join the vertical components of records
    pure subroutine add_verticals(set, records)

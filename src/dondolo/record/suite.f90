@@ -55,13 +55,15 @@ module dondolo_suite
 contains
 
    !> Make a suite
-   subroutine new_suite(suite, records)
+   subroutine new_suite(suite, records, threads)
       type(suite_type), intent(out) :: suite
       !> Accelerograms, one at least; they are moved into the suite
       type(record_type), allocatable, intent(inout) :: records(:)
+      !> Number of threads that join them, 0: all that OpenMP gives; one if absent
+      integer, intent(in), optional :: threads
 
       call move_alloc(records, suite%records)
-      call new_record_set(suite%set, suite%records)
+      call new_record_set(suite%set, suite%records, threads)
       suite%peaks = suite%records%pga()
       suite%falls = suite%records%largest_fall()
       allocate (suite%clusters(size(suite%records)))

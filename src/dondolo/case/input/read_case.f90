@@ -340,7 +340,7 @@ contains
       if (.not. allocated(error)) call check_room(bytes_of_sample*sum([(real(size(records(i)%acceleration), wp), &
          & i=1, size(records))]), error)
       if (allocated(error)) return
-      call new_suite(case%suite, records)
+      call new_suite(case%suite, records, case%job%threads)
       if (len(note) > 0) call case%notes%add(note)
    end subroutine read_records
 
