@@ -361,7 +361,8 @@ class Fragility(Shown, Saved):
             raise DondoloError(f"no standard errors: {_WHY[self.errors]}")
 
     def _quantile(self, level: float) -> float:
-        """Quantile of Student's t for an interval, that of the executable: importing scipy.special takes 0.15 s."""
+        """Quantile of Student's t for an interval."""
+        # The executable's; scipy.special, which has it too, takes longer to import than a figure to draw
         upper = tails(level)[1]
         self._need_errors()
         return student_quantile(upper, self.degrees_of_freedom) if self.clusters else NormalDist().inv_cdf(upper)
