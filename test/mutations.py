@@ -53,8 +53,8 @@ EDITS = [
     ),
     Edit(
         "intervals of clustered errors have the normal quantile",
-        "stdtrit(self.degrees_of_freedom, upper) if self.clusters else ndtri(upper)",
-        "ndtri(upper)",
+        "student_quantile(upper, self.degrees_of_freedom) if self.clusters else NormalDist().inv_cdf(upper)",
+        "NormalDist().inv_cdf(upper)",
         "test_fitting.py::test_clustered_covariance_is_that_of_fits_without_each_event",
     ),
     Edit(

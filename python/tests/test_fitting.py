@@ -5,6 +5,7 @@ import warnings
 
 import numpy as np
 import pytest
+from dondolo._fortran.curves import student_quantile
 from dondolo.curves.bootstrap import draw_records
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -182,6 +183,13 @@ def test_delta_interval_is_that_of_a_probit_regression(level):
     predicted = model.fit(tol=1e-14, maxiter=300).get_prediction(api.add_constant(np.log(x)))
     found = np.transpose(curve.interval(x, confidence=level))
     assert found == pytest.approx(predicted.conf_int(alpha=1.0 - level), rel=1e-6)
+
+
+@pytest.mark.parametrize("degrees", [1.0, 2.0, 21.0, 859.0])
+@pytest.mark.parametrize("level", [0.5, 0.9, 0.95, 0.99])
+def test_quantiles_of_students_t(degrees, level):
+    upper = 0.5 + 0.5 * level
+    assert student_quantile(upper, degrees) == pytest.approx(stats.t.ppf(upper, degrees), rel=1e-11)
 
 
 def test_weak_data_leave_beta_open():

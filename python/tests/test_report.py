@@ -329,6 +329,17 @@ def test_files_tell_the_run(case, runs, tmp_path):
     assert " ".join(html.unescape(shown).split()) == echo.replace(", atol", " atol")
 
 
+def test_report_of_a_population_imports_no_scipy(runs, tmp_path):
+    """That takes longer than two of its figures."""
+    program = (
+        "import sys, dondolo as dd; dd.report(dd.read_results(sys.argv[1]), sys.argv[2]); "
+        "print([name for name in sys.modules if name.startswith('scipy')])"
+    )
+    command = [sys.executable, "-W", "ignore", "-c", program, runs / "population", tmp_path / "report.html"]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == "[]"
+
+
 def test_a_case_run_in_python_knows_its_records(root, tmp_path):
     run = dd.run_case(root / "data/cases/two_block.nml", progress=False)
     dd.report(run, tmp_path / "report.html", title="Mine")
@@ -377,8 +388,8 @@ def test_numbers_are_shown_as_people_write_them():
     assert chances([0.0, 1e-9, 0.5, 1.0 - 1e-9, 1.0]) == ["0", "<0.0001", "0.5000", ">0.9999", "1"]
     # The templates set the power of ten, and say that there is none.
     module = _environment().get_template("macros.html.j2").module
-    assert str(module.numeral(numerals.number(4.5e-7))) == "4.5 \N{MULTIPLICATION SIGN} 10<sup>\N{MINUS SIGN}7</sup>"
-    assert str(module.numeral(numerals.NONE)) == '<span title="none">\N{EN DASH}</span>'
+    assert str(module.piece(numerals.number(4.5e-7))) == "4.5 \N{MULTIPLICATION SIGN} 10<sup>\N{MINUS SIGN}7</sup>"
+    assert str(module.piece(numerals.NONE)) == '<span title="none">\N{EN DASH}</span>'
 
 
 def test_report_appears_whole_or_not_at_all(stripes, tmp_path, monkeypatch):

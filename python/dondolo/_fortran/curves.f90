@@ -13,6 +13,7 @@ module curves
    use dondolo_population_counts, only : new_population_counts, population_counts_type
    use dondolo_roster, only : number_of_group, roster_row_type, roster_type
    use dondolo_stripes, only : stripes_type
+   use dondolo_student, only : quantile => student_quantile
    use dondolo_typology, only : combine_population, typology_type
    use dondolo_wall, only : mechanism_names, wall_type
    use dondolo_wall_curves, only : combined => in_series, wall_curves_type
@@ -23,7 +24,7 @@ module curves
    private
 
    public :: fit_curves, cluster_curves, cluster_changes, fit_ordinal, probability, in_series, warn_of_curve, fit_walls
-   public :: curve_of_population
+   public :: curve_of_population, student_quantile
 
 contains
 
@@ -164,6 +165,14 @@ contains
       curve%beta = beta
       p = curve%probability(x)
    end subroutine probability
+
+   !> Quantile of Student's t
+   subroutine student_quantile(p, degrees, t)
+      real(c_double), intent(in) :: p, degrees
+      real(c_double), intent(out) :: t
+
+      t = quantile(p, degrees)
+   end subroutine student_quantile
 
    !> Probability that any mechanism of each wall happens, of k probabilities of each row; rows: how many each wall has
    subroutine in_series(p, k, r, rows, w, whole)

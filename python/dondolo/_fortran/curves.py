@@ -191,3 +191,8 @@ def probability(theta: float, beta: float, x: FloatArray) -> FloatArray:
     """Probabilities of collapse of a lognormal curve."""
     found: FloatArray = _core.curves.probability(theta, beta, x)
     return found
+
+
+def student_quantile(p: float, degrees: float) -> float:
+    """Quantile of Student's t with a finite number of degrees of freedom, of a probability of at least one half."""
+    return float(_core.curves.student_quantile(p, degrees))

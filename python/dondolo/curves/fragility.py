@@ -6,6 +6,7 @@ import math
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from statistics import NormalDist
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_levels, as_number, shaped, tails
 from dondolo._base.shown import Shown
-from dondolo._fortran.curves import probability
+from dondolo._fortran.curves import probability, student_quantile
 from dondolo._fortran.records import blank_unit, unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
@@ -361,11 +362,10 @@ class Fragility(Shown, Saved):
 
     def _quantile(self, level: float) -> float:
         """Quantile of Student's t for an interval."""
-        from scipy.special import ndtri, stdtrit
-
+        # The executable's; scipy.special, which has it too, takes longer to import than a figure to draw
         upper = tails(level)[1]
         self._need_errors()
-        return float(stdtrit(self.degrees_of_freedom, upper) if self.clusters else ndtri(upper))
+        return student_quantile(upper, self.degrees_of_freedom) if self.clusters else NormalDist().inv_cdf(upper)
 
     def _facts(self) -> list[tuple[str, str]]:
         unit = blank_unit(self.im)

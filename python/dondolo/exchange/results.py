@@ -206,13 +206,14 @@ def _check(table: ResultFile, run: RunFile, wall: Wall) -> CodeCheck:
 def _population(table: ResultFile, gravity: float) -> Population:
     """Walls as they were given."""
     walls: list[Wall] = []
+    lists = {column: argument for column, argument in _LIST_COLUMNS.items() if numbered(column, 1) in table}
     for i, (name, kind) in enumerate(zip(table.texts("wall"), table.texts("mechanism"), strict=True)):
         given: dict[str, Any] = {
             argument: table.number(column, i)
             for column, argument in _WALL_COLUMNS.items()
             if (column in table or argument not in WALL_EXTRAS) and table.texts(column)[i]
         }
-        given |= {argument: values for column, argument in _LIST_COLUMNS.items() if (values := _list(table, column, i))}
+        given |= {argument: values for column, argument in lists.items() if (values := _list(table, column, i))}
         try:
             one_of("mechanism", kind, MECHANISMS)
             given |= {"name": name, "restitution": table.texts("restitution_model")[i], "gravity": gravity}

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 # Most walls that are drawn one by one
 _THIN = 300
+# Ends and middle of the band of the walls
+_FRACTILES = np.array([0.16, 0.5, 0.84])
 # Width of a lognormal beside the mean that it is fitted to
 _FITTED = 0.6
 
@@ -27,14 +29,14 @@ def draw_curve(curve: PopulationCurve, ax: Axes | None) -> Axes:
     """Draw the curves of the walls, thin, with their weighted mean and fractiles."""
     ax = curves.axes(ax, 3)
     grid = curves.grid(curve.levels)
-    members = curve.members
-    walls = len(members.weights)
+    # In one call, which evaluates the curves of the walls once
+    mean, fractiles, probabilities = curve._at(grid, _FRACTILES, members=True)
+    walls = len(probabilities)
     drawn = np.unique(np.linspace(0, walls - 1, _THIN).round().astype(int))
-    curves.thin(ax, grid, curve.probabilities(grid)[drawn], 0.5, 0.5 if len(drawn) > 40 else 1.0)
+    curves.thin(ax, grid, probabilities[drawn], 0.5, 0.5 if len(drawn) > 40 else 1.0)
     text = f"{len(drawn)} of {walls} walls" if len(drawn) < walls else style.counted(walls, "wall")
     ax.plot([], [], color=style.GREY, linewidth=0.5, label=text)
-    _band(ax, curve, grid, style.BLUE)
-    mean = curve.mean(grid)
+    _band(ax, grid, fractiles, style.BLUE)
     ax.plot(grid, mean, color=style.RED, linewidth=2.4, label="weighted mean", zorder=4)
     if curve.fit.has_fit:
         fitted = f"lognormal, {parameters(curve.fit)}"
@@ -59,7 +61,7 @@ def draw_combination(typology: Typology, ax: Axes | None, group: str) -> Axes:
     names = [one.mechanism for one in typology.groups if one.group == group and one.mechanism != "all"]
     ax = curves.axes(ax, len(names) + 4)
     grid = curves.grid(typology.levels)
-    _band(ax, whole, grid, style.GREY)
+    _band(ax, grid, whole.fractiles(grid, _FRACTILES), style.GREY)
     where = " where it can occur" if np.any(typology.population.p_occ < 1.0) else ""
     parts = [typology[name, group] for name in names]
     for curve, line in zip(parts, curves.LINES[1:], strict=False):
@@ -137,9 +139,9 @@ def draw_damage_states(
     return curves.finish(ax, typology.im, grid, title, "probability to reach the state")
 
 
-def _band(ax: Axes, curve: PopulationCurve, grid: FloatArray, color: str) -> None:
+def _band(ax: Axes, grid: FloatArray, fractiles: FloatArray, color: str) -> None:
     """Fractiles of the walls: a band with edges, and the median."""
-    low, median, high = curve.fractiles(grid)
+    low, median, high = fractiles
     ax.fill_between(grid, low, high, color=color, alpha=0.22, linewidth=0.0, label="16 to 84 % of the walls", zorder=2)
     for edge in (low, high):
         ax.plot(grid, edge, color=color, linewidth=0.7, zorder=2)
