@@ -192,6 +192,13 @@ def test_quantiles_of_students_t(degrees, level):
     assert student_quantile(upper, degrees) == pytest.approx(stats.t.ppf(upper, degrees), rel=1e-11)
 
 
+def test_confidence_next_to_certainty():
+    """An interval, not an error, for the largest number below 1."""
+    curve = dd.fit_fragility([1.0, 2.0, 3.0], [4, 9, 16], 20)
+    low, high = curve.parameter_interval(confidence=np.nextafter(1.0, 0.0))["theta"]
+    assert 0.0 < low < curve.parameter_interval(confidence=0.999999)["theta"][0] < high < np.inf
+
+
 def test_weak_data_leave_beta_open():
     curve = dd.fit_fragility([1.0, 2.0, 3.0], [4, 5, 6], 10)
     assert curve.parameter_interval()["beta"][1] == np.inf

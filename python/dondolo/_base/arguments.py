@@ -131,4 +131,5 @@ def tails(confidence: float) -> tuple[float, float]:
     confidence = as_number("confidence", confidence)
     if not 0.0 < confidence < 1.0:
         raise InputError(f"confidence = {confidence}: must lie between 0 and 1")
-    return 0.5 - 0.5 * confidence, 0.5 + 0.5 * confidence
+    # A confidence next to 1 must not round to certainty, which has no quantile
+    return 0.5 - 0.5 * confidence, min(0.5 + 0.5 * confidence, float(np.nextafter(1.0, 0.0)))
