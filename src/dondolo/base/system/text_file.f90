@@ -10,7 +10,7 @@ module dondolo_text_file
    implicit none
    private
 
-   public :: text_file_type, read_text_file, open_text, is_blank
+   public :: text_file_type, read_text_file, load_text, find_lines, find_content, open_text, is_blank
    public :: padding
 
    !> Memory that a text, the index of its lines and the numbers in it may take, in parts of its size
@@ -48,7 +48,7 @@ module dondolo_text_file
 contains
 
    !> Read a text file: UTF-8, or UTF-16 with a byte order mark; lines end in LF, CRLF or CR; Ctrl-Z at the end is dropped
-   subroutine read_text_file(file, text, error, longest, has_latin)
+   subroutine read_text_file(file, text, error, longest)
       !> Path of the file
       character(len=*), intent(in) :: file
       type(text_file_type), intent(out) :: text
@@ -56,20 +56,42 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Most bytes that it may have, less than 2 GiB
       integer(int64), intent(in) :: longest
-      !> May it be Latin-1 too? Where nothing but remarks can have other characters than ASCII; no if absent
-      logical, intent(in), optional :: has_latin
 
-      character(len=:), allocatable :: bytes_read
+      call load_text(file, text, error, longest)
+      if (.not. allocated(error)) call find_lines(text, error)
+   end subroutine read_text_file
+
+   !> Read the bytes of a text file, in which no lines are known yet
+   subroutine load_text(file, text, error, longest)
+      !> Path of the file
+      character(len=*), intent(in) :: file
+      type(text_file_type), intent(out) :: text
+      !> The file is missing, unreadable, empty or too large, for the memory too
+      type(error_type), allocatable, intent(out) :: error
+      !> Most bytes that it may have, less than 2 GiB
+      integer(int64), intent(in) :: longest
 
       text%file = file
       ! One thread at a time: a file that two rows of a catalogue name must not be open twice.
       !$omp critical (open_file)
       call load(file, longest, text%text, error)
       !$omp end critical (open_file)
-      if (allocated(error)) return
+   end subroutine load_text
+
+   !> Find the lines of a text, and make UTF-8 of it
+   subroutine find_lines(text, error, has_latin)
+      !> Text file as `load_text` gives it
+      type(text_file_type), intent(inout) :: text
+      !> It is empty or no text
+      type(error_type), allocatable, intent(out) :: error
+      !> May it be Latin-1 too? Where nothing but remarks can have other characters than ASCII; no if absent
+      logical, intent(in), optional :: has_latin
+
+      character(len=:), allocatable :: bytes_read
+
       call settle(text)
       if (text%lines() == 0) then
-         call raise_input(error, file//': the file is empty')
+         call raise_input(error, text%file//': the file is empty')
          return
       end if
       if (is_ascii(text%text(text%first(1):text%last(text%lines())))) return
@@ -81,7 +103,7 @@ contains
       call from_latin(bytes_read, text%text)
       deallocate (text%first, text%last)
       call index_lines(text)
-   end subroutine read_text_file
+   end subroutine find_lines
 
    !> The bytes of a file
    subroutine load(file, longest, content, error)
@@ -201,11 +223,7 @@ contains
       integer(int64) :: marks
       integer :: begin, finish, count, i, at
 
-      begin = 1
-      if (len(text%text) >= 3) then
-         if (text%text(1:3) == byte_order_mark) begin = 4
-      end if
-      finish = verify(text%text, padding, back=.true.)
+      call find_content(text%text, begin, finish)
       if (finish < begin) then
          allocate (text%first(0), text%last(0))
          return
@@ -244,6 +262,22 @@ contains
          end do
       end associate
    end subroutine index_lines
+
+   !> Where a text begins, after a byte order mark, and where it ends
+   pure subroutine find_content(text, begin, finish)
+      !> Everything in a file
+      character(len=*), intent(in) :: text
+      !> Position of the first character
+      integer, intent(out) :: begin
+      !> Position of the last one that is no padding, before `begin` if there is none
+      integer, intent(out) :: finish
+
+      begin = 1
+      if (len(text) >= 3) then
+         if (text(1:3) == byte_order_mark) begin = 4
+      end if
+      finish = verify(text, padding, back=.true.)
+   end subroutine find_content
 
    !> Number of line feeds
    pure integer function count_line_feeds(text) result(count)
