@@ -23,8 +23,7 @@ from dondolo.curves.fragility import Fragility
 from dondolo.populations.study import typology
 from dondolo.populations.typology import Typology
 from dondolo.records.codes import Site
-from dondolo.records.record import record_from
-from dondolo.records.record import Record
+from dondolo.records.record import Record, record_from
 from dondolo.walls.mechanisms import wall_from
 from dondolo.walls.population import Population
 

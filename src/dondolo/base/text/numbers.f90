@@ -123,13 +123,13 @@ contains
       if (.not. ok) value = 0.0_wp
    end subroutine take_real
 
-   !> Take a column of decimal numbers: one a line and nothing else, blanks around it allowed, up to what is none
+   !> Take a column of decimal numbers: one a line and nothing else, blanks around it allowed
    pure subroutine take_column(text, values, count, ok)
-      !> Lines that end in LF or CRLF
+      !> Lines that end in LF or CRLF, but the last
       character(len=*), intent(in) :: text
       !> The numbers; room for one of every two characters is enough
-      real(wp), intent(inout) :: values(:)
-      !> How many there are
+      real(wp), intent(out) :: values(:)
+      !> How many there are before anything else
       integer, intent(out) :: count
       !> The whole text is such a column
       logical, intent(out) :: ok
@@ -138,32 +138,35 @@ contains
 
       count = 0
       at = 1
-      do
-         call pass_blanks(text, at)
+      ok = .false.
+      do while (at <= len(text))
+         ! What is seldom there is asked for before it is passed, since a loop takes longer than a number
+         if (iachar(text(at:at)) <= blank) call pass_blanks(text, at)
          call take_usual(text, at, values(count + 1), ok)
          if (.not. ok) call take_real(text, at, len(text), values(count + 1), ok)
          if (.not. ok) return
          count = count + 1
-         call pass_blanks(text, at)
          if (at > len(text)) return
-         do while (at < len(text) .and. iachar(text(at:at)) == return)
-            at = at + 1
-         end do
-         ok = iachar(text(at:at)) == line_feed .and. at < len(text)
+         if (iachar(text(at:at)) == blank .or. iachar(text(at:at)) == tab) then
+            call pass_blanks(text, at)
+            if (at > len(text)) return
+         end if
+         if (at < len(text) .and. iachar(text(at:at)) == return) at = at + 1
+         ok = at < len(text) .and. iachar(text(at:at)) == line_feed
          if (.not. ok) return
          at = at + 1
       end do
    end subroutine take_column
 
-   !> Take a decimal number as most files of records print it, [-] digit . eight digits, before the end of a line: what
-   !> `take_real` takes, in a few instructions
+   !> Take a decimal number as most files of records print it, [-] digit . eight digits, before a blank or the end of a
+   !> line: the same as `take_real` gives, in a few instructions
    pure subroutine take_usual(text, at, value, ok)
       !> Text
       character(len=*), intent(in) :: text
       !> Position: where the number begins, then what follows it; stays unless ok
       integer, intent(inout) :: at
-      !> The number, if ok
-      real(wp), intent(inout) :: value
+      !> The number; of no use unless ok
+      real(wp), intent(out) :: value
       !> There is one
       logical, intent(out) :: ok
 
@@ -179,7 +182,7 @@ contains
       digit = iachar(text(first:first)) - iachar('0')
       call take_eight(text(first + 2:first + 9), eight, ok)
       ok = ok .and. digit >= 0 .and. digit <= 9 .and. iachar(text(first + 1:first + 1)) == iachar('.') .and. &
-         & iachar(text(first + 10:first + 10)) < iachar(' ')
+         & iachar(text(first + 10:first + 10)) <= blank
       if (.not. ok) return
       at = first + 10
       value = real(100000000_int64*digit + eight, wp)/power(8)
