@@ -22,6 +22,9 @@ module dondolo_text_file
    !> Does the first character of a text become the lowest byte of an integer?
    logical, parameter :: first_is_lowest = transfer(1_int64, 'a') == achar(1)
 
+   !> Bit of a byte that tells of a line feed
+   integer, parameter :: mark = 6
+
    !> The text of a file and where its lines are
    type :: text_file_type
       !> Path of the file
@@ -297,7 +300,7 @@ contains
       do block = 1, len(text) - 8*words + 1, 8*words
          sums = 0
          do i = block, block + 8*(words - 1), 8
-            sums = sums + iand(shiftr(line_feeds(text(i:i + 7)), 7), ones)
+            sums = sums + iand(shiftr(line_feeds(text(i:i + 7)), mark), ones)
          end do
          sums = iand(sums, pairs) + iand(shiftr(sums, 8), pairs)
          sums = iand(sums, fours) + iand(shiftr(sums, 16), fours)
@@ -308,17 +311,21 @@ contains
       end do
    end function count_line_feeds
 
-   !> Which of eight characters are line feeds: the highest bit of each of their bytes
+   !> Which of eight characters are line feeds: bit `mark` of each of their bytes
    pure integer(int64) function line_feeds(text)
       !> Eight characters
       character(len=8), intent(in) :: text
 
-      integer(int64), parameter :: feeds = int(z'0a0a0a0a0a0a0a0a', int64), low = int(z'7f7f7f7f7f7f7f7f', int64)
+      ! In each byte: a line feed, the lowest seven and six bits, and the bit after these
+      integer(int64), parameter :: feeds = int(z'0a0a0a0a0a0a0a0a', int64), seven = int(z'7f7f7f7f7f7f7f7f', int64), &
+         & six = int(z'3f3f3f3f3f3f3f3f', int64), marks = shiftl(int(z'0101010101010101', int64), mark)
       integer(int64) :: bytes
 
-      ! A byte is zero then; its highest bit after this tells whether any bit of it is set
+      ! A byte is zero then. Eight bits become seven and six that are zero where they are, so that no sum overflows
       bytes = ieor(transfer(text, bytes), feeds)
-      line_feeds = not(ior(ior(iand(bytes, low) + low, bytes), low))
+      bytes = iand(ior(bytes, shiftr(bytes, 1)), seven)
+      bytes = iand(ior(bytes, shiftr(bytes, 1)), six)
+      line_feeds = iand(not(bytes + six), marks)
    end function line_feeds
 
    !> Number of lines
