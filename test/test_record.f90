@@ -8,7 +8,7 @@ program test_record
    use dondolo_error, only : error_type, status_missing
    use dondolo_kinds, only : wp
    use dondolo_limits, only : longest_case
-   use dondolo_numbers, only : parse_integer, parse_real, take_real
+   use dondolo_numbers, only : parse_integer, parse_real, take_column, take_real
    use dondolo_record, only : record_type
    use dondolo_record_reader, only : read_record
    use dondolo_text, only : to_text
@@ -93,6 +93,7 @@ contains
       end do
       call check(mismatches == 0, to_text(mismatches)//' of 200000 numbers differ from READ')
       call test_eight_decimals()
+      call test_column()
       call parse_integer(' -42 ', number, ok)
       call check(ok .and. number == -42, 'integer -42')
       call parse_integer('2147483647', number, ok)
@@ -132,6 +133,57 @@ contains
       end do
       call check(wrong == 0, to_text(wrong)//' characters among eight decimals are taken wrongly')
    end subroutine test_eight_decimals
+
+   !> A column of numbers is taken as each number alone, and ends before anything else
+   subroutine test_column()
+      character(len=*), parameter :: usual = '0.12345678'
+      real(wp) :: values(8), want
+      integer :: count, i, wrong
+      logical :: ok
+
+      associate (text => usual//cr//lf//'-'//usual//lf//' '//tab//usual//' '//cr//lf//'-1e-3'//lf//'12.123456789'//lf// &
+         & '+.5'//lf//'-0.00000000'//lf//'7')
+         call take_column(text, values, count, ok)
+         call check(ok .and. count == 8, 'a column is taken')
+         call parse_real(usual, want, ok)
+         call check_close(values(1), want, 0.0_wp, 'first number of a column')
+         call check_close(values(2), -want, 0.0_wp, 'second, negative')
+         call check_close(values(3), want, 0.0_wp, 'third, between blanks')
+         call check_close(values(4), -1.0e-3_wp, 0.0_wp, 'fourth, with an exponent')
+         call check_close(values(5), 12.123456789_wp, 0.0_wp, 'fifth, with more digits')
+         call check_close(values(6), 0.5_wp, 0.0_wp, 'sixth, without a digit before the point')
+         call check(sign(1.0_wp, values(7)) < 0.0_wp, 'the minus of zero stays')
+         call check_close(values(8), 7.0_wp, 0.0_wp, 'last, an integer without a line end')
+         wrong = 0
+         do i = 0, len(usual) + 2
+            call take_column(text(:i), values, count, ok)
+            if (ok .neqv. (i >= 1 .and. i <= len(usual))) wrong = wrong + 1
+         end do
+         call check(wrong == 0, 'a column is refused where a line end comes last')
+      end associate
+      call check_no_column('')
+      call check_no_column(' ')
+      call check_no_column('1'//lf)
+      call check_no_column('1'//lf//lf//'2')
+      call check_no_column('1'//cr//'2')
+      call check_no_column('1'//cr//cr//lf//'2')
+      call check_no_column(usual//'1.0'//lf//usual)
+      call check_no_column(usual//'e+'//lf//usual)
+      call check_no_column(usual//' '//usual//lf//usual)
+      call check_no_column(usual//lf//'x')
+      call check_no_column(usual//','//lf//usual)
+   end subroutine test_column
+
+   !> A text that is no column of numbers
+   subroutine check_no_column(text)
+      character(len=*), intent(in) :: text
+      real(wp) :: values(8)
+      integer :: count
+      logical :: ok
+
+      call take_column(text, values, count, ok)
+      call check(.not. ok, 'column '''//text//''' is refused')
+   end subroutine check_no_column
 
    !> A text that is a number
    subroutine check_number(text, want)

@@ -22,7 +22,7 @@ ASKED = {
     "src/dondolo/population/store.f90": r"src/dondolo/population/store\.",
     "python/dondolo/_fortran/curves.f90": r"python/dondolo/_fortran/curves",
     "python/dondolo/_fortran/histories.f90": r"python/dondolo/_fortran/histories",
-    "python/dondolo/_fortran/record_parcel.f90": r"python/dondolo/_fortran/record_parcel",
+    "python/dondolo/_fortran/record_parcel.f90": r"python/dondolo/_fortran/(record_)?parcel",
     "python/dondolo/_fortran/stores.f90": r"python/dondolo/_fortran/stores",
     "python/dondolo/_fortran/stripes.f90": r"python/dondolo/_fortran/stripes",
     "python/dondolo/_fortran/uncertainty.f90": r"src/dondolo/population/sensitivity",

@@ -72,6 +72,35 @@ def test_a_file(tmp_path):
         dd.read_record(file, dt=0.01, units="furlong")
 
 
+@pytest.mark.parametrize("end", ["\n", "\r\n", "\r", "\r\r\n", " \n", "\n\n", ",\n"])
+@pytest.mark.parametrize("top", ["", "\ufeff", "\n", " ", "# units: m/s2\n", "a (m/s2)\n"])
+@pytest.mark.parametrize("last", ["1.00000000", "-.5 \n\x1a", "1e-3", "x", "1.0 2.0", "1.0\n;", ""])
+def test_a_single_column_is_read_as_columns_are(end, top, last, tmp_path):
+    """A file without titles and comments is read in one go, with the same samples and sentences."""
+    path = tmp_path / "a.txt"
+    path.write_text(top + end.join(["0.12345678", "-0.00000000", "12.1234567890123456789", last]), newline="")
+
+    def read(layout):
+        try:
+            record = dd.read_record(path, dt=0.01, units="m/s2", format=layout)
+        except dd.InputError as error:
+            return str(error)
+        return record.name, record.acceleration.tobytes(), record.metadata, record.peak_acceleration
+
+    found = read(None)
+    assert found == read("columns") or "the format is not known" in found
+
+
+def test_every_record_has_an_array_of_its_own(root):
+    """A record that is kept keeps no other, and a checked record says what one that is made says."""
+    for record in dd.read_catalogue(root / "data/records/synthetic44.csv"):
+        assert record.acceleration.base is None
+        assert not record.acceleration.flags.writeable
+        again = dd.Record(record.acceleration, record.dt)
+        assert record.peak_acceleration == again.peak_acceleration
+        assert record.checksum == again.checksum
+
+
 def test_a_catalogue(records, root):
     assert len(records) == 44
     assert len({record.name for record in records}) == 44

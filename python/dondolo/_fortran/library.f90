@@ -17,7 +17,7 @@ module library
    use dondolo_interrupt, only : begin => listen, finish => end_listening
    use dondolo_lane_variants, only : build_variant, check_variant
    use dondolo_limits, only : longest_name
-   use dondolo_parcel, only : parcel_type, send, take
+   use dondolo_parcel, only : parcel_type, send, take, take_next => take_series
    use dondolo_plain, only : name_problem, shown
    use dondolo_property, only : describe_property, property_type
    use dondolo_property_tables, only : property_table, table_names
@@ -28,7 +28,7 @@ module library
    implicit none
    private
 
-   public :: constants, properties, check_text, variant, listen, end_listening, work_alone, take_parcel, free
+   public :: constants, properties, check_text, variant, listen, end_listening, work_alone, take_parcel, take_series, free
 
 contains
 
@@ -137,6 +137,16 @@ contains
 
       call take(handle, integers, reals, characters)
    end subroutine take_parcel
+
+   !> The next series of a parcel whose other contents have been taken
+   subroutine take_series(handle, n, values)
+      !f2py threadsafe
+      integer(c_intptr_t), intent(in) :: handle
+      integer(c_int), intent(in) :: n
+      real(c_double), intent(out) :: values(n)
+
+      call take_next(handle, values)
+   end subroutine take_series
 
    !> Free what a handle stands for; nothing, if that was done before
    subroutine free(handle)

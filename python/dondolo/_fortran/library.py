@@ -84,6 +84,12 @@ class Parcel(NamedTuple):
     integers: NDArray[np.int32]
     reals: FloatArray
     lines: list[str]
+    address: int
+
+    def series(self, length: int) -> FloatArray:
+        """Its next series, an array of its own; all of them must be taken, each once."""
+        values: FloatArray = _core.library.take_series(self.address, length)
+        return values
 
 
 @functools.cache
@@ -195,7 +201,7 @@ def receive(sent: NDArray[np.int64], stat: int, message: bytes) -> Parcel:
     check(stat, message)
     integers, reals, characters = _core.library.take_parcel(*sent)
     text = characters.astype(np.uint8).tobytes().decode("utf-8", "replace")
-    return Parcel(integers, reals, text.split("\n")[:-1])
+    return Parcel(integers, reals, text.split("\n")[:-1], int(sent[0]))
 
 
 def unpack_warning(data: dict[str, Any]) -> DondoloWarning:

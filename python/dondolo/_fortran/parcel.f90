@@ -1,7 +1,8 @@
 !> Results whose size only the library knows, on their way to Python: f2py cannot pass them.
 !>
 !> A procedure sends a parcel and returns where it lies and how much it holds; `take` copies its contents into arrays of
-!> these sizes and frees it.
+!> these sizes and frees it. Long series, as samples of records, are put in one by one without a copy; `take_series` takes
+!> them in the same order, after all else, and the parcel is freed with the last.
 module dondolo_parcel
    use, intrinsic :: iso_c_binding, only : c_double, c_f_pointer, c_int, c_int64_t, c_intptr_t, c_loc, c_ptr
    use dondolo_boundary, only : report
@@ -10,7 +11,12 @@ module dondolo_parcel
    implicit none
    private
 
-   public :: parcel_type, send, take
+   public :: parcel_type, send, take, take_series
+
+   !> Numbers that belong together
+   type :: series_type
+      real(c_double), allocatable :: values(:)
+   end type series_type
 
    !> Contents of unknown size
    type :: parcel_type
@@ -20,13 +26,19 @@ module dondolo_parcel
       real(c_double), allocatable :: reals(:)
       !> Lines of text
       type(lines_type) :: lines
+      !> Long series of reals
+      type(series_type), allocatable, private :: series(:)
+      !> How many of them have been put in, and taken
+      integer, private :: given = 0, taken = 0
    contains
       procedure, private :: add_integers
       procedure, private :: add_reals
       !> Add numbers after those that are there
       generic :: add => add_integers, add_reals
-      !> Add reals and take them away
-      procedure :: move_reals
+      !> Make room for series
+      procedure :: expect_series
+      !> Put a series in
+      procedure :: move_series
       !> Add a note to the lines
       procedure :: add_note
    end type parcel_type
@@ -59,19 +71,24 @@ contains
       end if
    end subroutine add_reals
 
-   !> Add reals that are not needed any more: without a copy if they are the first, which millions of samples are
-   subroutine move_reals(self, reals)
+   !> Make room for series, all of a parcel at once
+   subroutine expect_series(self, number)
       class(parcel_type), intent(inout) :: self
-      !> Reals
-      real(c_double), allocatable, intent(inout) :: reals(:)
+      !> How many there will be at most
+      integer, intent(in) :: number
 
-      if (allocated(self%reals)) then
-         call self%add(reals)
-         deallocate (reals)
-      else
-         call move_alloc(reals, self%reals)
-      end if
-   end subroutine move_reals
+      allocate (self%series(number))
+   end subroutine expect_series
+
+   !> Put a series in that is not needed any more
+   subroutine move_series(self, values)
+      class(parcel_type), intent(inout) :: self
+      !> Its numbers
+      real(c_double), allocatable, intent(inout) :: values(:)
+
+      self%given = self%given + 1
+      call move_alloc(values, self%series(self%given)%values)
+   end subroutine move_series
 
    !> Add how something was read, where there is something to say of it
    subroutine add_note(self, note)
@@ -107,13 +124,15 @@ contains
       if (allocated(parcel%reals)) call move_alloc(parcel%reals, content%reals)
       content%lines%count = parcel%lines%count
       if (allocated(parcel%lines%line)) call move_alloc(parcel%lines%line, content%lines%line)
+      content%given = parcel%given
+      if (allocated(parcel%series)) call move_alloc(parcel%series, content%series)
       sent = [transfer(c_loc(content), 0_c_intptr_t), size(content%integers, kind=c_int64_t), &
          & size(content%reals, kind=c_int64_t), length_of(content%lines)]
    end subroutine send
 
-   !> Take a parcel and free it
+   !> Take what a parcel holds but its series, and free it if it has none
    subroutine take(handle, integers, reals, characters)
-      !> Its address, which is valid once; 0: nothing was sent
+      !> Its address, which is valid once, and for each series once more; 0: nothing was sent
       integer(c_intptr_t), intent(in) :: handle
       !> Its integers
       integer(c_int), intent(out) :: integers(:)
@@ -141,8 +160,29 @@ contains
          end associate
          characters(at) = ichar(new_line('a'))
       end do
-      deallocate (content)
+      if (content%given == 0) deallocate (content)
    end subroutine take
+
+   !> Take the next series of a parcel, and free the parcel after the last
+   subroutine take_series(handle, values)
+      !> Its address
+      integer(c_intptr_t), intent(in) :: handle
+      !> The numbers
+      real(c_double), intent(out) :: values(:)
+
+      type(parcel_type), pointer :: content
+      type(c_ptr) :: address
+
+      address = transfer(handle, address)
+      call c_f_pointer(address, content)
+      content%taken = content%taken + 1
+      associate (series => content%series(content%taken))
+         values = series%values
+         ! Room for the next array of Python
+         deallocate (series%values)
+      end associate
+      if (content%taken == content%given) deallocate (content)
+   end subroutine take_series
 
    !> Number of characters of lines, each ended by new_line
    pure integer(c_int64_t) function length_of(lines) result(length)

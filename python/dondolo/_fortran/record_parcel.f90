@@ -54,16 +54,15 @@ contains
 
    !> Records in a parcel, after what is in it
    subroutine pack_records(records, parcel, error)
-      !> The records
-      type(record_type), intent(in) :: records(:)
-      !> Integers: lengths, numbers of metadata, numbers of samples of vertical components; reals: time steps, all samples,
-      !> those of vertical components; text: names, then keys and values
+      !> The records; their samples are moved away
+      type(record_type), intent(inout) :: records(:)
+      !> Integers: lengths, numbers of metadata, numbers of samples of vertical components; reals: time steps, largest
+      !> accelerations; text: names, then keys and values; series: samples of all, then those of vertical components
       type(parcel_type), intent(inout) :: parcel
       !> Lack of memory to send them
       type(error_type), allocatable, intent(out) :: error
 
-      real(c_double), allocatable :: reals(:)
-      integer :: i, k, from, lengths(size(records)), verticals(size(records))
+      integer :: i, k, lengths(size(records)), verticals(size(records))
 
       lengths = [(size(records(i)%acceleration), i=1, size(records))]
       verticals = [(merge(lengths(i), 0, allocated(records(i)%vertical)), i=1, size(records))]
@@ -72,20 +71,16 @@ contains
       call parcel%add(lengths)
       call parcel%add([(records(i)%metadata%count(), i=1, size(records))])
       call parcel%add(verticals)
-      allocate (reals(size(records) + sum(lengths) + sum(verticals)))
-      from = size(records)
+      call parcel%add(records%dt)
+      call parcel%add(records%pga())
+      call parcel%expect_series(size(records) + count(verticals > 0))
       do i = 1, size(records)
          call parcel%lines%add(records(i)%name)
-         reals(i) = records(i)%dt
-         reals(from + 1:from + lengths(i)) = records(i)%acceleration
-         from = from + lengths(i)
+         call parcel%move_series(records(i)%acceleration)
       end do
       do i = 1, size(records)
-         if (verticals(i) == 0) cycle
-         reals(from + 1:from + verticals(i)) = records(i)%vertical
-         from = from + verticals(i)
+         if (verticals(i) > 0) call parcel%move_series(records(i)%vertical)
       end do
-      call parcel%move_reals(reals)
       do i = 1, size(records)
          do k = 1, records(i)%metadata%count()
             associate (entry => records(i)%metadata%entries(k))

@@ -16,13 +16,14 @@ from dondolo.errors import InputError
 
 
 class RecordData(NamedTuple):
-    """A record as Fortran has read it."""
+    """A record as Fortran has read and checked it, with arrays of its own."""
 
     name: str
     dt: float
     acceleration: FloatArray
+    peak: float
     metadata: dict[str, str]
-    vertical: FloatArray | None = None
+    vertical: FloatArray | None
 
 
 class MeasureData(NamedTuple):
@@ -48,25 +49,14 @@ class MeasureData(NamedTuple):
 
 def unpack_records(parcel: Parcel, count: int, reals: int = 0, integers: int = 0, lines: int = 0) -> list[RecordData]:
     """Records out of a parcel, from given places on."""
-    lengths = parcel.integers[integers : integers + count]
-    entries = parcel.integers[integers + count : integers + 2 * count]
-    verticals = parcel.integers[integers + 2 * count : integers + 3 * count]
-    ends = reals + count + np.cumsum(lengths)
-    vertical_ends = reals + count + lengths.sum() + np.cumsum(verticals)
-    ends_of_metadata = lines + count + 2 * np.cumsum(entries)
-    records = []
-    for i in range(count):
-        words = parcel.lines[ends_of_metadata[i] - 2 * entries[i] : ends_of_metadata[i]]
-        records.append(
-            RecordData(
-                parcel.lines[lines + i],
-                float(parcel.reals[reals + i]),
-                parcel.reals[ends[i] - lengths[i] : ends[i]],
-                dict(zip(words[::2], words[1::2], strict=True)),
-                parcel.reals[vertical_ends[i] - verticals[i] : vertical_ends[i]] if verticals[i] else None,
-            )
-        )
-    return records
+    lengths, entries, verticals = parcel.integers[integers : integers + 3 * count].reshape(3, count).tolist()
+    steps, peaks = parcel.reals[reals : reals + 2 * count].reshape(2, count).tolist()
+    horizontal = [parcel.series(length) for length in lengths]
+    upwards = [parcel.series(length) if length else None for length in verticals]
+    names = parcel.lines[lines : lines + count]
+    words = iter(parcel.lines[lines + count :])
+    metadata = [{next(words): next(words) for _ in range(number)} for number in entries]
+    return list(map(RecordData, names, steps, horizontal, peaks, metadata, upwards))
 
 
 def records_end(parcel: Parcel, count: int, integers: int = 0, lines: int = 0) -> int:

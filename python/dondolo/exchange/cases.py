@@ -23,8 +23,7 @@ from dondolo.curves.fragility import Fragility
 from dondolo.populations.study import typology
 from dondolo.populations.typology import Typology
 from dondolo.records.codes import Site
-from dondolo.records.reading import as_record
-from dondolo.records.record import Record
+from dondolo.records.record import Record, record_from
 from dondolo.walls.mechanisms import wall_from
 from dondolo.walls.population import Population
 
@@ -208,7 +207,7 @@ def read_case(path: str | os.PathLike[str]) -> Case:
         title=title,
         output=output,
         population=Population(tuple(people), weight, groups=tuple(groups), p_occ=p_occ, facades=tuple(facades)),
-        records=tuple(as_record(data) for data in motions),
+        records=tuple(record_from(data) for data in motions),
         im=im,
         polarity=polarity,
         engine=engine,

@@ -94,7 +94,8 @@ class Store:
         request, rows = self._request, len(self._request.walls)
         complete, counts = self._state()
         states, levels = len(self._states), len(request.levels)
-        numbers, lengths, _ = receive(*_core.stores.read_store(self._handle))
+        parcel = receive(*_core.stores.read_store(self._handle))
+        numbers, lengths = parcel.integers, parcel.reals
         histories, reached, ties, rest = np.split(numbers[:-1], np.cumsum([rows, rows * states * levels, rows]))
         of_ties, bits = np.split(rest, [2 * levels * ties.sum()])
         tied = TieCounts.of_rows(ties[complete], levels, of_ties, lengths) if complete.any() else ()

@@ -8,8 +8,8 @@ from typing import Literal
 import numpy as np
 
 from dondolo._base.arguments import as_number, one_of
-from dondolo._fortran.records import RecordData, records_of_file
-from dondolo.records.record import Record
+from dondolo._fortran.records import records_of_file
+from dondolo.records.record import Record, record_from
 from dondolo.records.record_set import RecordSet
 
 
@@ -47,7 +47,7 @@ def read_record(
     """
     name = str(channel) if isinstance(channel, int) else channel
     ((data,), _) = records_of_file(path, 0, dt, units, name, format)
-    return as_record(data)
+    return record_from(data)
 
 
 def read_records(
@@ -74,7 +74,7 @@ def read_records(
     InputError
         The file is missing, unknown, wrong, or says less than is needed.
     """
-    return [as_record(data) for data in records_of_file(path, 2, dt, units, layout=format)[0]]
+    return [record_from(data) for data in records_of_file(path, 2, dt, units, layout=format)[0]]
 
 
 def read_catalogue(
@@ -108,14 +108,9 @@ def read_catalogue(
     one_of("vertical", vertical, ("none", "recorded"))
     on_vertical = as_number("vertical_factor", vertical_factor) if vertical == "recorded" else None
     several, (place, level, factor) = records_of_file(path, 1, vertical_factor=on_vertical)
-    records = [as_record(data) for data in several]
+    records = [record_from(data) for data in several]
     if not len(place):
         return RecordSet(records)
     given = factor if factor.any() else None
     rows = [None if values is None else np.where(values > 0.0, values, np.nan) for values in (level, given)]
     return RecordSet([records[i - 1] for i in place], level=rows[0], factor=rows[1])
-
-
-def as_record(data: RecordData) -> Record:
-    """A record as Fortran has read it."""
-    return Record(data.acceleration, data.dt, data.name, metadata=data.metadata, vertical=data.vertical)

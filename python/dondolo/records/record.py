@@ -17,7 +17,7 @@ from dondolo._base.shown import html_of
 from dondolo._fortran import _core
 from dondolo._fortran.buildings import floor_motion
 from dondolo._fortran.library import as_text, check, receive
-from dondolo._fortran.records import describe_measure
+from dondolo._fortran.records import RecordData, describe_measure
 from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
 from dondolo.records import processing as process
@@ -98,20 +98,24 @@ class Record:
             raise InputError(f"vertical: has {len(upwards)} samples, must have {len(values)} as the record")
         peak, stat, message = _core.records.check_record(values, step, values if upwards is None else upwards)
         check(stat, message)
-        for array in (values, upwards):
-            if array is not None:
-                array.flags.writeable = False
         if not isinstance(metadata, Mapping):
             raise InputError(f"metadata: {type(metadata).__name__} is no mapping")
-        known = MappingProxyType({str(key): str(value) for key, value in metadata.items()})
+        known = {str(key): str(value) for key, value in metadata.items()}
+        self._hold(RecordData(name, step, values, peak, known, upwards), steps)
+
+    def _hold(self, data: RecordData, processing: tuple[str, ...] = ()) -> None:
+        """Make it the record of what has been checked, whose arrays and metadata are its own from now on."""
+        for array in (data.acceleration, data.vertical):
+            if array is not None:
+                array.flags.writeable = False
         for what, value in (
-            ("acceleration", values),
-            ("dt", step),
-            ("name", name),
-            ("processing", steps),
-            ("metadata", known),
-            ("vertical", upwards),
-            ("peak_acceleration", peak),
+            ("acceleration", data.acceleration),
+            ("dt", data.dt),
+            ("name", data.name),
+            ("processing", processing),
+            ("metadata", MappingProxyType(data.metadata)),
+            ("vertical", data.vertical),
+            ("peak_acceleration", data.peak),
         ):
             object.__setattr__(self, what, value)
 
@@ -560,6 +564,13 @@ class Record:
         self.acceleration.flags.writeable = False
         if self.__dict__.setdefault("vertical", None) is not None:
             self.vertical.flags.writeable = False  # type: ignore[union-attr]
+
+
+def record_from(data: RecordData) -> Record:
+    """A record as Fortran has read it."""
+    record = object.__new__(Record)
+    record._hold(data)
+    return record
 
 
 def as_records(records: Record | Iterable[Record]) -> tuple[Record, ...]:

@@ -3,7 +3,7 @@ module dondolo_channel
    use dondolo_error, only : add_place, error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_record, only : new_record, record_type
+   use dondolo_record, only : move_to_record, record_type
    use dondolo_plain, only : shown, visible
    use dondolo_record_format, only : channel_type, raise_at, samples_type
    use dondolo_text, only : brief, lower, to_text
@@ -28,8 +28,8 @@ contains
    !> Make a record of a channel
    subroutine as_record(text, samples, number, record, error, dt, units)
       type(text_file_type), intent(in) :: text
-      !> What it says
-      type(samples_type), intent(in) :: samples
+      !> What it says; the values of the channel are moved away
+      type(samples_type), intent(inout) :: samples
       !> Number of the channel
       integer, intent(in) :: number
       !> The record; its name is the stem of the file, with the channel's if there are several
@@ -60,7 +60,8 @@ contains
          if (allocated(error)) return
          name = stem(text%file)
          if (size(samples%channels) > 1) name = name//'.'//underscored(channel%name)
-         call new_record(record, factor*channel%values, step, visible(name), error)
+         channel%values = factor*channel%values
+         call move_to_record(channel%values, step, visible(name), record, error)
          call add_place(error, text%file)
          if (allocated(error)) return
          record%metadata = samples%metadata

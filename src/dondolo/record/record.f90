@@ -12,7 +12,7 @@ module dondolo_record
    implicit none
    private
 
-   public :: record_type, new_record, find_extremes
+   public :: record_type, new_record, move_to_record, find_extremes
    public :: largest_acceleration
 
    !> Largest ground acceleration that is taken for a measurement [m/s2]: a thousand times gravity
@@ -64,6 +64,22 @@ contains
       !> Fewer than two samples, or too many, a step that is not positive, a value that is no acceleration, a long name
       type(error_type), allocatable, intent(out) :: error
 
+      real(wp), allocatable :: samples(:)
+
+      samples = acceleration
+      call move_to_record(samples, dt, name, record, error)
+   end subroutine new_record
+
+   !> Make a record of samples that are needed nowhere else
+   subroutine move_to_record(acceleration, dt, name, record, error)
+      !> Ground acceleration at equal steps [m/s2]; moved away unless there is an error
+      real(wp), allocatable, intent(inout) :: acceleration(:)
+      !> As of `new_record`
+      real(wp), intent(in) :: dt
+      character(len=*), intent(in) :: name
+      type(record_type), intent(out) :: record
+      type(error_type), allocatable, intent(out) :: error
+
       integer :: i
 
       if (.not. (dt >= shortest_step .and. dt <= longest_step)) then
@@ -90,8 +106,8 @@ contains
       end if
       record%name = name
       record%dt = dt
-      record%acceleration = acceleration
-   end subroutine new_record
+      call move_alloc(acceleration, record%acceleration)
+   end subroutine move_to_record
 
    !> The first sample that is no acceleration of the ground; 0 if there is none
    pure integer function first_implausible(samples, factor) result(first)

@@ -7,7 +7,8 @@ module dondolo_record_reader
    use dondolo_limits, only : longest_record_file
    use dondolo_record, only : record_type
    use dondolo_record_format, only : samples_type
-   use dondolo_text_file, only : read_text_file, text_file_type
+   use dondolo_single_column, only : read_single_column
+   use dondolo_text_file, only : find_lines, load_text, text_file_type
    implicit none
    private
 
@@ -93,18 +94,25 @@ contains
       character(len=*), intent(in), optional :: format
 
       type(format_type) :: chosen
-      logical :: is_given
+      logical :: is_given, is_column
 
       is_given = .false.
       if (present(format)) is_given = len_trim(format) > 0
       if (is_given) call find_format(format, chosen, error)
       call add_place(error, file)
-      if (.not. allocated(error)) call read_text_file(file, text, error, &
-         & longest_record_file, has_latin=.true.)
+      if (.not. allocated(error)) call load_text(file, text, error, longest_record_file)
       if (allocated(error)) return
-      if (.not. is_given) call recognise_format(text, chosen, error)
-      call add_place(error, file)
-      if (.not. allocated(error)) call chosen%read(text, samples, error)
+      is_column = .false.
+      if (.not. is_given) call read_single_column(text, samples, is_column)
+      if (is_column) then
+         call find_format('columns', chosen, error)
+      else
+         call find_lines(text, error, has_latin=.true.)
+         if (allocated(error)) return
+         if (.not. is_given) call recognise_format(text, chosen, error)
+         call add_place(error, file)
+         if (.not. allocated(error)) call chosen%read(text, samples, error)
+      end if
       if (allocated(error)) return
       call samples%metadata%set('format', chosen%name)
       call name_channels(samples%channels)

@@ -10,7 +10,7 @@ module dondolo_text_file
    implicit none
    private
 
-   public :: text_file_type, read_text_file, open_text, is_blank
+   public :: text_file_type, read_text_file, load_text, find_lines, find_content, open_text, is_blank
    public :: padding
 
    !> Memory that a text, the index of its lines and the numbers in it may take, in parts of its size
@@ -21,6 +21,9 @@ module dondolo_text_file
 
    !> Does the first character of a text become the lowest byte of an integer?
    logical, parameter :: first_is_lowest = transfer(1_int64, 'a') == achar(1)
+
+   !> Bit of a byte that tells of a line feed
+   integer, parameter :: mark = 6
 
    !> The text of a file and where its lines are
    type :: text_file_type
@@ -48,7 +51,7 @@ module dondolo_text_file
 contains
 
    !> Read a text file: UTF-8, or UTF-16 with a byte order mark; lines end in LF, CRLF or CR; Ctrl-Z at the end is dropped
-   subroutine read_text_file(file, text, error, longest, has_latin)
+   subroutine read_text_file(file, text, error, longest)
       !> Path of the file
       character(len=*), intent(in) :: file
       type(text_file_type), intent(out) :: text
@@ -56,20 +59,42 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Most bytes that it may have, less than 2 GiB
       integer(int64), intent(in) :: longest
-      !> May it be Latin-1 too? Where nothing but remarks can have other characters than ASCII; no if absent
-      logical, intent(in), optional :: has_latin
 
-      character(len=:), allocatable :: bytes_read
+      call load_text(file, text, error, longest)
+      if (.not. allocated(error)) call find_lines(text, error)
+   end subroutine read_text_file
+
+   !> Read the bytes of a text file, in which no lines are known yet
+   subroutine load_text(file, text, error, longest)
+      !> Path of the file
+      character(len=*), intent(in) :: file
+      type(text_file_type), intent(out) :: text
+      !> The file is missing, unreadable, empty or too large, for the memory too
+      type(error_type), allocatable, intent(out) :: error
+      !> Most bytes that it may have, less than 2 GiB
+      integer(int64), intent(in) :: longest
 
       text%file = file
       ! One thread at a time: a file that two rows of a catalogue name must not be open twice.
       !$omp critical (open_file)
       call load(file, longest, text%text, error)
       !$omp end critical (open_file)
-      if (allocated(error)) return
+   end subroutine load_text
+
+   !> Find the lines of a text, and make UTF-8 of it
+   subroutine find_lines(text, error, has_latin)
+      !> Text file as `load_text` gives it
+      type(text_file_type), intent(inout) :: text
+      !> It is empty or no text
+      type(error_type), allocatable, intent(out) :: error
+      !> May it be Latin-1 too? Where nothing but remarks can have other characters than ASCII; no if absent
+      logical, intent(in), optional :: has_latin
+
+      character(len=:), allocatable :: bytes_read
+
       call settle(text)
       if (text%lines() == 0) then
-         call raise_input(error, file//': the file is empty')
+         call raise_input(error, text%file//': the file is empty')
          return
       end if
       if (is_ascii(text%text(text%first(1):text%last(text%lines())))) return
@@ -81,7 +106,7 @@ contains
       call from_latin(bytes_read, text%text)
       deallocate (text%first, text%last)
       call index_lines(text)
-   end subroutine read_text_file
+   end subroutine find_lines
 
    !> The bytes of a file
    subroutine load(file, longest, content, error)
@@ -201,11 +226,7 @@ contains
       integer(int64) :: marks
       integer :: begin, finish, count, i, at
 
-      begin = 1
-      if (len(text%text) >= 3) then
-         if (text%text(1:3) == byte_order_mark) begin = 4
-      end if
-      finish = verify(text%text, padding, back=.true.)
+      call find_content(text%text, begin, finish)
       if (finish < begin) then
          allocate (text%first(0), text%last(0))
          return
@@ -245,6 +266,22 @@ contains
       end associate
    end subroutine index_lines
 
+   !> Where a text begins, after a byte order mark, and where it ends
+   pure subroutine find_content(text, begin, finish)
+      !> Everything in a file
+      character(len=*), intent(in) :: text
+      !> Position of the first character
+      integer, intent(out) :: begin
+      !> Position of the last one that is no padding, before `begin` if there is none
+      integer, intent(out) :: finish
+
+      begin = 1
+      if (len(text) >= 3) then
+         if (text(1:3) == byte_order_mark) begin = 4
+      end if
+      finish = verify(text, padding, back=.true.)
+   end subroutine find_content
+
    !> Number of line feeds
    pure integer function count_line_feeds(text) result(count)
       !> Text
@@ -263,7 +300,7 @@ contains
       do block = 1, len(text) - 8*words + 1, 8*words
          sums = 0
          do i = block, block + 8*(words - 1), 8
-            sums = sums + iand(shiftr(line_feeds(text(i:i + 7)), 7), ones)
+            sums = sums + iand(shiftr(line_feeds(text(i:i + 7)), mark), ones)
          end do
          sums = iand(sums, pairs) + iand(shiftr(sums, 8), pairs)
          sums = iand(sums, fours) + iand(shiftr(sums, 16), fours)
@@ -274,17 +311,21 @@ contains
       end do
    end function count_line_feeds
 
-   !> Which of eight characters are line feeds: the highest bit of each of their bytes
+   !> Which of eight characters are line feeds: bit `mark` of each of their bytes
    pure integer(int64) function line_feeds(text)
       !> Eight characters
       character(len=8), intent(in) :: text
 
-      integer(int64), parameter :: feeds = int(z'0a0a0a0a0a0a0a0a', int64), low = int(z'7f7f7f7f7f7f7f7f', int64)
+      ! In each byte: a line feed, the lowest seven and six bits, and the bit after these
+      integer(int64), parameter :: feeds = int(z'0a0a0a0a0a0a0a0a', int64), seven = int(z'7f7f7f7f7f7f7f7f', int64), &
+         & six = int(z'3f3f3f3f3f3f3f3f', int64), marks = shiftl(int(z'0101010101010101', int64), mark)
       integer(int64) :: bytes
 
-      ! A byte is zero then; its highest bit after this tells whether any bit of it is set
+      ! A byte is zero then. Eight bits become seven and six that are zero where they are, so that no sum overflows
       bytes = ieor(transfer(text, bytes), feeds)
-      line_feeds = not(ior(ior(iand(bytes, low) + low, bytes), low))
+      bytes = iand(ior(bytes, shiftr(bytes, 1)), seven)
+      bytes = iand(ior(bytes, shiftr(bytes, 1)), six)
+      line_feeds = iand(not(bytes + six), marks)
    end function line_feeds
 
    !> Number of lines

@@ -7,7 +7,7 @@ module dondolo_numbers
    implicit none
    private
 
-   public :: parse_real, parse_integer, take_real
+   public :: parse_real, parse_integer, take_real, take_column
 
    !> Powers of ten that are exact in real64, hence in every working precision
    real(wp), parameter :: power(0:22) = [1e0_wp, 1e1_wp, 1e2_wp, 1e3_wp, 1e4_wp, 1e5_wp, 1e6_wp, 1e7_wp, &
@@ -22,6 +22,9 @@ module dondolo_numbers
 
    !> Does the first character of a text become the lowest byte of an integer?
    logical, parameter :: first_is_lowest = transfer(1_int64, 'a') == achar(1)
+
+   !> Codes of characters between numbers
+   integer, parameter :: blank = iachar(' '), tab = 9, line_feed = 10, return = 13
 
    !> Exponents beyond this overflow or underflow in any precision
    integer, parameter :: largest_exponent = 99999
@@ -120,6 +123,72 @@ contains
       if (.not. ok) value = 0.0_wp
    end subroutine take_real
 
+   !> Take a column of decimal numbers: one a line and nothing else, blanks around it allowed
+   pure subroutine take_column(text, values, count, ok)
+      !> Lines that end in LF or CRLF, but the last
+      character(len=*), intent(in) :: text
+      !> The numbers; room for one of every two characters is enough
+      real(wp), intent(out) :: values(:)
+      !> How many there are before anything else
+      integer, intent(out) :: count
+      !> The whole text is such a column
+      logical, intent(out) :: ok
+
+      integer :: at
+
+      count = 0
+      at = 1
+      ok = .false.
+      do while (at <= len(text))
+         ! What is seldom there is asked for before it is passed, since a loop takes longer than a number
+         if (iachar(text(at:at)) <= blank) call pass_blanks(text, at)
+         call take_usual(text, at, values(count + 1), ok)
+         if (.not. ok) call take_real(text, at, len(text), values(count + 1), ok)
+         if (.not. ok) return
+         count = count + 1
+         if (at > len(text)) return
+         if (iachar(text(at:at)) == blank .or. iachar(text(at:at)) == tab) then
+            call pass_blanks(text, at)
+            if (at > len(text)) return
+         end if
+         if (at < len(text) .and. iachar(text(at:at)) == return) at = at + 1
+         ok = at < len(text) .and. iachar(text(at:at)) == line_feed
+         if (.not. ok) return
+         at = at + 1
+      end do
+   end subroutine take_column
+
+   !> Take a decimal number as most files of records print it, [-] digit . eight digits, before a blank or the end of a
+   !> line: the same as `take_real` gives, in a few instructions
+   pure subroutine take_usual(text, at, value, ok)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> Position: where the number begins, then what follows it; stays unless ok
+      integer, intent(inout) :: at
+      !> The number; of no use unless ok
+      real(wp), intent(out) :: value
+      !> There is one
+      logical, intent(out) :: ok
+
+      integer(int64) :: eight
+      integer :: first, digit
+      logical :: minus
+
+      ok = first_is_lowest .and. at + 11 <= len(text)
+      if (.not. ok) return
+      minus = iachar(text(at:at)) == iachar('-')
+      first = at
+      if (minus) first = first + 1
+      digit = iachar(text(first:first)) - iachar('0')
+      call take_eight(text(first + 2:first + 9), eight, ok)
+      ok = ok .and. digit >= 0 .and. digit <= 9 .and. iachar(text(first + 1:first + 1)) == iachar('.') .and. &
+         & iachar(text(first + 10:first + 10)) <= blank
+      if (.not. ok) return
+      at = first + 10
+      value = real(100000000_int64*digit + eight, wp)/power(8)
+      if (minus) value = -value
+   end subroutine take_usual
+
    !> Read an integer: [sign] digits, blanks around it allowed
    pure subroutine parse_integer(text, value, ok)
       !> Text
@@ -147,8 +216,6 @@ contains
       !> Position of its last character that is no blank
       integer, intent(out) :: last
 
-      integer, parameter :: blank = iachar(' '), tab = 9
-
       ! Loops, for VERIFY takes longer than all the rest of a number; and codes, for gfortran calls LEN_TRIM to compare a
       ! character with a blank
       do last = len(text), 1, -1
@@ -158,6 +225,18 @@ contains
          if (iachar(text(first:first)) /= blank .and. iachar(text(first:first)) /= tab) exit
       end do
    end subroutine inner
+
+   !> Go on to what is no blank and no tab
+   pure subroutine pass_blanks(text, at)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> Position; beyond the text where nothing but blanks follows
+      integer, intent(inout) :: at
+
+      do at = at, len(text)
+         if (iachar(text(at:at)) /= blank .and. iachar(text(at:at)) /= tab) exit
+      end do
+   end subroutine pass_blanks
 
    !> Add decimal digits to an integer, up to the first other character
    pure subroutine take_digits(text, i, units, exact, digits)
