@@ -70,7 +70,7 @@ def as_accurate(results, yardstick):
 
 
 def opponents(results):
-    """Settings of the other programs that take turns, with their names: the chosen one, and one as accurate as lanes."""
+    """Settings of the other programs that take turns, with names: the chosen one, and one as accurate as lanes."""
     lanes = next(each for each in results if (each.name, each.setting) == references(results)["lanes"])
     for program, several in by_program(results).items():
         if program != DONDOLO.name:

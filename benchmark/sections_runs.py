@@ -53,4 +53,3 @@ def earlier_runs(runs, run):
 def difference(mine, theirs):
     """By how much the median of a ratio is larger than that of an earlier run [%]."""
     return 100.0 * (mine.spread.median / theirs.spread.median - 1.0)
-

@@ -59,8 +59,8 @@ EDITS = [
     ),
     Edit(
         "confidence intervals are one-sided",
-        "return 0.5 - 0.5 * confidence, 0.5 + 0.5 * confidence",
-        "return 1.0 - confidence, confidence",
+        "return 0.5 - 0.5 * confidence, min(0.5 + 0.5 * confidence,",
+        "return 1.0 - confidence, min(confidence,",
         "test_fitting.py::test_delta_interval_is_that_of_a_probit_regression",
     ),
     Edit(

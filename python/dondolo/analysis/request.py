@@ -147,11 +147,11 @@ class Request:
     def plan(self) -> Plan:
         """Check everything; nothing is run."""
         walls, levels = len(self.walls), len(self.levels)
-        integers, scale, lines = receive(*_core.stripes.plan(self._study.number, self._people.number, walls))
+        parcel = receive(*_core.stripes.plan(self._study.number, self._people.number, walls))
         # Histories of each wall; of the last, record and polarity of each, and which run at each level
-        histories, rest = integers[:walls], integers[walls:].reshape(levels + 2, -1)
+        histories, rest = parcel.integers[:walls], parcel.integers[walls:].reshape(levels + 2, -1)
         record, polarity, ran = rest[0] - 1, rest[1], rest[2:] == 1
-        return Plan(histories, record, polarity, scale.reshape(levels, -1), ran, unpack_warnings(lines))
+        return Plan(histories, record, polarity, parcel.reals.reshape(levels, -1), ran, unpack_warnings(parcel.lines))
 
     def totals(self, histories: IntArray) -> NDArray[np.int64]:
         """Histories of each wall in all stripes."""
