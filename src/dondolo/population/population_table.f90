@@ -49,12 +49,14 @@ contains
       ! Properties of walls as columns: of a list its first value. An array, for gfortran 12 takes a wrong length for a text
       ! whose length follows from the result of a function.
       character(len=len(item_name(wall_properties(1)%name, 1))) :: shown(size(wall_properties))
+      character(len=len(member_properties%name)) :: of_members(size(member_properties))
       integer :: i, at, item
 
       do i = 1, size(shown)
          shown(i) = wall_properties(i)%name
          if (is_many(wall_properties(i)%kind)) shown(i) = item_name(trim(wall_properties(i)%name), 1)
       end do
+      of_members = member_properties%name
       call self%table%open(file, error)
       if (allocated(error)) return
       self%items = reshape([integer ::], [3, 0])
@@ -62,9 +64,9 @@ contains
          associate (column => self%table%columns(i)%text)
             call find_item(wall_properties, lower(column), at, item)
             if (at > 0) self%items = reshape([self%items, at, item, i], [3, size(self%items, 2) + 1])
-            if (at > 0 .or. any(lower(column) == shown) .or. any(lower(column) == member_properties%name)) cycle
+            if (at > 0 .or. any(lower(column) == shown) .or. any(lower(column) == of_members)) cycle
             call raise_input(error, file//': column '''//column//''': no such column; there are '// &
-               & join(shown)//', '//join(member_properties%name)//trim(meant(lower(column), shown)))
+               & join(shown)//', '//join(of_members)//trim(meant(lower(column), shown)))
          end associate
          call self%table%close()
          return
