@@ -87,9 +87,11 @@ def records_of_file(
     parcel = receive(*_core.records.read_records(as_path(path), what, int(dt is not None), step, *texts, *vertical))
     count = int(parcel.integers[0])
     rows = len(parcel.integers) - 1 - 3 * count
+    records = unpack_records(parcel, count, 2 * rows, 1 + rows)
+    # After all has been taken, since a warning may be an error
     warn_of_notes(parcel.lines[records_end(parcel, count, 1 + rows) :])
     level, factor = parcel.reals[: 2 * rows].reshape(2, rows)
-    return unpack_records(parcel, count, 2 * rows, 1 + rows), (parcel.integers[1 : 1 + rows], level, factor)
+    return records, (parcel.integers[1 : 1 + rows], level, factor)
 
 
 def read_number_table(path: str | os.PathLike[str]) -> tuple[list[str], FloatArray]:
