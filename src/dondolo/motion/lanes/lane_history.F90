@@ -11,7 +11,8 @@ module dondolo_lane_history
    use dondolo_kinds, only : wp
    use dondolo_lane_constants, only : lane_constants_type
    use dondolo_lane_grip, only : lane_grip_type
-   use dondolo_lane_state, only : event_possible, lane_width, lanes_type, part_if_held, step_taken, step_too_long
+   use dondolo_lane_state, only : event_possible, lane_width, lanes_type, part_if_held, step_taken, step_too_long, &
+      & whole_vectors
    use dondolo_lane_series, only : allowed_part, find_first, find_first_level, find_impacts, rate, undecided, value
    use dondolo_mechanism, only : mechanism_type
    use dondolo_normal_form, only : y_limit
@@ -161,7 +162,8 @@ contains
             end if
          end do
          found%n = n
-         if (n > 0) call find_impacts((n + 7)/8*8, found%d, found%peak, found%last, found%x, found%y, found%v, found%event)
+         if (n > 0) call find_impacts(whole_vectors(n), found%d, found%peak, found%last, found%x, found%y, found%v, &
+            & found%event)
       end associate
    end subroutine find_lane_events
 

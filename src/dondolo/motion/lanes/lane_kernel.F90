@@ -8,7 +8,7 @@ module dondolo_lane_kernel
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_kinds, only : wp
    use dondolo_lane_state, only : event_possible, lane_width, lanes_type, part_if_held, record_over, step_taken, &
-      & step_too_long
+      & step_too_long, vector_width, whole_vectors
    use dondolo_normal_form, only : degrees, harmonic_degrees, held_degrees, normal_form_type, y_limit
    implicit none
    private
@@ -32,8 +32,7 @@ contains
 
       integer :: rounded
 
-      ! Whole vectors, so that a lane's arithmetic does not depend on its place
-      rounded = min(lane_width, (active + 7)/8*8)
+      rounded = whole_vectors(active)
       if (form%is_held .and. form%is_shaken) then
          if (form%degree == held_degrees(1)) then
             call step_shaken_held_14(lanes, rounded, form, samples, verticals, rtol, atol)

@@ -6,12 +6,15 @@ module dondolo_lane_state
    implicit none
    private
 
-   public :: lanes_type, lane_width, part_if_held
+   public :: lanes_type, lane_width, part_if_held, vector_width, whole_vectors
    public :: step_taken, record_over, event_possible, step_too_long
 
    !> Most lanes: so many that those with an event in the same step fill a vector, and so few that all stay in the cache next to
    !> the processor
    integer, parameter :: lane_width = 64
+
+   !> Lanes in a vector of the widest kind. Loops run over whole ones, so that a lane's arithmetic does not depend on its place
+   integer, parameter :: vector_width = 8
 
    !> Part of the last three terms of a step that counts as its error where ties hold the wall. It vibrates on them, and
    !> the first term that is left out is (w h)^3/504 of the first of these three, less than 1/4000 where w h < 1/2
@@ -51,5 +54,15 @@ module dondolo_lane_state
       real(wp) :: a(lane_width, 0:highest_held) = 0.0_wp, fifth_a(lane_width) = 0.0_wp
       real(wp) :: above(lane_width) = huge(1.0_wp), below(lane_width) = 0.0_wp
    end type lanes_type
+
+contains
+
+   !> Number of lanes, rounded up to whole vectors
+   pure integer function whole_vectors(n)
+      !> Number of lanes
+      integer, intent(in) :: n
+
+      whole_vectors = (n + vector_width - 1)/vector_width*vector_width
+   end function whole_vectors
 
 end module dondolo_lane_state

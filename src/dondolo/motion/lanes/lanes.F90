@@ -10,7 +10,7 @@ module dondolo_lanes
    use dondolo_lane_grip, only : lane_grip_type
    use dondolo_lane_history, only : add_row, begin, begin_still, find_lane_events, lane_batch_type, resolve
    use dondolo_lane_kernel, only : step_lanes
-   use dondolo_lane_state, only : event_possible, lane_width
+   use dondolo_lane_state, only : event_possible, lane_width, vector_width
    use dondolo_mechanism, only : mechanism_type
    use dondolo_queue, only : queue_type
    use dondolo_record, only : record_type
@@ -103,7 +103,7 @@ contains
       integer, parameter :: rounds = 4, fewest = 16
 
       most_lanes = lane_width
-      if (threads > 1) most_lanes = min(lane_width, max(fewest, histories/(rounds*threads)/8*8))
+      if (threads > 1) most_lanes = min(lane_width, max(fewest, histories/(rounds*threads)/vector_width*vector_width))
    end function most_lanes
 
    !> A step of every lane at work, with what happens in it
