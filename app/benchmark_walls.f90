@@ -86,7 +86,7 @@ contains
       type(wall_type), intent(in) :: wall
 
       !> Of each degree of the polynomials a and b with four derivatives, and of all the rest; the same of a harmonic form
-      integer, parameter :: each_degree = 20, others = 175, each_of_harmonic = 2, others_of_harmonic = 221
+      integer, parameter :: each_degree = 20, others = 177, each_of_harmonic = 2, others_of_harmonic = 209
       type(normal_form_type) :: form
 
       associate (mechanism => wall%mechanism)
