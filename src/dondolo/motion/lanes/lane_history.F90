@@ -139,10 +139,14 @@ contains
       counted = merge(part_if_held, 1.0_wp, batch%constants%form%is_held)
       n = 0
       associate (lanes => batch%lanes, found => batch%found, constants => batch%constants)
+         ! Without a branch, which no processor could foresee
          do i = 1, batch%active
-            if (lanes%flag(i) == step_taken) cycle
-            n = n + 1
-            found%lane(n) = i
+            found%lane(n + 1) = i
+            n = n + merge(1, 0, lanes%flag(i) /= step_taken)
+         end do
+         found%n = n
+         do n = 1, found%n
+            i = found%lane(n)
             found%d(n, 0) = lanes%y(i)
             found%d(n, 1) = lanes%v(i)*lanes%step(i)
             found%d(n, 2:) = lanes%series(i, :)
@@ -161,8 +165,7 @@ contains
                end associate
             end if
          end do
-         found%n = n
-         if (n > 0) call find_impacts(whole_vectors(n), found%d, found%peak, found%last, found%x, found%y, found%v, &
+         if (found%n > 0) call find_impacts(whole_vectors(found%n), found%d, found%peak, found%last, found%x, found%y, found%v, &
             & found%event)
       end associate
    end subroutine find_lane_events
