@@ -9,9 +9,9 @@ module dondolo_lane_state
    public :: lanes_type, lane_width, part_if_held, vector_width, whole_vectors
    public :: step_taken, record_over, event_possible, step_too_long
 
-   !> Most lanes: so many that those with an event in the same step fill a vector, and so few that all stay in the cache next to
-   !> the processor
-   integer, parameter :: lane_width = 64
+   !> Most lanes: so many that those with an event in the same step fill a vector, and so few that all stay in the caches of
+   !> the processor's core. No power of two, for arrays of such a size would share few places of the first
+   integer, parameter :: lane_width = 160
 
    !> Lanes in a vector of the widest kind. Loops run over whole ones, so that a lane's arithmetic does not depend on its place
    integer, parameter :: vector_width = 8
