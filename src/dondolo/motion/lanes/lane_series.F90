@@ -2,7 +2,7 @@
 module dondolo_lane_series
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_bernstein, only : nowhere
-   use dondolo_events, only : find_event, find_level, impact, level_above, level_below, no_event, turning
+   use dondolo_events, only : find_event, find_level, impact, level_above, level_below, limit_reached, no_event, turning
    use dondolo_kinds, only : wp
    use dondolo_lane_state, only : lane_width
    use dondolo_normal_form, only : y_limit
@@ -70,7 +70,7 @@ contains
       integer(int64), parameter :: is_impact = impact, is_none = no_event, is_undecided = undecided
       ! Motions of another shape give nonsense, which must not overflow.
       real(wp), parameter :: smallest = 1.0e-60_wp
-      real(wp) :: last, z, zz, z4, y_end, v_end, bend_end, fastest, most_bent, root, slow, change, y_z, v_z, bend_z
+      real(wp) :: last, z, zz, z4, y_end, v_end, bend_end, fastest, most_bent, least_third, root, slow, change, y_z, v_z, bend_z
       real(wp) :: starts, rises, falls, is_found, is_simple
       integer :: i, iteration
 
@@ -89,12 +89,14 @@ contains
             fastest = max(d1, v_end) + zz*(0.75_wp*abs(d3) + last*(3.0_wp*abs(d4) + last*8.0_wp*abs(d5)))
             most_bent = max(2.0_wp*d2, bend_end) &
                & + zz*(3.0_wp*abs(d4) + last*16.0_wp*(abs(d5) + last*3.0_wp*abs(d6)))
+            least_third = d3 - last*(4.0_wp*abs(d4) + last*(10.0_wp*abs(d5) + last*20.0_wp*abs(d6)))
             ! Conditions hold where they are positive: a start, in which the third derivative rules; a fall, from the start on
-            ! or after a rise that stays below the peak, as the parabola that bends least does.
-            starts = min(y_limit - y_end, d3 - 4.0_wp*last*(abs(d4) + last*(abs(d5) + last*abs(d6))))
+            ! or after a rise that stays below the peak, as the parabola that bends least does. Where the third derivative is
+            ! positive the motion has one maximum at most, and crosses zero once if it ends below.
+            starts = min(y_limit - y_end, least_third)
             starts = merge(starts, -1.0_wp, abs(d0) + abs(d1) <= 0.0_wp)
             rises = min(d1, min(d0 + last*d1 - peak(i), d1*d1 + 2.0_wp*(peak(i) - d0)*most_bent))
-            falls = max(-fastest, min(min(-most_bent, -v_end), -rises))
+            falls = max(-fastest, min(max(min(-most_bent, -v_end), min(least_third, -y_end)), -rises))
             ! Halley's method, from the zero of the parabola at the start
             root = sqrt(max(0.0_wp, d1*d1 - 4.0_wp*d0*d2))
             z = merge(2.0_wp*d0/max(root - d1, smallest), (d1 + root)/max(-2.0_wp*d2, smallest), d1 < 0.0_wp)
@@ -161,6 +163,12 @@ contains
             return
          end if
       end if
+      if (rises_throughout(d, v, x)) then
+         if (y < y_limit) return
+         event = limit_reached
+         x = place_of_level(d, y_limit, x)
+         return
+      end if
       b = bernstein(d, x)
       if (maxval(b) <= peak .and. b(9) < 0.0_wp .and. count(b(:8) > 0.0_wp .and. b(1:) <= 0.0_wp) == 1 &
          & .and. .not. any(b(:8) < 0.0_wp .and. b(1:) > 0.0_wp)) then
@@ -185,36 +193,21 @@ contains
       !> The event, or no event
       integer, intent(inout) :: event
 
-      real(wp) :: y, v, bow, most_bent, shifted(0:9), place
+      real(wp) :: y, v, most_bent, place
 
       y = value(d, x)
       v = rate(d, x)
       if (event == turning) v = max(v, 0.0_wp)
-      ! y' leaves the range of its ends by no more than its second derivative allows.
-      bow = x**2*(0.75_wp*abs(d(3)) + x*(3.0_wp*abs(d(4)) + x*8.0_wp*abs(d(5))))
       most_bent = max(2.0_wp*d(2), bend(d, x)) &
          & + x**2*(3.0_wp*abs(d(4)) + x*16.0_wp*(abs(d(5)) + x*3.0_wp*abs(d(6))))
-      if (min(d(1), v) > bow .or. (most_bent < 0.0_wp .and. v >= 0.0_wp)) then
-         ! It rises all the way.
+      if (rises_throughout(d, v, x) .or. (most_bent < 0.0_wp .and. v >= 0.0_wp)) then
          if (y < high) return
-         shifted = -d
-         shifted(0) = high - d(0)
-         if (shifted(0) > 0.0_wp) then
-            x = place_of_zero(shifted, x)
-         else
-            x = 0.0_wp
-         end if
+         x = place_of_level(d, high, x)
          event = level_above
-      else if (max(d(1), v) < -bow .or. (most_bent < 0.0_wp .and. d(1) <= 0.0_wp)) then
+      else if (rises_throughout(-d, -v, x) .or. (most_bent < 0.0_wp .and. d(1) <= 0.0_wp)) then
          ! It falls all the way.
          if (y > low .or. .not. low > 0.0_wp) return
-         shifted = d
-         shifted(0) = d(0) - low
-         if (shifted(0) > 0.0_wp) then
-            x = place_of_zero(shifted, x)
-         else
-            x = 0.0_wp
-         end if
+         x = place_of_level(-d, -low, x)
          event = level_below
       else
          place = nowhere
@@ -222,6 +215,33 @@ contains
          if (place < nowhere) x = place*x
       end if
    end subroutine find_first_level
+
+   !> Does a motion rise all the way? Its rate leaves the range of its ends by no more than its second derivative allows
+   pure logical function rises_throughout(d, last_rate, last)
+      !> The series of the motion
+      real(wp), intent(in) :: d(0:9)
+      !> Its rate at the end, and the place of that
+      real(wp), intent(in) :: last_rate, last
+
+      rises_throughout = min(d(1), last_rate) > last**2*(0.75_wp*abs(d(3)) + last*(3.0_wp*abs(d(4)) + last*8.0_wp*abs(d(5))))
+   end function rises_throughout
+
+   !> Where a motion that rises all the way reaches a level, the start if it begins there or beyond
+   pure real(wp) function place_of_level(d, level, last) result(x)
+      !> The series of the motion
+      real(wp), intent(in) :: d(0:9)
+      !> The level
+      real(wp), intent(in) :: level
+      !> A place after it
+      real(wp), intent(in) :: last
+
+      real(wp) :: below(0:9)
+
+      below = -d
+      below(0) = level - d(0)
+      x = 0.0_wp
+      if (below(0) > 0.0_wp) x = place_of_zero(below, last)
+   end function place_of_level
 
    !> Where a motion that falls all the way, or rises and then falls, is at zero: Halley's method, in a bracket
    pure real(wp) function place_of_zero(d, last) result(x)
