@@ -179,8 +179,10 @@ def test_a_broken_pool(whole, tmp_path):
     def kill():
         for process in list(executor._processes):
             os.kill(process, signal.SIGKILL)
-        # Python before 3.11.5 can wait forever to send a task to a killed process (python/cpython issue 94777).
-        executor._call_queue._reader.close()
+        # Python before 3.11.5 can wait forever to send a task to a killed process (python/cpython issue 94777); later ones
+        # close the pipe themselves.
+        if sys.version_info < (3, 11, 5):
+            executor._call_queue._reader.close()
 
     sentence = r"executor: BrokenProcessPool: .*; \d+ of 60 rows are complete, "
     with ProcessPoolExecutor(2, mp_context=SPAWN) as executor:
