@@ -91,12 +91,13 @@ contains
                & + zz*(3.0_wp*abs(d4) + last*16.0_wp*(abs(d5) + last*3.0_wp*abs(d6)))
             least_third = d3 - last*(4.0_wp*abs(d4) + last*(10.0_wp*abs(d5) + last*20.0_wp*abs(d6)))
             ! Conditions hold where they are positive: a start, in which the third derivative rules; a fall, from the start on
-            ! or after a rise that stays below the peak, as the parabola that bends least does. Where the third derivative is
-            ! positive the motion has one maximum at most, and crosses zero once if it ends below.
+            ! or after a rise that stays below the peak, as the tangent or the parabola that bends least does. Where the third
+            ! derivative is positive the motion has one maximum at most, and crosses zero once if it ends below.
             starts = min(y_limit - y_end, least_third)
             starts = merge(starts, -1.0_wp, abs(d0) + abs(d1) <= 0.0_wp)
-            rises = min(d1, min(d0 + last*d1 - peak(i), d1*d1 + 2.0_wp*(peak(i) - d0)*most_bent))
-            falls = max(-fastest, min(max(min(-most_bent, -v_end), min(least_third, -y_end)), -rises))
+            rises = min(d1, d0 + last*d1 - peak(i))
+            falls = max(max(-fastest, min(min(least_third, -y_end), -rises)), min(min(-most_bent, -v_end), &
+               & -min(rises, d1*d1 + 2.0_wp*(peak(i) - d0)*most_bent)))
             ! Halley's method, from the zero of the parabola at the start
             root = sqrt(max(0.0_wp, d1*d1 - 4.0_wp*d0*d2))
             z = merge(2.0_wp*d0/max(root - d1, smallest), (d1 + root)/max(-2.0_wp*d2, smallest), d1 < 0.0_wp)
