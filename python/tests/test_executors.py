@@ -179,8 +179,8 @@ def test_a_broken_pool(whole, tmp_path):
     def kill():
         for process in list(executor._processes):
             os.kill(process, signal.SIGKILL)
-        # Python before 3.11.5 can wait forever to send a task to a killed process (python/cpython issue 94777), unless the
-        # pipe is closed. Later ones close it.
+        # Python before 3.11.5 can wait forever to send a task to a killed process (python/cpython issue 94777),
+        # unless the pipe is closed. Later ones close it.
         if sys.version_info < (3, 11, 5):
             executor._call_queue._reader.close()
 
