@@ -8,7 +8,7 @@ module dondolo_lane_kernel
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_kinds, only : wp
    use dondolo_lane_state, only : event_possible, lane_width, lanes_type, part_if_held, record_over, step_taken, &
-      & step_too_long, vector_width, whole_vectors
+      & step_too_long, whole_vectors
    use dondolo_normal_form, only : degrees, harmonic_degrees, held_degrees, normal_form_type, y_limit
    implicit none
    private
@@ -90,6 +90,10 @@ contains
       end if
    end subroutine step_lanes
 
+! Lanes that take a turn: a vector of eight, or as many as fit the registers of processors whose vectors are shorter
+#ifndef LANES_IN_TURN
+#define LANES_IN_TURN 4
+#endif
 #define LANE_HELD
 #define LANE_A(j) lanes%a(i, j)
 #define LANE_STEP step_held_14
