@@ -84,7 +84,6 @@ def figures(results, turns, rows):
         if set(times_of(turns, *key)) == {0}:
             continue
         for engine, under in references(first).items():
-            # Without the setting: of settings that take as long, one is chosen in one run and another in the next
             found[f"{name} / {engine}"] = ratio(turns, key, under, what)
     if times_of(turns, LIMIT, 0.0):
         found["lanes / arithmetic limit"] = ratio(turns, references(first)["lanes"], (LIMIT, 0.0))
