@@ -10,10 +10,10 @@ module dondolo_lane_history
    use dondolo_interrupt, only : look_for_interrupt
    use dondolo_kinds, only : wp
    use dondolo_lane_constants, only : lane_constants_type
+   use dondolo_lane_events, only : find_event, found_type
    use dondolo_lane_grip, only : lane_grip_type
-   use dondolo_lane_state, only : event_possible, lane_width, lanes_type, part_if_held, step_taken, step_too_long, &
-      & whole_vectors
-   use dondolo_lane_series, only : allowed_part, find_first, find_first_level, find_impacts, rate, undecided, value
+   use dondolo_lane_ground, only : aim, limit_span, next_sample, stop_between
+   use dondolo_lane_state, only : event_possible, lane_width, lanes_type
    use dondolo_mechanism, only : mechanism_type
    use dondolo_normal_form, only : y_limit
    use dondolo_queue, only : queue_type
@@ -27,7 +27,7 @@ module dondolo_lane_history
    implicit none
    private
 
-   public :: lane_batch_type, add_row, begin, begin_still, find_lane_events, resolve
+   public :: lane_batch_type, add_row, begin, begin_still, resolve
 
    !> A history in a lane. Its interval and time are those of its last event
    type, extends(history_type) :: lane_history_type
@@ -38,18 +38,6 @@ module dondolo_lane_history
       !> Whether it is over
       logical :: over = .false.
    end type lane_history_type
-
-   !> What is found in the steps of flagged lanes, one after another
-   type :: found_type
-      !> Number of flagged lanes, and which they are
-      integer :: n = 0, lane(lane_width) = 0
-      !> The series of their motions, the part of the step that is allowed, and their largest y so far
-      real(wp) :: d(lane_width, 0:9) = 0.0_wp, last(lane_width) = 1.0_wp, peak(lane_width) = 0.0_wp
-      !> The first event, or `undecided`
-      integer(int64) :: event(lane_width) = no_event
-      !> Its place, the coordinate there, and its rate of change
-      real(wp) :: x(lane_width) = 1.0_wp, y(lane_width) = 0.0_wp, v(lane_width) = 0.0_wp
-   end type found_type
 
    !> The lanes of one thread, with all that their histories need
    type :: lane_batch_type
@@ -129,47 +117,6 @@ contains
       end associate
    end subroutine begin_still
 
-   !> Find the first event in the step of each flagged lane
-   pure subroutine find_lane_events(batch)
-      type(lane_batch_type), intent(inout) :: batch
-
-      real(wp) :: counted, d(0:9)
-      integer :: i, n
-
-      counted = merge(part_if_held, 1.0_wp, batch%constants%form%is_held)
-      n = 0
-      associate (lanes => batch%lanes, found => batch%found, constants => batch%constants)
-         ! Without a branch, which no processor could foresee
-         do i = 1, batch%active
-            found%lane(n + 1) = i
-            n = n + merge(1, 0, lanes%flag(i) /= step_taken)
-         end do
-         found%n = n
-         do n = 1, found%n
-            i = found%lane(n)
-            found%d(n, 0) = lanes%y(i)
-            found%d(n, 1) = lanes%v(i)*lanes%step(i)
-            found%d(n, 2:) = lanes%series(i, :)
-            if (lanes%y(i) == 0.0_wp .and. lanes%v(i) == 0.0_wp) found%d(n, 2) = max(0.0_wp, found%d(n, 2))
-            found%peak(n) = lanes%peak(i)
-            found%last(n) = 1.0_wp
-            if (lanes%flag(i) == step_too_long) then
-               associate (part => found%last(n), step => lanes%step(i))
-                  d = found%d(n, :)
-                  part = allowed_part(d, step, smallest_step*lanes%dt(i), counted, &
-                     & constants%form%fifth(lanes%fifth_a(i), lanes%u(i), lanes%heavier(i)), constants%solver%rtol, constants%atol)
-                  if (part < 1.0_wp) then
-                     lanes%next_span(i) = part*step
-                     lanes%span(i) = part*step
-                  end if
-               end associate
-            end if
-         end do
-         if (found%n > 0) call find_impacts(whole_vectors(found%n), found%d, found%peak, found%last, found%x, found%y, found%v, &
-            & found%event)
-      end associate
-   end subroutine find_lane_events
-
    !> Take the step of a flagged lane, up to the first event in it
    pure subroutine resolve(batch, n)
       !> The lanes
@@ -183,7 +130,7 @@ contains
       i = batch%found%lane(n)
       associate (lanes => batch%lanes, history => batch%history(i), constants => batch%constants)
          if (lanes%flag(i) >= event_possible) then
-            call find_event(batch, n, part, event)
+            call find_event(batch%found, n, lanes, batch%grips, part, event)
             h = part*lanes%step(i)
             if (event == no_event .and. .not. lanes%time(i) + h < lanes%dt(i)) then
                call next_sample(lanes, i, batch%set)
@@ -216,123 +163,6 @@ contains
          if (history%over) call finish(batch, i)
       end associate
    end subroutine resolve
-
-   !> The first event in the step of a flagged lane, and the motion there
-   pure subroutine find_event(batch, n, part, event)
-      !> The lanes
-      type(lane_batch_type), intent(inout) :: batch
-      !> Place of the one among the flagged lanes
-      integer, intent(in) :: n
-      !> The part of its step up to the event, or to where the step ends
-      real(wp), intent(out) :: part
-      !> The event
-      integer, intent(out) :: event
-
-      real(wp) :: d(0:9)
-      logical :: heeds
-
-      associate (i => batch%found%lane(n), lanes => batch%lanes, found => batch%found)
-         part = found%last(n)
-         event = no_event
-         if (part*lanes%step(i) > shortest_motion*lanes%dt(i)) then
-            part = found%x(n)
-            event = int(found%event(n))
-            if (event /= undecided .and. .not. allocated(batch%grips)) then
-               lanes%y(i) = found%y(n)
-               lanes%v(i) = found%v(n)/lanes%step(i)
-               return
-            end if
-         end if
-         d = found%d(n, :)
-         if (event == undecided) then
-            part = found%last(n)
-            call find_first(d, lanes%peak(i), part, event)
-         end if
-         if (allocated(batch%grips) .and. found%last(n)*lanes%step(i) > shortest_motion*lanes%dt(i)) then
-            call batch%grips(i)%heed(heeds)
-            if (heeds) call find_first_level(d, lanes%below(i), lanes%above(i), part, event)
-         end if
-         lanes%y(i) = value(d, part)
-         if (part*lanes%step(i) > 0.0_wp) lanes%v(i) = rate(d, part)/lanes%step(i)
-      end associate
-   end subroutine find_event
-
-   !> The lane reaches its next sample
-   pure subroutine next_sample(lanes, i, set)
-      !> The lanes, and the one
-      type(lanes_type), intent(inout) :: lanes
-      integer, intent(in) :: i
-      !> Accelerograms
-      type(record_set_type), intent(in) :: set
-
-      lanes%time(i) = 0.0_wp
-      lanes%next(i) = lanes%next(i) + 1
-      lanes%u(i) = lanes%u_next(i)
-      lanes%u_next(i) = lanes%factor(i)*set%samples(lanes%next(i))
-      lanes%slope(i) = (lanes%u_next(i) - lanes%u(i))*lanes%rate(i)
-      if (allocated(set%verticals)) then
-         lanes%heavier(i) = lanes%heavier_next(i)
-         lanes%heavier_next(i) = lanes%vertical_factor(i)*set%verticals(lanes%next(i))
-         lanes%heavier_slope(i) = (lanes%heavier_next(i) - lanes%heavier(i))*lanes%rate(i)
-      end if
-      lanes%span(i) = lanes%next_span(i)
-   end subroutine next_sample
-
-   !> The lane stops between two samples
-   pure subroutine stop_between(lanes, i, set, h)
-      !> The lanes, and the one
-      type(lanes_type), intent(inout) :: lanes
-      integer, intent(in) :: i
-      !> Accelerograms
-      type(record_set_type), intent(in) :: set
-      !> Time since the last stop [s]
-      real(wp), intent(in) :: h
-
-      lanes%time(i) = min(lanes%time(i) + h, lanes%dt(i))
-      ! Of the time in the interval, not of the step: a sum of steps below the rounding of u would never move it, and a
-      ! wall on the edge of its trigger would turn forever.
-      lanes%u(i) = lanes%factor(i)*set%samples(lanes%next(i) - 1) + lanes%slope(i)*lanes%time(i)
-      if (allocated(set%verticals)) lanes%heavier(i) = lanes%vertical_factor(i)*set%verticals(lanes%next(i) - 1) &
-         & + lanes%heavier_slope(i)*lanes%time(i)
-   end subroutine stop_between
-
-   !> Limit the steps from an event to the next sample
-   pure subroutine limit_span(lanes, i, steps_per_sample)
-      !> The lanes, and the one just after an event
-      type(lanes_type), intent(inout) :: lanes
-      integer, intent(in) :: i
-      !> Least number of steps
-      integer, intent(in) :: steps_per_sample
-
-      lanes%span(i) = min(lanes%next_span(i), longest_step(steps_per_sample, lanes%dt(i), lanes%time(i)))
-   end subroutine limit_span
-
-   !> The ground seen from the side of the wall, at the lane's time
-   pure subroutine aim(lanes, i, set, factor, gravity)
-      !> The lanes, and the one
-      type(lanes_type), intent(inout) :: lanes
-      integer, intent(in) :: i
-      !> Accelerograms
-      type(record_set_type), intent(in) :: set
-      !> Factor on them: side * scale
-      real(wp), intent(in) :: factor
-      !> Gravity [m/s2]
-      real(wp), intent(in) :: gravity
-
-      associate (here => set%samples(lanes%next(i) - 1), next => set%samples(lanes%next(i)))
-         lanes%factor(i) = factor
-         lanes%u_next(i) = lanes%factor(i)*next
-         lanes%slope(i) = (lanes%u_next(i) - lanes%factor(i)*here)*lanes%rate(i)
-         lanes%u(i) = lanes%factor(i)*here + lanes%slope(i)*lanes%time(i)
-      end associate
-      if (.not. allocated(set%verticals)) return
-      associate (here => set%verticals(lanes%next(i) - 1), next => set%verticals(lanes%next(i)))
-         lanes%vertical_factor(i) = abs(factor)/gravity
-         lanes%heavier_next(i) = lanes%vertical_factor(i)*next
-         lanes%heavier_slope(i) = (lanes%heavier_next(i) - lanes%vertical_factor(i)*here)*lanes%rate(i)
-         lanes%heavier(i) = lanes%vertical_factor(i)*here + lanes%heavier_slope(i)*lanes%time(i)
-      end associate
-   end subroutine aim
 
    !> An impact: the wall turns back, or rocks on to the other side, or comes to rest
    pure subroutine bounce(batch, i)

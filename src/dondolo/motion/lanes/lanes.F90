@@ -7,8 +7,9 @@ module dondolo_lanes
    use, intrinsic :: omp_lib, only : omp_get_num_threads
    use dondolo_kinds, only : wp
    use dondolo_lane_constants, only : lane_constants_type
+   use dondolo_lane_events, only : find_lane_events
    use dondolo_lane_grip, only : lane_grip_type
-   use dondolo_lane_history, only : add_row, begin, begin_still, find_lane_events, lane_batch_type, resolve
+   use dondolo_lane_history, only : add_row, begin, begin_still, lane_batch_type, resolve
    use dondolo_lane_kernel, only : step_lanes
    use dondolo_lane_state, only : event_possible, lane_width, vector_width
    use dondolo_mechanism, only : mechanism_type
@@ -121,7 +122,7 @@ contains
          end if
       end associate
       batch%work%steps = batch%work%steps + batch%active
-      call find_lane_events(batch)
+      call find_lane_events(batch%found, batch%lanes, batch%active, batch%constants)
       do n = 1, batch%found%n
          call resolve(batch, n)
       end do
