@@ -6,6 +6,7 @@ A block takes less than half a second, so that little is lost when Ctrl-C breaks
 from __future__ import annotations
 
 import builtins
+import dataclasses
 import functools
 import time
 import warnings
@@ -142,7 +143,7 @@ class Request:
     @functools.cached_property
     def share(self) -> FloatArray:
         """Share of the records that run at each level, shape (levels,)."""
-        return np.asarray(self.runs.mean(axis=0))
+        return np.ones(len(self.levels)) if self.rows is None else np.asarray(self.runs.mean(axis=0))
 
     def plan(self) -> Plan:
         """Check everything; nothing is run."""
@@ -160,18 +161,20 @@ class Request:
 
     def run(self, histories: IntArray, progress: bool, label: str) -> tuple[Outcome, bool]:
         """Run all histories; the second result says whether Ctrl-C stopped it before the end."""
-        total = int(self.totals(histories).sum())
-        with progress_bar(total, progress, label, "history") as bar:
-            return self.advance(histories, Pace(self.samples), bar.update)
+        totals = self.totals(histories)
+        with progress_bar(int(totals.sum()), progress, label, "history") as bar:
+            return self.advance(totals, Pace(self.samples), bar.update)
 
-    def advance(self, histories: IntArray, pace: Pace, report: Callable[[int], object]) -> tuple[Outcome, bool]:
-        """The same at a pace, and with a report of how many histories were done in each call."""
-        ends = np.cumsum(self.totals(histories))
+    def advance(
+        self, totals: NDArray[np.int64], pace: Pace, report: Callable[[int], object]
+    ) -> tuple[Outcome, bool]:
+        """The same at a pace, with each wall's histories, and with a report of how many were done in each call."""
+        ends = np.cumsum(totals)
         total = int(ends[-1])
         edp, peak, error = np.empty(total), np.empty(total), np.empty(total)
         collapsed, impacts = np.empty(total, dtype=np.int32), np.empty(total, dtype=np.int32)
         study, people = self._study.number, self._people.number
-        works: list[Work] = []
+        work = np.zeros(len(dataclasses.fields(Work)))
 
         def block(done: int, count: int) -> None:
             # The walls that the block touches
@@ -184,10 +187,10 @@ class Request:
                     study, people, one + 1, last + 1, first + 1, *rows, count
                 )
             check(stat, message)
-            works.append(Work.of(counts))
+            np.add(work, counts, out=work)
 
         done, interrupted = in_blocks(total, pace, block, report)
-        return Outcome(edp, collapsed == 1, impacts, peak, error, Work.total(works), done), interrupted
+        return Outcome(edp, collapsed == 1, impacts, peak, error, Work.of(work), done), interrupted
 
 
 class Pace:
@@ -255,8 +258,13 @@ def new_request(
 
 def check_threads(threads: int) -> int:
     """A number of threads; 0 stands for all."""
+    return as_count("threads", threads, 0, _most_threads())
+
+
+@functools.cache
+def _most_threads() -> int:
     (row,) = (row for row in properties("job") if row.name == "threads")
-    return as_count("threads", threads, 0, int(row.largest))
+    return int(row.largest)
 
 
 class _NoBar:

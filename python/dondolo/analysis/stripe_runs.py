@@ -155,7 +155,7 @@ def _auto(request: Request, budget: int | None, progress: bool) -> Stripes:
             here = at(level)
             try:
                 plan = here.plan()
-                outcome, interrupted = here.advance(plan.histories, pace, bar.update)
+                outcome, interrupted = here.advance(here.totals(plan.histories), pace, bar.update)
             except InputError:
                 if not parts:
                     raise
