@@ -18,11 +18,10 @@ import runs
 from problem import ROOT, SINGLE_BLOCKS, problem, write_case
 from programs import BUILD, DONDOLO, PEERS, run_peer, weights, write_results
 from progress import Progress, say
-from rounds import Rounds, write_rounds
+from rounds import QUICK_ROUNDS, ROUNDS, Rounds, write_rounds
 from scaling import measure, write_scaling
 
 OUT = ROOT / "out" / "benchmark"
-ROUNDS, QUICK_ROUNDS = (3, 2, 2), (1, 1)  # of all programs in turns, for the ratios, in each of the groups
 
 
 def compare(executable, records, quick, progress):
@@ -38,7 +37,7 @@ def compare(executable, records, quick, progress):
         turns = None
         for each, count in zip(problems, rounds, strict=True):
             say(f"{each.wall}, {len(each)} histories under {each.name} accelerograms")
-            own, path, case = settings(executable, each, folder, turns is None and not quick, progress)
+            own, path, case = settings(each, folder, turns is None and not quick, progress)
             found += own
             if turns is None:
                 turns = Rounds(executable, each, own, path, case)
@@ -62,7 +61,7 @@ def plan(progress, problems, quick):
     for each in problems:
         first = each is problems[0]
         factor = 1.0 if first else 1.7
-        progress.plan(f"{each.wall}, weights", 3.0)
+        progress.plan(f"{each.wall}, weights", 1.0)
         for peer in chosen_peers(first, first and not quick):
             for method, values in peer.methods.items():
                 progress.plan(f"{each.wall}, {peer.name}, {method}", factor * peer.expected * len(values))
@@ -71,14 +70,14 @@ def plan(progress, problems, quick):
     progress.plan("scaling", 20.0 if quick else 100.0)
 
 
-def settings(executable, each, folder, whole, progress):
+def settings(each, folder, whole, progress):
     """Results of dondolo and its peers for one wall, and the files of the problem and of dondolo's case."""
     path = Path(folder) / f"{each.wall}.bin"
     each.write(path)
     place = Path(folder) / each.wall
     place.mkdir()
     case = write_case(place, each.wall, each.motions, 1e-8)
-    shares = weights(executable, each, 3)
+    shares = weights(each)
     progress.finish(f"{each.wall}, weights")
     found = []
     for peer in chosen_peers(each.wall == SINGLE_BLOCKS[0], whole):

@@ -11,8 +11,10 @@ from dataclasses import asdict, dataclass, fields, replace
 from pathlib import Path
 
 import numpy as np
-from problem import Motions, read_table, write_case
+from problem import write_case
 from progress import say
+
+import dondolo as dd
 
 FOLDER = Path(__file__).resolve().parent
 BUILD, ENVIRONMENT = FOLDER / "build", FOLDER / ".venv"
@@ -247,46 +249,30 @@ def run_dondolo(executable, wall, motions, rtol, engine, repeats):
         return whole, histories
 
 
-def weights(executable, problem, repeats):
-    """Ratio of the mean time per history of every n-th history to that of all, as {n: ratio}.
+def weights(problem):
+    """Ratio of the work of every n-th history to that of all, per history, as {n: ratio}.
 
-    Measured with rk45, which runs history by history.
+    It is counted, not timed, so that it is the same in every run: evaluations of rk45, which runs history by history.
     """
     strides = {stride(peer, problem) for peer in PEERS}
-    _, seconds = run_dondolo(executable, problem.wall, problem.motions, 1e-8, "rk45", repeats)
-    of_all = statistics.median(seconds) / len(problem)
+    of_all = evaluations(problem, range(len(problem))) / len(problem)
     found = {1: 1.0}
     for every in sorted(strides - {1}):
         chosen = range(0, len(problem), every)
-        found[every] = seconds_of(executable, problem, chosen, repeats) / len(chosen) / of_all
-        say(f"every {every}th history takes {found[every]:.2f} of the mean time of all")
+        found[every] = evaluations(problem, chosen) / len(chosen) / of_all
+        say(f"every {every}th history takes {found[every]:.3f} of the mean work of all")
     return found
 
 
-def seconds_of(executable, problem, chosen, repeats):
-    """Time of some histories, measured together for records that share their levels."""
-    levels = np.unique(problem.exact.level)
-    records = len(problem) // len(levels)
-    by_levels = {}
-    for record in range(records):
-        own = tuple(levels[i // records] for i in chosen if i % records == record)
-        by_levels.setdefault(own, []).append(record)
-    by_levels.pop((), None)
-    total = 0.0
-    rows = read_table(problem.motions.catalogue)
-    for own, members in by_levels.items():
-        with tempfile.TemporaryDirectory() as folder:
-            catalogue = Path(folder) / "part.csv"
-            with open(catalogue, "w", newline="", encoding="utf-8") as file:
-                writer = csv.DictWriter(file, rows[0])
-                writer.writeheader()
-                for member in members:
-                    row = rows[member]
-                    writer.writerow(row | {"file": problem.motions.catalogue.parent / row["file"]})
-            part = Motions(catalogue, f"levels = {', '.join(map(repr, map(float, own)))}")
-            _, seconds = run_dondolo(executable, problem.wall, part, 1e-8, "rk45", repeats)
-            total += statistics.median(seconds)
-    return total
+def evaluations(problem, chosen):
+    """Evaluations of the equation of motion that some histories take rk45."""
+    case, exact = problem.case(), problem.exact
+    records = {record.name: record for record in case.records}
+    by_level = {}
+    for i in chosen:
+        by_level.setdefault(exact.level[i], []).append(records[exact.record[i]])
+    solver = dd.Solver(rtol=1e-8, atol=1e-10, engine="rk45")
+    return dd.multiple_stripe(case.population[0], by_level, solver=solver, progress=False).work.evaluations
 
 
 def write_results(path, results):

@@ -18,6 +18,7 @@ from progress import say
 from spread import Spread
 
 SHARE, WRONG = 0.01, 1  # acceptable share of histories with an error above 1e-6, acceptable number of wrong flags
+ROUNDS, QUICK_ROUNDS = (3, 2, 2), (1, 1)  # of all programs in turns, in each of the groups
 TURN = 0.3  # seconds: a program that needs less repeats its call until they are over, and the median counts
 SLOWEST = 20.0  # seconds: a program that needs more has no turns; the time of its settings counts
 

@@ -1,6 +1,7 @@
 """Ratios of every full run, in runs.csv, and their comparison with earlier runs."""
 
 import csv
+import statistics
 import subprocess
 from dataclasses import astuple, dataclass, fields, replace
 from datetime import UTC, datetime
@@ -44,15 +45,13 @@ class Figure:
     name: str
     spread: Spread
 
-    def agrees(self, other):
-        """Whether each median lies between the least and the largest value of the other."""
-        mine, theirs = self.spread, other.spread
-        return mine.least <= theirs.median <= mine.largest and theirs.least <= mine.median <= theirs.largest
+    def agrees(self, stated):
+        """Whether the median lies between the least and the largest value of a spread that was stated before."""
+        return stated.least <= self.spread.median <= stated.largest
 
-    def agrees_closely(self, other):
-        """Whether each median lies between the quartiles of the other."""
-        mine, theirs = self.spread, other.spread
-        return mine.lower <= theirs.median <= mine.upper and theirs.lower <= mine.median <= theirs.upper
+    def agrees_closely(self, stated):
+        """Whether the median lies between the quartiles of that spread."""
+        return stated.lower <= self.spread.median <= stated.upper
 
 
 def new_run(report):
@@ -134,7 +133,22 @@ def earlier(runs, run):
     )
 
 
-def pairs(found, others):
-    """Ratios that two runs have in common, as (this, other)."""
-    by_name = {each.name: each for each in others}
-    return [(each, by_name[each.name]) for each in found if each.name in by_name]
+def together(runs):
+    """Spread of each ratio over all rounds of several runs, as {name: spread}.
+
+    The median is that of the runs, the quartiles are the least and the largest that a run has.
+    """
+    spreads = {}
+    for found in runs:
+        for each in found:
+            spreads.setdefault(each.name, []).append(each.spread)
+    return {
+        name: Spread(
+            statistics.median(each.median for each in several),
+            min(each.lower for each in several),
+            max(each.upper for each in several),
+            min(each.least for each in several),
+            max(each.largest for each in several),
+        )
+        for name, several in spreads.items()
+    }

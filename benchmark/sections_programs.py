@@ -75,8 +75,7 @@ def programs(results, turns, machine):
         ),
         *paragraph(
             f"Slow programs run only a part of the histories: {parts(first)}. Their times are divided by the ratio of "
-            "the mean times per history that rk45, which runs history by history, needs for that part and for all "
-            "histories."
+            "the mean numbers of evaluations per history that rk45 needs for that part and for all histories."
         ),
         *paragraph(
             "A front in the figure joins the settings that no other of dondolo, or of the other programs, beats in "

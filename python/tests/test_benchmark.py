@@ -1,5 +1,6 @@
 """The benchmark: spreads, the fitted growth, comparison of runs, and the page from made-up measurements."""
 
+import math
 import subprocess
 import sys
 from dataclasses import replace
@@ -18,7 +19,7 @@ from programs import Result, write_results
 from rounds import ARITHMETIC, COLD, LIMIT, Turn, write_rounds
 from runs import Figure, Run
 from scaling import row, write_scaling
-from sections_runs import earlier_runs
+from sections_runs import chances, earlier_runs
 from spread import Spread
 
 RUN = Run("2026-03-01T10:00:00Z", "0123456789ab", "a processor", "avx2", "GCC version 12.2.0, -O3", "0.1.0")
@@ -40,20 +41,30 @@ def figure(name, median, half=0.1):
 
 
 @pytest.mark.parametrize(
-    ("mine", "theirs", "agrees", "closely"),
-    [
-        ((8.0, 1.0), (8.5, 1.0), True, True),
-        ((8.0, 1.0), (9.5, 2.0), True, False),  # the other median is outside my quartiles
-        ((8.0, 3.0), (11.0, 2.0), True, False),  # this median is outside the other quartiles
-        ((8.0, 1.0), (10.5, 2.0), False, False),
-        ((8.0, 2.0), (10.5, 1.0), False, False),
-        ((8.0, 0.0), (8.0, 0.0), True, True),
-    ],
+    ("median", "agrees", "closely"),
+    [(8.0, True, True), (9.0, True, True), (9.1, True, False), (10.0, True, False), (10.1, False, False)],
 )
-def test_agreement(mine, theirs, agrees, closely):
-    one, other = figure("a", *mine), figure("a", *theirs)
-    assert one.agrees(other) == other.agrees(one) == agrees
-    assert one.agrees_closely(other) == other.agrees_closely(one) == closely
+def test_agreement(median, agrees, closely):
+    mine, stated = figure("a", median, 0.1), Spread(8.0, 7.0, 9.0, 6.0, 10.0)
+    assert mine.agrees(stated) == agrees
+    assert mine.agrees_closely(stated) == closely
+
+
+def test_spread_of_several_runs():
+    """All rounds of the runs lie in it, also those of a run that is another by more than its own spread."""
+    found = [[figure("a", 1.0), figure("b", 2.0)], [figure("a", 1.5, 0.2)], [figure("a", 1.1)]]
+    stated = runs.together(found)
+    assert stated["a"] == Spread(1.1, 0.9, 1.7, 0.8, 1.9)
+    assert stated["b"] == found[0][1].spread
+
+
+@pytest.mark.parametrize("several", [1, 2, 3])
+def test_agreement_by_chance(several):
+    """The median of seven is beyond all others if the four on its side are the last of them all in their order."""
+    beyond = 2.0 * math.comb(7, 4) / math.comb(7 * (several + 1), 4)
+    agree, closely = chances(several)
+    assert agree == pytest.approx(100.0 * (1.0 - beyond), abs=1.0)
+    assert 50 < closely < agree
 
 
 @pytest.mark.parametrize(
@@ -82,14 +93,16 @@ def test_uncommitted_runs_are_never_judged():
 def test_section_of_earlier_runs():
     oldest = replace(RUN, date="2026-01-01T10:00:00Z")
     found = {
-        oldest: [figure("a", 1.0)],
+        oldest: [figure("a", 0.9)],
         BEFORE: [figure("a", 1.0), figure("b", 2.0), figure("c", 3.0), figure("gone", 1.0)],
         RUN: [figure("a", 1.05), figure("b", 2.15), figure("c", 3.3), figure("new", 1.0)],
     }
     lines = earlier_runs(found, RUN)
-    assert f"| {BEFORE.date} | 2 of 3 ratios | 1 | 7.5 % | 10.0 % |" in lines
-    assert f"| {oldest.date} | 1 of 1 ratio | 1 | 5.0 % | 5.0 % |" in lines
-    assert "| a | 1.05, 0.95 to 1.15 (0.85 to 1.25) | 1, 0.9 to 1.1 (0.8 to 1.2) | +5.0 % | closely |" in lines
+    text = " ".join(lines)
+    assert "2 of 3 ratios agree with 2 earlier runs, 1 of them closely." in text
+    assert f"| {BEFORE.date} | 7.5 % | 10.0 % |" in lines
+    assert f"| {oldest.date} | 16.7 % | 16.7 % |" in lines
+    assert "| a | 1.05, 0.95 to 1.15 (0.85 to 1.25) | 0.95, 0.8 to 1.1 (0.7 to 1.2) | +10.5 % | closely |" in lines
     assert any(line.startswith("| b |") and line.endswith("| +7.5 % | yes |") for line in lines)
     assert any(line.startswith("| c |") and line.endswith("| +10.0 % | no |") for line in lines)
     assert not any("new" in line or "gone" in line for line in lines)
@@ -273,7 +286,8 @@ def test_page_compares_with_an_earlier_run(tables, site):
     other = [Figure(each.name, each.spread.times(2.5)) for each in found[:2]]
     runs.append(site / "runs.csv", BEFORE, other + found[2:])
     page.write(tables, site, site / "runs.csv")
-    assert f"| {BEFORE.date} | {len(found) - 2} of {len(found)} ratios |" in (site / "docs/performance.md").read_text()
+    text = " ".join((site / "docs/performance.md").read_text().split())
+    assert f"{len(found) - 2} of {len(found)} ratios agree with 1 earlier run," in text
 
 
 def test_page_without_marks(tables, site):

@@ -165,9 +165,7 @@ class Request:
         with progress_bar(int(totals.sum()), progress, label, "history") as bar:
             return self.advance(totals, Pace(self.samples), bar.update)
 
-    def advance(
-        self, totals: NDArray[np.int64], pace: Pace, report: Callable[[int], object]
-    ) -> tuple[Outcome, bool]:
+    def advance(self, totals: NDArray[np.int64], pace: Pace, report: Callable[[int], object]) -> tuple[Outcome, bool]:
         """The same at a pace, with each wall's histories, and with a report of how many were done in each call."""
         ends = np.cumsum(totals)
         total = int(ends[-1])
