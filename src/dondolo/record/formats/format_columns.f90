@@ -8,7 +8,8 @@
 !> Decimal commas are read where they cannot be anything else: columns are separated by semicolons or blanks, and no value
 !> has a point. Rows of empty cells at the end are dropped.
 module dondolo_format_columns
-   use dondolo_column_titles, only : find_units, is_other_quantity, is_seconds
+   use dondolo_column_cells, only : find_cells, first_value_line, most_cells, separator_of, unquoted
+   use dondolo_column_top, only : read_top
    use dondolo_equal_steps, only : check_equal_steps
    use dondolo_error, only : add_place, error_type
    use dondolo_kinds, only : wp
@@ -17,21 +18,12 @@ module dondolo_format_columns
    use dondolo_numbers, only : parse_real, take_real
    use dondolo_plain, only : shown
    use dondolo_record_format, only : raise_at, samples_type
-   use dondolo_text, only : blanks, lower, to_text
+   use dondolo_text, only : blanks, to_text
    use dondolo_text_file, only : text_file_type
    implicit none
    private
 
    public :: recognises_columns, read_columns
-
-   !> Cells that are found in a line: one that is too many tells that there are
-   integer, parameter :: most_cells = most_columns + 1
-
-   !> Relative difference allowed between the step of the times and one that a comment states
-   real(wp), parameter :: step_tolerance = 0.01_wp
-
-   !> What may stand around a title
-   character(len=*), parameter :: around = blanks//'"'''
 
 contains
 
@@ -307,197 +299,5 @@ contains
       end do
       call raise_at(error, text, line, 'columns must be separated as in line '//to_text(begin))
    end subroutine raise_bad_line
-
-   !> Read comments and titles
-   subroutine read_top(text, begin, cells, samples, error)
-      type(text_file_type), intent(in) :: text
-      !> First line of values
-      integer, intent(in) :: begin
-      !> Number of columns
-      integer, intent(in) :: cells
-      !> What the file says
-      type(samples_type), intent(inout) :: samples
-      !> Times that are no seconds, or a time step that is another than that of the times
-      type(error_type), allocatable, intent(out) :: error
-
-      character(len=:), allocatable :: content, units
-      integer :: line, mark, i, k, titles, first(most_cells), last(most_cells)
-
-      do line = 1, begin - 1
-         content = trim(adjustl(text%line(line)))
-         if (index(content, '#') == 1) then
-            mark = index(content, ':')
-            if (mark > 2) call samples%metadata%set(content(2:mark - 1), content(mark + 1:))
-            cycle
-         end if
-         call find_cells(text, line, separator_of(text, line), first, last, titles)
-         ! Titles may hold blanks: between tabs; in a single column; and those of a time and one channel, where the last units
-         ! of acceleration in the line are the channel's
-         if (titles /= cells) call find_cells(text, line, achar(9), first, last, titles)
-         if (cells == 1) then
-            titles = 1
-            first(1) = text%first(line)
-            last(1) = text%last(line)
-         else if (cells == 2 .and. titles /= 2 .and. line == begin - 1) then
-            content = unquoted(text%line(line))
-            call find_units(content, units)
-            if (len(units) > 0) samples%channels(1)%units = units
-            if (is_other_quantity(content, units)) samples%channels(1)%refusal = text%place(line)//': channel '''// &
-               & shown(content)//''' is no acceleration'
-         end if
-         if (titles /= cells) cycle
-         content = unquoted(text%text(first(1):last(1)))
-         call find_units(content, units)
-         if (cells > 1 .and. .not. is_seconds(content, units)) then
-            call raise_at(error, text, line, 'title '''//shown(content)//''' of the times: they must be in s')
-            return
-         end if
-         do i = 1, size(samples%channels)
-            k = min(i + 1, cells)
-            content = unquoted(text%text(first(k):last(k)))
-            call find_units(content, units)
-            if (len(units) > 0) samples%channels(i)%units = units
-            if (is_other_quantity(content, units)) samples%channels(i)%refusal = text%place(line)//': channel '''// &
-               & shown(content)//''' is no acceleration'
-            if (cells > 2 .and. len(content) > 0) samples%channels(i)%name = content
-         end do
-      end do
-      call take_comments(text, begin, samples, error)
-   end subroutine read_top
-
-   !> Take units and time step that comments state
-   subroutine take_comments(text, begin, samples, error)
-      type(text_file_type), intent(in) :: text
-      !> First line of values
-      integer, intent(in) :: begin
-      !> What the file says
-      type(samples_type), intent(inout) :: samples
-      !> The time step is no positive number, or not that of the times
-      type(error_type), allocatable, intent(out) :: error
-
-      character(len=:), allocatable :: stated
-      real(wp) :: dt
-      integer :: i
-      logical :: ok
-
-      stated = samples%metadata%get('dt')
-      if (len(stated) > 0) then
-         i = len(stated) - merge(1, 0, lower(stated(len(stated):)) == 's')
-         call parse_real(stated(:i), dt, ok)
-         if (ok) ok = dt > 0.0_wp
-         if (.not. ok) then
-            call raise_at(error, text, begin, 'the comment dt = '''//shown(stated)//''': must be a positive number')
-            return
-         end if
-         associate (step => samples%channels(1)%dt)
-            if (step > 0.0_wp .and. abs(dt - step) > step_tolerance*step) then
-               call raise_at(error, text, begin, 'the step of the times is '//to_text(step)// &
-                  & ': a comment states dt = '//to_text(dt))
-               return
-            end if
-            if (.not. step > 0.0_wp) step = dt
-         end associate
-      end if
-      stated = samples%metadata%get('units')
-      do i = 1, size(samples%channels)
-         if (.not. allocated(samples%channels(i)%units)) samples%channels(i)%units = stated
-      end do
-   end subroutine take_comments
-
-   !> A title without blanks and quotes around it
-   pure function unquoted(title)
-      !> Title
-      character(len=*), intent(in) :: title
-      !> The same without blanks and quotes around
-      character(len=verify(title, around, back=.true.) - max(verify(title, around), 1) + 1) :: unquoted
-
-      unquoted = title(max(verify(title, around), 1):)
-   end function unquoted
-
-   !> First line that holds values: after comments and one line of titles
-   function first_value_line(text) result(line)
-      type(text_file_type), intent(in) :: text
-      !> Number of the line, beyond the last if there is none
-      integer :: line
-
-      logical :: titled
-
-      titled = .false.
-      do line = 1, text%lines()
-         associate (content => text%text(text%first(line):text%last(line)))
-            if (verify(content, blanks) == 0) cycle
-            if (index(adjustl(content), '#') == 1) cycle
-            if (titled .or. .not. is_title(content)) exit
-            titled = .true.
-         end associate
-      end do
-   end function first_value_line
-
-   !> Is a line one of titles, and not a value that cannot be read?
-   pure function is_title(line)
-      !> The line
-      character(len=*), intent(in) :: line
-      !> It begins with a letter, a quote or a bracket, and not with NaN or Infinity
-      logical :: is_title
-
-      character(len=:), allocatable :: word
-
-      word = lower(line(verify(line, blanks):))
-      is_title = scan(word(1:1), 'abcdefghijklmnopqrstuvwxyz"''([%!') == 1 .and. &
-         & index(word, 'nan') /= 1 .and. index(word, 'inf') /= 1
-   end function is_title
-
-   !> What separates the columns of a line
-   pure function separator_of(text, line) result(separator)
-      type(text_file_type), intent(in) :: text
-      !> Number of the line
-      integer, intent(in) :: line
-      !> A semicolon, a comma, or a blank for blanks and tabs
-      character(len=1) :: separator
-
-      separator = ' '
-      if (index(text%text(text%first(line):text%last(line)), ',') > 0) separator = ','
-      if (index(text%text(text%first(line):text%last(line)), ';') > 0) separator = ';'
-   end function separator_of
-
-   !> Find the columns of a line
-   pure subroutine find_cells(text, line, separator, first, last, cells)
-      type(text_file_type), intent(in) :: text
-      !> Number of the line
-      integer, intent(in) :: line
-      !> What separates them
-      character(len=1), intent(in) :: separator
-      !> Position of the first character of each cell; an empty line has one that is empty
-      integer, intent(out) :: first(most_cells)
-      !> Position of the last character of each cell
-      integer, intent(out) :: last(most_cells)
-      !> Number of cells, `most_cells` if there are more
-      integer, intent(out) :: cells
-
-      integer :: at, begin, finish
-      logical :: by_blanks
-
-      by_blanks = separator == ' '
-      first(1) = 1
-      last(1) = 0
-      cells = 0
-      at = text%first(line)
-      do while (cells < most_cells .and. at <= text%last(line))
-         if (by_blanks) then
-            call text%next_word(at, text%last(line), begin, finish)
-            if (begin > text%last(line)) return
-         else
-            begin = at
-            do finish = begin, text%last(line)
-               if (text%text(finish:finish) == separator) exit
-            end do
-            finish = finish - 1
-         end if
-         cells = cells + 1
-         first(cells) = begin
-         last(cells) = finish
-         at = finish + 2
-      end do
-   end subroutine find_cells
 
 end module dondolo_format_columns
