@@ -109,7 +109,7 @@ EDITS = [
     ),
     Edit(
         "compare_intensities ignores events",
-        "draw_records(analyses[0]._sample(events).clusters, n_resamples, seed)",
+        "draw_records(clusters, n_resamples, seed)",
         "draw_records(range(len(several)), n_resamples, seed)",
         "test_intensity.py::test_comparison_draws_events_together",
     ),

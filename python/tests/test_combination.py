@@ -273,7 +273,7 @@ def test_walls_without_a_fit():
     )
     stepped = combine(*arguments)
     assert [str(warning) for warning in stepped.warnings] == [
-        "1 of 2 mechanisms of walls has no fit and takes part with its fractions of collapse "
+        "1 of 2 mechanisms of walls has no fit and takes part with its fractions of collapse, but not in dispersions "
         "(separated; the first is 'a')",
         "the population has no fit (mechanism one_sided, status separated)",
     ]

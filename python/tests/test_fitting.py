@@ -401,7 +401,7 @@ def test_bootstrap_goes_by_records_and_not_by_names(wall, few):
 
 @pytest.mark.parametrize("polarity", ["as_recorded", "both"])
 def test_events_are_drawn_together(wall, few, polarity):
-    """Records told twice are no more evidence than told once, if it is said that they belong together."""
+    """Records told twice are no more evidence than told once, unless it is said that they do not belong together."""
     levels = [0.4, 0.6, 0.8, 1.0, 1.2]
     # Without their events
     few = [dd.Record(record.acceleration, record.dt, name=record.name) for record in few]
@@ -409,9 +409,13 @@ def test_events_are_drawn_together(wall, few, polarity):
     once, doubled = (
         dd.multiple_stripe(wall, records, levels, polarity=polarity, progress=False).fit() for records in (few, twice)
     )
-    plain, alone = once.bootstrap(n_resamples=300, seed=3), doubled.bootstrap(n_resamples=300, seed=3)
+    plain, known = once.bootstrap(n_resamples=300, seed=3), doubled.bootstrap(n_resamples=300, seed=3)
     together = doubled.bootstrap(n_resamples=300, seed=3, events=[i // 2 for i in range(len(twice))])
+    alone = doubled.bootstrap(n_resamples=300, seed=3, events=range(len(twice)))
     np.testing.assert_allclose(together.theta, plain.theta, rtol=1e-12)
+    np.testing.assert_allclose(known.theta, plain.theta, rtol=1e-12)
+    np.testing.assert_allclose(doubled.covariance, once.covariance, rtol=1e-9)
+    assert (doubled.clusters, doubled.errors) == (once.clusters, once.errors)
     assert np.nanstd(np.log(alone.theta)) < 0.8 * np.nanstd(np.log(plain.theta))
     own_names = once.bootstrap(n_resamples=300, seed=3, events=[f"event {i}" for i in range(len(few))])
     np.testing.assert_array_equal(own_names.theta, plain.theta)

@@ -211,6 +211,21 @@ def test_one_sided_with_sections(motions):
     assert found.first[0] + found.rest == pytest.approx(1.0, abs=0.05)
 
 
+def test_variants_without_a_fit(wall, motions, found):
+    """The levels end below the medians of some: it is said of how many variants theta and indices are."""
+    sources = {"thickness": dd.Uniform(0.15, 0.45)}
+    levels = [0.3, 0.5, 0.7, 0.9]
+    with pytest.warns(dd.DondoloWarning, match="variants that have a fit") as caught:
+        few = dd.uncertain_wall(wall, motions, levels, sources=sources, count=40, progress=False)
+    (told,) = (one.message for one in caught if one.message.code == "variants_without_fit")
+    fitted = int(np.isfinite(few.thetas).sum())
+    assert 8 <= fitted < 40
+    assert told.numbers == {"fitted": fitted, "variants": 40}
+    assert f"{fitted} of 40" in str(told)
+    assert f"{fitted} of 40" in repr(few)
+    assert "variants with a fit" not in repr(found)
+
+
 def test_files(found, tmp_path):
     found.save(tmp_path / "strip.npz")
     again = dd.load(tmp_path / "strip.npz")

@@ -122,6 +122,15 @@ def _describe_measure(im: bytes, of_record: bool) -> MeasureData:
     return MeasureData(name, unit, title, int(parcel.integers[0]))
 
 
+def name_of_measure(im: str) -> str:
+    """A measure as dondolo writes it, 'sa(0.5)' for 'SA(0.50)'; one that it does not know, or '', as it is given."""
+    as_text("im", im)
+    try:
+        return describe_measure(im).name if im else im
+    except InputError:
+        return im
+
+
 def unit_of(im: str) -> str:
     """The unit of the levels of a measure; '' for a number, and for a name that dondolo does not know."""
     try:

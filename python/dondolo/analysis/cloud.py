@@ -363,7 +363,7 @@ def cloud(
 
     Notes
     -----
-    Jalayer and others (2017). The docstring of the module dondolo.cloud has the formulas.
+    Jalayer and others (2017). The docstring of the module dondolo.analysis.cloud has the formulas.
     """
     instance_of("wall", wall, Wall, "no wall")
     several = as_records(records)

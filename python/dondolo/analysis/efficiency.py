@@ -10,6 +10,7 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray, as_count, as_measures
 from dondolo._base.shown import Shown
+from dondolo._fortran.library import constants
 from dondolo._fortran.records import blank_unit, describe_measure
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
@@ -210,9 +211,12 @@ def compare_intensities(
     dispersion = np.array([curve.beta for curve in curves]) / power
     error = np.array([curve.se_beta for curve in curves]) / power
     # The same samples for all measures: what the records have in common does not blur the ratios.
-    times = draw_records(analyses[0]._sample(events).clusters, n_resamples, seed)
-    drawn = np.array([resample(stripes._sample(), times).beta for stripes in analyses]) / power[:, None]
-    interval = np.nanquantile(drawn / drawn[np.argmin(dispersion)], (0.025, 0.975), axis=1).T
+    clusters = analyses[0]._sample(events).clusters
+    interval = np.full((len(names), 2), np.nan)
+    if len(set(clusters)) >= constants().fewest_clusters:
+        times = draw_records(clusters, n_resamples, seed)
+        drawn = np.array([resample(stripes._sample(), times).beta for stripes in analyses]) / power[:, None]
+        interval = np.nanquantile(drawn / drawn[np.argmin(dispersion)], (0.025, 0.975), axis=1).T
     return IntensityComparison(
         stripes=tuple(analyses),
         curves=tuple(curves),

@@ -287,7 +287,7 @@ def incremental(stripes: Stripes) -> Incremental:
 
     Notes
     -----
-    Vamvatsikos and Cornell (2002). The docstring of the module dondolo.incremental has the formulas.
+    Vamvatsikos and Cornell (2002). The docstring of the module dondolo.analysis.incremental has the formulas.
     """
     instance_of("stripes", stripes, Stripes, "no Stripes")
     if not stripes.ran.all():

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from dondolo._base.arguments import FloatArray, as_array, as_number
 from dondolo._fortran.curves import CurveData, fit_curves
 from dondolo._fortran.library import warn
+from dondolo._fortran.records import name_of_measure
 from dondolo.curves.clusters import Errors, errors_of_sample
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloWarning, InputError
@@ -40,7 +41,7 @@ def fit_fragility(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike,
     Raises
     ------
     InputError
-        Counts that cannot be.
+        Counts that cannot be, a measure that is no text.
 
     Warns
     -----
@@ -54,7 +55,7 @@ def fit_fragility(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike,
     >>> round(curve.theta, 9), round(curve.beta, 9)
     (0.282842712, 0.513830774)
     """
-    curve = fit(*_counts(levels, collapses, histories), im=im)
+    curve = fit(*_counts(levels, collapses, histories), im=name_of_measure(im))
     if curve.status == "extrapolated":
         warn([extrapolation(curve)])
     return curve

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from dondolo._base.arguments import FloatArray, as_levels, as_number, shaped, tails
 from dondolo._base.shown import Shown
 from dondolo._fortran.curves import probability, student_quantile
-from dondolo._fortran.records import blank_unit, unit_of
+from dondolo._fortran.records import blank_unit, name_of_measure, unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.curves.bootstrap import Bootstrap, draw_records, resample
@@ -77,7 +77,8 @@ class Fragility(Shown, Saved):
     clusters : int
         Number of clusters of records, or of the walls that are too few; 0 for 'naive'.
     degrees_of_freedom : float
-        Of Student's t in intervals: clusters - 1; inf for 'naive'.
+        Of Student's t in intervals: clusters - 1; Satterthwaite's over records and walls of a population; inf for
+        'naive'.
     naive_covariance : ndarray, shape (2, 2)
         Covariance of ln theta and beta from the Fisher information, as if all histories were independent.
     parts : tuple of Clusters
@@ -124,7 +125,7 @@ class Fragility(Shown, Saved):
         Raises
         ------
         InputError
-            Parameters that are not positive.
+            Parameters that are not positive, a measure that is no text.
         """
         for what, value in (("theta", theta), ("beta", beta)):
             if not 0.0 < as_number(what, value) < np.inf:
@@ -140,7 +141,7 @@ class Fragility(Shown, Saved):
             levels=empty,
             collapses=empty,
             histories=empty,
-            im=im,
+            im=name_of_measure(im),
             errors="given",
         )
 
@@ -278,11 +279,12 @@ class Fragility(Shown, Saved):
         Returns
         -------
         Bootstrap
+            Of less than some ten records or events its intervals are too narrow; of two they are those of three curves.
 
         Raises
         ------
         InputError
-            As many labels as records are needed.
+            As many labels as records are needed, and two records or events to draw from.
         DondoloError
             The curve does not come from stripes.
         """
@@ -350,10 +352,14 @@ class Fragility(Shown, Saved):
 
     def _need_fit(self) -> None:
         if not self.has_fit:
-            low, high = self.bracket
-            raise DondoloError(
-                f"no curve was fitted (status '{self.status}'): the median lies between {low:g} and {high:g}"
-            )
+            raise DondoloError(f"no curve was fitted (status '{self.status}')" + self._bracket_in_words(": "))
+
+    def _bracket_in_words(self, before: str = "") -> str:
+        """Where the median lies; nothing where that is not known, as where fractions fall with the level."""
+        low, high = self.bracket
+        if low >= high:
+            return ""
+        return f"{before}the median lies between {low:g} and {high:g}{blank_unit(self.im)}"
 
     def _need_errors(self) -> None:
         self._need_fit()
@@ -370,8 +376,8 @@ class Fragility(Shown, Saved):
     def _facts(self) -> list[tuple[str, str]]:
         unit = blank_unit(self.im)
         if not self.has_fit:
-            low, high = self.bracket
-            return [("status", self.status), ("median between", f"{low:g} and {high:g}{unit}")]
+            text = self._bracket_in_words().removeprefix("the median lies ")
+            return [("status", self.status), *([("median", text)] if text else [])]
         ends = [("saturation", f"{self.saturation:.6g}")] if self.saturation < 1.0 else []
         return [
             ("theta", f"{self.theta:.6g}{unit}" + self._shown_error("standard error of ln theta", self.se_ln_theta)),

@@ -56,7 +56,7 @@ def draw_fragility(
         unit = blank_unit(fragility.im)
         text = label or f"θ = {fragility.theta:.3g}{unit}, β = {fragility.beta:.3g}"
         ax.plot(grid, fragility(grid), color=color, linestyle=linestyle, label=text)
-    else:
+    elif fragility.bracket[0] < fragility.bracket[1]:
         ax.axvspan(
             fragility.bracket[0],
             min(fragility.bracket[1], right),

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -65,22 +64,16 @@ def cluster_labels(records: int, events: Sequence[str] = (), checksums: Sequence
     events : sequence of str
         Event of each record, '' for none; empty if no record has one.
     checksums : sequence of str
-        Checksum of each record, which makes the label of a record without an event the same in every analysis; empty
-        if they are not known.
+        Checksum of each record, which makes the label of a record without an event the same in every analysis, and that
+        of a record that is given twice the same; empty if they are not known.
 
     Returns
     -------
     tuple of str
     """
-    times: Counter[str] = Counter()
-    found = []
-    for i, event in enumerate(events or [""] * records):
-        own = f"record {checksums[i]}" if checksums else f"number {i + 1}"
-        # A record that is given twice counts as two, here as in Fortran.
-        times[own] += 1
-        again = f" again {times[own]}" if times[own] > 1 else ""
-        found.append(f"event {event}" if event else own + again)
-    return tuple(found)
+    own = [f"record {one}" for one in checksums] or [f"number {i + 1}" for i in range(records)]
+    named = events or [""] * records
+    return tuple(f"event {event}" if event else label for event, label in zip(named, own, strict=True))
 
 
 def given_labels(records: int, events: Sequence[Any]) -> tuple[str, ...]:

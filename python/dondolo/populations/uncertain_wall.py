@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from dondolo._base.arguments import FloatArray, as_count, instance_of
 from dondolo._base.shown import Shown
 from dondolo._fortran.buildings import BUILDING_NAMES
+from dondolo._fortran.library import warn
 from dondolo._fortran.records import blank_unit
 from dondolo._fortran.uncertainty import published_factors, sensitivity, smallest_sample
 from dondolo._fortran.walls import WALL_LISTS, WALL_NUMBERS
@@ -24,7 +25,7 @@ from dondolo.analysis.stripe_runs import multiple_stripe
 from dondolo.analysis.stripes import Stripes
 from dondolo.curves.fitting import fit_fragility
 from dondolo.curves.fragility import Fragility
-from dondolo.errors import DondoloError, InputError, silent
+from dondolo.errors import DondoloError, DondoloWarning, InputError, silent
 from dondolo.populations.curve import PopulationCurve
 from dondolo.populations.study import typology
 from dondolo.populations.typology import Typology
@@ -197,7 +198,9 @@ class UncertainWall(Shown, Saved):
     def _facts(self) -> list[tuple[str, str]]:
         unit = blank_unit(self.im)
         low, high = self.curve.fractiles(self.theta, (0.16, 0.84)).ravel()
+        fitted = int(np.isfinite(self.thetas).sum())
         facts = [
+            *((("variants with a fit", f"{fitted} of {self._samples}"),) if fitted < self._samples else ()),
             ("theta", f"{self.theta:.4g}{unit}"),
             ("beta of records", f"{self.beta_records:.3g}"),
             ("beta of the model", f"{self.beta_model:.3g}"),
@@ -261,6 +264,11 @@ def uncertain_wall(
         Fewer walls with a curve than the indices need: the levels do not reach up or down to their medians.
     Interrupted
         Ctrl-C.
+
+    Warns
+    -----
+    DondoloWarning
+        What `typology` warns of; variants without a fit, which theta, dispersions and indices leave out.
 
     Notes
     -----
@@ -399,6 +407,12 @@ def _result(
         indices = sensitivity(sampled[fitted], np.log(thetas[fitted]))
     except InputError as error:
         raise DondoloError(f"{fitted.sum()} of {n} sampled walls have a curve: {error}") from None
+    if not fitted.all():
+        sentence = (
+            f"theta, dispersions and Sobol indices are of the {fitted.sum()} of {n} variants that have a fit: the"
+            " levels must reach below and above the medians of all"
+        )
+        warn([DondoloWarning(sentence, "variants_without_fit", numbers={"fitted": int(fitted.sum()), "variants": n})])
     return UncertainWall(
         sources=tuple(known),
         distributions=tuple(in_words(one) for one in known.values()),

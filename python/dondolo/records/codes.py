@@ -237,7 +237,7 @@ def ec8_spectrum(
     damping : float
         Damping ratio.
     periods : array_like, optional
-        [s], up to 4; 60 from 0.05 to 4 s if left out.
+        [s]; 60 from 0.05 to 4 s if left out. The code's formulas are for periods up to 4 s.
 
     Returns
     -------
@@ -253,7 +253,7 @@ def ec8_spectrum(
     if not 0.0 < a < np.inf:
         raise InputError(f"ag = {a:g}: must be positive")
     one_of("soil", soil, get_args(Soil))
-    if kind not in _EC8_SOILS:
+    if kind not in tuple(_EC8_SOILS):
         raise InputError(f"kind = {kind!r}: must be 1 or 2")
     amplified, *corners = _EC8_SOILS[kind][soil]
     return _spectrum(np.array([a * amplified, 2.5, *corners]), damping, periods)

@@ -54,7 +54,7 @@ class TargetSpectrum(Shown, Saved):
     Raises
     ------
     InputError
-        Periods that do not increase, ordinates that are not positive, negative dispersions.
+        Periods that do not increase, ordinates that are not positive, negative dispersions, a damping beyond 0 to 1.
 
     Examples
     --------
@@ -78,9 +78,11 @@ class TargetSpectrum(Shown, Saved):
             raise InputError(f"sa: {len(median)} ordinates for {len(several)} periods: must be as many")
         if not np.all((median > 0.0) & (median < np.inf)):
             raise InputError("sa: must be positive")
-        spread = np.zeros(len(several)) if dispersion is None else np.asarray(dispersion, dtype=np.float64)
-        if spread.ndim == 0:
-            spread = np.full(len(several), float(spread))
+        if dispersion is None or np.ndim(dispersion) == 0:
+            given = 0.0 if dispersion is None else as_number("dispersion", dispersion)
+            spread = np.full(len(several), given)
+        else:
+            spread = as_array("dispersion", dispersion)
         if spread.shape != several.shape or not np.all((spread >= 0.0) & (spread < np.inf)):
             raise InputError("dispersion: must be one number, or one for each period, not negative")
         if spread.any() and not 0.01 <= several[0] < several[-1] <= 10.0:
@@ -88,7 +90,10 @@ class TargetSpectrum(Shown, Saved):
                 "periods: must lie between 0.01 and 10 s for the correlations of a target with a dispersion"
             )
         covariance = correlation(several, several) * np.outer(spread, spread)
-        self._set(several, median, as_number("damping", damping), covariance, None)
+        ratio = as_number("damping", damping)
+        if not 0.0 <= ratio < 1.0:
+            raise InputError(f"damping = {ratio:g}: must be at least 0 and below 1")
+        self._set(several, median, ratio, covariance, None)
 
     def _set(
         self, periods: FloatArray, sa: FloatArray, damping: float, covariance: FloatArray, anchor: float | None

@@ -41,6 +41,9 @@ from dondolo.errors import InputError
 from dondolo.risk.hazard_table import FRACTILE, read_hazard
 from dondolo.risk.openquake import Site, read_curves, write_curves
 
+# Levels that make a curve
+_FEWEST = 2
+
 
 @dataclass(frozen=True, eq=False, repr=False, init=False)
 class HazardCurve(Shown, Saved):
@@ -202,7 +205,7 @@ class HazardCurve(Shown, Saved):
         ----------
         paths : path or sequence of path
             CSV files of one calculation and measure, 'hazard_curve-mean-PGA_1.csv', or that with its
-            'quantile_curve-0.16-PGA_1.csv' and so on.
+            'quantile_curve-0.16-PGA_1.csv' and so on. One file alone is the curve, whatever its statistic.
         site : int or (float, float), optional
             Number of the site in the files, from 0, or its longitude and latitude [degrees], to 0.001 degrees; may be
             left out where there is one.
@@ -317,7 +320,17 @@ class HazardCurve(Shown, Saved):
             has = ", ".join(f"{one:g}" for one in self.fractiles) or "none"
             raise InputError(f"q = {share:g}: must be one of the fractiles of the hazard curve; there is {has}")
         h = self.fractiles[share]
-        return HazardCurve(self.levels[h > 0.0], h[h > 0.0], im=self.im)
+        exceeded = h > 0.0
+        if exceeded.sum() < _FEWEST:
+            raise InputError(
+                f"fractile {share:g} of the hazard curve: must be exceeded at {_FEWEST} levels at least, not at"
+                f" {exceeded.sum()}"
+            )
+        return HazardCurve(self.levels[exceeded], h[exceeded], im=self.im)
+
+    def _curves(self) -> dict[float, HazardCurve]:
+        """The curves of the fractiles, of those that are exceeded at enough levels for one."""
+        return {q: self.fractile(q) for q, h in self.fractiles.items() if (h > 0.0).sum() >= _FEWEST}
 
     def smoothed(self, *, steps: int = 16) -> HazardCurve:
         """The curve with more levels, on the monotone cubic of ln H against ln x through its own.

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import itertools
+from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -29,8 +30,7 @@ def draw_risk(risk: Risk, ax: Iterable[Axes] | None) -> style.Panels:
     above.plot(x, smooth(x), color=style.BLACK, label="mean" if hazard.fractiles else None)
     if not hazard.endless:
         above.plot(hazard.levels, hazard.annual_frequency, linestyle="none", marker="o", markersize=4, color="black")
-    for q, line in zip(hazard.fractiles, _lines(), strict=False):
-        fractile = smooth.fractile(q)
+    for (q, fractile), line in zip(smooth._curves().items(), _lines(), strict=False):
         above.plot(
             fractile.levels, fractile.annual_frequency, color=style.GREY, linestyle=line, label=f"fractile {q:g}"
         )
@@ -96,7 +96,7 @@ def draw_uncertainty(found: RiskUncertainty, ax: Axes | None, confidence: float)
     ax = style.axes(ax, (6.0, 4.0))
     cases = [(found.annual_frequency, found.risk.annual_frequency, "mean hazard")]
     cases += [(found.fractiles[q], found.estimates[q], f"fractile {q:g} of the hazard") for q in found.fractiles]
-    for (draws, estimate, name), line in zip(cases, ("-", *_lines()), strict=False):
+    for (draws, estimate, name), line in zip(cases, itertools.chain(["-"], _lines()), strict=False):
         seen = np.sort(draws[np.isfinite(draws) & (draws > 0.0)])
         if not len(seen):
             continue
@@ -118,9 +118,9 @@ def draw_uncertainty(found: RiskUncertainty, ax: Axes | None, confidence: float)
     return ax
 
 
-def _lines() -> tuple[object, ...]:
-    """Lines of fractiles."""
-    return curves.LINES[1:]
+def _lines() -> Iterator[object]:
+    """Lines of fractiles, again from the first if there are more."""
+    return itertools.cycle(curves.LINES[1:])
 
 
 def _intensities(ax: Axes, risk: Risk, low: float, high: float) -> None:

@@ -157,12 +157,13 @@ class RiskUncertainty(Shown, Saved):
 def uncertainty(risk: Risk, n_draws: int, seed: Any) -> RiskUncertainty:
     """Distribution of the annual frequency of a risk: see `Risk.uncertainty`."""
     count, generator = as_count("n_draws", n_draws, 100), as_generator(seed)
-    hazards = {q: risk.hazard.fractile(q) for q in risk.hazard.fractiles}
-    risks = {q: _risk(risk.fragility, hazard) for q, hazard in hazards.items()}
+    risks = {q: _risk(risk.fragility, hazard) for q, hazard in risk.hazard._curves().items()}
     curve = risk.fragility
     if not isinstance(curve, Fragility | MeanCurve):
         raise DondoloError("uncertainty: the curve is a function, of which no standard errors are known")
     if isinstance(curve, MeanCurve) and curve.knows_records:
+        if curve.fit.errors in ("few_walls", "one_wall"):
+            curve.fit._need_errors()
         degrees, _, kind = _of_population(curve, risk.hazard)
         steps = _students(generator, count, degrees)
         draws = [

@@ -29,8 +29,7 @@ module dondolo_sensitivity
       real(wp), allocatable :: first(:)
       !> Total indices: with its products with others
       real(wp), allocatable :: total(:)
-      !> 95 % intervals (2, quantities), by the jackknife; wide rather than narrow for a Latin hypercube, whose samples
-      !> it takes for independent
+      !> 95 % intervals (2, quantities), by the jackknife; for a Latin hypercube: of independent samples they are too narrow
       real(wp), allocatable :: first_interval(:, :), total_interval(:, :)
       !> Part that the polynomials do not explain
       real(wp) :: rest = 0.0_wp

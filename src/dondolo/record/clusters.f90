@@ -1,5 +1,6 @@
 !> Which records belong together: those of one earthquake are no independent evidence.
 module dondolo_clusters
+   use dondolo_kinds, only : wp
    use dondolo_metadata, only : metadata_type
    use dondolo_name_index, only : name_index_type
    use dondolo_record, only : record_type
@@ -10,7 +11,8 @@ module dondolo_clusters
 
 contains
 
-   !> Number the clusters of records, from 1 in the order in which they appear. A record without a label is one by itself
+   !> Number the clusters of records, from 1 in the order in which they appear. A record without a label is one by itself, with
+   !> those that are the same motion
    subroutine cluster_records(records, clusters)
       type(record_type), intent(in) :: records(:)
       !> Number of the cluster of each
@@ -24,7 +26,11 @@ contains
       do i = 1, size(records)
          call cluster_label(records(i)%metadata, label)
          known = 0
-         if (len(label) > 0) call labels%note(label, count + 1, known)
+         if (len(label) > 0) then
+            call labels%note(label, count + 1, known)
+         else
+            call find_same_motion(records, clusters, i, known)
+         end if
          if (known == 0) then
             count = count + 1
             known = count
@@ -32,6 +38,35 @@ contains
          clusters(i) = known
       end do
    end subroutine cluster_records
+
+   !> Cluster of a record without a label among those before: that of the same motion, 0 if there is none
+   pure subroutine find_same_motion(records, clusters, number, known)
+      type(record_type), intent(in) :: records(:)
+      !> Clusters of the records before
+      integer, intent(in) :: clusters(:)
+      !> Number of the record
+      integer, intent(in) :: number
+      !> Its cluster
+      integer, intent(out) :: known
+
+      integer :: i
+
+      known = 0
+      associate (own => records(number))
+         do i = 1, number - 1
+            associate (other => records(i))
+               if (size(own%acceleration) /= size(other%acceleration) .or. abs(own%dt - other%dt) > 0.0_wp) cycle
+               if (allocated(own%vertical) .neqv. allocated(other%vertical)) cycle
+               if (any(abs(own%acceleration - other%acceleration) > 0.0_wp)) cycle
+               if (allocated(own%vertical)) then
+                  if (any(abs(own%vertical - other%vertical) > 0.0_wp)) cycle
+               end if
+               known = clusters(i)
+               return
+            end associate
+         end do
+      end associate
+   end subroutine find_same_motion
 
    !> Label of a record: its earthquake, else the station and the date of its recording, else nothing
    pure subroutine cluster_label(metadata, label)

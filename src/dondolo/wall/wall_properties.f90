@@ -209,7 +209,7 @@ module dondolo_wall_properties
       &   if_less='is it in kN/m?', if_more='is it per metre of wall?'), &
       & property_type('overburden_inertia', smallest=0.0_wp, largest=1.0_wp, owners=two_block, optional=.true., &
       &   example='1.0', meaning='part of that load whose mass the wall lifts', &
-      &   more='0 for a force alone (springs, tendons), 1 for a storey above; must be given with it'), &
+      &   more='0 for a force alone (springs, tendons), 1 for a storey above; given with it'), &
       & property_type('eccentricity', unit='m', default=0.0_wp, owners=two_block, meaning='distance of that load '// &
       &   'from the centreline towards the active top hinge', more='the outer face where the wall folds outwards; '// &
       &   'negative for an inner bearing'), &

@@ -90,15 +90,22 @@ contains
       character(len=:), allocatable, intent(out) :: line
 
       type(fragility_type) :: given, middle
-      integer :: last
+      integer :: i, last, fitted
 
       last = size(results%typologies, 2)
-      given = collapse_of(results, case%facade%samples + 1)
       middle = collapse_of(results, case%facade%samples + 2)
       associate (whole => results%typologies(whole_population(results%typologies(:, last)), last))
          line = 'beta of the model '//rounded(whole%beta_walls)//', of the records '//rounded(whole%beta_records)// &
             & ', in all '//rounded(hypot(whole%beta_walls, whole%beta_records))
       end associate
+      fitted = 0
+      do i = 1, case%facade%samples
+         given = collapse_of(results, i)
+         if (given%has_fit()) fitted = fitted + 1
+      end do
+      if (fitted < case%facade%samples) line = line//' (of the '//to_text(fitted)//' of '//to_text(case%facade%samples)// &
+         & ' variants that have a fit)'
+      given = collapse_of(results, case%facade%samples + 1)
       if (given%has_fit()) line = line//'; theta of the wall as given '//rounded(given%theta)
       if (middle%has_fit()) line = line//', with all sources at their medians '//rounded(middle%theta)
       line = line//'; sources from their 5 to their 95 % fractiles:'

@@ -204,9 +204,9 @@ contains
          if (warning%code == 'curves_extrapolated') then
             text = text//'a median outside the levels'
          else if (warning%value('curves') > 1.0_wp) then
-            text = text//'no fit and take part with their fractions of collapse'
+            text = text//'no fit and take part with their fractions of collapse, but not in dispersions'
          else
-            text = text//'no fit and takes part with its fractions of collapse'
+            text = text//'no fit and takes part with its fractions of collapse, but not in dispersions'
          end if
          text = text//' ('//status//'; the first is '''//wall//''')'
       end select

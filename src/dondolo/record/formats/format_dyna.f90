@@ -86,7 +86,7 @@ contains
 
       character(len=:), allocatable :: date, time
 
-      call metadata%set('event', one_of(labels%value_of('EVENT_NAME'), labels%value_of('EVENT_ID')))
+      call metadata%set('event', event_of(labels%value_of('EVENT_NAME'), labels%value_of('EVENT_ID')))
       date = trim(iso_date(labels%value_of('EVENT_DATE_YYYYMMDD'), 'dmy'))
       time = trim(iso_time(labels%value_of('EVENT_TIME_HHMMSS')))
       if (len(date) > 0 .and. len(time) > 0) date = date//'T'//time
@@ -102,6 +102,22 @@ contains
       call metadata%set('processing', one_of(labels%value_of('PROCESSING'), labels%value_of('DATA_TYPE')))
       call labels%add_to(metadata)
    end subroutine add_metadata
+
+   !> Earthquake: its name and identifier, since names are often those of regions, in which there are many; NONAME is none
+   pure function event_of(name, identifier) result(event)
+      !> Name
+      character(len=*), intent(in) :: name
+      !> Identifier
+      character(len=*), intent(in) :: identifier
+      !> Earthquake; empty if neither is known
+      character(len=:), allocatable :: event
+
+      event = trim(name)
+      if (event == 'NONAME') event = ''
+      if (len_trim(identifier) == 0) return
+      if (len(event) > 0) event = event//' '
+      event = event//trim(identifier)
+   end function event_of
 
    !> A text, or another where it is empty
    pure function one_of(text, other) result(one)
