@@ -21,10 +21,11 @@ TITLES = {
 }
 HEAD = """# Variables of a case
 
-What a namelist file can say, group by group; `dondolo --template` prints the same as a case that runs in the root of the repository. The names of the
-groups `&wall` and `&building` are the columns of a population, and the arguments of the walls and of `dd.Building` in
-Python too; values of a list stand in columns with numbers, `period1`, `period2` ... This page is written by
-`docs/variables.py` from the tables of properties in the sources, where ranges and defaults have their only home.
+What a namelist file can say, group by group; `dondolo --template` prints the same as a case that runs in the root of
+the repository. The names of the groups `&wall` and `&building` are the columns of a population, and the arguments of
+the walls and of `dd.Building` in Python too; values of a list stand in columns with numbers, `period1`, `period2` ...
+This page is written by `docs/variables.py` from the tables of properties in the sources, where ranges and defaults have
+their only home.
 """
 
 

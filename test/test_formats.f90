@@ -295,6 +295,13 @@ contains
       call read_content(replaced(dyna_content('STREAM: HNE'), '-1.500000', '.15E+1'), record)
       call read_content(replaced(dyna_content('STREAM: HNE'), '-1.500000', ''), record)
       call check_values(record, gal, 'no peak')
+      ! Names are often those of regions, where there are many earthquakes.
+      call read_content(replaced(dyna_content('STREAM: HNE'), 'NETWORK', 'EVENT_ID: IT-2014-0003'//lf//'NETWORK'), record)
+      call check_metadata(record, 'event', 'EARTHQUAKE IT-2014-0003')
+      call read_content(replaced(dyna_content('EVENT_ID: IT-2014-0003'), 'EARTHQUAKE', 'NONAME'), record)
+      call check_metadata(record, 'event', 'IT-2014-0003')
+      call read_content(replaced(dyna_content('STREAM: HNE'), 'EARTHQUAKE', 'NONAME'), record)
+      call check_metadata(record, 'event', '')
       call check_refused(replaced(dyna_content('STREAM: HNE'), ': ACCELERATION', ': DISPLACEMENT'), &
          & 'DATA_TYPE = ''DISPLACEMENT'': must be ACCELERATION')
    end subroutine test_dyna

@@ -2,6 +2,7 @@
 program test_record
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, skip, suite
    use dondolo_catalogue, only : read_catalogue, record_rows_type
+   use dondolo_clusters, only : cluster_records
    use dondolo_csv_reader, only : csv_reader_type
    use dondolo_csv_row, only : cell_type, split_row, text_cell
    use dondolo_encoding, only : is_ascii, is_utf8, take_utf16
@@ -38,6 +39,7 @@ program test_record
    call test_unknown()
    call test_catalogue()
    call test_samples()
+   call test_clusters()
    call finish()
 
 contains
@@ -1111,6 +1113,33 @@ contains
       call read_record(scratch//'/bad.txt', record, error)
       call check_error(error, scratch//'/bad.txt'//part, 'file '//content)
    end subroutine check_bad_stated
+
+   !> Records that belong together
+   subroutine test_clusters()
+      type(record_type) :: records(8)
+      integer :: clusters(8), i
+
+      call suite('clusters')
+      do i = 1, 8
+         records(i)%dt = 0.01_wp
+         records(i)%acceleration = small
+      end do
+      call records(2)%metadata%set('event', 'A')
+      records(3)%acceleration(5) = 0.06_wp
+      records(4)%dt = 0.02_wp
+      records(5)%vertical = small
+      records(6)%acceleration = small(:4)
+      call records(7)%metadata%set('event', 'A')
+      ! The last is the same motion as the first, and neither has an event.
+      call cluster_records(records, clusters)
+      call check(all(clusters == [1, 2, 3, 4, 5, 6, 2, 1]), 'one event, and one motion, are one cluster')
+      records(8)%vertical = small
+      call cluster_records(records, clusters)
+      call check(clusters(8) == 5, 'the same motion with the same vertical component')
+      records(8)%vertical(1) = 0.01_wp
+      call cluster_records(records, clusters)
+      call check(clusters(8) == 7, 'another vertical component')
+   end subroutine test_clusters
 
    !> Write a small file, byte by byte
    subroutine write_file(file, content)

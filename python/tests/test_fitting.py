@@ -462,3 +462,24 @@ def test_a_curve_keeps_its_counts():
     assert curve.im == "pga"
     for array in (curve.levels, curve.collapses, curve.histories, curve.covariance):
         assert not array.flags.writeable
+
+
+def test_names_of_measures():
+    """As hazard curves and stripes have them; a measure that dondolo does not know stays as it is."""
+    assert dd.fit_fragility([0.2, 0.4], [11, 33], 44, im="SA(0.50)").im == "sa(0.5)"
+    assert dd.Fragility.of_parameters(0.5, 0.4, im="PGA").im == "pga"
+    assert dd.Fragility.of_parameters(0.5, 0.4, im="my measure").im == "my measure"
+    assert dd.Fragility.of_parameters(0.5, 0.4).im == ""
+    with pytest.raises(dd.InputError, match="im = 5: must be a text"):
+        dd.fit_fragility([0.2, 0.4], [11, 33], 44, im=5)
+
+
+def test_fractions_that_fall_tell_no_median():
+    curve = dd.fit_fragility([0.2, 0.4], [9, 3], 10)
+    with pytest.raises(dd.DondoloError, match=r"no curve was fitted \(status 'decreasing'\)$"):
+        curve(0.3)
+    assert "median" not in repr(curve)
+    drawn = curve.plot().get_legend()
+    assert drawn is None or not any("median" in text.get_text() for text in drawn.get_texts())
+    with pytest.raises(dd.DondoloError, match=r"the median lies between 0\.4 and inf"):
+        dd.fit_fragility([0.2, 0.4], [0, 0], 10)(0.3)

@@ -258,6 +258,8 @@ def test_one_measure_is_a_comparison(wall, records):
 def test_two_records_are_compared_and_drawn_without_intervals(wall, few):
     comparison = dd.compare_intensities(wall, few[:2], ["pga", "pgv"], n_resamples=20, progress=False)
     assert [curve.errors for curve in comparison.curves] == ["few_clusters"] * 2
+    assert np.isnan(comparison.ratio_interval).all()
+    assert "(nan" not in str(comparison) + repr(comparison._facts())
     _, right = comparison.plot()
     assert not [drawn for drawn in right.containers if drawn.has_xerr]
 

@@ -176,3 +176,22 @@ def test_factors_that_miss_their_level(records, wall, im, power):
             assert "more than 10 % off their levels: 1 of 3" in str(one)
             assert words in str(one)
             assert one.numbers["factors"] == 3
+
+
+@pytest.mark.parametrize(
+    ("more", "sentence"),
+    [
+        ({"dispersion": "x"}, "dispersion = 'x': must be a number"),
+        ({"dispersion": [0.1]}, "dispersion: must be one number, or one for each period"),
+        ({"damping": -1.0}, "damping = -1: must be at least 0 and below 1"),
+        ({"damping": np.nan}, "damping = nan: must be at least 0 and below 1"),
+    ],
+)
+def test_wrong_targets(more, sentence):
+    with pytest.raises(dd.InputError, match=sentence):
+        dd.TargetSpectrum([0.1, 0.5], [0.5, 0.4], **more)
+
+
+def test_kinds_of_eurocode_8():
+    with pytest.raises(dd.InputError, match=r"kind = \[1\]: must be 1 or 2"):
+        dd.ec8_spectrum(0.2, kind=[1])

@@ -232,3 +232,33 @@ def test_populations_without_standard_errors(people, records, hazard):
     few = people(records[:2])["all"].risk(hazard)
     with pytest.raises(dd.DondoloError, match="less than 3 clusters of records"):
         few.uncertainty()
+    walls = [dd.OneSidedWall(1.5, 0.25, name="a"), dd.OneSidedWall(1.8, 0.25, name="b")]
+    two = dd.typology(walls, records, [0.2, 0.4, 0.6, 0.8, 1.0, 1.3], progress=False)["all"]
+    assert two.fit.errors == "few_walls"
+    with pytest.raises(dd.DondoloError, match="two walls, one or at least three are needed"):
+        two.risk(hazard).uncertainty()
+
+
+def test_fractiles_that_are_hardly_exceeded():
+    """A fractile that is exceeded at one level is no curve, and does not keep the others from theirs."""
+    levels, mean = [0.1, 0.2, 0.4, 0.8], np.array([1e-2, 1e-3, 1e-4, 1e-5])
+    hazard = dd.HazardCurve(levels, mean, fractiles={0.05: [1e-3, 0.0, 0.0, 0.0], 0.84: 2.0 * mean})
+    with pytest.raises(dd.InputError, match=r"fractile 0\.05 of the hazard curve: must be exceeded at 2 levels"):
+        hazard.fractile(0.05)
+    risk = dd.mean_annual_frequency(curve_of([[0.01, 0.0], [0.0, 0.001]]), hazard)
+    found = risk.uncertainty(n_draws=200)
+    assert list(found.fractiles) == [0.84]
+    for axes in (risk.plot()[0], found.plot()):
+        texts = [text.get_text() for text in axes.get_legend().get_texts()]
+        assert sum("0.84" in text for text in texts) == 1
+        assert not any("0.05" in text for text in texts)
+    plt.close("all")
+
+
+def test_many_fractiles_are_all_drawn():
+    shares = (0.02, 0.05, 0.16, 0.5, 0.84, 0.95, 0.98, 0.99)
+    hazard = dd.HazardCurve(LEVELS, MEAN, fractiles={q: (0.5 + q) * MEAN for q in shares})
+    risk = dd.mean_annual_frequency(curve_of([[0.01, 0.0], [0.0, 0.001]]), hazard)
+    for axes in (risk.plot()[0], risk.uncertainty(n_draws=200).plot()):
+        assert len(axes.get_legend().get_texts()) >= 1 + len(shares)
+    plt.close("all")

@@ -120,12 +120,13 @@ class IntensityComparison(Shown, Saved):
             f"{'ratio (95 %)':>19}{'histories':>11}{'scale':>7}"
         ]
         for i in np.argsort(self.ratio):
-            curve, (low, high) = self.curves[i], self.ratio_interval[i]
+            curve = self.curves[i]
+            ratio = f"{self.ratio[i]:.2f}" + self._interval_in_words(i, " ({:.2f}-{:.2f})")
             unit = describe_measure(curve.im).unit or "-"
             lines.append(
                 f"{curve.im:<14}{unit:<5}{curve.theta:>9.4g}{curve.se_ln_theta:>8.4f}{curve.beta:>8.4f}"
                 f"{curve.se_beta:>8.4f}{self.dispersion[i]:>12.4f}{self.se_dispersion[i]:>8.4f}"
-                f"{f'{self.ratio[i]:.2f} ({low:.2f}-{high:.2f})':>19}{self.stripes[i].edp.size:>11}"
+                f"{ratio:>19}{self.stripes[i].edp.size:>11}"
                 f"{self.stripes[i].scale.max():>7.1f}"
             )
         return "\n".join(lines)
@@ -138,10 +139,15 @@ class IntensityComparison(Shown, Saved):
             (
                 self.ims[i],
                 f"theta {self.curves[i].theta:.4g}{blank_unit(self.ims[i])}, dispersion {self.dispersion[i]:.3g},"
-                " {:.3g} times the smallest ({:.3g} to {:.3g})".format(self.ratio[i], *self.ratio_interval[i]),
+                f" {self.ratio[i]:.3g} times the smallest" + self._interval_in_words(i, " ({:.3g} to {:.3g})"),
             )
             for i in np.argsort(self.ratio).tolist()
         ]
+
+    def _interval_in_words(self, i: int, words: str) -> str:
+        """The interval of a ratio; nothing where too few clusters leave it open."""
+        ends = self.ratio_interval[i]
+        return words.format(*ends) if np.isfinite(ends).all() else ""
 
 
 def compare_intensities(

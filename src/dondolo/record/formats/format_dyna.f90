@@ -84,9 +84,10 @@ contains
       !> What it says
       type(metadata_type), intent(inout) :: metadata
 
-      character(len=:), allocatable :: date, time
+      character(len=:), allocatable :: event, date, time
 
-      call metadata%set('event', event_of(labels%value_of('EVENT_NAME'), labels%value_of('EVENT_ID')))
+      call name_event(labels%value_of('EVENT_NAME'), labels%value_of('EVENT_ID'), event)
+      call metadata%set('event', event)
       date = trim(iso_date(labels%value_of('EVENT_DATE_YYYYMMDD'), 'dmy'))
       time = trim(iso_time(labels%value_of('EVENT_TIME_HHMMSS')))
       if (len(date) > 0 .and. len(time) > 0) date = date//'T'//time
@@ -104,20 +105,20 @@ contains
    end subroutine add_metadata
 
    !> Earthquake: its name and identifier, since names are often those of regions, in which there are many; NONAME is none
-   pure function event_of(name, identifier) result(event)
+   pure subroutine name_event(name, identifier, event)
       !> Name
       character(len=*), intent(in) :: name
       !> Identifier
       character(len=*), intent(in) :: identifier
       !> Earthquake; empty if neither is known
-      character(len=:), allocatable :: event
+      character(len=:), allocatable, intent(out) :: event
 
       event = trim(name)
       if (event == 'NONAME') event = ''
       if (len_trim(identifier) == 0) return
       if (len(event) > 0) event = event//' '
       event = event//trim(identifier)
-   end function event_of
+   end subroutine name_event
 
    !> A text, or another where it is empty
    pure function one_of(text, other) result(one)
