@@ -46,12 +46,14 @@ class Figure:
     spread: Spread
 
     def agrees(self, stated):
-        """Whether the median lies between the least and the largest value of a spread that was stated before."""
-        return stated.least <= self.spread.median <= stated.largest
+        """Whether each median, this one and one stated before, lies between the least and the largest value of the other."""
+        mine = self.spread
+        return mine.least <= stated.median <= mine.largest and stated.least <= mine.median <= stated.largest
 
     def agrees_closely(self, stated):
-        """Whether the median lies between the quartiles of that spread."""
-        return stated.lower <= self.spread.median <= stated.upper
+        """Whether each median lies between the quartiles of the other."""
+        mine = self.spread
+        return mine.lower <= stated.median <= mine.upper and stated.lower <= mine.median <= stated.upper
 
 
 def new_run(report):

@@ -5,7 +5,8 @@ import statistics
 import numpy as np
 from markdown import many, paragraph, table
 from rounds import ROUNDS
-from runs import earlier, together
+from runs import Figure, earlier, together
+from spread import Spread
 
 
 def earlier_runs(runs, run):
@@ -26,11 +27,12 @@ def earlier_runs(runs, run):
     by_chance, closely_by_chance = chances(len(others))
     lines += paragraph(
         f"Earlier runs are those of the same commit ({run.commit}), compiler options, processor, version and build "
-        "variant in `benchmark/runs.csv`. A machine that is shared is more alike within the minutes of a run than from "
-        "one run to the next: the spread of the earlier runs is that of all their rounds. A ratio agrees if the median "
-        "of this run lies between their least and their largest value, closely if it lies between the least lower and "
-        f"the largest upper quartile that one of them has. Of runs that differ by chance alone {by_chance} % of the "
-        f"ratios would agree and {closely_by_chance} % closely (simulated, {sum(ROUNDS)} normal errors a run)."
+        "variant in `benchmark/runs.csv`. Their spread is that of all their rounds: the median of their medians, the "
+        "least lower and the largest upper quartile that one of them has, and the least and the largest value. A ratio "
+        "agrees if each median, of this run and of the earlier ones, lies between the least and the largest value of "
+        "the other, closely if it lies between the quartiles. Of runs that differ by chance alone "
+        f"{by_chance} % of the ratios would agree and {closely_by_chance} % closely (simulated, {sum(ROUNDS)} normal "
+        "errors a run)."
     )
     lines += paragraph(
         f"{agree} of {many(len(found), 'ratio')} agree with {many(len(others), 'earlier run')}, {closely} of them "
@@ -60,14 +62,15 @@ def difference(mine, stated):
     return 100.0 * (mine.spread.median / stated.median - 1.0)
 
 
-def chances(earlier_runs, trials=20000):
+def chances(earlier_runs, trials=4000):
     """Parts of ratios that agree, and closely, with some earlier runs if all differ by normal errors alone [%]."""
-    values = np.random.default_rng(7).normal(size=(trials, earlier_runs + 1, sum(ROUNDS)))
-    median = np.median(values[:, 0], axis=1)
-    before = values[:, 1:]
-    least, largest = before.min(axis=(1, 2)), before.max(axis=(1, 2))
-    lower, upper = np.quantile(before, [0.25, 0.75], axis=2)
-    return tuple(
-        round(100.0 * float(np.mean((low <= median) & (median <= high))))
-        for low, high in ((least, largest), (lower.min(axis=1), upper.max(axis=1)))
-    )
+    generator = np.random.default_rng(7)
+    agree = closely = 0
+    for _ in range(trials):
+        mine, *before = (
+            Figure("", Spread.of(generator.normal(size=sum(ROUNDS)).tolist())) for _ in range(earlier_runs + 1)
+        )
+        stated = together([each] for each in before)[""]
+        agree += mine.agrees(stated)
+        closely += mine.agrees_closely(stated)
+    return round(100.0 * agree / trials), round(100.0 * closely / trials)

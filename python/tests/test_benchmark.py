@@ -1,6 +1,5 @@
 """The benchmark: spreads, the fitted growth, comparison of runs, and the page from made-up measurements."""
 
-import math
 import subprocess
 import sys
 from dataclasses import replace
@@ -41,13 +40,20 @@ def figure(name, median, half=0.1):
 
 
 @pytest.mark.parametrize(
-    ("median", "agrees", "closely"),
-    [(8.0, True, True), (9.0, True, True), (9.1, True, False), (10.0, True, False), (10.1, False, False)],
+    ("mine", "theirs", "agrees", "closely"),
+    [
+        ((8.0, 1.0), (8.5, 1.0), True, True),
+        ((8.0, 1.0), (9.5, 2.0), True, False),  # the other median is outside my quartiles
+        ((8.0, 3.0), (11.0, 2.0), True, False),  # this median is outside the other quartiles
+        ((8.0, 1.0), (10.5, 2.0), False, False),
+        ((8.0, 2.0), (10.5, 1.0), False, False),
+        ((8.0, 0.0), (8.0, 0.0), True, True),
+    ],
 )
-def test_agreement(median, agrees, closely):
-    mine, stated = figure("a", median, 0.1), Spread(8.0, 7.0, 9.0, 6.0, 10.0)
-    assert mine.agrees(stated) == agrees
-    assert mine.agrees_closely(stated) == closely
+def test_agreement(mine, theirs, agrees, closely):
+    one, other = figure("a", *mine), figure("a", *theirs)
+    assert one.agrees(other.spread) == other.agrees(one.spread) == agrees
+    assert one.agrees_closely(other.spread) == other.agrees_closely(one.spread) == closely
 
 
 def test_spread_of_several_runs():
@@ -60,11 +66,20 @@ def test_spread_of_several_runs():
 
 @pytest.mark.parametrize("several", [1, 2, 3])
 def test_agreement_by_chance(several):
-    """The median of seven is beyond all others if the four on its side are the last of them all in their order."""
-    beyond = 2.0 * math.comb(7, 4) / math.comb(7 * (several + 1), 4)
-    agree, closely = chances(several)
-    assert agree == pytest.approx(100.0 * (1.0 - beyond), abs=1.0)
-    assert 50 < closely < agree
+    """The same by whole arrays of normal errors."""
+    values = np.random.default_rng(5).normal(size=(20_000, several + 1, 7))
+    mine, before = values[:, 0], values[:, 1:]
+    median, stated = np.median(mine, axis=1), np.median(np.median(before, axis=2), axis=1)
+    expected = []
+    for low, high in ((0.0, 1.0), (0.25, 0.75)):
+        ends = np.quantile(mine, [low, high], axis=1)
+        lower, upper = np.quantile(before, [low, high], axis=2)
+        within = (ends[0] <= stated) & (stated <= ends[1])
+        within &= (lower.min(axis=1) <= median) & (median <= upper.max(axis=1))
+        expected.append(100.0 * within.mean())
+    np.testing.assert_allclose(chances(several), expected, atol=3.0)
+    if several == 1:
+        np.testing.assert_allclose(expected, [87.0, 45.0], atol=1.0)
 
 
 @pytest.mark.parametrize(
@@ -93,7 +108,7 @@ def test_uncommitted_runs_are_never_judged():
 def test_section_of_earlier_runs():
     oldest = replace(RUN, date="2026-01-01T10:00:00Z")
     found = {
-        oldest: [figure("a", 0.9)],
+        oldest: [figure("a", 0.96)],
         BEFORE: [figure("a", 1.0), figure("b", 2.0), figure("c", 3.0), figure("gone", 1.0)],
         RUN: [figure("a", 1.05), figure("b", 2.15), figure("c", 3.3), figure("new", 1.0)],
     }
@@ -101,8 +116,8 @@ def test_section_of_earlier_runs():
     text = " ".join(lines)
     assert "2 of 3 ratios agree with 2 earlier runs, 1 of them closely." in text
     assert f"| {BEFORE.date} | 7.5 % | 10.0 % |" in lines
-    assert f"| {oldest.date} | 16.7 % | 16.7 % |" in lines
-    assert "| a | 1.05, 0.95 to 1.15 (0.85 to 1.25) | 0.95, 0.8 to 1.1 (0.7 to 1.2) | +10.5 % | closely |" in lines
+    assert f"| {oldest.date} | 9.4 % | 9.4 % |" in lines
+    assert "| a | 1.05, 0.95 to 1.15 (0.85 to 1.25) | 0.98, 0.86 to 1.1 (0.76 to 1.2) | +7.1 % | closely |" in lines
     assert any(line.startswith("| b |") and line.endswith("| +7.5 % | yes |") for line in lines)
     assert any(line.startswith("| c |") and line.endswith("| +10.0 % | no |") for line in lines)
     assert not any("new" in line or "gone" in line for line in lines)
