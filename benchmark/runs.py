@@ -46,7 +46,7 @@ class Figure:
     spread: Spread
 
     def agrees(self, stated):
-        """Whether each median, this one and one stated before, lies between the least and the largest value of the other."""
+        """Whether each median, of this and of a stated spread, lies within the least and the largest of the other."""
         mine = self.spread
         return mine.least <= stated.median <= mine.largest and stated.least <= mine.median <= stated.largest
 
