@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from dondolo._fortran.library import build_variant, constants
-from dondolo._fortran.walls import WALL_PROPERTIES
+from dondolo._fortran.walls import WALL_EXTRAS, WALL_PROPERTIES
 from dondolo._storage.run_file import RunFile
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import Stripes
@@ -30,18 +30,22 @@ from dondolo.reporting.content import (
 from dondolo.reporting.numerals import number, parameter, percent, whole
 from dondolo.reporting.run import Run
 from dondolo.reporting.statuses import status_table
-from dondolo.walls.wall import property_of
+from dondolo.walls.population import Population
+from dondolo.walls.wall import Wall, property_of
 
 # What stands behind properties of a wall in place of their units
 _UNITS = {"hinge": "of the height", "eccentricity": "m, to the outer side", "restitution": "model"}
 
-# Properties that not every wall of a population has, and heads of their columns
+# Properties of every wall of a population, and those that a wall of its mechanism has, with heads of their columns
+_SIZES = {"height": "height [m]", "thickness": "thickness [m]", "density": "density [kg/m3]"}
 _COLUMNS = {
     "hinge": "hinge / height",
     "overburden": "overburden [N/m]",
     "overburden_inertia": "of it lifted",
     "eccentricity": "ecc. [m]",
 }
+# Columns of a table of further properties: what fits across a page
+_ACROSS = 8
 
 
 def inputs(run: Run) -> dict[str, Any]:
@@ -99,8 +103,13 @@ def walls(run: Run) -> dict[str, Any]:
     """The walls with their statics, and their curves."""
     people = run.population
     if len(people) == 1:
-        return {"facts": _wall_facts(run), "table": None}
-    return {"facts": [*people._facts(), *people._ranges()], "table": _walls_table(run)}
+        return {"facts": _wall_facts(run), "tables": []}
+    tables = [
+        ("Walls and mechanisms with their main properties.", _main_properties(run.population)),
+        *(("Further properties of the walls that have them.", table) for table in _further_properties(people.walls)),
+        ("Statics of the walls, and their curves of collapse.", _statics(run)),
+    ]
+    return {"facts": [*people._facts(), *people._ranges()], "tables": tables}
 
 
 def _wall_facts(run: Run) -> Facts:
@@ -112,7 +121,7 @@ def _wall_facts(run: Run) -> Facts:
         if value is None or (isinstance(value, float) and np.isnan(value)):
             continue
         if isinstance(value, tuple):
-            value = ", ".join(each if isinstance(each, str) else f"{each:.6g}" for each in value)
+            value = _set(value)
         text = f"{value} {unit}" if isinstance(value, str) else number(value, 6, f" {unit}")
         pairs.append((row.name.replace("_", " "), text))
     if wall.base_hinge_depth > 0.0 and getattr(wall, "hinge_depth", None) is None:
@@ -130,9 +139,9 @@ def _wall_facts(run: Run) -> Facts:
     return pairs
 
 
-def _walls_table(run: Run) -> Table:
-    """Properties, statics and curves of the walls of a population."""
-    people, walls, results = run.population, run.population.walls, run.results
+def _main_properties(people: Population) -> Table:
+    """What every wall of a population has, and the loads of its top."""
+    walls = people.walls
     columns: dict[Piece, Sequence[Piece]] = {"wall": [wall.name for wall in walls]}
     if any(people.groups):
         columns["group"] = list(people.groups)
@@ -140,15 +149,45 @@ def _walls_table(run: Run) -> Table:
         "mechanism": [mechanism_name(wall.mechanism) for wall in walls],
         "weight": [number(weight) for weight in people.weights],
         Symbol("p", "occ"): [number(p) for p in people.p_occ],
-        "height [m]": [number(wall.height) for wall in walls],
-        "thickness [m]": [number(wall.thickness) for wall in walls],
-        "density [kg/m3]": [number(wall.density) for wall in walls],
     }
+    columns |= {head: [number(getattr(wall, what)) for wall in walls] for what, head in _SIZES.items()}
     for what, head in _COLUMNS.items():
         values = [getattr(wall, what, None) for wall in walls]
         if any(value is not None for value in values):
             columns[head] = [number(value) for value in values]
-    columns |= {
+    return Table.of(columns, ("group", "mechanism"))
+
+
+def _further_properties(walls: Sequence[Wall]) -> list[Table]:
+    """Sections, loads, ties, floors: what some of the walls have, as many columns a table as a page is wide."""
+    rows = [row for row in WALL_PROPERTIES if row.name in WALL_EXTRAS and row.name not in _COLUMNS]
+    known = {row.name: [_set(property_of(wall, row.name)) for wall in walls] for row in rows}
+    having = [i for i in range(len(walls)) if any(cells[i] for cells in known.values())]
+    columns = [
+        (row.name.replace("_", " ") + (f" [{row.unit}]" if row.unit else ""), cells)
+        for row in rows
+        if any(cells := [known[row.name][i] for i in having])
+    ]
+    names = {"wall": [walls[i].name for i in having]}
+    parts = (dict(columns[first : first + _ACROSS]) for first in range(0, len(columns), _ACROSS))
+    return [Table.of({**names, **part}, part) for part in parts]
+
+
+def _set(value: Any) -> str:
+    """A property in words, empty if it is not set."""
+    if isinstance(value, tuple):
+        return ", ".join(map(_set, value))
+    if value is None or isinstance(value, str):
+        return value or ""
+    return "" if np.isnan(value) else f"{value:.6g}"
+
+
+def _statics(run: Run) -> Table:
+    """Statics and curves of the walls of a population."""
+    walls, results = run.population.walls, run.results
+    columns: dict[Piece, Sequence[Piece]] = {
+        "wall": [wall.name for wall in walls],
+        "mechanism": [mechanism_name(wall.mechanism) for wall in walls],
         (Symbol("a", "0"), " [g]"): [number(wall.trigger_acceleration / wall.gravity) for wall in walls],
         "capacity [rad]": [number(wall.capacity_angle) for wall in walls],
         (Symbol("p"), " [rad/s]"): [number(wall.frequency_parameter) for wall in walls],
@@ -160,7 +199,7 @@ def _walls_table(run: Run) -> Table:
             BETA: [parameter(curve.beta) for curve in results.curves],
             "status": [curve.status for curve in results.curves],
         }
-    return Table.of(columns, ("group", "mechanism", "status"))
+    return Table.of(columns, ("mechanism", "status"))
 
 
 def has_vertical(run: Run) -> bool | None:
