@@ -135,10 +135,13 @@ def test_executable_and_python(ran, root):
     assert stored.population.facades == ("front",) * 3
     assert [wall.building.level for wall in stored.population] == [0.0, 4.0, 7.5]
     assert stored.typology.combined["front"].theta == pytest.approx(result.combined["front"].theta, rel=1e-12)
-    with pytest.raises(dd.InputError, match="read back"):
-        stored.typology.unions  # noqa: B018
     for threshold in (0.3, 1.0):
-        curve = result.at(threshold).unions["front"]
+        curve, again = (one.at(threshold).unions["front"] for one in (result, stored.typology))
+        assert again.theta == pytest.approx(curve.theta, rel=1e-9)
+        assert again.covariance == pytest.approx(curve.covariance, rel=1e-6)
+        assert (again.errors, again.clusters) == ("clustered", curve.clusters)
+        assert again.degrees_of_freedom == curve.degrees_of_freedom
+        assert again.collapses == pytest.approx(curve.collapses, rel=1e-12)
         row = next(row for row in rows(folder / "out_unions.csv") if float(row["edp_threshold"]) == threshold)
         product = result.at(threshold).combined["front"].theta
         found = [curve.theta, curve.beta, curve.se_ln_theta, curve.se_beta, product]
@@ -182,6 +185,20 @@ def test_population_of_facades(run, root, tmp_path, records):
     assert means == pytest.approx((2 * fractions["a"] + fractions["b"] + alone) / 4.0, rel=1e-9)
     assert "a: theta = " in done.stdout
     assert "population: theta = " in done.stdout
+
+
+def test_unions_of_files(ran, tmp_path):
+    """Read back, saved and loaded; files that Python writes have none."""
+    stored = dd.read_results(ran[0] / "out").typology
+    assert list(stored.unions) == ["front"]
+    stored.plot_union()
+    stored.save(tmp_path / "stored.npz")
+    assert dd.load(tmp_path / "stored.npz").at(0.3).unions["front"].theta == stored.at(0.3).unions["front"].theta
+    dd.report(stored, tmp_path / "report.html")
+    assert "Facade front: its walls above each hinge" in (tmp_path / "report.html").read_text()
+    stored.write_results(tmp_path / "written")
+    with pytest.raises(dd.InputError, match="read back from files without"):
+        dd.read_results(tmp_path / "written").typology.unions  # noqa: B018
 
 
 def test_saved(tmp_path, few):

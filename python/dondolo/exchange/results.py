@@ -26,6 +26,7 @@ from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloWarning, InputError, MissingFileError
 from dondolo.exchange.result_file import MixedError, ResultFile
 from dondolo.exchange.stored_errors import kept_errors
+from dondolo.exchange.stored_unions import kept_unions
 from dondolo.populations.combination import combine
 from dondolo.populations.typology import Typology
 from dondolo.populations.uncertain_wall import UncertainWall
@@ -39,6 +40,8 @@ from dondolo.walls.wall import Wall
 
 # How often results are read again that another run replaces meanwhile
 _TRIES = 20
+# What only some populations have
+_UNIONS = "_unions.csv"
 # Columns of _walls.csv and the numbers of a wall
 _COLUMNS = {row.column: row.name for row in WALL_PROPERTIES if row.column}
 _WALL_COLUMNS = {column: name for column, name in _COLUMNS.items() if name not in WALL_TEXTS and name not in WALL_LISTS}
@@ -368,9 +371,15 @@ def _uncertain(table: ResultFile, typology: Typology) -> UncertainWall:
 
 
 def _with_errors(typology: Typology, prefix: str, run: RunFile) -> Typology:
-    """A typology with the standard errors of its tables."""
+    """A typology with the standard errors, and the unions of mechanisms, of its tables."""
     curves, groups = (ResultFile(f"{prefix}_{name}.csv", run) for name in ("fragility", "typology"))
     kept = kept_errors(typology, curves, groups)
     for table in (curves, groups):
         table.check(run)
-    return replace(kept.put_into(typology, -1), kept_errors=kept)
+    typology = replace(kept.put_into(typology, -1), kept_errors=kept)
+    if not any(file.name == _UNIONS for file in run.files):
+        return typology
+    table = ResultFile(prefix + _UNIONS, run)
+    typology = replace(typology, kept_unions=kept_unions(typology, table))
+    table.check(run)
+    return typology

@@ -39,10 +39,10 @@ def kept_errors(typology: Typology, curves: ResultFile, groups: ResultFile) -> K
     rows, several = len(typology.curves), len(typology.groups)
     with curves.reading():
         _check_rows(curves, rows * states, "one for each wall and damage state")
-        of_rows = [[_errors(curves, row * states + k) for row in range(rows)] for k in range(states)]
+        of_rows = [[errors_of_row(curves, row * states + k) for row in range(rows)] for k in range(states)]
     with groups.reading():
         _check_rows(groups, several * states * levels, "one for each curve, damage state and level")
-        of_groups = [[_errors(groups, (k * several + i) * levels) for i in range(several)] for k in range(states)]
+        of_groups = [[errors_of_row(groups, (k * several + i) * levels) for i in range(several)] for k in range(states)]
     return KeptErrors.of([[*own, *others] for own, others in zip(of_rows, of_groups, strict=True)])
 
 
@@ -51,7 +51,7 @@ def _check_rows(table: ResultFile, number: int, what: str) -> None:
         raise ValueError(f"{len(table)} rows: must be {number}, {what}")
 
 
-def _errors(table: ResultFile, row: int) -> Errors:
+def errors_of_row(table: ResultFile, row: int) -> Errors:
     """The standard errors of a row; a curve without a fit has none."""
     kind = table.texts("errors")[row]
     if not kind:

@@ -77,6 +77,8 @@ class Typology(Shown, Saved):
         What was warned of: by the run, and of the curves of this state.
     kept_errors : KeptErrors
         The standard errors of results that were read back, in place of the flags; None for results of a run.
+    kept_unions : tuple of dict of str to Fragility
+        Of results that were read back, `unions` in each damage state; None if the files have none.
     ties : tuple of TieCounts
         What the histories do to the ties of each row: how many make each `yielded` and `broken`, and its mean and
         largest plastic elongation; None for results that were read back.
@@ -95,6 +97,7 @@ class Typology(Shown, Saved):
     flags: Flags | None = None
     warnings: tuple[DondoloWarning, ...] = ()
     kept_errors: KeptErrors | None = None
+    kept_unions: tuple[dict[str, Fragility], ...] | None = None
     ties: tuple[TieCounts, ...] | None = None
     _states: dict[float, Typology] = field(default_factory=dict)
 
@@ -204,6 +207,8 @@ class Typology(Shown, Saved):
                 state = with_clustered_errors(dataclasses.replace(state, flags=flags), flags)
             elif self.kept_errors is not None:
                 state = self.kept_errors.put_into(state, int(place[0]))
+                kept = self.kept_unions
+                state = dataclasses.replace(state, kept_unions=None if kept is None else (kept[int(place[0])],))
             self._states[value] = dataclasses.replace(state, ties=self.ties)
             warn(warning.placed(f"damage state {value:g}: ") for warning in state.warnings)
         return self._states[value]
@@ -219,11 +224,11 @@ class Typology(Shown, Saved):
         Raises
         ------
         InputError
-            The results were read back, and do not tell which history is which.
+            The results were read back from files without them, those of `write_results`.
         """
         from dondolo.populations.unions import unions_of
 
-        return unions_of(self)
+        return unions_of(self) if self.kept_unions is None else self.kept_unions[-1]
 
     def plot_union(self, ax: Axes | None = None, *, name: str | None = None) -> Axes:
         """Draw the mechanisms of a facade or of a wall, their product, and the union of the same histories.
@@ -243,7 +248,7 @@ class Typology(Shown, Saved):
         Raises
         ------
         InputError
-            There is no such facade, or the results were read back.
+            There is no such facade, or the results were read back from files without `unions`.
         """
         from dondolo.populations.plots import draw_union
 
@@ -402,7 +407,7 @@ class Typology(Shown, Saved):
     def _stored(self) -> dict[str, Any]:
         """What a file has of it: all but what follows from the rest."""
         names = ("population", "im", "levels", "edp_thresholds", "exceedances", "histories", "groups", "work", "flags")
-        stored = {name: getattr(self, name) for name in (*names, "warnings", "kept_errors", "ties")}
+        stored = {name: getattr(self, name) for name in (*names, "warnings", "kept_errors", "kept_unions", "ties")}
         return stored | {"rows": packed(self.curves), "walls": packed_walls(self.population, self.combined)}
 
     @classmethod

@@ -22,7 +22,8 @@ module dondolo_report_rows
    public :: typology_head, make_typology_row, history_head, make_history_row, make_wall_cells
 
    !> Names of the columns of each table
-   character(len=*), parameter :: error_columns = 'se_ln_theta,se_beta,cov_ln_theta_beta,errors,clusters,degrees_of_freedom'
+   character(len=*), parameter :: error_columns = 'se_ln_theta,se_beta,cov_ln_theta_beta,errors,clusters,degrees_of_freedom', &
+      & no_errors = ',,,,,'
    character(len=*), parameter :: &
       & wall_tail = ',alpha_rad,p_rad_s,trigger_acceleration_m_s2,capacity_rad,restitution,weight,group,p_occ', &
       & stripes_head = 'wall,mechanism,im,im_level,histories,collapses,fraction,edp_threshold', &
@@ -32,7 +33,7 @@ module dondolo_report_rows
       & typology_head = 'mechanism,im,im_level,weight,mean_fraction,mean_curve,theta,beta,status,group,fractile_16,'// &
       & 'fractile_50,fractile_84,beta_walls,beta_records,saturation,edp_threshold,'//error_columns, &
       & union_head = 'wall,group,mechanisms,im,im_level,histories,collapses,fraction,independent_fraction,'// &
-      & 'edp_threshold,theta,beta,se_ln_theta,se_beta,status,errors,clusters,independent_theta,independent_beta', &
+      & 'edp_threshold,theta,beta,status,'//error_columns//',independent_theta,independent_beta', &
       & certified_head = ',status,edp_lowest,edp_highest', &
       & uplift_head = ',uplift', &
       & history_head = 'wall,mechanism,record,polarity,im,im_level,scale,edp,collapsed,impacts,time_of_peak_s'
@@ -209,16 +210,8 @@ contains
       character(len=:), allocatable :: fit, dispersion, errors
 
       fit = ','
-      errors = ',,,,,'
-      associate (curve => typology%fit)
-         if (curve%has_fit()) then
-            fit = to_table(curve%theta)//','//to_table(curve%beta)
-            errors = ',,'
-            if (curve%has_errors()) errors = to_table(curve%se_ln_theta())//','//to_table(curve%se_beta())//','// &
-               & to_table(curve%covariance(1, 2))
-            errors = errors//','//trim(curve%errors)//','//to_text(curve%clusters)//','//trim(freedom(curve))
-         end if
-      end associate
+      if (typology%fit%has_fit()) fit = to_table(typology%fit%theta)//','//to_table(typology%fit%beta)
+      call make_error_cells(typology%fit, errors)
       dispersion = ','
       if (typology%fitted > 0.0_wp) dispersion = to_table(typology%beta_walls)//','//to_table(typology%beta_records)
       row = typology%mechanism//','//im//','//to_table(typology%levels(level))//','//to_table(typology%weight)//','// &
@@ -246,29 +239,41 @@ contains
       !> Row
       character(len=:), allocatable, intent(out) :: row
 
-      character(len=:), allocatable :: counts, fit, product
+      character(len=:), allocatable :: counts, fit, errors, product
 
       counts = ',,'
+      errors = no_errors
       associate (curve => union%curve(state), other => union%product(state))
-         if (union%rows(1) > 0) counts = to_text(nint(union%histories(number)))//','// &
-            & to_table(union%histories(number)*union%fraction(number, state))//','
-         fit = ',,,'
-         if (curve%has_fit()) then
-            fit = to_table(curve%theta)//','//to_table(curve%beta)//',,'
-            if (union%rows(1) > 0 .and. curve%has_errors()) fit = to_table(curve%theta)//','//to_table(curve%beta)//','// &
-               & to_table(curve%se_ln_theta())//','//to_table(curve%se_beta())
+         if (union%rows(1) > 0) then
+            counts = to_text(nint(union%histories(number)))//','// &
+               & to_table(union%histories(number)*union%fraction(number, state))//','
+            call make_error_cells(curve, errors)
          end if
-         fit = fit//','//trim(curve%status)//','
-         if (union%rows(1) > 0 .and. curve%has_fit()) fit = fit//trim(curve%errors)//','//to_text(curve%clusters)
-         if (.not. (union%rows(1) > 0 .and. curve%has_fit())) fit = fit//','
+         fit = ','
+         if (curve%has_fit()) fit = to_table(curve%theta)//','//to_table(curve%beta)
+         fit = fit//','//trim(curve%status)
          product = ','
          if (other%has_fit()) product = to_table(other%theta)//','//to_table(other%beta)
       end associate
       row = text_cell(union%name, is_safe)//','//text_cell(union%group, is_safe)//','
       if (union%rows(1) > 0) row = row//to_text(union%rows(2) - union%rows(1) + 1)
       row = row//','//im//','//to_table(level)//','//counts//to_table(union%fraction(number, state))//','// &
-         & to_table(union%independent(number, state))//','//to_table(threshold)//','//fit//','//product
+         & to_table(union%independent(number, state))//','//to_table(threshold)//','//fit//','//errors//','//product
    end subroutine make_union_row
+
+   !> Standard errors of a curve; cells are empty without a fit, and without standard errors
+   pure subroutine make_error_cells(curve, cells)
+      type(fragility_type), intent(in) :: curve
+      !> Cells of `error_columns`
+      character(len=:), allocatable, intent(out) :: cells
+
+      cells = no_errors
+      if (.not. curve%has_fit()) return
+      cells = ',,'
+      if (curve%has_errors()) cells = to_table(curve%se_ln_theta())//','//to_table(curve%se_beta())//','// &
+         & to_table(curve%covariance(1, 2))
+      cells = cells//','//trim(curve%errors)//','//to_text(curve%clusters)//','//trim(freedom(curve))
+   end subroutine make_error_cells
 
    !> A history
    pure subroutine make_history_row(cells, record, polarity, im, level, scale, response, row)
