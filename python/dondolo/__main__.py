@@ -234,6 +234,8 @@ def _plot_run(prefix: str, kind: str, animate: bool) -> None:
         save("typology", people.plot)
         if (uncertain := results.uncertain) is not None:
             save("uncertainty", lambda: uncertain.plot()[0])
+        if (designs := results.designs) is not None:
+            save("designs", lambda: designs.plot()[0])
         if len(people.groups) > 1:
             save("combination", people.plot_combination)
         for of in people.groups:

@@ -166,7 +166,22 @@ def test_the_executable_compares(root, run, tmp_path):
     assert found.ratio[3] > found.ratio[2] > 1.0
     assert "designs against 'as it stands', with 95 % intervals from paired records:" in summary.stdout
     assert f"   strain 2 %: median x {found.ratio[2]:.4g} (" in summary.stdout
-    assert (tmp_path / "out_checks.csv").exists()
+    stored = dd.read_results(tmp_path / "out").designs
+    np.testing.assert_allclose(stored.ratio_interval, found.ratio_interval, rtol=1e-8)
+    np.testing.assert_allclose(stored.gain_per_kg, found.gain_per_kg, rtol=1e-8)
+    with (tmp_path / "out_checks.csv").open() as file:
+        checked = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    for kind in ("linear", "nonlinear"):
+        stood = [float(row[f"{kind}_slv_g"]) for row in checked]
+        assert stored.to_frame()[f"{kind}_slv"].tolist() == pytest.approx(stood, rel=1e-9)
+    left, _ = stored.plot()
+    assert [line.get_label() for line in left.lines if not line.get_label().startswith("_")][:4] == list(found.names)
+    stored.save(tmp_path / "designs.npz")
+    assert dd.load(tmp_path / "designs.npz").to_frame().equals(stored.to_frame())
+    dd.report(dd.read_results(tmp_path / "out"), tmp_path / "report.html")
+    page = (tmp_path / "report.html").read_text()
+    assert "Designs beside the first, ‘as it stands’: ratios of the medians with 95 % intervals" in page
+    assert f"<dd>{found.ratio[2]:.3g} times</dd>" in page.replace("\N{NO-BREAK SPACE}", " ")
     case.write_text(case.read_text().replace("walls/designs.csv", "walls/facades.csv"))
     refused = run("--check", case)
     assert refused.returncode != 0

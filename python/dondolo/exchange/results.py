@@ -14,7 +14,6 @@ from dondolo._base.files import as_file
 from dondolo._base.shown import Shown
 from dondolo._base.transactions import RUN_FILE, TABLES, published_run
 from dondolo._fortran.buildings import BUILDING_NAMES
-from dondolo._fortran.checks import SheetRow
 from dondolo._fortran.walls import WALL_EXTRAS, WALL_LISTS, WALL_PROPERTIES, WALL_TEXTS, WALL_WORDS
 from dondolo._storage.run_file import HistoryResult, RunFile, read_run_file
 from dondolo.analysis.certificate import Certified
@@ -25,14 +24,16 @@ from dondolo.checks.ntc import CodeCheck
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloWarning, InputError, MissingFileError
 from dondolo.exchange.result_file import MixedError, ResultFile
+from dondolo.exchange.stored_checks import stored_check
+from dondolo.exchange.stored_designs import stored_designs
 from dondolo.exchange.stored_errors import kept_errors
 from dondolo.exchange.stored_unions import kept_unions
 from dondolo.populations.combination import combine
 from dondolo.populations.typology import Typology
 from dondolo.populations.uncertain_wall import UncertainWall
 from dondolo.records.building import building_from
-from dondolo.records.codes import Site
 from dondolo.records.record import Record
+from dondolo.retrofit.designs import DesignComparison
 from dondolo.walls.mechanisms import MECHANISMS
 from dondolo.walls.population import Population
 from dondolo.walls.table import numbered
@@ -65,6 +66,9 @@ class StoredResults(Shown):
     uncertain : UncertainWall or None
         Of a case with a group &uncertainty: its typology, and what that owes to each source. Its `numbers` and `rest`
         are NaN, since the files do not have them.
+    designs : DesignComparison or None
+        Of a case with ``designs = .true.``: without `stripes`, and with the ratios of the medians alone in its
+        `comparisons`.
     check : CodeCheck or None
         Of a case with a group &check.
     run : RunFile
@@ -78,10 +82,11 @@ class StoredResults(Shown):
     fragility: Fragility | None = None
     typology: Typology | None = None
     uncertain: UncertainWall | None = None
+    designs: DesignComparison | None = None
     check: CodeCheck | None = None
 
     def _facts(self) -> list[tuple[str, str]]:
-        names = ("response", "stripes", "fragility", "typology", "check")
+        names = ("response", "stripes", "fragility", "typology", "designs", "check")
         made = [(name, repr(found)) for name in names if (found := getattr(self, name)) is not None]
         return [("run", f"{self.run.run} of dondolo {self.run.version}"), ("population", repr(self.population)), *made]
 
@@ -185,25 +190,19 @@ def _read(prefix: str, run: RunFile) -> StoredResults:
         with sources.reading():
             stored = replace(stored, uncertain=_uncertain(sources, stored.typology))
         sources.check(run)
+    if stored.typology is not None and run.setting("population", "designs", False):
+        beside = ResultFile(prefix + "_designs.csv", run)
+        with beside.reading():
+            stored = replace(stored, designs=stored_designs(stored.typology, beside, run))
+        beside.check(run)
     walls.check(run)
     table.check(run)
     if task == "stripes" and "check" in run.settings:
         sheet = ResultFile(prefix + "_check.csv", run)
         with sheet.reading():
-            stored = replace(stored, check=_check(sheet, run, population.walls[0]))
+            stored = replace(stored, check=stored_check(sheet, run, population.walls[0]))
         sheet.check(run)
     return stored
-
-
-def _check(table: ResultFile, run: RunFile, wall: Wall) -> CodeCheck:
-    """The check of a wall by a building code."""
-    hazard = (run.setting("check", name, [0.0]) for name in ("ag", "f0", "tc_star"))
-    words = {name: run.setting("check", name, "") for name in ("soil", "topography")}
-    site = Site(*(values if len(values) > 1 else values[0] for values in hazard), **words)
-    columns: dict[str, Any] = {name: table.texts(name) for name in SheetRow._fields}
-    columns["value"] = table.numbers("value").tolist()
-    rows = tuple(SheetRow(*row) for row in zip(*columns.values(), strict=True))
-    return CodeCheck(wall=wall, site=site, rows=rows)
 
 
 def _population(table: ResultFile, gravity: float) -> Population:

@@ -24,7 +24,7 @@ from dondolo.figures import style
 from dondolo.figures.style import mechanism_name
 from dondolo.populations.typology import Typology
 from dondolo.populations.uncertain_wall import UncertainWall
-from dondolo.reporting import inputs, typology, uncertain, wall
+from dondolo.reporting import designs, inputs, typology, uncertain, wall
 from dondolo.reporting.code_check import code_check
 from dondolo.reporting.content import BETA, THETA, Symbol, date_in_words
 from dondolo.reporting.numerals import NONE, whole
@@ -162,6 +162,9 @@ def _chapters(run: Run, hazard: HazardCurve | None) -> list[Chapter]:
             summary = uncertain.summary(run.uncertain)
             model = Chapter("model", "Uncertainty of the model", "model_uncertainty", uncertain.model(run.uncertain))
             chapters.insert(0, model)
+        if run.designs is not None:
+            summary = designs.summary(run.designs)
+            chapters.insert(0, Chapter("designs", "Designs", "designs", designs.designs(run.designs)))
     elif isinstance(results, Stripes):
         assert run.curve is not None
         summary = wall.summary(results, run.curve)

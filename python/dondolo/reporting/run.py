@@ -22,6 +22,7 @@ from dondolo.populations.typology import Typology
 from dondolo.populations.uncertain_wall import UncertainWall
 from dondolo.records.record import Record
 from dondolo.reporting.content import Facts
+from dondolo.retrofit.designs import DesignComparison
 from dondolo.walls.population import Population
 
 _LARGE_SCALES = "scale_factors_large"
@@ -91,6 +92,8 @@ class Run:
         How the curves of the damage states are fitted.
     uncertain : UncertainWall or None
         What the results, a typology, are of.
+    designs : DesignComparison or None
+        What the walls of the results, a typology, are.
     """
 
     results: Typology | Stripes | Response
@@ -106,6 +109,7 @@ class Run:
     check: CodeCheck | None = None
     how: States = "separate"
     uncertain: UncertainWall | None = None
+    designs: DesignComparison | None = None
 
 
 def run_of(results: Any) -> Run:
@@ -138,7 +142,7 @@ def _of_files(stored: StoredResults) -> Run:
     """Result files: the file of the run knows its warnings, more of the scale factors than a fit repeated."""
     run = run_of(stored.typology or stored.stripes or stored.response)
     run.file, run.population, run.check = stored.run, stored.population, stored.check
-    run.uncertain = stored.uncertain
+    run.uncertain, run.designs = stored.uncertain, stored.designs
     run.title = stored.run.setting("job", "title", "") or run.title
     known = {one.code for one in stored.run.warnings} & {_LARGE_SCALES}
     more = [one for one in run.warnings if one.code not in known]

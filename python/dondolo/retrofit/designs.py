@@ -45,7 +45,7 @@ class DesignComparison(Shown, Saved):
     names : tuple of str
         The designs.
     stripes : tuple of Stripes
-        The analysis of each.
+        The analysis of each; empty for results that were read back.
     curves : tuple of Fragility
         Their curves.
     comparisons : tuple of Comparison or None
@@ -73,7 +73,7 @@ class DesignComparison(Shown, Saved):
     @property
     def im(self) -> str:
         """Intensity measure of the curves."""
-        return self.stripes[0].im
+        return self.curves[0].im
 
     @property
     def ratio(self) -> FloatArray:

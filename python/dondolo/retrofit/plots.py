@@ -19,7 +19,7 @@ def draw_designs(found: DesignComparison, ax: Iterable[Any] | None) -> style.Pan
 
     axes = left, right = style.panels(ax, 1, (9.5, 4.6), columns=2)
     colors = plt.get_cmap("viridis")(np.linspace(0.0, 0.85, len(found.names)))
-    levels = np.concatenate([stripes.levels for stripes in found.stripes])
+    levels = np.concatenate([curve.levels for curve in found.curves])
     grid = curves.grid(np.unique(levels))
     rows = len(found.names) - 1 - np.arange(len(found.names))
     for i, (name, curve, color) in enumerate(zip(found.names, found.curves, colors, strict=True)):

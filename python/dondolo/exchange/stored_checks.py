@@ -1,0 +1,27 @@
+"""The check by a building code that stands in result files."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from dondolo._fortran.checks import SheetRow
+from dondolo._storage.run_file import RunFile
+from dondolo.checks.ntc import CodeCheck
+from dondolo.exchange.result_file import ResultFile
+from dondolo.records.codes import Site
+from dondolo.walls.wall import Wall
+
+
+def site_of(run: RunFile) -> Site:
+    """The site of a case with a group &check."""
+    hazard = (run.setting("check", name, [0.0]) for name in ("ag", "f0", "tc_star"))
+    words = {name: run.setting("check", name, "") for name in ("soil", "topography")}
+    return Site(*(values if len(values) > 1 else values[0] for values in hazard), **words)
+
+
+def stored_check(table: ResultFile, run: RunFile, wall: Wall) -> CodeCheck:
+    """The check of a wall, ``_check.csv``."""
+    columns: dict[str, Any] = {name: table.texts(name) for name in SheetRow._fields}
+    columns["value"] = table.numbers("value").tolist()
+    rows = tuple(SheetRow(*row) for row in zip(*columns.values(), strict=True))
+    return CodeCheck(wall=wall, site=site_of(run), rows=rows)

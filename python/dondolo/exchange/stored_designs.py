@@ -1,0 +1,86 @@
+"""Designs of a wall that stand in result files, each beside the first."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from dondolo._storage.run_file import RunFile
+from dondolo.checks.ntc import CodeCheck, check_ntc
+from dondolo.curves.comparison import Comparison
+from dondolo.curves.fragility import Fragility
+from dondolo.errors import InputError
+from dondolo.exchange.result_file import ResultFile
+from dondolo.exchange.stored_checks import site_of
+from dondolo.populations.typology import Typology
+from dondolo.retrofit.designs import DesignComparison
+
+# Of the intervals in the table
+_CONFIDENCE = 0.95
+
+
+def stored_designs(typology: Typology, table: ResultFile, run: RunFile) -> DesignComparison:
+    """Designs compared, ``_designs.csv``: the ratios of the table, and the curves of the typology.
+
+    Parameters
+    ----------
+    typology : Typology
+        Of the same files.
+    table : ResultFile
+        A row for each design.
+    run : RunFile
+        Names the site, if there is one: checks are made again, to the same numbers.
+
+    Returns
+    -------
+    DesignComparison
+
+    Raises
+    ------
+    InputError
+        The table does not fit the walls.
+    """
+    names = tuple(table.texts("design"))
+    if names != tuple(wall.name for wall in typology.walls):
+        raise ValueError("design: must be the walls of the population, in their order")
+    first = typology.curves[0]
+    return DesignComparison(
+        names=names,
+        stripes=(),
+        curves=typology.curves,
+        comparisons=tuple(_against(curve, first, table, row) for row, curve in enumerate(typology.curves)),
+        steel=table.numbers("steel_kg_m"),
+        alpha_0=table.numbers("alpha_0_g"),
+        confidence=_CONFIDENCE,
+        checks=_checks(typology, run),
+    )
+
+
+def _against(curve: Fragility, first: Fragility, table: ResultFile, row: int) -> Comparison | None:
+    """A design against the first; dispersions were not compared."""
+    if not table.texts("ratio")[row]:
+        return None
+    ratio, low, high, p_value = (table.number(name, row) for name in ("ratio", "ratio_low", "ratio_high", "p_value"))
+    return Comparison(
+        pairing="paired",
+        shared=curve.clusters,
+        ratio=ratio,
+        ratio_interval=(low, high),
+        p_value=p_value,
+        beta_ratio=curve.beta / first.beta,
+        beta_interval=(np.nan, np.nan),
+        beta_p_value=np.nan,
+        curves_p_value=np.nan,
+        degrees_of_freedom=min(curve.degrees_of_freedom, first.degrees_of_freedom),
+    )
+
+
+def _checks(typology: Typology, run: RunFile) -> tuple[CodeCheck, ...]:
+    """The kinematic check of each design; none where one of them cannot be checked."""
+    if "check" not in run.settings:
+        return ()
+    site = site_of(run)
+    factors = {name: run.setting("check", name, default) for name, default in (("confidence", 1.35), ("behaviour", 2.0))}
+    try:
+        return tuple(check_ntc(wall, site, **factors) for wall in typology.walls)
+    except InputError:
+        return ()
