@@ -14,10 +14,14 @@ from typing import Any
 import dondolo as dd
 from dondolo._base.files import whole_file
 from dondolo._fortran.records import catalogue_table
+from dondolo.analysis.request import progress_bar
 from dondolo.exchange.fragility_model import Curve
 from dondolo.exchange.mean_functions import taxonomy_of
 from dondolo.figures.layout import lay_out
 from dondolo.records.catalogues import build_catalogue
+
+# An animation: frames per second, and the longest film [s]
+_FRAMES, _FILM = 15, 30.0
 
 
 def main(arguments: list[str] | None = None) -> int:
@@ -76,7 +80,7 @@ def _parser() -> argparse.ArgumentParser:
         help="png (default), pdf, svg or another format of Matplotlib",
         metavar="FORMAT",
     )
-    plot.add_argument("--animate", action="store_true", help="also write an animation (GIF) of a time history")
+    plot.add_argument("--animate", action="store_true", help="also write an animation (GIF) of a time history, of 30 s at most")
     plot.set_defaults(run=_plot)
     report = commands.add_parser(
         "report",
@@ -212,16 +216,7 @@ def _plot_run(prefix: str, kind: str, animate: bool) -> None:
         save("history", lambda: motion.plot()[0])
         save("wall", motion.plot_peak)
         if animate:
-            path = f"{prefix}_motion.gif"
-            with whole_file(path) as part:
-                # Pillow chooses the format by the name.
-                image = part.with_name(part.name + ".gif")
-                try:
-                    motion.animate(frames_per_second=20).save(image, writer="pillow")
-                    image.replace(part)
-                finally:
-                    image.unlink(missing_ok=True)
-            print(f"drawn: {path}")
+            _film(f"{prefix}_motion.gif", motion)
     if results.stripes is not None and results.fragility is not None:
         stripes = results.stripes
         save("stripes", stripes.plot)
@@ -245,6 +240,22 @@ def _plot_run(prefix: str, kind: str, animate: bool) -> None:
             save("groups", people.plot_groups)
         if len(people.edp_thresholds) > 1:
             save("damage_states", people.plot_damage_states)
+
+
+def _film(path: str, motion: dd.Response) -> None:
+    """Write an animation of a motion; one that is long is shown faster, so that the film does not take minutes."""
+    span = 0.0 if motion.time is None else float(motion.time[-1] - motion.time[0])
+    speed = max(1.0, span / _FILM)
+    animation = motion.animate(frames_per_second=_FRAMES, speed=speed)
+    with whole_file(path) as part, progress_bar(int(span / speed * _FRAMES) + 1, True, "animation", "frame") as bar:
+        # Pillow chooses the format by the name.
+        image = part.with_name(part.name + ".gif")
+        try:
+            animation.save(image, writer="pillow", progress_callback=lambda *_: bar.update(1))
+            image.replace(part)
+        finally:
+            image.unlink(missing_ok=True)
+    print(f"drawn: {path}" + (f" ({speed:.3g} times as fast as the motion)" if speed > 1.0 else ""))
 
 
 def _save(path: str, kind: str, draw: Callable[[], Any]) -> None:

@@ -17,6 +17,7 @@ from dondolo.walls.shape import shape
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.image import imread
+from PIL import Image
 from scipy import stats
 
 import dondolo as dd
@@ -387,6 +388,28 @@ def test_command_draws_the_executables_files(case, figures, executable, root, tm
         picture = imread(tmp_path / "out" / f"{case}_{figure}.png")
         assert picture.shape[0] > 300
         assert np.ptp(picture) > 0.5
+
+
+@pytest.mark.slow
+def test_command_animates(executable, root, tmp_path):
+    """A long motion is shown faster: the film takes half a minute at most."""
+    wall = dd.FreeStandingWall(0.5, 0.4)
+    pulse = 4.0 * np.sin(2.0 * np.pi * np.arange(50) / 50.0)
+    for rest, faster in ((50, ""), (4450, " (3 times as fast as the motion)")):
+        np.savetxt(tmp_path / "long.txt", np.append(pulse, np.zeros(rest + 1)))
+        (tmp_path / "records.csv").write_text("file,dt_s,units\nlong.txt,0.02,m/s2\n")
+        (tmp_path / "case.nml").write_text(
+            "&job task = 'history', output = 'out' /\n"
+            f"&wall mechanism = 'free_standing', height = {wall.height}, thickness = {wall.thickness} /\n"
+            "&records catalogue = 'records.csv' /\n&history scale = 1.0 /\n"
+        )
+        done = subprocess.run([executable, "--quiet", "case.nml"], cwd=tmp_path, capture_output=True, text=True)
+        assert done.returncode == 0, done.stderr
+        done = command("plot", "out", "--animate", folder=tmp_path)
+        assert done.returncode == 0, done.stderr
+        assert done.stdout.splitlines()[-1] == f"drawn: out_motion.gif{faster}"
+        with Image.open(tmp_path / "out_motion.gif") as film:
+            assert film.n_frames <= 30 * 15 + 1
 
 
 @pytest.mark.slow

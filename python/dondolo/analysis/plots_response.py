@@ -11,6 +11,7 @@ from dondolo._base.arguments import as_number
 from dondolo.analysis.response import Response
 from dondolo.errors import InputError
 from dondolo.figures import style
+from dondolo.figures.layout import lay_out
 from dondolo.walls.drawing import draw_surroundings, frame
 from dondolo.walls.shape import shape
 
@@ -108,4 +109,6 @@ def animate(response: Response, frames_per_second: float, speed: float) -> FuncA
         point.set_data([now], [here / wall.capacity_angle])
         return [*patches, hinges, line, point]
 
+    # Once, not for every frame
+    lay_out(left.figure)
     return FuncAnimation(left.figure, draw, frames=len(instants), interval=1000.0 / rate, blit=False)
