@@ -3,7 +3,7 @@
 module dondolo_template
    use, intrinsic :: iso_fortran_env, only : output_unit
    use dondolo_job_group, only : task_names
-   use dondolo_property, only : default_text, has_owner, is_text, number_of_choices, property_type
+   use dondolo_property, only : default_text, has_owner, is_many, is_text, item_name, number_of_choices, property_type
    use dondolo_property_tables, only : property_table
    use dondolo_text, only : join
    implicit none
@@ -144,15 +144,18 @@ contains
 
       character(len=8), parameter :: tables(3) = [character(len=8) :: 'wall', 'building', 'member']
       type(property_type), allocatable :: table(:)
-      character(len=:), allocatable :: comment
+      character(len=:), allocatable :: name, comment
       integer :: i, k
 
-      call print_line('! Columns of the table of walls, one row a mechanism of a wall:')
+      call print_line('! Columns of the table of walls, one row a mechanism of a wall. Those with a 1 are the first of a list:')
+      call print_line('! load1, load2 ..., each value in a column of its own.')
       do k = 1, size(tables)
          table = property_table(trim(tables(k)))
          do i = 1, size(table)
+            name = trim(table(i)%name)
+            if (is_many(table(i)%kind)) name = trim(item_name(name, 1))
             call make_comment(table(i), comment)
-            call print_commented('! '//trim(table(i)%name), comment, 26)
+            call print_commented('! '//name, comment, 26)
          end do
       end do
       call print_line('! Rows with one name are mechanisms of one wall. A row with hinge_at, or hinge1_level, hinge2_level ...,')

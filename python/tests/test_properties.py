@@ -8,8 +8,9 @@ import typing
 
 import pytest
 from dondolo._fortran.library import properties
-from dondolo._fortran.walls import WALL_EXTRAS
+from dondolo._fortran.walls import WALL_EXTRAS, WALL_LISTS
 from dondolo.walls.mechanisms import MECHANISMS
+from dondolo.walls.table import numbered
 
 import dondolo as dd
 
@@ -144,4 +145,18 @@ def test_template_has_every_property(run, tmp_path):
             for row in properties(group):
                 if {"history", "stripes", "typology"} & set(row.owners) and task not in row.owners:
                     continue
-                assert re.search(rf"^[ !]*{row.name}\b.*! ", text, re.M), (task, row.name)
+                # In a table of walls a list has a column for each of its values.
+                is_list = task == "typology" and row.name in WALL_LISTS
+                name = numbered(row.name, 1) if is_list else row.name
+                assert re.search(rf"^[ !]*{name}\b.*! ", text, re.M), (task, name)
+
+
+def test_columns_of_the_template_are_read(run, tmp_path):
+    text = run("--template", "typology").stdout
+    start, end = (re.search(words, text).start() for words in ("! Columns of the table", "! Rows with one name"))
+    names = re.findall(r"^! (\w+) +! ", text[start:end], re.M)
+    assert len(names) > 60
+    given = {"name": "a", "mechanism": "one_sided", "height": "1.5", "thickness": "0.25"}
+    row = ",".join(given.get(name, "") for name in names)
+    (tmp_path / "walls.csv").write_text(f"{','.join(names)}\n{row}\n")
+    assert dd.read_population(tmp_path / "walls.csv")[0] == dd.OneSidedWall(1.5, 0.25, name="a")
