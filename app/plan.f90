@@ -13,7 +13,6 @@ module dondolo_plan
    use dondolo_member, only : member_type
    use dondolo_population, only : population_reader_type
    use dondolo_population_case, only : find_start
-   use dondolo_record, only : record_type
    use dondolo_record_table, only : record_table
    use dondolo_results, only : shown_rows
    use dondolo_run_case, only : plan_case
@@ -69,7 +68,7 @@ contains
       if (case%job%task == 'history') then
          write (output_unit, '(a)') 'one history: record '''//case%suite%records(case%history%record)%name// &
             & ''', scale '//rounded(case%history_scale())
-         call print_warnings(oddities, case%suite%records(case%history%record:case%history%record), case, scales)
+         call print_warnings(oddities, case, scales, case%history%record)
          return
       end if
       write (output_unit, '(a)') to_text(size(case%stripes%levels))//' levels of '//case%stripes%scaling%name//':'// &
@@ -85,25 +84,25 @@ contains
          & to_text(case%survey%last - case%survey%first + 1)//' rows, in '//store%path
       write (output_unit, '(a)') 'largest scale factor: '//rounded(scales%largest)//' (record '''//scales%record// &
          & ''' at level '//to_text(scales%level)//')'
-      call print_warnings(oddities, case%suite%records, case, scales)
+      call print_warnings(oddities, case, scales)
    end subroutine print_plan
 
    !> Print what a run would warn of beforehand: last, where it is seen
-   subroutine print_warnings(oddities, records, case, scales)
+   subroutine print_warnings(oddities, case, scales, number)
       !> What there is to say of the walls
       type(wall_warning_type), intent(in) :: oddities
-      !> The records that would be run
-      type(record_type), intent(in) :: records(:)
       type(case_type), intent(in) :: case
       !> What there is to say of scale factors
       type(scale_warning_type), intent(in) :: scales
+      !> Number of the one record that would be run; all if absent
+      integer, intent(in), optional :: number
 
       type(warnings_type) :: warnings
       type(lines_type) :: sentences
       integer :: i
 
       call oddities%warn(warnings)
-      call warn_of_records(records, records%pga(), case%solver%gravity, warnings)
+      call warn_of_records(case%suite, case%solver%gravity, warnings, number)
       call scales%warn(warnings)
       if (warnings%count > 0) write (output_unit, '(a)') ''
       call warning_sentences(warnings, sentences)

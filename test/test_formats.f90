@@ -516,6 +516,7 @@ contains
       call new_record(records(2), min(abs(wave), 0.7_wp) + 0.2_wp, 0.01_wp, 'clipped', error)
       call find_problems(records(2), 10.0_wp, problems)
       call check_text(problems, 'begins at 22 % of its PGA; ends at 100 % of its PGV; '// &
+         & 'PGV / PGA = 2.204 s, more than 0.5 s: wrong time step, or a baseline that drifts?; '// &
          & '11 samples in a row at its PGA', 'a record that begins late, drifts and is clipped')
       call new_record(records(3), [0.0_wp, 0.0_wp], 0.01_wp, 'nothing', error)
       call find_problems(records(3), 10.0_wp, problems)
@@ -527,6 +528,14 @@ contains
       call find_problems(records(3), 10.0_wp, problems)
       call check_text(problems, 'a PGA of 0.0005 g, less than 0.005 g: wrong units?', &
          & 'too weak')
+      call new_record(records(3), wave, 0.4_wp, 'slow', error)
+      call find_problems(records(3), 10.0_wp, problems)
+      call check_text(problems, 'PGV / PGA = 2.538 s, more than 0.5 s: wrong time step, or a baseline that drifts?', &
+         & 'too slow')
+      call new_record(records(3), wave, 0.0001_wp, 'quick', error)
+      call find_problems(records(3), 10.0_wp, problems)
+      call check_text(problems, 'PGV / PGA = 0.0006346 s, less than 0.01 s: wrong time step?', 'too quick')
+      call new_record(records(3), 0.005_wp*wave, 0.01_wp, 'nothing', error)
       call records(1)%metadata%set('event', 'Friuli')
       call records(1)%metadata%set('station', 'TLM'//achar(27))
       call records(2)%metadata%set('date', '1976-05-06')

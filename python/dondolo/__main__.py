@@ -80,7 +80,9 @@ def _parser() -> argparse.ArgumentParser:
         help="png (default), pdf, svg or another format of Matplotlib",
         metavar="FORMAT",
     )
-    plot.add_argument("--animate", action="store_true", help="also write an animation (GIF) of a time history, of 30 s at most")
+    plot.add_argument(
+        "--animate", action="store_true", help="also write an animation (GIF) of a time history, of 30 s at most"
+    )
     plot.set_defaults(run=_plot)
     report = commands.add_parser(
         "report",

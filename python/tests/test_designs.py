@@ -1,6 +1,7 @@
 """Designs of a wall compared on the same records."""
 
 import csv
+import html
 
 import matplotlib
 
@@ -179,8 +180,8 @@ def test_the_executable_compares(root, run, tmp_path):
     stored.save(tmp_path / "designs.npz")
     assert dd.load(tmp_path / "designs.npz").to_frame().equals(stored.to_frame())
     dd.report(dd.read_results(tmp_path / "out"), tmp_path / "report.html")
-    page = (tmp_path / "report.html").read_text()
-    assert "Designs beside the first, ‘as it stands’: ratios of the medians with 95 % intervals" in page
+    page = html.unescape((tmp_path / "report.html").read_text())
+    assert "Designs beside the first, 'as it stands': ratios of the medians with 95 % intervals" in page
     assert f"<dd>{found.ratio[2]:.3g} times</dd>" in page.replace("\N{NO-BREAK SPACE}", " ")
     case.write_text(case.read_text().replace("walls/designs.csv", "walls/facades.csv"))
     refused = run("--check", case)

@@ -192,7 +192,10 @@ def test_numbers_are_those_of_the_results(people, pages):
     assert table["84 % fractile"] == chances(curve.level_fractiles[2])
     table = page.table("high, one-sided, collapse")
     assert table["50 % fractile"] == chances(people["one_sided", "high"].level_fractiles[1])
-    table = page.table("Walls and mechanisms")
+    table = page.table("Walls and mechanisms with their main properties")
+    assert table["wall"] == ["a", "a", "b", "never"]
+    assert table["height [m]"] == [numerals.number(wall.height).text for wall in people.walls]
+    table = page.table("Statics of the walls")
     assert table["wall"] == ["a", "a", "b", "never"]
     assert table["θ [g]"] == four(curve.theta for curve in people.curves)
     assert table["status"] == [curve.status for curve in people.curves]
@@ -205,6 +208,26 @@ def test_numbers_are_those_of_the_results(people, pages):
     table = page.table("95 % intervals of the parameters, by drawing")
     assert table["from"] == four(samples[name][0] for name in ("theta", "beta"))
     assert table["to"] == four(samples[name][1] for name in ("theta", "beta"))
+
+
+def test_further_properties_stand_in_tables_as_wide_as_a_page(few, tmp_path):
+    """Of the walls that have any: loads, ties and floors, words as well as numbers."""
+    load = {"load": [8e3, 4e3], "load_depth": [0.2, 0.1], "load_height": [1.0, 2.9], "load_inertia": ["both", "none"]}
+    ties = {"tie_height": 2.8, "tie_area": 2e-5, "tie_length": 8.0, "tie_strength": 1.8e8, "tie_strain": 0.02}
+    walls = [
+        dd.OneSidedWall(3.0, 0.3, name="bare"),
+        dd.OneSidedWall(3.0, 0.3, name="loaded", **load),
+        dd.OneSidedWall(3.0, 0.3, name="tied", **ties),
+    ]
+    dd.report(dd.typology(walls, few, [0.2, 0.4], progress=False), tmp_path / "report.html")
+    page = read(tmp_path / "report.html")
+    first, second = (page.table(f"Further properties of the walls that have them, part {i} of 2.") for i in (1, 2))
+    assert first["wall"] == second["wall"] == ["loaded", "tied"]
+    assert first["load [N/m]"] == ["8000, 4000", ""]
+    assert first["load inertia"] == ["both, none", ""]
+    assert first["tie height [m]"] == ["", "2.8"]
+    assert second["tie strain"] == ["", "0.02"]
+    assert len(first) == 9
 
 
 def test_statuses_are_counted(people, pages):

@@ -238,29 +238,28 @@ contains
    end subroutine is_doubtful
 
    !> What the executable would warn of, of a wall and a record, before it runs one motion
-   subroutine warn_of_motion(walls, record, pga, fall, sent, stat, message)
-      integer(c_int64_t), intent(in) :: walls
-      character(len=*), intent(in) :: record
-      real(c_double), intent(in) :: pga, fall
+   subroutine warn_of_motion(walls, suite, number, scale, sent, stat, message)
+      integer(c_int64_t), intent(in) :: walls, suite
+      integer(c_int), intent(in) :: number
+      real(c_double), intent(in) :: scale
       integer(c_int64_t), intent(out) :: sent(4)
       integer(c_int), intent(out) :: stat
       character(len=2048), intent(out) :: message
       type(wall_type), pointer :: people(:)
-      type(record_type) :: records(1)
+      type(suite_type), pointer :: records
       type(wall_warning_type) :: oddities
       type(warnings_type) :: warnings
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
 
       call find_walls(walls, people, error)
+      if (.not. allocated(error)) call find_suite(suite, records, error)
+      if (.not. allocated(error)) call check_scale(records, number, scale, error)
       if (.not. allocated(error)) then
          call oddities%look(people(1))
          call oddities%warn(warnings)
-         records(1)%name = record
-         call warn_of_records(records, [pga], people(1)%gravity, warnings)
-         ! As the largest downward acceleration says it, without the record
-         records(1)%vertical = [-fall]
-         call warn_of_fall(records(1), 1.0_c_double, people(1)%gravity, warnings)
+         call warn_of_records(records, people(1)%gravity, warnings, number)
+         call warn_of_fall(records%records(number), scale, people(1)%gravity, warnings)
          call warning_objects(warnings, parcel%lines)
       end if
       call send(parcel, error, sent, stat, message)

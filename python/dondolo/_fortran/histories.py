@@ -50,12 +50,12 @@ def is_doubtful(edp: FloatArray, edp_error: FloatArray, edp_limit: float) -> NDA
     return np.asarray(doubt == 1).reshape(edp.shape)
 
 
-def warnings_of_motion(wall: Handle, record: str, pga: float, fall: float) -> list[DondoloWarning]:
-    """What the executable would warn of, of a wall and a record, before it runs one motion.
+def warnings_of_motion(wall: Handle, record: tuple[int, int], scale: float) -> list[DondoloWarning]:
+    """What the executable would warn of, of a wall and a record times a factor, before it runs one motion.
 
-    Of the record: its PGA, and the largest downward acceleration of the ground as scaled [m/s2].
+    The record is the handle of a suite and the number in it from 1.
     """
-    return unpack_warnings(receive(*_core.histories.warn_of_motion(wall.number, record.encode(), pga, fall)).lines)
+    return unpack_warnings(receive(*_core.histories.warn_of_motion(wall.number, *record, scale)).lines)
 
 
 def warnings_of_errors(

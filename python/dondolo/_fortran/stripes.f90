@@ -153,7 +153,7 @@ contains
       end do
       if (.not. allocated(error)) then
          call oddities%warn(warnings)
-         call warn_of_records(chosen%suite%records, chosen%suite%peaks, people(1)%gravity, warnings)
+         call warn_of_records(chosen%suite, people(1)%gravity, warnings)
          call scales%warn(warnings)
          parcel%integers = [histories, stripes%record, stripes%polarity, merge(1, 0, stripes%ran)]
          parcel%reals = [stripes%scale]

@@ -354,7 +354,7 @@ def simulate(
             int(history),
         )
     check(stat, message)
-    if sentences := _warnings(wall, record.name, record.peak_acceleration, abs(factor) * record.largest_fall):
+    if sentences := _warnings(wall, place_of(record), factor if record.vertical is not None else 1.0):
         warn(sentences)
     edp_limit = float(settings[2])
     motion: dict[str, Any] = {}
@@ -402,9 +402,9 @@ def _mass_of_block(wall: Wall) -> float:
 
 
 @functools.lru_cache
-def _warnings(wall: Wall, record: str, pga: float, fall: float) -> list[DondoloWarning]:
+def _warnings(wall: Wall, record: tuple[int, int], scale: float) -> list[DondoloWarning]:
     """What looks odd about a wall and a record; kept, since one motion takes little longer."""
-    return warnings_of_motion(upload((wall,)), record, pga, fall)
+    return warnings_of_motion(upload((wall,)), record, scale)
 
 
 def history_table(response: Response) -> tables.Table:

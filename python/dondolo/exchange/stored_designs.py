@@ -78,8 +78,8 @@ def _checks(typology: Typology, run: RunFile) -> tuple[CodeCheck, ...]:
     """The kinematic check of each design; none where one of them cannot be checked."""
     if "check" not in run.settings:
         return ()
-    site = site_of(run)
-    factors = {name: run.setting("check", name, default) for name, default in (("confidence", 1.35), ("behaviour", 2.0))}
+    site, given = site_of(run), run.settings["check"]
+    factors = {name: float(given[name]) for name in ("confidence", "behaviour") if name in given}
     try:
         return tuple(check_ntc(wall, site, **factors) for wall in typology.walls)
     except InputError:

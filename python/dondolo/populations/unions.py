@@ -23,7 +23,9 @@ def unions_of(typology: Typology) -> dict[str, Fragility]:
     """Curve of each facade or wall with several mechanisms, by its name."""
     flags = typology.flags
     if flags is None:
-        raise InputError("unions: the results were read back from files without *_unions.csv, which the executable writes")
+        raise InputError(
+            "unions: the results were read back from files without *_unions.csv, which the executable writes"
+        )
     people = typology.population
     ends = np.append(people.first_rows, len(people))
     return {

@@ -41,7 +41,7 @@ def designs(found: DesignComparison) -> dict[str, Any]:
         "p of no difference": [number(value, 2) for value in p_values],
         "steel [kg/m]": [number(mass, 3) for mass in found.steel],
         "gain per kg/m": [percent(gain) if np.isfinite(gain) else number(gain) for gain in found.gain_per_kg],
-        (Symbol("α", "0"), " [g]"): [number(value) for value in found.alpha_0],
+        (Symbol("α", "0"), " [g]"): [number(value) for value in found.alpha_0],  # noqa: RUF001
         "its ratio": [number(ratio, 3) for ratio in found.static_ratio],
     }
     pairs = zip(found.names, found.ratio, low, high, strict=True)

@@ -104,9 +104,14 @@ def walls(run: Run) -> dict[str, Any]:
     people = run.population
     if len(people) == 1:
         return {"facts": _wall_facts(run), "tables": []}
+    further = _further_properties(people.walls)
+    part = "" if len(further) == 1 else ", part {} of " + str(len(further))
     tables = [
-        ("Walls and mechanisms with their main properties.", _main_properties(run.population)),
-        *(("Further properties of the walls that have them.", table) for table in _further_properties(people.walls)),
+        ("Walls and mechanisms with their main properties.", _main_properties(people)),
+        *(
+            (f"Further properties of the walls that have them{part.format(number)}.", table)
+            for number, table in enumerate(further, 1)
+        ),
         ("Statics of the walls, and their curves of collapse.", _statics(run)),
     ]
     return {"facts": [*people._facts(), *people._ranges()], "tables": tables}
@@ -163,14 +168,17 @@ def _further_properties(walls: Sequence[Wall]) -> list[Table]:
     rows = [row for row in WALL_PROPERTIES if row.name in WALL_EXTRAS and row.name not in _COLUMNS]
     known = {row.name: [_set(property_of(wall, row.name)) for wall in walls] for row in rows}
     having = [i for i in range(len(walls)) if any(cells[i] for cells in known.values())]
-    columns = [
+    columns: list[tuple[Piece, Sequence[Piece]]] = [
         (row.name.replace("_", " ") + (f" [{row.unit}]" if row.unit else ""), cells)
         for row in rows
         if any(cells := [known[row.name][i] for i in having])
     ]
-    names = {"wall": [walls[i].name for i in having]}
-    parts = (dict(columns[first : first + _ACROSS]) for first in range(0, len(columns), _ACROSS))
-    return [Table.of({**names, **part}, part) for part in parts]
+    tables = []
+    for first in range(0, len(columns), _ACROSS):
+        part: dict[Piece, Sequence[Piece]] = {"wall": [walls[i].name for i in having]}
+        part |= dict(columns[first : first + _ACROSS])
+        tables.append(Table.of(part, map(str, part)))
+    return tables
 
 
 def _set(value: Any) -> str:

@@ -5,6 +5,7 @@
 !> others read.
 module dondolo_suite
    use dondolo_clusters, only : cluster_records
+   use dondolo_ground_motion, only : peak_velocity
    use dondolo_intensity, only : measure_type
    use dondolo_kinds, only : wp
    use dondolo_record, only : record_type
@@ -36,6 +37,8 @@ module dondolo_suite
       type(record_set_type) :: set
       !> Their PGA [m/s2]
       real(wp), allocatable :: peaks(:)
+      !> Their PGV [m/s]
+      real(wp), allocatable :: velocities(:)
       !> Largest downward acceleration of the ground under each [m/s2]
       real(wp), allocatable :: falls(:)
       !> Number of the cluster of each: histories of one cluster are no independent evidence
@@ -62,11 +65,20 @@ contains
       !> Number of threads that join them, 0: all that OpenMP gives; one if absent
       integer, intent(in), optional :: threads
 
+      integer :: team, i
+
+      team = 1
+      if (present(threads)) team = threads
       call move_alloc(records, suite%records)
       call new_record_set(suite%set, suite%records, threads)
       suite%peaks = suite%records%pga()
       suite%falls = suite%records%largest_fall()
-      allocate (suite%clusters(size(suite%records)))
+      allocate (suite%clusters(size(suite%records)), suite%velocities(size(suite%records)))
+      !$omp parallel do schedule(dynamic) num_threads(team_of(team, size(suite%records))) default(none) shared(suite)
+      do i = 1, size(suite%records)
+         suite%velocities(i) = peak_velocity(suite%records(i))
+      end do
+      !$omp end parallel do
       call cluster_records(suite%records, suite%clusters)
    end subroutine new_suite
 

@@ -56,7 +56,7 @@ contains
       if (case%designs) call compare_designs(results%designs)
       if (allocated(case%uncertainty)) call find_sensitivity(case, results)
       call case%survey%oddities%warn(results%warnings)
-      call warn_of_records(case%suite%records, case%suite%peaks, case%solver%gravity, results%warnings)
+      call warn_of_records(case%suite, case%solver%gravity, results%warnings)
       call case%survey%scales%warn(results%warnings)
       call fits%warn(results%typologies(:, states), results%warnings)
    end subroutine combine_rows

@@ -60,8 +60,7 @@ contains
       select case (case%job%task)
       case ('history')
          associate (one => case%history%record)
-            call warn_of_records(case%suite%records(one:one), case%suite%peaks(one:one), case%solver%gravity, &
-               & results%warnings)
+            call warn_of_records(case%suite, case%solver%gravity, results%warnings, one)
          end associate
          associate (record => case%suite%records(case%history%record))
             call warn_of_fall(record, case%history_scale(), case%wall%gravity, results%warnings)
@@ -171,7 +170,7 @@ contains
          & case%stripes%states == 'ordinal', error)
       if (allocated(error)) return
       results%work = stripes%work
-      call warn_of_records(case%suite%records, case%suite%peaks, case%solver%gravity, results%warnings)
+      call warn_of_records(case%suite, case%solver%gravity, results%warnings)
       call scales%look(stripes, study, case%wall)
       call scales%warn(results%warnings)
       call warn_of_fit(case%wall, stripes, results%row%curve(size(study%thresholds)), results%warnings)

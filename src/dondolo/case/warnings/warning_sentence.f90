@@ -4,7 +4,7 @@ module dondolo_warning_sentence
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_property, only : find_property
-   use dondolo_record_table, only : describe_pga
+   use dondolo_record_table, only : describe_pace, describe_pga
    use dondolo_text, only : rounded, to_text
    use dondolo_wall_properties, only : wall_properties
    use dondolo_warning, only : warning_type, warnings_type
@@ -50,8 +50,9 @@ contains
          end if
       case ('record_without_motion')
          text = 'record '''//record//''' has a PGA of 0: it cannot be scaled and moves no wall'
-      case ('record_pga')
-         call describe_pga(warning%value('pga_g'), warning%value('limit_g'), text)
+      case ('record_pga', 'record_pgv_pga')
+         if (warning%code == 'record_pga') call describe_pga(warning%value('pga_g'), warning%value('limit_g'), text)
+         if (warning%code == 'record_pgv_pga') call describe_pace(warning%value('ratio_s'), warning%value('limit_s'), text)
          text = 'record '''//record//''': '//text
          if (warning%value('records') > 1.0_wp) text = text//' ('//to_text(warning%value('records_beyond'))//' of '// &
             & to_text(warning%value('records'))//' records)'

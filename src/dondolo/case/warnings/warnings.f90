@@ -5,7 +5,7 @@ module dondolo_warnings
    use dondolo_kinds, only : wp
    use dondolo_lines, only : line_type
    use dondolo_record, only : record_type
-   use dondolo_record_table, only : pga_limit
+   use dondolo_record_table, only : pace_limit, pga_limit
    use dondolo_response, only : largest_sure_error, response_type
    use dondolo_stripes, only : find_lifts, stripes_type
    use dondolo_study, only : study_type
@@ -224,41 +224,57 @@ contains
       call warnings%add(warning)
    end subroutine warn_of_fall
 
-   !> Warn of records without motion, and of those whose PGA no accelerograph has measured
-   subroutine warn_of_records(records, peaks, gravity, warnings)
-      type(record_type), intent(in) :: records(:)
-      !> Their PGA [m/s2]
-      real(wp), intent(in) :: peaks(:)
+   !> Warn of records without motion, and of those whose PGA or PGV / PGA no accelerograph has measured
+   subroutine warn_of_records(suite, gravity, warnings, number)
+      type(suite_type), intent(in) :: suite
       !> What g is [m/s2]
       real(wp), intent(in) :: gravity
       !> Warnings to add to
       type(warnings_type), intent(inout) :: warnings
+      !> Number of the one record to look at; all if absent
+      integer, intent(in), optional :: number
 
-      type(warning_type) :: warning, strange
-      real(wp) :: pga
-      integer :: i, number
+      character(len=16), parameter :: codes(2) = [character(len=16) :: 'record_pga', 'record_pgv_pga']
+      character(len=8), parameter :: names(2) = [character(len=8) :: 'pga_g', 'ratio_s'], limit_names(2) = [character(len=8) :: &
+         & 'limit_g', 'limit_s']
+      type(warning_type) :: warning, strange(2)
+      real(wp) :: values(2), limits(2)
+      integer :: first, last, beyond(2), i, k
 
-      number = 0
-      do i = 1, size(records)
-         pga = peaks(i)/gravity
-         if (.not. pga > 0.0_wp) then
-            warning = warning_type('record_without_motion')
-            call warning%about('record', records(i)%name)
-            call warnings%add(warning)
-            cycle
-         end if
-         if (.not. pga_limit(pga) > 0.0_wp) cycle
-         number = number + 1
-         if (number > 1) cycle
-         strange%code = 'record_pga'
-         call strange%about('record', records(i)%name)
-         call strange%with('pga_g', pga)
-         call strange%with('limit_g', pga_limit(pga))
+      first = 1
+      last = size(suite%records)
+      if (present(number)) then
+         first = number
+         last = number
+      end if
+      beyond = 0
+      do i = first, last
+         associate (pga => suite%peaks(i)/gravity)
+            if (.not. pga > 0.0_wp) then
+               warning = warning_type('record_without_motion')
+               call warning%about('record', suite%records(i)%name)
+               call warnings%add(warning)
+               cycle
+            end if
+            values = [pga, suite%velocities(i)/suite%peaks(i)]
+         end associate
+         limits = [pga_limit(values(1)), pace_limit(values(2))]
+         do k = 1, size(codes)
+            if (.not. limits(k) > 0.0_wp) cycle
+            beyond(k) = beyond(k) + 1
+            if (beyond(k) > 1) cycle
+            strange(k)%code = codes(k)
+            call strange(k)%about('record', suite%records(i)%name)
+            call strange(k)%with(trim(names(k)), values(k))
+            call strange(k)%with(trim(limit_names(k)), limits(k))
+         end do
       end do
-      if (number == 0) return
-      call strange%with('records_beyond', number)
-      call strange%with('records', size(records))
-      call warnings%add(strange)
+      do k = 1, size(codes)
+         if (beyond(k) == 0) cycle
+         call strange(k)%with('records_beyond', beyond(k))
+         call strange(k)%with('records', last - first + 1)
+         call warnings%add(strange(k))
+      end do
    end subroutine warn_of_records
 
    !> Warn of the curve of one wall
