@@ -52,17 +52,19 @@ contains
       !> max |v| [m/s]
       real(wp) :: peak
 
-      real(wp) :: velocity(size(record%acceleration))
+      real(wp) :: velocity
       integer :: i
 
-      velocity = ground_velocity(record)
-      peak = maxval(abs(velocity))
-      associate (a => record%acceleration)
-         do i = 2, size(velocity)
-            ! Where the acceleration passes zero, after the part a0/(a0 - a1) of the step
-            if (a(i - 1)*a(i) < 0.0_wp) then
-               peak = max(peak, abs(velocity(i - 1) + 0.5_wp*record%dt*a(i - 1)**2/(a(i - 1) - a(i))))
+      velocity = 0.0_wp
+      peak = 0.0_wp
+      associate (a => record%acceleration, dt => record%dt)
+         do i = 2, size(a)
+            ! Where the acceleration passes zero, after the part a0/(a0 - a1) of the step; seldom is that a new peak
+            if (abs(velocity) + dt*abs(a(i - 1)) > peak .and. a(i - 1)*a(i) < 0.0_wp) then
+               peak = max(peak, abs(velocity + 0.5_wp*dt*a(i - 1)**2/(a(i - 1) - a(i))))
             end if
+            velocity = velocity + 0.5_wp*dt*(a(i - 1) + a(i))
+            peak = max(peak, abs(velocity))
          end do
       end associate
    end function peak_velocity
