@@ -5,6 +5,7 @@ module dondolo_plan
    use dondolo_check_lines, only : print_check
    use dondolo_check_rows, only : check_wall
    use dondolo_check_sheet, only : sheet_type
+   use dondolo_clusters, only : cluster_label
    use dondolo_error, only : error_type, raise_failure
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
@@ -76,6 +77,7 @@ contains
       if (size(case%stripes%thresholds) > 1) then
          write (output_unit, '(a)') 'EDP thresholds:'//trim(list(case%stripes%thresholds))
       end if
+      call print_clusters(case)
       write (output_unit, '(a)') to_text(work%histories)//' histories, polarity '//case%records_input%polarity
       write (output_unit, '(a)') 'of them '//to_text(work%still)//' stay below the trigger and never move; '// &
          & to_text(work%histories - work%still)//' will be integrated'
@@ -86,6 +88,27 @@ contains
          & ''' at level '//to_text(scales%level)//')'
       call print_warnings(oddities, case, scales)
    end subroutine print_plan
+
+   !> Print which records are taken as independent of each other: standard errors rest on that
+   subroutine print_clusters(case)
+      type(case_type), intent(in) :: case
+
+      character(len=:), allocatable :: label, line
+      integer :: unknown, i
+
+      unknown = 0
+      do i = 1, size(case%suite%records)
+         call cluster_label(case%suite%records(i)%metadata, label)
+         if (len(label) == 0) unknown = unknown + 1
+      end do
+      line = counted(size(case%suite%records), 'record')//' in '//counted(maxval(case%suite%clusters), 'cluster')
+      if (unknown == 0) then
+         line = line//' by event, or by station and date'
+      else if (size(case%suite%records) > 1) then
+         line = line//'; '//to_text(unknown)//' without event, or station and date, taken as independent of all others'
+      end if
+      write (output_unit, '(a)') line
+   end subroutine print_clusters
 
    !> Print what a run would warn of beforehand: last, where it is seen
    subroutine print_warnings(oddities, case, scales, number)

@@ -196,6 +196,12 @@ check "work: some are still, some are not" test "$still" -gt 0 -a "$still" -lt 4
 run --check calm.nml
 check "work: --check knows what stays still" contains stdout \
    "of them $still stay below the trigger and never move; $((40 - still)) will be integrated"
+check "check: records that name no event" contains stdout \
+   '4 records in 4 clusters; 4 without event, or station and date, taken as independent of all others'
+sed 's/place$/event/' records/records.csv >records/events.csv
+sed 's/records.csv/events.csv/' calm.nml >events.nml
+run --check events.nml
+check "check: records of two events" contains stdout '4 records in 2 clusters by event, or by station and date'
 sed "s/levels = .*/levels = 0.01, 0.02/; /0.6, 1.0/d" good.nml >calm.nml
 run --quiet calm.nml
 check "work: none below the trigger" contains out/deep/wall_walls.csv \
