@@ -5,6 +5,7 @@ import json
 import matplotlib
 import numpy as np
 import pytest
+from dondolo.reporting.ties import ties as told
 
 import dondolo as dd
 
@@ -145,12 +146,22 @@ def test_broken_ties_of_populations(run, tmp_path, facade, record):
         assert [line for line in mine if line[0] != "#"] == found
     assert list(curves.to_frame("ties")["broken"]) == [int(line.split(",")[7]) for line in expected]
     read = dd.read_results(tmp_path / "all")
-    with pytest.raises(dd.InputError, match="table = 'ties'"):
-        read.typology.to_frame("ties")
+    assert read.typology.to_frame("ties").equals(curves.to_frame("ties"))
+    read.typology.write_results(tmp_path / "again")
+    mine = (tmp_path / "again_ties.csv").read_text().splitlines()
+    assert [line for line in mine if line[0] != "#"] == found
     dd.typology([walls[1]], [record], levels, progress=False).write_results(tmp_path / "bare")
     assert not (tmp_path / "bare_ties.csv").exists()
-    with pytest.raises(dd.InputError, match="read back"):
-        read.typology.broken_ties  # noqa: B018
+    bare = dd.read_results(tmp_path / "bare").typology
+    assert [one.shape for one in bare.broken_ties] == [(len(levels), 0)]
+    assert told(bare) is None
+    of_run, of_files = (told(one)["tables"] for one in (curves, read.typology))
+    assert of_run == of_files
+    assert [len(table.columns[0].cells) for _, table in of_run] == [sum(one.broken.shape[1] for one in curves.ties)] * 2
+    dd.report(read.typology, tmp_path / "report.html")
+    assert "Share of the histories that break each tie, levels" in (tmp_path / "report.html").read_text()
+    for mine, theirs in zip(read.typology.broken_ties, curves.broken_ties, strict=True):
+        np.testing.assert_array_equal(mine, theirs)
 
 
 def test_what_the_executable_says(run, tmp_path, facade, record):
@@ -173,6 +184,10 @@ def test_what_the_executable_says(run, tmp_path, facade, record):
     assert [line.split(",")[6:8] for line in lines[1:]] == [["1", "0"], ["1", "1"]]
     results = dd.read_results(tmp_path / "out")
     assert results.stripes.broken_ties.tolist() == [[0.0], [1.0]]
+    (tie,) = results.stripes.wall.tie_height
+    for (_, table), shares in zip(told(results.stripes)["tables"], (["100 %", "100 %"], ["0 %", "100 %"]), strict=True):
+        assert table.columns[0].cells == [f"facade, tie 1 at {tie:g} m"]
+        assert [column.cells[0].text + column.cells[0].unit for column in table.columns[1:]] == shares
     case.write_text(
         f"&job task = 'history' output = '{tmp_path}/one' /\n&wall {wall} /\n&records catalogue = 'records.csv' /\n"
         "&history record = 1, scale = 1.0 /\n"

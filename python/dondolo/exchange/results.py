@@ -27,6 +27,7 @@ from dondolo.exchange.result_file import MixedError, ResultFile
 from dondolo.exchange.stored_checks import stored_check
 from dondolo.exchange.stored_designs import stored_designs
 from dondolo.exchange.stored_errors import kept_errors
+from dondolo.exchange.stored_ties import stored_ties
 from dondolo.exchange.stored_unions import kept_unions
 from dondolo.populations.combination import combine
 from dondolo.populations.typology import Typology
@@ -42,7 +43,7 @@ from dondolo.walls.wall import Wall
 # How often results are read again that another run replaces meanwhile
 _TRIES = 20
 # What only some populations have
-_UNIONS = "_unions.csv"
+_UNIONS, _TIES = "_unions.csv", "_ties.csv"
 # Columns of _walls.csv and the numbers of a wall
 _COLUMNS = {row.column: row.name for row in WALL_PROPERTIES if row.column}
 _WALL_COLUMNS = {column: name for column, name in _COLUMNS.items() if name not in WALL_TEXTS and name not in WALL_LISTS}
@@ -184,7 +185,7 @@ def _read(prefix: str, run: RunFile) -> StoredResults:
         else:
             stored = replace(stored, typology=_typology(table, population, work, run.warnings))
     if stored.typology is not None:
-        stored = replace(stored, typology=_with_errors(stored.typology, prefix, run))
+        stored = replace(stored, typology=_with_tables(stored.typology, prefix, run))
     if stored.typology is not None and "uncertainty" in run.settings:
         sources = ResultFile(prefix + "_sources.csv", run)
         with sources.reading():
@@ -369,16 +370,19 @@ def _uncertain(table: ResultFile, typology: Typology) -> UncertainWall:
     )
 
 
-def _with_errors(typology: Typology, prefix: str, run: RunFile) -> Typology:
-    """A typology with the standard errors, and the unions of mechanisms, of its tables."""
+def _with_tables(typology: Typology, prefix: str, run: RunFile) -> Typology:
+    """A typology with what its tables know besides counts: standard errors, unions of mechanisms, ties."""
     curves, groups = (ResultFile(f"{prefix}_{name}.csv", run) for name in ("fragility", "typology"))
+    names = {file.name for file in run.files}
+    unions, ties = (ResultFile(prefix + name, run) if name in names else None for name in (_UNIONS, _TIES))
     kept = kept_errors(typology, curves, groups)
-    for table in (curves, groups):
-        table.check(run)
-    typology = replace(kept.put_into(typology, -1), kept_errors=kept)
-    if not any(file.name == _UNIONS for file in run.files):
-        return typology
-    table = ResultFile(prefix + _UNIONS, run)
-    typology = replace(typology, kept_unions=kept_unions(typology, table))
-    table.check(run)
+    typology = replace(
+        kept.put_into(typology, -1),
+        kept_errors=kept,
+        kept_unions=None if unions is None else kept_unions(typology, unions),
+        ties=stored_ties(typology, ties),
+    )
+    for table in (curves, groups, unions, ties):
+        if table is not None:
+            table.check(run)
     return typology

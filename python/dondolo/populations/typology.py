@@ -81,7 +81,7 @@ class Typology(Shown, Saved):
         Of results that were read back, `unions` in each damage state; None if the files have none.
     ties : tuple of TieCounts
         What the histories do to the ties of each row: how many make each `yielded` and `broken`, and its mean and
-        largest plastic elongation; None for results that were read back.
+        largest plastic elongation; None where that is not known.
     """
 
     population: Population
@@ -124,10 +124,10 @@ class Typology(Shown, Saved):
         Raises
         ------
         InputError
-            The results were read back from tables; ``*_ties.csv`` has these shares.
+            Results that do not have `ties`.
         """
         if self.ties is None:
-            raise InputError("broken_ties: not of results that were read back; *_ties.csv has them")
+            raise InputError("broken_ties: these results do not know their ties")
         histories = self.histories.T.astype(np.float64)
         return tuple(own.broken / runs[:, None] for own, runs in zip(self.ties, histories, strict=True))
 
@@ -387,7 +387,7 @@ class Typology(Shown, Saved):
     ) -> None:
         """Write one of the tables 'typology', 'fragility', 'stripes', 'walls' and 'ties' as the executable does.
 
-        There is one of ties if any wall has ties and the results were not read back.
+        There is one of ties if any wall has ties.
 
         With `spreadsheet_safe` an apostrophe stands before names that a spreadsheet would take for formulas.
         """

@@ -31,6 +31,7 @@ from dondolo.reporting.numerals import NONE, whole
 from dondolo.reporting.pdf import write_pdf
 from dondolo.reporting.risk import risk_facts
 from dondolo.reporting.run import Run, run_of
+from dondolo.reporting.ties import ties
 from dondolo.risk.hazard import HazardCurve
 
 if TYPE_CHECKING:
@@ -184,6 +185,8 @@ def _chapters(run: Run, hazard: HazardCurve | None) -> list[Chapter]:
             Chapter("motion", "Motion", "motion", wall.motion(results)),
             Chapter("numbers", "Numbers", "facts", results._facts()),
         ]
+    if not isinstance(results, Response) and (found_ties := ties(results)) is not None:
+        chapters.append(Chapter("ties", "Ties", "ties", found_ties))
     if run.check is not None:
         chapters.append(Chapter("code_check", "Check by NTC 2018", "code_check", code_check(run.check, run.curve)))
     found = [str(one) for one in run.warnings]

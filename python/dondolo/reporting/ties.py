@@ -1,0 +1,58 @@
+"""Facts of a report on what histories do to ties."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+
+from dondolo._base.arguments import FloatArray
+from dondolo.analysis.stripes import Stripes
+from dondolo.populations.typology import Typology
+from dondolo.reporting.content import Piece, Table, level_unit
+from dondolo.reporting.numerals import number, percent
+from dondolo.walls.ties import number_of_ties, states_of_ties
+from dondolo.walls.wall import Wall
+
+# Columns of levels of a table: what fits across a page
+_ACROSS = 10
+
+
+def ties(results: Typology | Stripes) -> dict[str, Any] | None:
+    """Shares of the histories that stretch each tie for good, and that break it; None without ties, or if not known."""
+    if isinstance(results, Stripes):
+        if not number_of_ties(results.wall):
+            return None
+        states = states_of_ties(results.wall, np.where(results.ran, results.edp, 0.0))
+        stretched: FloatArray = (states.plastic_elongation > 0.0).sum(axis=1) / results.histories[:, None]
+        return _tables((results.wall,), results, (stretched,), (results.broken_ties,))
+    if results.ties is None or not any(map(number_of_ties, results.walls)):
+        return None
+    histories = results.histories.T.astype(np.float64)
+    yielded = [own.yielded / runs[:, None] for own, runs in zip(results.ties, histories, strict=True)]
+    return _tables(results.walls, results, yielded, results.broken_ties)
+
+
+def _tables(
+    walls: Iterable[Wall], results: Typology | Stripes, yielded: Sequence[FloatArray], broken: Sequence[FloatArray]
+) -> dict[str, Any]:
+    """Tables with a row a tie and a column a level, as many as a page is wide."""
+    names = [
+        f"{wall.name}, tie {tie + 1} at {wall.tie_height[tie]:g} m"  # type: ignore[attr-defined]
+        for wall in walls
+        for tie in range(number_of_ties(wall))
+    ]
+    tables = []
+    for what, shares in (("stretch each tie for good", yielded), ("break each tie", broken)):
+        rows = np.hstack(shares)
+        for first in range(0, len(results.levels), _ACROSS):
+            columns: dict[Piece, Sequence[Piece]] = {"tie": names}
+            for place in range(first, min(first + _ACROSS, len(results.levels))):
+                columns[number(results.levels[place], unit=f" {level_unit(results.im)}")] = list(
+                    map(percent, rows[place])
+                )
+            last = results.levels[min(first + _ACROSS, len(results.levels)) - 1]
+            span = f"levels {results.levels[first]:g} to {last:g} {level_unit(results.im)}"
+            tables.append((f"Share of the histories that {what}, {span}.", Table.of(columns)))
+    return {"tables": tables}
