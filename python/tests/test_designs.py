@@ -175,14 +175,22 @@ def test_the_executable_compares(root, run, tmp_path):
     for kind in ("linear", "nonlinear"):
         stood = [float(row[f"{kind}_slv_g"]) for row in checked]
         assert stored.to_frame()[f"{kind}_slv"].tolist() == pytest.approx(stood, rel=1e-9)
+    results = dd.read_results(tmp_path / "out")
+    for kind, state in (("linear", "sld"), ("linear", "slv"), ("nonlinear", "slv"), ("nonlinear", "slc")):
+        for check, row in zip(results.checks, checked, strict=True):
+            key = kind, state.upper()
+            assert check.capacities[key] == pytest.approx(float(row[f"{kind}_{state}_g"]), rel=1e-9)
+            assert check.value(*key, "ratio") == pytest.approx(float(row[f"{kind}_{state}_ratio"]), rel=1e-9)
     left, _ = stored.plot()
     assert [line.get_label() for line in left.lines if not line.get_label().startswith("_")][:4] == list(found.names)
     stored.save(tmp_path / "designs.npz")
     assert dd.load(tmp_path / "designs.npz").to_frame().equals(stored.to_frame())
-    dd.report(dd.read_results(tmp_path / "out"), tmp_path / "report.html")
+    dd.report(results, tmp_path / "report.html")
     page = html.unescape((tmp_path / "report.html").read_text())
     assert "Designs beside the first, 'as it stands': ratios of the medians with 95 % intervals" in page
     assert f"<dd>{found.ratio[2]:.3g} times</dd>" in page.replace("\N{NO-BREAK SPACE}", " ")
+    verified = sum(check.verified["linear", "SLV"] for check in results.checks)
+    assert f"linear, SLV: {verified} of 4" in page
     case.write_text(case.read_text().replace("walls/designs.csv", "walls/facades.csv"))
     refused = run("--check", case)
     assert refused.returncode != 0

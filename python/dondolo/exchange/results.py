@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +25,7 @@ from dondolo.checks.ntc import CodeCheck
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloWarning, InputError, MissingFileError
 from dondolo.exchange.result_file import MixedError, ResultFile
-from dondolo.exchange.stored_checks import stored_check
+from dondolo.exchange.stored_checks import kinematic_checks, stored_check
 from dondolo.exchange.stored_designs import stored_designs
 from dondolo.exchange.stored_errors import kept_errors
 from dondolo.exchange.stored_ties import stored_ties
@@ -85,6 +86,12 @@ class StoredResults(Shown):
     uncertain: UncertainWall | None = None
     designs: DesignComparison | None = None
     check: CodeCheck | None = None
+
+    @cached_property
+    def checks(self) -> tuple[CodeCheck | None, ...]:
+        """The kinematic check of each row of a population with a group &check, None where it has none; else empty."""
+        is_checked = self.typology is not None and "check" in self.run.settings
+        return kinematic_checks(self.population.walls, self.run) if is_checked else ()
 
     def _facts(self) -> list[tuple[str, str]]:
         names = ("response", "stripes", "fragility", "typology", "designs", "check")

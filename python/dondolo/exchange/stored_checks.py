@@ -1,12 +1,14 @@
-"""The check by a building code that stands in result files."""
+"""Checks by a building code of the walls in result files."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 from dondolo._fortran.checks import SheetRow
 from dondolo._storage.run_file import RunFile
-from dondolo.checks.ntc import CodeCheck
+from dondolo.checks.ntc import CodeCheck, check_ntc
+from dondolo.errors import InputError
 from dondolo.exchange.result_file import ResultFile
 from dondolo.records.codes import Site
 from dondolo.walls.wall import Wall
@@ -17,6 +19,19 @@ def site_of(run: RunFile) -> Site:
     hazard = (run.setting("check", name, [0.0]) for name in ("ag", "f0", "tc_star"))
     words = {name: run.setting("check", name, "") for name in ("soil", "topography")}
     return Site(*(values if len(values) > 1 else values[0] for values in hazard), **words)
+
+
+def kinematic_checks(walls: Iterable[Wall], run: RunFile) -> tuple[CodeCheck | None, ...]:
+    """The kinematic check of each wall, made again to the numbers of ``_checks.csv``; None where that says why not."""
+    site, given = site_of(run), run.settings["check"]
+    factors = {name: float(given[name]) for name in ("confidence", "behaviour") if name in given}
+    checks: list[CodeCheck | None] = []
+    for wall in walls:
+        try:
+            checks.append(check_ntc(wall, site, **factors))
+        except InputError:
+            checks.append(None)
+    return tuple(checks)
 
 
 def stored_check(table: ResultFile, run: RunFile, wall: Wall) -> CodeCheck:

@@ -5,12 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from dondolo._storage.run_file import RunFile
-from dondolo.checks.ntc import CodeCheck, check_ntc
+from dondolo.checks.ntc import CodeCheck
 from dondolo.curves.comparison import Comparison
 from dondolo.curves.fragility import Fragility
-from dondolo.errors import InputError
 from dondolo.exchange.result_file import ResultFile
-from dondolo.exchange.stored_checks import site_of
+from dondolo.exchange.stored_checks import kinematic_checks
 from dondolo.populations.typology import Typology
 from dondolo.retrofit.designs import DesignComparison
 
@@ -78,9 +77,5 @@ def _checks(typology: Typology, run: RunFile) -> tuple[CodeCheck, ...]:
     """The kinematic check of each design; none where one of them cannot be checked."""
     if "check" not in run.settings:
         return ()
-    site, given = site_of(run), run.settings["check"]
-    factors = {name: float(given[name]) for name in ("confidence", "behaviour") if name in given}
-    try:
-        return tuple(check_ntc(wall, site, **factors) for wall in typology.walls)
-    except InputError:
-        return ()
+    checks = kinematic_checks(typology.walls, run)
+    return tuple(one for one in checks if one is not None) if None not in checks else ()

@@ -62,6 +62,26 @@ _DYNAMIC = {
 }
 
 
+# Kinematic checks of the walls of a population: method and limit state
+_KINEMATIC = (("linear", "SLD"), ("linear", "SLV"), ("nonlinear", "SLV"), ("nonlinear", "SLC"))
+
+
+def code_checks(checks: Sequence[CodeCheck | None], curves: Sequence[Fragility]) -> dict[str, Any]:
+    """What the kinematic checks say of each wall of a population, and its probability of collapse at the site."""
+    made = [(check, curve) for check, curve in zip(checks, curves, strict=True) if check is not None]
+    columns: dict[Piece, Sequence[Piece]] = {"wall": [check.wall.name for check, _ in made]}
+    for key in _KINEMATIC:
+        columns[f"{' '.join(key)} [g]"] = [number(check.capacities[key], 3) for check, _ in made]
+        columns[f"{' '.join(key)}, ratio"] = [number(check.value(*key, "ratio"), 3) for check, _ in made]
+    if curves[0].im == "pga":
+        columns["P(collapse) at the site"] = [
+            probability(float(curve(check.pga)) if curve.has_fit else np.nan) for check, curve in made
+        ]
+    held = [(", ".join(key), whole(sum(check.verified[key] for check, _ in made)), len(made)) for key in _KINEMATIC]
+    site = ", ".join(f"{name} {text}" for name, text in made[0][0].site._facts()) if made else ""
+    return {"checks": Table.of(columns), "held": held, "site": site, "left_out": len(checks) - len(made)}
+
+
 def _site(check: CodeCheck, state: str) -> float:
     return check.value("site", state, "pga")
 

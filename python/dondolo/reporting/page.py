@@ -25,7 +25,7 @@ from dondolo.figures.style import mechanism_name
 from dondolo.populations.typology import Typology
 from dondolo.populations.uncertain_wall import UncertainWall
 from dondolo.reporting import designs, inputs, typology, uncertain, wall
-from dondolo.reporting.code_check import code_check
+from dondolo.reporting.code_check import code_check, code_checks
 from dondolo.reporting.content import BETA, THETA, Symbol, date_in_words
 from dondolo.reporting.numerals import NONE, whole
 from dondolo.reporting.pdf import write_pdf
@@ -189,6 +189,10 @@ def _chapters(run: Run, hazard: HazardCurve | None) -> list[Chapter]:
         chapters.append(Chapter("ties", "Ties", "ties", found_ties))
     if run.check is not None:
         chapters.append(Chapter("code_check", "Check by NTC 2018", "code_check", code_check(run.check, run.curve)))
+    if run.checks and isinstance(results, Typology):
+        chapters.append(
+            Chapter("code_checks", "Checks by NTC 2018", "code_checks", code_checks(run.checks, results.curves))
+        )
     found = [str(one) for one in run.warnings]
     if hazard is not None:
         facts, short = risk_facts(results, run.curve, hazard)

@@ -92,6 +92,8 @@ class Run:
         How the curves of the damage states are fitted.
     uncertain : UncertainWall or None
         What the results, a typology, are of.
+    checks : tuple of CodeCheck or None
+        Kinematic checks of the walls of a population, None for one that has none; empty if they are not asked for.
     designs : DesignComparison or None
         What the walls of the results, a typology, are.
     """
@@ -109,6 +111,7 @@ class Run:
     check: CodeCheck | None = None
     how: States = "separate"
     uncertain: UncertainWall | None = None
+    checks: tuple[CodeCheck | None, ...] = ()
     designs: DesignComparison | None = None
 
 
@@ -142,7 +145,7 @@ def _of_files(stored: StoredResults) -> Run:
     """Result files: the file of the run knows its warnings, more of the scale factors than a fit repeated."""
     run = run_of(stored.typology or stored.stripes or stored.response)
     run.file, run.population, run.check = stored.run, stored.population, stored.check
-    run.uncertain, run.designs = stored.uncertain, stored.designs
+    run.uncertain, run.designs, run.checks = stored.uncertain, stored.designs, stored.checks
     run.title = stored.run.setting("job", "title", "") or run.title
     known = {one.code for one in stored.run.warnings} & {_LARGE_SCALES}
     more = [one for one in run.warnings if one.code not in known]
