@@ -13,7 +13,7 @@ module dondolo_summary
    use dondolo_restitution, only : published_factors
    use dondolo_results, only : results_type, row_counts_type
    use dondolo_source_rows, only : make_model_sentence, make_source_sentence
-   use dondolo_text, only : counted, right, rounded, to_text
+   use dondolo_text, only : counted, left, right, rounded, to_text
    use dondolo_tie_rows, only : make_tie_sentence
    use dondolo_typology, only : whole_population
    use dondolo_union_lines, only : print_unions, print_verdict_rows
@@ -283,16 +283,18 @@ contains
       type(case_type), intent(in) :: case
       type(results_type), intent(in) :: results
 
-      character(len=30) :: name
+      integer, parameter :: narrowest = 30, widest = 80
       character(len=12) :: theta
       character(len=10) :: beta
-      integer :: i, more
+      integer :: width, i, more
 
-      name = 'wall'
-      theta = 'theta'//case%stripes%scaling%unit_after_blank()
-      write (output_unit, '(a, a15, 2a10, 2x, a)') name, 'mechanism', trim(theta), 'beta', 'status'
+      width = narrowest
       do i = 1, size(results%shown)
-         name = results%shown(i)%name
+         width = min(max(width, len(results%shown(i)%name) + 1), widest)
+      end do
+      theta = 'theta'//case%stripes%scaling%unit_after_blank()
+      write (output_unit, '(a, a15, 2a10, 2x, a)') left('wall', width), 'mechanism', trim(theta), 'beta', 'status'
+      do i = 1, size(results%shown)
          theta = '-'
          beta = '-'
          associate (curve => results%shown(i)%curve)
@@ -300,7 +302,7 @@ contains
                theta = rounded(curve%theta)
                beta = rounded(curve%beta)
             end if
-            write (output_unit, '(a, a15, 2a10, 2x, a)') name, results%shown(i)%mechanism, &
+            write (output_unit, '(a, a15, 2a10, 2x, a)') left(results%shown(i)%name, width), results%shown(i)%mechanism, &
                & trim(theta), adjustr(beta), trim(curve%status)
          end associate
       end do
