@@ -316,11 +316,43 @@ def test_results_draw_themselves():
     }
     drawn = {name for name, _ in methods}
     assert drawn >= {"Cloud", "Fragility", "Incremental", "IntensityComparison", "OverturningSpectrum", "Population"}
+    assert drawn >= {"HazardCurve", "Record", "Spectrum"}
     assert drawn >= {"PopulationCurve", "Response", "Risk", "Stripes", "Typology", "OneSidedWall"}
     for method in methods.values():
         _, ax, *options = inspect.signature(method).parameters.values()
         assert (ax.name, ax.default) == ("ax", None)
         assert all(option.kind is option.KEYWORD_ONLY for option in options)
+
+
+def test_records_and_spectra(records):
+    record = records[0]
+    above, below = record.plot()
+    peak = line(above, "PGA")
+    assert abs(peak.get_ydata()[0]) == record.peak_acceleration
+    low, high = record.significant_times()
+    assert above.patches[0].get_extents().transformed(above.transData.inverted()).intervalx == pytest.approx(
+        [low, high]
+    )
+    np.testing.assert_array_equal(line(below, "PGV").get_ydata(), record.velocity)
+    still, _ = dd.Record([0.0, 0.0], 0.01).plot()
+    assert not still.patches
+    shaken, _ = replace(record, vertical=0.5 * record.acceleration).plot()
+    np.testing.assert_array_equal(line(shaken, "vertical").get_ydata(), 0.5 * record.acceleration)
+    spectrum = record.spectrum([1.0, 0.2, 0.5])
+    ax = spectrum.plot()
+    assert line(ax, "damping 5 %").get_xdata().tolist() == [0.2, 0.5, 1.0]
+    assert line(ax, "damping 5 %").get_ydata()[2] == spectrum.pseudo_acceleration[0]
+
+
+def test_hazard_curve():
+    hazard = dd.HazardCurve([0.1, 0.2, 0.4], [0.01, 0.002, 0.0002], fractiles={0.84: [0.02, 0.004, 0.0005]})
+    ax = hazard.plot()
+    mean = line(ax, "mean")
+    assert mean.get_ydata()[[0, -1]] == pytest.approx([0.01, 0.0002])
+    assert line(ax, "fractile").get_ydata()[-1] == 0.0005
+    (periods,) = ax.child_axes
+    assert periods.get_ylabel() == "return period [years]"
+    assert dd.HazardCurve.power_law(1e-4, 2.0).plot().get_xlabel() == "peak ground acceleration [g]"
 
 
 @pytest.mark.parametrize("ax", ["mine", 3, [], [None, None], "panels"])

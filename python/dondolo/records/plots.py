@@ -1,7 +1,8 @@
-"""Figures of the response spectra of records, and of floors under them."""
+"""Figures of records, of their response spectra, and of floors under them."""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -12,6 +13,7 @@ from dondolo.figures import style
 from dondolo.records.building import Building
 from dondolo.records.record import Record
 from dondolo.records.record_set import RecordSet
+from dondolo.records.spectrum import Spectrum
 from dondolo.records.target import TargetSpectrum
 
 if TYPE_CHECKING:
@@ -20,6 +22,48 @@ if TYPE_CHECKING:
     from dondolo.records.codes import Site
 
 _PERIODS = np.geomspace(0.05, 4.0, 100)
+
+
+def draw_record(record: Record, ax: Iterable[Axes] | None) -> style.Panels:
+    """Draw acceleration and velocity over time."""
+    axes = above, below = style.panels(ax, 2, (7.2, 4.2), sharex=True)
+    time = record.time
+    peak = int(np.argmax(np.abs(record.acceleration)))
+    if record.peak_acceleration > 0.0:
+        low, high = record.significant_times()
+        words = f"5 to 95 % of the Arias intensity, {high - low:.3g} s"
+        for panel in axes:
+            panel.axvspan(
+                low, high, color=style.LIGHT, alpha=0.5, linewidth=0.0, label=words if panel is above else None
+            )
+    if record.vertical is not None:
+        above.plot(time, record.vertical, color=style.GREY, linewidth=0.7, label="vertical")
+    above.plot(time, record.acceleration, color=style.BLUE, linewidth=0.9)
+    label = f"PGA {record.peak_acceleration:.3g} m/s2 at {time[peak]:.4g} s"
+    above.plot(time[peak], record.acceleration[peak], linestyle="none", marker="o", color=style.RED, label=label)
+    above.set_ylabel("acceleration [m/s2]")
+    style.title(above, record.name)
+    style.legend(above, loc="upper right")
+    below.plot(time, record.velocity, color=style.BLUE, linewidth=1.1, label=f"PGV {record.intensity('pgv'):.3g} m/s")
+    below.set_ylabel("velocity [m/s]")
+    below.set_xlabel("time [s]")
+    below.set_xlim(time[0], max(time[-1], record.dt))
+    style.legend(below, loc="upper right")
+    return axes
+
+
+def draw_spectrum(spectrum: Spectrum, ax: Axes | None) -> Axes:
+    """Draw the pseudo-acceleration against the period."""
+    ax = style.axes(ax)
+    order = np.argsort(spectrum.periods)
+    words = f"damping {100.0 * spectrum.damping:.4g} %"
+    ax.plot(spectrum.periods[order], spectrum.pseudo_acceleration[order], color=style.BLUE, label=words)
+    ax.set_ylim(bottom=0.0)
+    ax.set_xlim(left=0.0)
+    ax.set_xlabel("period [s]")
+    ax.set_ylabel("pseudo-spectral acceleration [m/s2]")
+    style.legend(ax, loc="upper right")
+    return ax
 
 
 def draw_spectra(records: RecordSet, target: TargetSpectrum | None, periods: ArrayLike | None, ax: Axes | None) -> Axes:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from types import MappingProxyType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -26,6 +26,11 @@ from dondolo.records.building import Building
 from dondolo.records.processing import Baseline
 from dondolo.records.rotation import RotD, check_components, component
 from dondolo.records.spectrum import Spectrum
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from dondolo.figures.style import Panels
 
 
 @part_of_results
@@ -270,6 +275,23 @@ class Record:
     def velocity(self) -> FloatArray:
         """Ground velocity at the samples, 0 at the first [m/s]; exact for accelerations linear in between."""
         return suite.velocity(self)
+
+    def plot(self, ax: Iterable[Axes] | None = None) -> Panels:
+        """Draw acceleration and velocity over time.
+
+        Parameters
+        ----------
+        ax : two Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        ndarray of two Axes
+            Acceleration above, with its peak and, shaded, the time from 5 to 95 % of Arias' integral; velocity below.
+        """
+        from dondolo.records.plots import draw_record
+
+        return draw_record(self, ax)
 
     def significant_times(self, *, low: float = 0.05, high: float = 0.95) -> tuple[float, float]:
         """Times at which Arias' integral of the squared acceleration reaches two parts of its end value [s].

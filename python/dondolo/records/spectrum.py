@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -11,6 +11,9 @@ from dondolo._base.arguments import FloatArray
 from dondolo._base.shown import Shown
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -40,6 +43,23 @@ class Spectrum(Shown, Saved):
     def pseudo_acceleration(self) -> FloatArray:
         """Pseudo-spectral acceleration, (2 pi / T)**2 times the displacement [m/s2]."""
         return (2.0 * np.pi / self.periods) ** 2 * self.displacement
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw the pseudo-acceleration against the period.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        Axes
+            Pseudo-spectral acceleration [m/s2] against period [s].
+        """
+        from dondolo.records.plots import draw_spectrum
+
+        return draw_spectrum(self, ax)
 
     def to_frame(self) -> Any:
         """The spectrum as a pandas DataFrame."""

@@ -26,7 +26,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -40,6 +40,9 @@ from dondolo._storage.saved import Saved
 from dondolo.errors import InputError
 from dondolo.risk.hazard_table import FRACTILE, read_hazard
 from dondolo.risk.openquake import Site, read_curves, write_curves
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 # Levels that make a curve
 _FEWEST = 2
@@ -363,6 +366,24 @@ class HazardCurve(Shown, Saved):
         x[::parts] = self.levels
         fractiles = {q: _cubic(u, h, fine, parts) for q, h in self.fractiles.items()}
         return HazardCurve(x, _cubic(u, self.annual_frequency, fine, parts), im=self.im, fractiles=fractiles)
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw the curve on logarithmic axes.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+
+        Returns
+        -------
+        Axes
+            Annual frequency of exceedance against intensity: the mean with its levels and the fractiles, smoothed as
+            `smoothed`, and return periods at the right.
+        """
+        from dondolo.risk.plots import draw_hazard
+
+        return draw_hazard(self, ax)
 
     def _covers(self, x: FloatArray) -> Any:
         """Where is the curve given?"""

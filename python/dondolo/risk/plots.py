@@ -1,4 +1,4 @@
-"""Figures of a risk: hazard and fragility, what intensities contribute, and how uncertain it is."""
+"""Figures of hazard and risk: hazard and fragility, what intensities contribute, and how uncertain that is."""
 
 from __future__ import annotations
 
@@ -7,16 +7,21 @@ from collections.abc import Iterable, Iterator
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from dondolo._base.arguments import FloatArray
 from dondolo._fortran.records import blank_unit
 from dondolo.figures import curves, style
 from dondolo.risk.frequency import Risk, between, probability
+from dondolo.risk.hazard import HazardCurve
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from dondolo.risk.uncertainty import RiskUncertainty
 
+# Of a curve that is drawn
+_POINTS = 200
 # Of the largest contribution, what a figure of bins leaves out
 _LEAST = 1e-3
 
@@ -26,16 +31,7 @@ def draw_risk(risk: Risk, ax: Iterable[Axes] | None) -> style.Panels:
     axes = above, middle, below = style.panels(ax, 3, (6.0, 6.6), sharex=True, height_ratios=(2, 2, 2))
     hazard = risk.hazard
     x, density = risk._smooth_density()
-    smooth = hazard.smoothed()
-    above.plot(x, smooth(x), color=style.BLACK, label="mean" if hazard.fractiles else None)
-    if not hazard.endless:
-        above.plot(hazard.levels, hazard.annual_frequency, linestyle="none", marker="o", markersize=4, color="black")
-    for (q, fractile), line in zip(smooth._curves().items(), _lines(), strict=False):
-        above.plot(
-            fractile.levels, fractile.annual_frequency, color=style.GREY, linestyle=line, label=f"fractile {q:g}"
-        )
-    if hazard.fractiles:
-        style.legend(above, loc="lower left")
+    _hazard(above, hazard, x)
     above.set_yscale("log")
     above.set_ylabel("exceeded\n[1/year]")
     above.set_title(f"mean annual frequency of collapse:\n{between(*risk.bounds, 'a year', 3)}", loc="left")
@@ -47,8 +43,40 @@ def draw_risk(risk: Risk, ax: Iterable[Axes] | None) -> style.Panels:
     below.plot(x, share, color=style.RED)
     below.set_ylim(bottom=0.0)
     below.set_ylabel("share of the risk\na unit of ln IM")
-    _intensities(below, risk, x[0], x[-1])
+    _intensities(below, hazard.im, x[0], x[-1])
     return axes
+
+
+def draw_hazard(hazard: HazardCurve, ax: Axes | None) -> Axes:
+    """Draw the annual frequencies of exceedance, with return periods at the right."""
+    ax = style.axes(ax)
+    low, high = hazard.levels[[0, -1]]
+    _hazard(ax, hazard, np.geomspace(low, high, _POINTS))
+    ax.set_yscale("log")
+    ax.set_ylabel("annual frequency of exceedance [1/year]")
+    periods = ax.secondary_yaxis("right", functions=(_inverse, _inverse))
+    periods.set_ylabel("return period [years]")
+    _intensities(ax, hazard.im, low, high)
+    return ax
+
+
+def _inverse(value: ArrayLike) -> ArrayLike:
+    """Return periods of frequencies, and the other way round."""
+    with np.errstate(divide="ignore"):
+        inverse: FloatArray = 1.0 / np.asarray(value, dtype=np.float64)
+    return inverse
+
+
+def _hazard(ax: Axes, hazard: HazardCurve, x: FloatArray) -> None:
+    """The mean, its points, and the fractiles."""
+    smooth = hazard.smoothed()
+    ax.plot(x, smooth(x), color=style.BLACK, label="mean" if hazard.fractiles else None)
+    if not hazard.endless:
+        ax.plot(hazard.levels, hazard.annual_frequency, linestyle="none", marker="o", markersize=4, color="black")
+    for (q, fractile), line in zip(smooth._curves().items(), _lines(), strict=False):
+        ax.plot(fractile.levels, fractile.annual_frequency, color=style.GREY, linestyle=line, label=f"fractile {q:g}")
+    if hazard.fractiles:
+        style.legend(ax, loc="lower left")
 
 
 def draw_deaggregation(risk: Risk, ax: Axes | None, bins: int) -> Axes:
@@ -87,7 +115,7 @@ def draw_deaggregation(risk: Risk, ax: Axes | None, bins: int) -> Axes:
     beyond = f";\n{above:.2g} % from above the levels" if above >= 0.05 else ""
     ax.set_title(f"{between(*risk.bounds, 'collapses a year', 3)}{beyond}", loc="left")
     ax.set_ylabel("share of the frequency [%]")
-    _intensities(ax, risk, edges[0], edges[-1])
+    _intensities(ax, risk.hazard.im, edges[0], edges[-1])
     return ax
 
 
@@ -123,9 +151,9 @@ def _lines() -> Iterator[object]:
     return itertools.cycle(curves.LINES[1:])
 
 
-def _intensities(ax: Axes, risk: Risk, low: float, high: float) -> None:
+def _intensities(ax: Axes, im: str, low: float, high: float) -> None:
     """The logarithmic axis of intensities."""
     ax.set_xscale("log")
     ax.set_xlim(low, high)
-    ax.set_xlabel(style.im_label(risk.hazard.im))
+    ax.set_xlabel(style.im_label(im))
     style.plain_ticks(ax.xaxis)
