@@ -197,3 +197,21 @@ def test_history(name):
     assert np.abs(np.sort(expected.impacts[list(found)]) - times).max() < 1e-9
     others = np.delete(expected.impacts, list(found))
     assert np.all(rests[np.searchsorted(TIME, others)]), others
+
+
+@pytest.mark.parametrize("engine", ["rk45", "lanes"])
+def test_bounces_that_hardly_lose_speed(engine):
+    """A wall that still bounces when a push just above the trigger comes: EDPs of an independent program.
+
+    That is an extrapolation method in long double and in 33 digits, with every bounce integrated. A guard that puts the
+    wall to rest among its bounces changes the EDP in the third to the sixth digit, and survives the last push.
+    """
+    wall = dd.FreeStandingWall(3.0, 0.25, restitution="constant", restitution_value=0.999)
+    for over, expected, rel in ((1e-5, 0.0038075, 1e-5), (1e-4, 0.038673567, 2e-8), (1e-3, 0.5103246, 1e-7)):
+        push = np.array([0.0, 1.001, *[0.99] * 20, *[1.0 + over] * 600, 0.0, 0.0])
+        record = dd.Record(-wall.trigger_acceleration * push, 0.005)
+        motion = dd.simulate(wall, record, solver=dd.Solver(engine=engine), history=False)
+        assert motion.edp == pytest.approx(expected, rel=rel)
+    push[22:622] = 1.0 + 1.31460e-3
+    record = dd.Record(-wall.trigger_acceleration * push, 0.005)
+    assert dd.simulate(wall, record, solver=dd.Solver(engine=engine), history=False).collapsed

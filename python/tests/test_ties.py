@@ -215,6 +215,17 @@ def test_refusals(change, sentence):
         dd.OneSidedWall(9.0, 0.5, **TIE | change)
 
 
+@pytest.mark.parametrize("engine", ["rk45", "lanes"])
+def test_a_start_at_the_very_end_peaks_there(engine):
+    """Its kinetic energy is lost in the rounding of the potential: no more time than the wall has is made of it."""
+    wall = dd.OneSidedWall(3.0, 0.25, tie_height=2.8, tie_area=5e-5, tie_length=8.0)
+    for over in (1e-1, 1e-2, 1e-3, 1e-4, 1e-5):
+        record = dd.Record(-wall.trigger_acceleration * np.array([0.0, 0.0, 0.5, 1.0 + over]), 0.001)
+        motion = dd.simulate(wall, record, solver=dd.Solver(engine=engine))
+        assert 0.003 <= motion.time_of_peak < 0.0031
+        assert 0.0 < motion.edp < 1e-8
+
+
 def test_engines_agree(records):
     """Taylor steps in lanes against tight Runge-Kutta steps: two integrators that share no formula of a step."""
     wall = dd.OneSidedWall(9.0, 0.5, tie_height=[8.5, 4.5], tie_area=5e-5, tie_length=8.0, tie_strain=[0.02, 0.1])

@@ -136,7 +136,7 @@ module dondolo_wall_properties
       &   meaning='depth of each thrust behind the outer face, the inner face if not given'), &
       & property_type('thrust_height', is_list, unit='m', owners=one_block, optional=.true., example='7.5', &
       &   meaning='height of each thrust above the base'), &
-      & property_type('thrust_decay', is_list, unit='m', owners=one_block, optional=.true., positive=.true., &
+      & property_type('thrust_decay', is_list, unit='m', owners=one_block, optional=.true., smallest=1.0e-4_wp, &
       &   example='0.05', meaning='travel over which each thrust falls to 1/e, constant if not given'), &
       & property_type('spring', is_list, unit='N/m2', owners=one_block, optional=.true., smallest=0.0_wp, &
       &   largest=1.0e9_wp, example='50.0e3', meaning='stiffness of springs that pull and push, per metre of wall'), &
@@ -175,7 +175,7 @@ module dondolo_wall_properties
       & property_type('tie_strain', is_list, owners=one_sided, optional=.true., positive=.true., largest=1.0_wp, &
       &   usual_most=0.3_wp, if_more='is it in per cent?', example='0.02', &
       &   meaning='strain of each tie at which it or its anchorage breaks, 0.02 if not given'), &
-      & property_type('tie_anchor_force', is_list, unit='N/m', owners=one_sided, optional=.true., positive=.true., &
+      & property_type('tie_anchor_force', is_list, unit='N/m', owners=one_sided, optional=.true., smallest=1.0e-3_wp, &
       &   largest=1.0e9_wp, usual_least=100.0_wp, usual_most=1.0e6_wp, if_less='is it in kN/m?', &
       &   if_more='is it per metre of wall?', example='6.0e3', &
       &   meaning='force per metre of wall at which each anchor gives way at once; none if not given'), &

@@ -56,9 +56,6 @@ module dondolo_history
       procedure :: finish
    end type history_type
 
-   !> Zeno guard: after this many tiny bounces in a row the wall is at rest
-   integer, parameter :: most_tiny_bounces = 1000
-
 contains
 
    !> Acceleration, or a multiple of it: a wall at rest begins to rock where its moment is zero, thus never inwards,
@@ -165,7 +162,7 @@ contains
       vertical = 0.0_wp
       if (allocated(record%vertical)) vertical = abs(self%scale)*record%vertical_at(self%interval, self%time)
       moment = rest%inward_moment(self%side, ground, vertical)
-      at_rest = speed == 0.0_wp .or. self%tiny_bounces > most_tiny_bounces
+      at_rest = speed == 0.0_wp .or. self%tiny_bounces > rest%most_tiny_bounces
       if (at_rest .or. moment <= 0.0_wp) return
       at_rest = 2.0_wp*speed*rest%inertia <= shortest_motion*record%dt*moment
       ! A chain must not rise beyond its bounds. Where it has many bounces only some impacts look at it, since each look

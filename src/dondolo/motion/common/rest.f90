@@ -43,8 +43,9 @@ module dondolo_rest
       real(wp) :: slack
       !> Relative change of the vertical lever up to it
       real(wp) :: vertical_slack = 0.0_wp
-      !> Energy of a bounce that is called tiny [J]
+      !> Energy of a bounce that is called tiny [J], and how many of them in a row end at rest: the Zeno guard
       real(wp) :: tiny_energy
+      integer :: most_tiny_bounces
       !> Impacts after which a chain of bounces is looked at again: 1, more where e is next to 1
       integer :: bounces_per_look
    contains
@@ -70,6 +71,10 @@ module dondolo_rest
    !> A bounce that would rise less than this fraction of q_c in still ground is tiny
    real(wp), parameter :: tiny_height = 1.0e-12_wp
 
+   !> The guard waits until such bounces rise less than this part of that height, and for so many more, but for no more than most:
+   !> those of walls with e above 0.99999 are cut short
+   real(wp), parameter :: last_height = 1.0e-12_wp, fewest_tiny = 1.0e3_wp, most_tiny = 1.0e6_wp
+
    !> Part by which the speed of a chain may fall from one look to the next, and most bounces between them
    real(wp), parameter :: speed_per_look = 0.1_wp, most_bounces = 1.0e3_wp
 
@@ -90,6 +95,8 @@ contains
       rest%lever = l0
       rest%inertia = j0
       rest%tiny_energy = tiny_height*mechanism%capacity*rest%moment
+      ! Each bounce leaves e**2 of the height.
+      rest%most_tiny_bounces = int(min(most_tiny, fewest_tiny + 0.5_wp*log(last_height)/log(max(rest%restitution, last_height))))
       rest%bounces_per_look = max(1, int(min(most_bounces, speed_per_look/(1.0_wp - rest%restitution))))
       rest%height = 1.0e-3_wp*mechanism%capacity
       do
