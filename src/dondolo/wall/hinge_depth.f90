@@ -55,8 +55,12 @@ contains
       !> What that is, and where
       character(len=*), intent(in) :: what
 
-      if (.not. depth < limit) call problems%note(trim(name)//': puts the hinge at depth '//rounded(depth)// &
-         & ' m, must be less deep than '//what)
+      if (depth < limit) return
+      if (depth > 0.0_wp) then
+         call problems%note(trim(name)//': puts the hinge at depth '//rounded(depth)//' m, must be less deep than '//what)
+      else
+         call problems%note(what//': must be deeper than the hinge, which is at the outer face')
+      end if
    end subroutine check_hinge
 
 end module dondolo_hinge_depth
