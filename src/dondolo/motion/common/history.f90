@@ -26,8 +26,8 @@ module dondolo_history
       real(wp) :: time = 0.0_wp
       !> Largest rotation so far [rad] and its time [s]
       real(wp) :: peak = 0.0_wp, time_of_peak = 0.0_wp
-      !> Impacts so far, and tiny bounces in a row
-      integer :: impacts = 0, tiny_bounces = 0
+      !> Impacts so far, and bounces in a row that are low, and lowest
+      integer :: impacts = 0, low_bounces(2) = 0
       !> Whether the wall has moved, and whether it has collapsed
       logical :: moved = .false., collapsed = .false.
       !> Sample intervals in which it has rocked, and the last of them
@@ -89,7 +89,7 @@ contains
       interval = min(self%interval, size(record%acceleration) - 1)
       self%rocked = self%rocked + interval - max(self%start_interval - 1, self%last_rocked)
       self%last_rocked = interval
-      self%tiny_bounces = 0
+      self%low_bounces = 0
    end subroutine end_rocking
 
    !> Leave the edge of the trigger, if rounding undid the last start at once, so that it is not repeated forever.
@@ -158,11 +158,11 @@ contains
       real(wp) :: vertical, moment, energy
 
       energy = 0.5_wp*rest%inertia*speed**2
-      self%tiny_bounces = merge(self%tiny_bounces + 1, 0, energy < rest%tiny_energy)
+      self%low_bounces = merge(self%low_bounces + 1, 0, energy < rest%low_energy)
       vertical = 0.0_wp
       if (allocated(record%vertical)) vertical = abs(self%scale)*record%vertical_at(self%interval, self%time)
       moment = rest%inward_moment(self%side, ground, vertical)
-      at_rest = speed == 0.0_wp .or. self%tiny_bounces > rest%most_tiny_bounces
+      at_rest = speed == 0.0_wp .or. any(self%low_bounces > rest%most_low_bounces)
       if (at_rest .or. moment <= 0.0_wp) return
       at_rest = 2.0_wp*speed*rest%inertia <= shortest_motion*record%dt*moment
       ! A chain must not rise beyond its bounds. Where it has many bounces only some impacts look at it, since each look

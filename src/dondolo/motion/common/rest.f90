@@ -43,9 +43,9 @@ module dondolo_rest
       real(wp) :: slack
       !> Relative change of the vertical lever up to it
       real(wp) :: vertical_slack = 0.0_wp
-      !> Energy of a bounce that is called tiny [J], and how many of them in a row end at rest: the Zeno guard
-      real(wp) :: tiny_energy
-      integer :: most_tiny_bounces
+      !> Energies below which bounces are low, and lowest [J], and how many of each in a row end at rest: the Zeno guard
+      real(wp) :: low_energy(2)
+      integer :: most_low_bounces(2)
       !> Impacts after which a chain of bounces is looked at again: 1, more where e is next to 1
       integer :: bounces_per_look
    contains
@@ -68,12 +68,12 @@ module dondolo_rest
    !> that rise up to tenfold
    real(wp), parameter :: margin = 1.03_wp, largest_growth = 10.0_wp
 
-   !> A bounce that would rise less than this fraction of q_c in still ground is tiny
-   real(wp), parameter :: tiny_height = 1.0e-12_wp
+   !> Parts of q_c that bounces rise in still ground which are low, and lowest: these are nothing beside any tolerance
+   real(wp), parameter :: low_heights(2) = [1.0e-12_wp, 1.0e-24_wp]
 
-   !> The guard waits until such bounces rise less than this part of that height, and for so many more, but for no more than most:
-   !> those of walls with e above 0.99999 are cut short
-   real(wp), parameter :: last_height = 1.0e-12_wp, fewest_tiny = 1.0e3_wp, most_tiny = 1.0e6_wp
+   !> The guard waits for so many of the lowest, and until low bounces have become so, but for no more than most: those of walls
+   !> with e above 0.9993 are cut short
+   real(wp), parameter :: fewest_low = 1.0e3_wp, most_low = 2.0e4_wp
 
    !> Part by which the speed of a chain may fall from one look to the next, and most bounces between them
    real(wp), parameter :: speed_per_look = 0.1_wp, most_bounces = 1.0e3_wp
@@ -86,7 +86,7 @@ contains
       !> Its rest
       type(rest_type) :: rest
 
-      real(wp) :: j0, c0, g0, l0, load0, j, c, g, l, load, change
+      real(wp) :: j0, c0, g0, l0, load0, j, c, g, l, load, change, fall
 
       call mechanism%terms(0.0_wp, j0, c0, g0, l0, load0)
       rest%two_sided = mechanism%two_sided
@@ -94,9 +94,10 @@ contains
       rest%moment = g0 - load0
       rest%lever = l0
       rest%inertia = j0
-      rest%tiny_energy = tiny_height*mechanism%capacity*rest%moment
+      rest%low_energy = low_heights*mechanism%capacity*rest%moment
       ! Each bounce leaves e**2 of the height.
-      rest%most_tiny_bounces = int(min(most_tiny, fewest_tiny + 0.5_wp*log(last_height)/log(max(rest%restitution, last_height))))
+      fall = 0.5_wp*log(low_heights(2)/low_heights(1))/log(max(rest%restitution, low_heights(1)))
+      rest%most_low_bounces = int([min(most_low, fewest_low + fall), fewest_low])
       rest%bounces_per_look = max(1, int(min(most_bounces, speed_per_look/(1.0_wp - rest%restitution))))
       rest%height = 1.0e-3_wp*mechanism%capacity
       do
