@@ -175,7 +175,7 @@ module dondolo_wall_properties
       & property_type('tie_strain', is_list, owners=one_sided, optional=.true., positive=.true., largest=1.0_wp, &
       &   usual_most=0.3_wp, if_more='is it in per cent?', example='0.02', &
       &   meaning='strain of each tie at which it or its anchorage breaks, 0.02 if not given'), &
-      & property_type('tie_anchor_force', is_list, unit='N/m', owners=one_sided, optional=.true., smallest=1.0e-3_wp, &
+      & property_type('tie_anchor_force', is_list, unit='N/m', owners=one_sided, optional=.true., smallest=1.0e-9_wp, &
       &   largest=1.0e9_wp, usual_least=100.0_wp, usual_most=1.0e6_wp, if_less='is it in kN/m?', &
       &   if_more='is it per metre of wall?', example='6.0e3', &
       &   meaning='force per metre of wall at which each anchor gives way at once; none if not given'), &
