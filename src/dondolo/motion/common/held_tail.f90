@@ -96,11 +96,11 @@ contains
             next = balance(wall, next, after)
          end if
          turns = wall%potential(next) > energy
-         ! A turn no higher than the start is one of rounding: the kinetic energy is lost in the potential, and takes no time.
          if (turns) next = turning_rotation(wall, energy, next, at)
          if (wall%potential(next) > wall%potential(at)) then
             time = time + time_between(wall, max(energy, wall%potential(next)), next, at)
          else if (.not. turns .and. abs(next - at) > 0.0_wp) then
+            ! A turn no higher than the start is one of rounding, since the kinetic energy is lost in the potential: no time.
             time = time + time_between(wall, energy, at, next)
          end if
          at = next
