@@ -6,12 +6,13 @@ A block takes less than half a second, so that little is lost when Ctrl-C breaks
 from __future__ import annotations
 
 import builtins
-import dataclasses
 import functools
 import time
 import warnings
+from bisect import bisect_right
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import accumulate
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -129,7 +130,7 @@ class Request:
     @property
     def samples(self) -> float:
         """Samples of a record, on average."""
-        return sum(map(len, self.records)) / len(self.records)
+        return sum([record.acceleration.size for record in self.records]) / len(self.records)
 
     @functools.cached_property
     def runs(self) -> FloatArray:
@@ -156,6 +157,8 @@ class Request:
 
     def totals(self, histories: IntArray) -> NDArray[np.int64]:
         """Histories of each wall in all stripes."""
+        if self.rows is None:
+            return np.multiply(histories, len(self.levels), dtype=np.int64)
         totals: NDArray[np.int64] = np.rint(np.asarray(histories, dtype=np.float64) * self.share.sum()).astype(np.int64)
         return totals
 
@@ -167,17 +170,17 @@ class Request:
 
     def advance(self, totals: NDArray[np.int64], pace: Pace, report: Callable[[int], object]) -> tuple[Outcome, bool]:
         """The same at a pace, with each wall's histories, and with a report of how many were done in each call."""
-        ends = np.cumsum(totals)
-        total = int(ends[-1])
+        ends = list(accumulate(totals.tolist()))
+        total = ends[-1]
         edp, peak, error = np.empty(total), np.empty(total), np.empty(total)
         collapsed, impacts = np.empty(total, dtype=np.int32), np.empty(total, dtype=np.int32)
         study, people = self._study.number, self._people.number
-        work = np.zeros(len(dataclasses.fields(Work)))
+        work = np.zeros(len(Work.__dataclass_fields__))
 
         def block(done: int, count: int) -> None:
             # The walls that the block touches
-            one, last = np.searchsorted(ends, [done, done + count - 1], side="right")
-            first = done - (int(ends[one - 1]) if one else 0)
+            one, last = bisect_right(ends, done), bisect_right(ends, done + count - 1)
+            first = done - (ends[one - 1] if one else 0)
             here = slice(done, done + count)
             rows = (values[here] for values in (edp, collapsed, impacts, peak, error))
             with stoppable():

@@ -186,19 +186,25 @@ def _finished(stripes: Stripes, request: Request, certify: bool, progress: bool)
 def _stripes(request: Request, plan: Plan, outcome: Outcome, complete: int) -> Stripes:
     """The stripes up to a level."""
     levels, ran = request.levels[:complete], plan.ran[:complete]
-    rtol, atol, edp_limit, estimated, _ = (float(value) for value in request.settings)
+    rtol, atol, edp_limit, estimated, _ = request.settings.tolist()
+    count, scale = np.count_nonzero(ran), plan.scale[:complete]
+    if count < ran.size:
+        scale = np.where(ran, scale, np.nan)
+    order = plan.record.tolist()
+    records = request.records
+    record_names = [record.name for record in records]
     names = ("edp", "collapsed", "impacts", "time_of_peak", *(("edp_error",) if estimated else ()))
     uplift = None
-    if any(record.vertical is not None for record in request.records):
-        falls = np.array([request.records[i].largest_fall for i in plan.record])
+    if any([record.vertical is not None for record in records]):
+        falls = np.array([records[i].largest_fall for i in order])
         uplift = ran & (plan.scale[:complete] * falls >= request.walls[0].gravity)
     return Stripes(
         wall=request.walls[0],
         im=request.im,
         levels=levels,
-        scale=np.where(ran, plan.scale[:complete], np.nan),
+        scale=scale,
         ran=ran,
-        record_names=tuple(request.records[i].name for i in plan.record),
+        record_names=tuple([record_names[i] for i in order]),
         polarity=plan.polarity,
         engine=request.engine,
         rtol=rtol,
@@ -206,9 +212,9 @@ def _stripes(request: Request, plan: Plan, outcome: Outcome, complete: int) -> S
         edp_limit=edp_limit,
         work=outcome.work,
         uplift=uplift,
-        events=tuple(record.event for record in request.records),
-        checksums=tuple(record.checksum for record in request.records),
-        **{name: in_matrix(getattr(outcome, name)[: ran.sum()], ran) for name in names},
+        events=tuple([record.event for record in records]),
+        checksums=tuple([record.checksum for record in records]),
+        **{name: in_matrix(getattr(outcome, name)[:count], ran) for name in names},
     )
 
 

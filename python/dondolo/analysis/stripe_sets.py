@@ -37,7 +37,7 @@ _SHARED = ("im", "engine", "rtol", "atol", "edp_limit")
 
 def in_matrix(values: NDArray[Any], ran: NDArray[np.bool_]) -> NDArray[Any]:
     """Values of the histories that were run, stripe by stripe, as a matrix (levels, histories); NaN elsewhere, or 0."""
-    if ran.all():
+    if len(values) == ran.size:
         return values.reshape(ran.shape)
     matrix = np.full(ran.shape, np.nan if values.dtype.kind == "f" else 0, dtype=values.dtype)
     matrix[ran] = values

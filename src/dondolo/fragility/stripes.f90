@@ -39,7 +39,7 @@ module dondolo_stripes
       logical, allocatable :: ran(:, :)
       !> Factor on the record (histories, levels), without the sign of the polarity; 0 where it does not run
       real(wp), allocatable :: scale(:, :)
-      !> Responses (histories, levels), of those that do not run without collapse
+      !> Responses (histories, levels), of those that do not run without collapse; not allocated: nothing has been run
       type(response_type), allocatable :: response(:, :)
       !> How they are certified (histories, levels); not allocated: they are not
       type(certified_type), allocatable :: certified(:, :)
@@ -73,7 +73,7 @@ contains
 
    !> Check what is asked for and choose every history: its record, polarity and scale. Nothing is run
    subroutine plan_stripes(stripes, wall, study, error)
-      !> Result; the responses have room but no values
+      !> Result, without responses
       type(stripes_type), intent(out) :: stripes
       type(wall_type), intent(in) :: wall
       !> What it is tried with
@@ -92,11 +92,12 @@ contains
       associate (histories => size(stripes%record), levels => size(stripes%levels))
          call check_room(merge(bytes_of_three_runs, bytes_of_history, study%solver%estimate_error) &
             & *real(histories, wp)*real(levels, wp), error)
-         if (.not. allocated(error)) call study%check_scales(wall, error)
          if (allocated(error)) return
-         allocate (stripes%response(histories, levels), stripes%ran(histories, levels))
          scales = study%scales(wall)
+         call study%check_scales(scales, error)
+         if (allocated(error)) return
          stripes%scale = scales(stripes%record, :)
+         allocate (stripes%ran(histories, levels))
          do j = 1, levels
             do i = 1, histories
                stripes%ran(i, j) = study%runs(stripes%record(i), j)
@@ -139,7 +140,7 @@ contains
 
    !> Run the histories of a plan, or some of them; those that run are numbered stripe by stripe, from the lowest level
    subroutine run_histories(stripes, wall, study, threads, first, last, progress)
-      !> The plan; the responses of these histories are set
+      !> The plan; the responses of these histories are set, and all have room
       type(stripes_type), intent(inout) :: stripes
       type(wall_type), intent(in) :: wall
       !> What it is tried with
@@ -159,6 +160,7 @@ contains
       to = count(stripes%ran)
       if (present(last)) to = last
       call run_part(ensemble, wall, study, threads, [from, to], progress)
+      if (.not. allocated(stripes%response)) allocate (stripes%response(size(stripes%record), size(stripes%levels)))
       k = 0
       do j = 1, size(stripes%levels)
          do i = 1, size(stripes%record)

@@ -220,16 +220,15 @@ contains
    end function scales
 
    !> Check that no record is scaled beyond all measure
-   subroutine check_scales(self, wall, error)
+   subroutine check_scales(self, scales, error)
       class(study_type), intent(in) :: self
-      type(wall_type), intent(in) :: wall
+      !> Factors (records, levels), as from scales
+      real(wp), intent(in) :: scales(:, :)
       !> The first that is, at its highest level
       type(error_type), allocatable, intent(out) :: error
 
-      real(wp), allocatable :: scales(:, :)
       integer :: i, j
 
-      scales = self%scales(wall)
       do i = 1, size(self%suite%records)
          do j = size(self%levels), 1, -1
             if (.not. self%runs(i, j)) cycle

@@ -53,6 +53,8 @@ module dondolo_settings
       procedure :: has_word
       !> A list of numbers; empty where there is none
       procedure :: list
+      !> Range of the values in a row of the table
+      procedure :: find_range
       !> Set a value
       generic :: set => set_number, set_integer, set_word, set_logical, set_list
       procedure, private :: set_number, set_integer, set_word, set_logical, set_list
@@ -286,6 +288,27 @@ contains
       if (i > 0) list = self%lists(i)%values
       if (i == 0) allocate (list(0))
    end function list
+
+   !> Range of the values in a row of the table: of a number, or of a list
+   pure subroutine find_range(self, row, least, most)
+      class(settings_type), intent(in) :: self
+      !> Row
+      integer, intent(in) :: row
+      !> Least positive value, huge() where there is none; largest value, 0 where there is none
+      real(wp), intent(out) :: least, most
+
+      least = huge(least)
+      most = 0.0_wp
+      if (.not. allocated(self%known)) return
+      if (.not. self%known(row)) return
+      if (self%is_listed(row)) then
+         least = minval(self%lists(row)%values, mask=self%lists(row)%values > 0.0_wp)
+         most = maxval(self%lists(row)%values)
+      else
+         most = self%numbers(row)
+         if (most > 0.0_wp) least = most
+      end if
+   end subroutine find_range
 
    !> Make room, and note a name that is not there
    subroutine prepare(self, name, at)

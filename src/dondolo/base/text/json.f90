@@ -6,7 +6,7 @@ module dondolo_json
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_encoding, only : is_utf8
    use dondolo_kinds, only : wp
-   use dondolo_text, only : to_text
+   use dondolo_text, only : make_real, to_text
    implicit none
    private
 
@@ -201,8 +201,11 @@ contains
       class(json_type), intent(inout) :: self
       real(wp), intent(in) :: value
 
+      character(len=:), allocatable :: text
+
       if (abs(value) <= huge(value)) then
-         call append(self, to_text(value))
+         call make_real(value, text)
+         call append(self, text)
       else
          call append(self, 'null')
       end if

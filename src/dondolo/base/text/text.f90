@@ -4,11 +4,12 @@
 !> place for each call in the source, for all threads.
 module dondolo_text
    use, intrinsic :: iso_fortran_env, only : int64
+   use dondolo_decimals, only : find_digits, is_short, put_digits, reads_back, round_digits
    use dondolo_kinds, only : wp
    implicit none
    private
 
-   public :: to_text, to_table, rounded, brief, counted, lower, join, first_word, stripped, occurrences, replaced, left
+   public :: to_text, make_real, to_table, rounded, brief, counted, lower, join, first_word, stripped, occurrences, replaced, left
    public :: right
    public :: blanks
 
@@ -41,7 +42,10 @@ contains
 
       character(len=24) :: buffer
       character(len=10) :: format
+      logical :: is_sure
 
+      call round_digits(value, digits, nearest_short, is_sure)
+      if (is_sure) return
       write (format, '(a, i1, a)') '(es24.', digits - 1, 'e4)'
       write (buffer, format) value
       read (buffer, *) nearest_short
@@ -85,14 +89,6 @@ contains
       if (sign(1.0_wp, value) < 0.0_wp) table_length = table_length + 1
       if (.not. abs(value) >= 0.0_wp) table_length = len('NaN')
    end function table_length
-
-   !> Are two digits enough for the exponent of a number?
-   pure logical function is_short(value)
-      !> Number
-      real(wp), intent(in) :: value
-
-      is_short = value == 0.0_wp .or. (abs(value) >= 1.0e-99_wp .and. abs(value) < 1.0e99_wp)
-   end function is_short
 
    !> Length of the first word of a text
    pure integer function word_length(text, separators)
@@ -146,10 +142,10 @@ contains
       !> Its text
       character(len=:), allocatable, intent(out) :: text
 
-      character(len=48) :: buffer
-      character(len=16) :: format
-      real(wp) :: again
-      integer :: digits, stat
+      character(len=48) :: figures
+      integer(int64) :: whole
+      integer :: digits, exponent
+      logical :: is_sure, is_nearest
 
       if (.not. abs(value) <= huge(value)) then
          text = 'NaN'
@@ -160,14 +156,46 @@ contains
       call make_short(value, text)
       if (allocated(text)) return
       ! A decimal of so many digits that reads back is the shortest one with zeros at its end.
+      do digits = precision(value), precision(value) + 2
+         call find_digits(value, digits, whole, exponent, is_sure)
+         if (.not. is_sure) exit
+         call reads_back(value, digits, whole, exponent, is_nearest, is_sure)
+         if (is_nearest .or. .not. is_sure) exit
+      end do
+      if (is_sure) then
+         call put_digits(whole, figures(:digits))
+         call make_plain(sign(1.0_wp, value) < 0.0_wp, figures(:digits), exponent, text)
+      else
+         call write_digits(value, figures, exponent)
+         call make_plain(sign(1.0_wp, value) < 0.0_wp, trim(figures), exponent, text)
+      end if
+   end subroutine make_real
+
+   !> The digits of the shortest decimal that reads back as the same number, by WRITE and READ
+   pure subroutine write_digits(value, figures, exponent)
+      !> Number
+      real(wp), intent(in) :: value
+      !> Its significant digits
+      character(len=*), intent(out) :: figures
+      !> Power of ten of the first of them
+      integer, intent(out) :: exponent
+
+      character(len=48) :: buffer
+      character(len=16) :: format
+      real(wp) :: again
+      integer :: digits, stat, mark
+
       do digits = precision(value), precision(value) + 3
          write (format, '(a, i0, a)') '(es48.', digits - 1, 'e4)'
-         write (buffer, format) value
+         write (buffer, format) abs(value)
          read (buffer, *, iostat=stat) again
-         if (stat == 0 .and. again == value) exit
+         if (stat == 0 .and. again == abs(value)) exit
       end do
-      call make_plain(trim(adjustl(buffer)), text)
-   end subroutine make_real
+      buffer = adjustl(buffer)
+      mark = index(buffer, 'E')
+      read (buffer(mark + 1:), *) exponent
+      figures = buffer(1:1)//buffer(3:mark - 1)
+   end subroutine write_digits
 
    !> The text of a number of few decimals, as most are, without a WRITE: a whole number by a power of ten, both exact
    pure subroutine make_short(value, text)
@@ -198,34 +226,33 @@ contains
       if (value < 0.0_wp) text = '-'//text
    end subroutine make_short
 
-   !> Rewrite d.dddE+0xx as a plain decimal where that is short
-   pure subroutine make_plain(scientific, text)
-      !> Number as written by an ES edit descriptor with four exponent digits
-      character(len=*), intent(in) :: scientific
-      !> The same number, easier to read
+   !> Write digits as a plain decimal where that is short, else with an exponent
+   pure subroutine make_plain(is_negative, figures, exponent, text)
+      !> Has the number a sign?
+      logical, intent(in) :: is_negative
+      !> Its significant digits
+      character(len=*), intent(in) :: figures
+      !> Power of ten of the first of them
+      integer, intent(in) :: exponent
+      !> Its text
       character(len=:), allocatable, intent(out) :: text
 
-      character(len=:), allocatable :: digits, sign
-      character(len=8) :: power
-      integer :: mark, exponent, point
+      character(len=:), allocatable :: digits
+      integer :: point
 
-      mark = index(scientific, 'E')
-      read (scientific(mark + 1:), *) exponent
-      sign = ''
-      if (scientific(1:1) == '-') sign = '-'
-      digits = scientific(len(sign) + 1:len(sign) + 1)//scientific(len(sign) + 3:mark - 1)
-      digits = digits(:max(1, verify(digits, '0', back=.true.)))
+      digits = figures(:max(1, verify(figures, '0', back=.true.)))
+      text = ''
+      if (is_negative) text = '-'
       if (exponent < -4 .or. exponent > 15) then
-         text = scientific(:len(sign) + 1)
+         text = text//digits(1:1)
          if (len(digits) > 1) text = text//'.'//digits(2:)
-         write (power, '(i0)') exponent
-         text = text//'e'//trim(power)
+         text = text//'e'//integer_to_text(exponent)
          return
       end if
       if (exponent < 0) digits = repeat('0', -exponent)//digits
       point = max(exponent, 0) + 1
       if (len(digits) < point) digits = digits//repeat('0', point - len(digits))
-      text = sign//digits(:point)
+      text = text//digits(:point)
       if (len(digits) > point) text = text//'.'//digits(point + 1:)
    end subroutine make_plain
 
@@ -282,7 +309,20 @@ contains
       character(len=11), parameter :: short = merge('(es24.16e2)', '(es43.35e2)', precision(value) < 18)
       character(len=11), parameter :: long = merge('(es25.16e3)', '(es46.35e4)', precision(value) < 18)
       character(len=48) :: buffer
+      character(len=decimals + 1) :: figures
+      character(len=2) :: power
+      integer(int64) :: whole
+      integer :: exponent
+      logical :: is_sure
 
+      call find_digits(value, decimals + 1, whole, exponent, is_sure)
+      if (is_sure) then
+         call put_digits(whole, figures)
+         call put_digits(int(abs(exponent), int64), power)
+         text = figures(1:1)//'.'//figures(2:)//merge('E-', 'E+', exponent < 0)//power
+         if (sign(1.0_wp, value) < 0.0_wp) text = '-'//text
+         return
+      end if
       if (is_short(value)) then
          write (buffer, short) value
       else

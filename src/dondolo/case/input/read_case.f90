@@ -433,7 +433,7 @@ contains
          return
       end if
       call case%make_study(study)
-      call study%check_scales(case%wall, error)
+      call study%check_scales(study%scales(case%wall), error)
       group = namelist%group('stripes')
       if (allocated(error)) error%message = group%place()//': '//error%message// &
          & group%in_line(trim(merge('levels', 'last  ', group%has('levels'))))

@@ -2,7 +2,7 @@
 module dondolo_plausibility
    use dondolo_kinds, only : wp
    use dondolo_lines, only : line_type
-   use dondolo_property, only : is_list
+   use dondolo_property, only : no_limit
    use dondolo_rigid_body, only : same
    use dondolo_wall, only : wall_type
    use dondolo_wall_properties, only : wall_properties
@@ -46,7 +46,6 @@ contains
       class(wall_warning_type), intent(inout) :: self
       type(wall_type), intent(in) :: wall
 
-      real(wp), allocatable :: values(:)
       real(wp) :: low, high
       logical :: outside(size(together_codes))
       integer :: i
@@ -54,11 +53,9 @@ contains
       self%walls = self%walls + 1
       do i = 1, size(wall_properties)
          associate (property => wall_properties(i))
-            values = [wall%input%number(property%name)]
-            if (property%kind == is_list) values = wall%input%list(property%name)
-            ! No overburden is no mistake
-            low = minval(values, mask=values > 0.0_wp)
-            high = maxval(values)
+            if (.not. (property%usual_least > 0.0_wp .or. property%usual_most < no_limit)) cycle
+            ! No overburden is no mistake: the least positive value
+            call wall%input%find_range(i, low, high)
             call note(self, wall, i, [low < property%usual_least], low)
             call note(self, wall, i, [.false., high > property%usual_most], high)
          end associate

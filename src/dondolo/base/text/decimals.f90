@@ -1,0 +1,155 @@
+!> Significant digits of numbers, rounded correctly, by arithmetic: a WRITE takes six times as long, and most of the time
+!> in which large tables are written.
+!>
+!> A number in double precision, times a power of ten, is known to 112 bits in real128, and 17 digits are 57 of them. What
+!> these do not tell for sure, as a tie, is left to a WRITE, and so are numbers with three digits in their exponent.
+module dondolo_decimals
+   use, intrinsic :: iso_fortran_env, only : int64, real128
+   use dondolo_kinds, only : dp, wp
+   implicit none
+   private
+
+   public :: find_digits, reads_back, round_digits, put_digits, is_short
+
+   integer, parameter :: qp = real128
+
+   !> Digits that can be found at most
+   integer, parameter :: most_digits = 17
+
+   !> Numbers between these have exponents of two digits, and the powers of ten that these need
+   real(wp), parameter :: smallest = 1.0e-99_wp, beyond = 1.0e99_wp
+   integer, parameter :: largest_power = 99 + most_digits
+   integer :: k
+   real(qp), parameter :: powers(0:largest_power) = [(10.0_qp**k, k=0, largest_power)]
+
+   !> Powers of ten up to this one are exact in double precision
+   integer, parameter :: exact_power = 22
+
+   !> More than any error here, in units of the last digit or bit that counts
+   real(qp), parameter :: doubt = 1.0e-12_qp
+
+contains
+
+   !> Are two digits enough for the exponent of a number?
+   pure logical function is_short(value)
+      !> Number
+      real(wp), intent(in) :: value
+
+      is_short = value == 0.0_wp .or. (abs(value) >= smallest .and. abs(value) < beyond)
+   end function is_short
+
+   !> The significant digits of a number
+   pure subroutine find_digits(value, digits, whole, exponent, is_sure)
+      !> Number
+      real(wp), intent(in) :: value
+      !> How many digits, at most most_digits
+      integer, intent(in) :: digits
+      !> The digits, without the sign
+      integer(int64), intent(out) :: whole
+      !> Power of ten of the first of them
+      integer, intent(out) :: exponent
+      !> Are they sure? Else they are not found
+      logical, intent(out) :: is_sure
+
+      real(qp) :: scaled
+      integer :: attempt
+
+      whole = 0
+      exponent = 0
+      is_sure = abs(value) <= 0.0_wp
+      if (is_sure .or. .not. is_short(value) .or. precision(value) > precision(1.0_dp)) return
+      exponent = floor(log10(abs(value)))
+      ! Next to a power of ten the logarithm may be one off.
+      do attempt = 1, 2
+         scaled = times_power(abs(real(value, qp)), digits - 1 - exponent)
+         whole = int(scaled, int64)
+         if (whole < 10_int64**(digits - 1)) then
+            exponent = exponent - 1
+            cycle
+         end if
+         scaled = scaled - real(whole, qp)
+         if (scaled > 0.5_qp) whole = whole + 1
+         is_sure = whole < 10_int64**digits .and. abs(scaled - 0.5_qp) > doubt
+         if (is_sure) return
+         exponent = exponent + 1
+      end do
+   end subroutine find_digits
+
+   !> Is a number the one nearest to its digits?
+   pure subroutine reads_back(value, digits, whole, exponent, is_nearest, is_sure)
+      !> Number, and what find_digits has found, for sure
+      real(wp), intent(in) :: value
+      integer, intent(in) :: digits
+      integer(int64), intent(in) :: whole
+      integer, intent(in) :: exponent
+      !> Is it?
+      logical, intent(out) :: is_nearest
+      !> Is that sure?
+      logical, intent(out) :: is_sure
+
+      real(qp) :: off
+
+      off = abs(times_power(real(whole, qp), exponent - digits + 1) - abs(real(value, qp)))/spacing(value)
+      is_nearest = off < 0.5_qp
+      is_sure = abs(off - 0.5_qp) > doubt
+      ! Below a power of two numbers are twice as dense.
+      if (fraction(abs(value)) <= 0.5_wp) is_sure = is_sure .and. (off < 0.25_qp - doubt .or. .not. is_nearest)
+   end subroutine reads_back
+
+   !> The number that is nearest to some significant digits of another
+   pure subroutine round_digits(value, digits, nearest, is_sure)
+      !> Number
+      real(wp), intent(in) :: value
+      !> How many digits, at most 15
+      integer, intent(in) :: digits
+      !> The number that they are
+      real(wp), intent(out) :: nearest
+      !> Is that sure? Else it is not found
+      logical, intent(out) :: is_sure
+
+      integer(int64) :: whole
+      integer :: exponent
+
+      call find_digits(value, digits, whole, exponent, is_sure)
+      nearest = sign(real(whole, wp), value)
+      associate (power => exponent - digits + 1)
+         is_sure = is_sure .and. abs(power) <= exact_power
+         if (.not. is_sure) return
+         ! One operation with exact numbers
+         if (power >= 0) nearest = nearest*real(powers(power), wp)
+         if (power < 0) nearest = nearest/real(powers(-power), wp)
+      end associate
+   end subroutine round_digits
+
+   !> A number times a power of ten
+   pure real(qp) function times_power(number, power)
+      real(qp), intent(in) :: number
+      !> Power, positive or not
+      integer, intent(in) :: power
+
+      if (power >= 0) then
+         times_power = number*powers(power)
+      else
+         times_power = number/powers(-power)
+      end if
+   end function times_power
+
+   !> Fill a text with the digits of a whole number
+   pure subroutine put_digits(whole, text)
+      !> Number, positive or 0
+      integer(int64), intent(in) :: whole
+      !> Its digits, zeros before them
+      character(len=*), intent(out) :: text
+
+      integer(int64) :: left, tenth
+      integer :: i
+
+      left = whole
+      do i = len(text), 1, -1
+         tenth = left/10
+         text(i:i) = achar(iachar('0') + int(left - 10*tenth))
+         left = tenth
+      end do
+   end subroutine put_digits
+
+end module dondolo_decimals
