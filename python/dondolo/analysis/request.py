@@ -28,6 +28,7 @@ from dondolo.analysis.work import Work
 from dondolo.errors import DondoloWarning
 from dondolo.records.record import Record
 from dondolo.records.record_set import LevelRows, records_at_levels
+from dondolo.records.suite import Facts, Suite
 from dondolo.records.suite import upload as upload_records
 from dondolo.walls.wall import Wall
 from dondolo.walls.wall import upload as upload_walls
@@ -38,6 +39,9 @@ _SECONDS = 0.4
 # A guess for the first block: samples that are surely gone through within about a block's time. Sets of records at
 # twenty levels have fewer: each further block costs the engine vectors that are half empty
 _FIRST_SAMPLES = 20_000_000
+
+# What a request has in Fortran
+_UPLOADED = ("_suite", "_study", "_people")
 
 #: Polarities of the records in an analysis
 Polarity = Literal["as_recorded", "reversed", "both"]
@@ -103,9 +107,14 @@ class Request:
     rows: LevelRows | None = None
 
     @functools.cached_property
+    def _suite(self) -> Suite:
+        """The records in Fortran."""
+        return upload_records(self.records, self.threads)
+
+    @functools.cached_property
     def _study(self) -> Handle:
         """Records, levels and settings in Fortran."""
-        suite = upload_records(self.records, self.threads)
+        suite = self._suite
         words = [as_text(what, getattr(self, what)) for what in ("im", "polarity", "engine")]
         if self.im:
             check(*_core.records.measure_suite(suite.number, words[0], self.threads))
@@ -125,12 +134,12 @@ class Request:
 
     def __getstate__(self) -> dict[str, Any]:
         # What was uploaded stays in its process.
-        return {what: value for what, value in self.__dict__.items() if what not in ("_study", "_people")}
+        return {what: value for what, value in self.__dict__.items() if what not in _UPLOADED}
 
     @property
-    def samples(self) -> float:
-        """Samples of a record, on average."""
-        return sum([record.acceleration.size for record in self.records]) / len(self.records)
+    def facts(self) -> Facts:
+        """What results tell of the records."""
+        return self._suite.facts(self.records)
 
     @functools.cached_property
     def runs(self) -> FloatArray:
@@ -166,7 +175,7 @@ class Request:
         """Run all histories; the second result says whether Ctrl-C stopped it before the end."""
         totals = self.totals(histories)
         with progress_bar(int(totals.sum()), progress, label, "history") as bar:
-            return self.advance(totals, Pace(self.samples), bar.update)
+            return self.advance(totals, Pace(self.facts.samples), bar.update)
 
     def advance(self, totals: NDArray[np.int64], pace: Pace, report: Callable[[int], object]) -> tuple[Outcome, bool]:
         """The same at a pace, with each wall's histories, and with a report of how many were done in each call."""

@@ -148,7 +148,7 @@ def _auto(request: Request, budget: int | None, progress: bool) -> Stripes:
     one, two = (float(np.median(plan.scale[0] * peaks)) for plan in trials)
     level: float | None = rounded(_TRIAL * (2.0 * wall.trigger_acceleration / one) ** (1.0 / np.log2(two / one)))
     parts: list[Stripes] = []
-    pace = Pace(request.samples)
+    pace = Pace(request.facts.samples)
     interrupted = False
     with progress_bar(budget // size * size, progress, wall.name, "history") as bar:
         while level is not None and len(parts) < budget // size and not interrupted:
@@ -190,21 +190,18 @@ def _stripes(request: Request, plan: Plan, outcome: Outcome, complete: int) -> S
     count, scale = np.count_nonzero(ran), plan.scale[:complete]
     if count < ran.size:
         scale = np.where(ran, scale, np.nan)
-    order = plan.record.tolist()
-    records = request.records
-    record_names = [record.name for record in records]
+    facts = request.facts
     names = ("edp", "collapsed", "impacts", "time_of_peak", *(("edp_error",) if estimated else ()))
     uplift = None
-    if any([record.vertical is not None for record in records]):
-        falls = np.array([records[i].largest_fall for i in order])
-        uplift = ran & (plan.scale[:complete] * falls >= request.walls[0].gravity)
+    if facts.falls is not None:
+        uplift = ran & (plan.scale[:complete] * facts.falls[plan.record] >= request.walls[0].gravity)
     return Stripes(
         wall=request.walls[0],
         im=request.im,
         levels=levels,
         scale=scale,
         ran=ran,
-        record_names=tuple([record_names[i] for i in order]),
+        record_names=tuple(map(facts.names.__getitem__, plan.record.tolist())),
         polarity=plan.polarity,
         engine=request.engine,
         rtol=rtol,
@@ -212,8 +209,8 @@ def _stripes(request: Request, plan: Plan, outcome: Outcome, complete: int) -> S
         edp_limit=edp_limit,
         work=outcome.work,
         uplift=uplift,
-        events=tuple([record.event for record in records]),
-        checksums=tuple([record.checksum for record in records]),
+        events=facts.events,
+        checksums=facts.checksums,
         **{name: in_matrix(getattr(outcome, name)[:count], ran) for name in names},
     )
 

@@ -604,8 +604,9 @@ def as_records(records: Record | Iterable[Record]) -> tuple[Record, ...]:
     several = tuple(records)
     if not several:
         raise InputError("records: must be given")
-    for record in several:
-        instance_of("records", record, Record, "no record")
+    if set(map(type, several)) != {Record}:
+        for record in several:
+            instance_of("records", record, Record, "no record")
     return several
 
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import weakref
 from collections.abc import Mapping
-from typing import Protocol
+from operator import is_
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -12,6 +14,10 @@ from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
 from dondolo._fortran.library import as_text, check, constants
 from dondolo.errors import InputError
+
+
+# What a weak reference refers to, None if it is gone
+_referred = weakref.ref.__call__
 
 
 class Motion(Protocol):
@@ -35,18 +41,82 @@ class Motion(Protocol):
     @property
     def metadata(self) -> Mapping[str, str]: ...
 
+    @property
+    def event(self) -> str: ...
+
+    @property
+    def checksum(self) -> str: ...
+
+    @property
+    def largest_fall(self) -> float: ...
+
     def __len__(self) -> int: ...
 
 
-def upload(records: tuple[Motion, ...], threads: int = 1) -> Handle:
+class Facts(NamedTuple):
+    """What results tell of their records.
+
+    Attributes
+    ----------
+    names, events, checksums : tuple of str
+        Of each record.
+    falls : ndarray, shape (records,), or None
+        `Record.largest_fall` of each [m/s2]; None without vertical motion.
+    samples : float
+        Samples of a record, on average.
+    """
+
+    names: tuple[str, ...]
+    events: tuple[str, ...]
+    checksums: tuple[str, ...]
+    falls: FloatArray | None
+    samples: float
+
+
+class Suite(Handle):
+    """Records that were uploaded, which it does not keep alive.
+
+    Parameters
+    ----------
+    number : int
+        The handle of Fortran.
+    records : tuple of Record
+        The records.
+    """
+
+    __slots__ = ("_facts", "_members")
+
+    def __init__(self, number: int, records: tuple[Motion, ...]) -> None:
+        super().__init__(number)
+        self._members = tuple(map(weakref.ref, records))
+        self._facts: Facts | None = None
+
+    def holds(self, records: tuple[Motion, ...]) -> bool:
+        """Whether these are its records, in their order."""
+        return len(records) == len(self._members) and all(map(is_, map(_referred, self._members), records))
+
+    def facts(self, records: tuple[Motion, ...]) -> Facts:
+        """What results tell of its records, which must be given."""
+        if self._facts is None:
+            moves_up = any(record.vertical is not None for record in records)
+            self._facts = Facts(
+                tuple(record.name for record in records),
+                tuple(record.event for record in records),
+                tuple(record.checksum for record in records),
+                np.array([record.largest_fall for record in records]) if moves_up else None,
+                sum(map(len, records)) / len(records),
+            )
+        return self._facts
+
+
+def upload(records: tuple[Motion, ...], threads: int = 1) -> Suite:
     """The records as a suite in Fortran, joined by threads. The same records in the same order are uploaded once.
 
     Each record keeps the suite that it was uploaded with last, and its place there: a suite lives as long as one of its
     records does, and has not come into another.
     """
-    homes = [record.__dict__.get("_home", (None, 0, 0)) for record in records]
-    suite: Handle | None = homes[0][0]
-    if suite is not None and homes == [(suite, i, len(records)) for i in range(len(records))]:
+    suite: Suite | None = records[0].__dict__.get("_home", (None, 0))[0]
+    if suite is not None and suite.holds(records):
         return suite
     verticals = [record.vertical for record in records if record.vertical is not None]
     handle, stat, message = _core.records.new_suite(
@@ -60,9 +130,9 @@ def upload(records: tuple[Motion, ...], threads: int = 1) -> Handle:
         threads,
     )
     check(stat, message)
-    suite = Handle(handle)
+    suite = Suite(handle, records)
     for i, record in enumerate(records):
-        object.__setattr__(record, "_home", (suite, i, len(records)))
+        object.__setattr__(record, "_home", (suite, i))
     return suite
 
 
@@ -70,7 +140,7 @@ def place_of(record: Motion) -> tuple[int, int]:
     """Where Fortran has a record: the handle of a suite, and the number in it from 1."""
     if "_home" not in record.__dict__:
         upload((record,))
-    suite, place, _ = record.__dict__["_home"]
+    suite, place = record.__dict__["_home"]
     return suite.number, place + 1
 
 

@@ -1,7 +1,8 @@
 !> Room for what grows with the input, tried before the work begins.
 !>
 !> Fortran ends the program where a temporary array, an assignment or a text finds no memory. So a work first asks
-!> whether it can have as much as all of these will take, and gives it back at once.
+!> whether it can have as much as all of these will take, and gives it back at once. To ask the system takes longer than to
+!> plan a small work, so that small ones share what one trial has shown.
 module dondolo_memory
    use, intrinsic :: iso_fortran_env, only : int8, int64
    use, intrinsic :: omp_lib, only : omp_get_max_threads
@@ -16,6 +17,12 @@ module dondolo_memory
    !> What all else may take: small things, and the stack of each thread [bytes]
    integer(int64), parameter :: small_things = 2_int64**26, stack = 2_int64**24
 
+   !> What works may take together before room is tried again, a part of the small things [bytes]
+   integer(int64), parameter :: shared = small_things/8
+
+   !> What of it is left
+   integer(int64), save :: left = 0
+
 contains
 
    !> Check that there is room for some work
@@ -28,11 +35,23 @@ contains
       ! A volatile array is not optimised away, though nothing is ever put in it.
       integer(int8), allocatable, volatile :: room(:)
       real(wp) :: needed
+      integer(int64) :: still
       integer :: stat
 
+      if (bytes < real(shared, wp)) then
+         !$omp atomic capture
+         left = left - int(bytes, int64)
+         still = left
+         !$omp end atomic
+         if (still > 0) return
+      end if
       needed = bytes + real(small_things + omp_get_max_threads()*stack, wp)
       stat = 1
       if (needed < real(huge(1_int64)/2, wp)) allocate (room(int(needed, int64)), stat=stat)
+      still = 0
+      if (stat == 0) still = shared
+      !$omp atomic write
+      left = still
       if (stat /= 0) call raise_shortage(needed, error)
    end subroutine check_room
 
