@@ -32,7 +32,8 @@ def test_the_same_records_are_uploaded_once(few, monkeypatch):
     assert upload(several[::-1]) is not suite
     assert upload(several) is not suite
     twice = (several[0], several[0])
-    assert upload(twice) is not upload(twice)
+    assert upload(twice) is upload(twice)
+    assert upload(twice[:1]) is not upload(twice)
 
 
 def test_no_record_crosses_twice(few, replace_procedure):

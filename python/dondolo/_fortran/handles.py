@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import weakref
-
 from dondolo._fortran import _core
+
+_free = _core.library.free
 
 
 class Handle:
@@ -20,13 +20,16 @@ class Handle:
         What must not be freed before it.
     """
 
-    __slots__ = ("__weakref__", "_needs", "number")
+    __slots__ = ("_needs", "number")
 
     def __init__(self, number: int, needs: Handle | None = None) -> None:
         self.number = number
         self._needs = needs
-        # The end of the process frees everything.
-        weakref.finalize(self, _core.library.free, number).atexit = False
+
+    def __del__(self) -> None:
+        # The end of the process frees everything, and may have emptied this module before.
+        if _free is not None:
+            _free(self.number)
 
     def __reduce__(self) -> str:
         raise TypeError("a handle is valid in its own process only")

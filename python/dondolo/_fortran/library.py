@@ -11,8 +11,7 @@ import os
 import sys
 import threading
 import warnings
-from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -167,17 +166,17 @@ def check(stat: int, message: bytes) -> None:
     raise {2: InputError, 3: MissingFileError, 4: MemoryError}.get(stat, DondoloError)(sentence)
 
 
-@contextmanager
-def stoppable() -> Iterator[None]:
-    """Let Ctrl-C stop what Fortran computes; Python hears of it in its main thread alone."""
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    _core.library.listen()
-    try:
-        yield
-    finally:
-        _core.library.end_listening()
+class stoppable:
+    """Let Ctrl-C stop what Fortran computes; Python hears of it in its main thread alone (a context manager)."""
+
+    def __enter__(self) -> None:
+        self._listens = threading.current_thread() is threading.main_thread()
+        if self._listens:
+            _core.library.listen()
+
+    def __exit__(self, *_: object) -> None:
+        if self._listens:
+            _core.library.end_listening()
 
 
 # OpenMP's threads do not survive a fork: a process that is made by one works with the thread that it has.
@@ -223,8 +222,15 @@ def warn_of_notes(sentences: Iterable[str]) -> None:
 
 def warn(found: Iterable[DondoloWarning]) -> None:
     """Warn of each, where the user's own line is."""
-    frame, depth = sys._getframe(), 1
+    depth = 0
+    for one in found:
+        depth = depth or _depth_of_user()
+        warnings.warn(one, stacklevel=depth)
+
+
+def _depth_of_user() -> int:
+    """How many calls the user's own line is above the caller's."""
+    frame, depth = sys._getframe(1), 1
     while frame.f_back is not None and frame.f_code.co_filename.startswith(_PACKAGE):
         frame, depth = frame.f_back, depth + 1
-    for one in found:
-        warnings.warn(one, stacklevel=depth)
+    return depth

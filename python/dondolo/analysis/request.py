@@ -13,10 +13,11 @@ from bisect import bisect_right
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import accumulate
+from operator import add
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_count, as_flag
 from dondolo._fortran import _core
@@ -164,27 +165,25 @@ class Request:
         record, polarity, ran = rest[0] - 1, rest[1], rest[2:] == 1
         return Plan(histories, record, polarity, parcel.reals.reshape(levels, -1), ran, unpack_warnings(parcel.lines))
 
-    def totals(self, histories: IntArray) -> NDArray[np.int64]:
+    def totals(self, histories: IntArray) -> list[int]:
         """Histories of each wall in all stripes."""
-        if self.rows is None:
-            return np.multiply(histories, len(self.levels), dtype=np.int64)
-        totals: NDArray[np.int64] = np.rint(np.asarray(histories, dtype=np.float64) * self.share.sum()).astype(np.int64)
-        return totals
+        stripes = len(self.levels) if self.rows is None else float(self.share.sum())
+        return [round(number * stripes) for number in histories.tolist()]
 
     def run(self, histories: IntArray, progress: bool, label: str) -> tuple[Outcome, bool]:
         """Run all histories; the second result says whether Ctrl-C stopped it before the end."""
         totals = self.totals(histories)
-        with progress_bar(int(totals.sum()), progress, label, "history") as bar:
+        with progress_bar(sum(totals), progress, label, "history") as bar:
             return self.advance(totals, Pace(self.facts.samples), bar.update)
 
-    def advance(self, totals: NDArray[np.int64], pace: Pace, report: Callable[[int], object]) -> tuple[Outcome, bool]:
+    def advance(self, totals: Sequence[int], pace: Pace, report: Callable[[int], object]) -> tuple[Outcome, bool]:
         """The same at a pace, with each wall's histories, and with a report of how many were done in each call."""
-        ends = list(accumulate(totals.tolist()))
+        ends = list(accumulate(totals))
         total = ends[-1]
         edp, peak, error = np.empty(total), np.empty(total), np.empty(total)
         collapsed, impacts = np.empty(total, dtype=np.int32), np.empty(total, dtype=np.int32)
         study, people = self._study.number, self._people.number
-        work = np.zeros(len(Work.__dataclass_fields__))
+        work = [0] * len(Work.__dataclass_fields__)
 
         def block(done: int, count: int) -> None:
             # The walls that the block touches
@@ -197,10 +196,10 @@ class Request:
                     study, people, one + 1, last + 1, first + 1, *rows, count
                 )
             check(stat, message)
-            np.add(work, counts, out=work)
+            work[:] = map(add, work, map(int, counts.tolist()))
 
         done, interrupted = in_blocks(total, pace, block, report)
-        return Outcome(edp, collapsed == 1, impacts, peak, error, Work.of(work), done), interrupted
+        return Outcome(edp, collapsed.astype(np.bool_), impacts, peak, error, Work.of(work), done), interrupted
 
 
 class Pace:

@@ -117,7 +117,7 @@ def _run_rest(
     from dondolo.populations.crew import Crew
 
     complete = store.complete()
-    sizes = request.totals(histories)
+    sizes = np.array(request.totals(histories), dtype=np.int64)
     seconds = _SECONDS_HERE if executor is None else _SECONDS_THERE
     blocks = Blocks(sizes, complete, request.threads or _all_threads(), block, seconds)
     shared = Shared(replace(request, walls=()), states)
