@@ -119,9 +119,11 @@ contains
 
       character(len=32) :: buffer
 
-      write (buffer, '(es24.16e2)') value
-      if (abs(value) > 0.0_wp .and. .not. (abs(value) >= 1.0e-99_wp .and. abs(value) < 1.0e99_wp)) &
-         & write (buffer, '(es25.16e3)') value
+      if (abs(value) <= 0.0_wp .or. (abs(value) >= 1.0e-99_wp .and. abs(value) < 1.0e99_wp)) then
+         write (buffer, '(es24.16e2)') value
+      else
+         write (buffer, '(es25.16e3)') value
+      end if
       text = trim(adjustl(buffer))
    end function formatted
 

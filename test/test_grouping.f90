@@ -94,7 +94,7 @@ contains
       call new_study(study, whole, scaling, levels, 'both', solver, threads=1)
       call plan_stripes(other, wall, study, error)
       call check_ok(error, what)
-      total = size(other%response)
+      total = size(other%ran)
       first = 1
       do while (first <= total)
          last = min(total, first + choice(random, total/2) - 1)

@@ -166,7 +166,7 @@ def check(stat: int, message: bytes) -> None:
     raise {2: InputError, 3: MissingFileError, 4: MemoryError}.get(stat, DondoloError)(sentence)
 
 
-class stoppable:
+class Stoppable:
     """Let Ctrl-C stop what Fortran computes; Python hears of it in its main thread alone (a context manager)."""
 
     def __enter__(self) -> None:

@@ -12,7 +12,7 @@ import numpy as np
 from dondolo._base.arguments import as_flag
 from dondolo._fortran import _core
 from dondolo._fortran.histories import is_doubtful
-from dondolo._fortran.library import check, stoppable
+from dondolo._fortran.library import Stoppable, check
 from dondolo.analysis.request import check_threads, progress_bar
 from dondolo.errors import InputError, Interrupted
 from dondolo.records.record import Record
@@ -126,7 +126,7 @@ def run_again(stripes: Stripes, records: Sequence[Record], threads: int, progres
             while done < len(places):
                 here = slice(done, done + _BLOCK)
                 rows = tuple(places[here].T)
-                with stoppable():
+                with Stoppable():
                     kind, *values, low, high, stat, message = _core.histories.certify(
                         wall, suite, numbers[here], factors[here], stripes.edp[rows], stripes.edp_limit, threads
                     )

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from dondolo._base.arguments import FloatArray, as_array, as_number, instance_of, one_of
 from dondolo._base.shown import Shown
 from dondolo._fortran import _core
-from dondolo._fortran.library import as_text, check, stoppable
+from dondolo._fortran.library import Stoppable, as_text, check
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved, part_of_results
 from dondolo.analysis.request import Pace, check_threads, in_blocks, progress_bar
@@ -410,7 +410,7 @@ class _Runner(NamedTuple):
             * self.wall.gravity
             / np.array([pulse.peak_acceleration for pulse in self.pulses])[places]
         )
-        with stoppable():
+        with Stoppable():
             edp, collapsed, impacts, time, _, stat, message = _core.histories.run_scaled(
                 upload_walls((self.wall,)).number,
                 upload(self.pulses).number,

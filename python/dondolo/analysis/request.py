@@ -22,7 +22,7 @@ from numpy.typing import ArrayLike
 from dondolo._base.arguments import FloatArray, as_count, as_flag
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
-from dondolo._fortran.library import as_text, check, properties, receive, stoppable, unpack_warnings
+from dondolo._fortran.library import Stoppable, as_text, check, properties, receive, unpack_warnings
 from dondolo._fortran.records import describe_measure
 from dondolo.analysis.solver import Solver, as_solver
 from dondolo.analysis.work import Work
@@ -191,7 +191,7 @@ class Request:
             first = done - (ends[one - 1] if one else 0)
             here = slice(done, done + count)
             rows = (values[here] for values in (edp, collapsed, impacts, peak, error))
-            with stoppable():
+            with Stoppable():
                 counts, stat, message = _core.stripes.run_block(
                     study, people, one + 1, last + 1, first + 1, *rows, count
                 )

@@ -14,7 +14,7 @@ from dondolo._base.arguments import FloatArray, as_flag, as_number, instance_of
 from dondolo._base.shown import Shown
 from dondolo._fortran import _core
 from dondolo._fortran.histories import warnings_of_errors, warnings_of_motion
-from dondolo._fortran.library import as_text, check, receive, stoppable, warn
+from dondolo._fortran.library import Stoppable, as_text, check, receive, warn
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.solver import Solver, as_solver
@@ -344,7 +344,7 @@ def simulate(
     history, estimate_error = as_flag("history", history), as_flag("estimate_error", estimate_error)
     how = as_solver(solver)
     settings = how._settings(estimate_error)
-    with stoppable():
+    with Stoppable():
         edp, collapsed, impacts, time_of_peak, edp_error, sent, stat, message = _core.histories.simulate(
             upload((wall,)).number,
             *place_of(record),

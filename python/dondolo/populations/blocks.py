@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from dondolo._base.arguments import FloatArray, as_count
 from dondolo._fortran import _core
-from dondolo._fortran.library import receive, stoppable
+from dondolo._fortran.library import Stoppable, receive
 from dondolo.analysis.request import Request, progress_bar
 from dondolo.errors import DondoloError, InputError
 from dondolo.populations.store import Contents, Store
@@ -71,7 +71,7 @@ class Shared(NamedTuple):
         """Run consecutive rows of the population, the first of which has a number, from 0."""
         start = time.perf_counter()
         study, people = self.request._study, upload_walls(walls)
-        with stoppable():
+        with Stoppable():
             sent = _core.stores.run_rows(study.number, people.number, len(walls), self.states, first + 1)
         return Part(receive(*sent).integers, time.perf_counter() - start)
 

@@ -15,7 +15,6 @@ from dondolo._fortran.handles import Handle
 from dondolo._fortran.library import as_text, check, constants
 from dondolo.errors import InputError
 
-
 # What a weak reference refers to, None if it is gone
 _referred = weakref.ref.__call__
 

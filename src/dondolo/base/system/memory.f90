@@ -1,9 +1,10 @@
 !> Room for what grows with the input, tried before the work begins.
 !>
 !> Fortran ends the program where a temporary array, an assignment or a text finds no memory. So a work first asks
-!> whether it can have as much as all of these will take, and gives it back at once. To ask the system takes longer than to
-!> plan a small work, so that small ones share what one trial has shown.
+!> whether it can have as much as all of these will take, and gives it back at once. That takes longer than to plan a small
+!> work. So small ones share what one trial has shown, unless the process has a limit that it may run into.
 module dondolo_memory
+   use, intrinsic :: iso_c_binding, only : c_int
    use, intrinsic :: iso_fortran_env, only : int8, int64
    use, intrinsic :: omp_lib, only : omp_get_max_threads
    use dondolo_error, only : error_type, raise_failure, status_memory
@@ -21,7 +22,16 @@ module dondolo_memory
    integer(int64), parameter :: shared = small_things/8
 
    !> What of it is left
-   integer(int64), save :: left = 0
+   integer(int64) :: left = 0
+
+   interface
+
+      !> 1: the process has a limit; see process.c
+      integer(c_int) function c_is_limited() bind(c, name='dondolo_is_limited')
+         import :: c_int
+      end function c_is_limited
+
+   end interface
 
 contains
 
@@ -38,7 +48,7 @@ contains
       integer(int64) :: still
       integer :: stat
 
-      if (bytes < real(shared, wp)) then
+      if (bytes < real(shared, wp) .and. c_is_limited() == 0) then
          !$omp atomic capture
          left = left - int(bytes, int64)
          still = left

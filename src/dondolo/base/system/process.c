@@ -1,8 +1,10 @@
-/* What processes need of the system: the path of their own program, and to become another one. */
+/* What processes need of the system: the path of their own program, to become another one, and how much memory they may
+   have. */
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <unistd.h>
 #ifdef __APPLE__
 #include <mach-o/dyld.h>
@@ -41,4 +43,12 @@ void dondolo_become(char *words, int count)
    }
    execvp(arguments[0], arguments);
    free(arguments);
+}
+
+/* 1: the addresses of the process are limited, as by ulimit -v */
+int dondolo_is_limited(void)
+{
+   struct rlimit limit;
+
+   return getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY;
 }
