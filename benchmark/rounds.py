@@ -36,7 +36,7 @@ class Turn:
     name: str  # program and method, or COLD, LIMIT or ARITHMETIC and a mechanism
     setting: float
     ms: float  # all histories
-    own: float  # of it in the steps of a library called from Python, or in the histories of COLD; 0: not known
+    own: float  # of it in the steps of a library called from Python, or in the histories of dondolo; 0: not known
 
 
 def acceptable(result):

@@ -86,8 +86,10 @@ def figures(results, turns, rows):
             continue
         for engine, under in references(first).items():
             found[f"{name} / {engine}"] = ratio(turns, key, under, what)
+    lanes = references(first)["lanes"]
+    found["histories / call from Python"] = ratio(turns, lanes, lanes, "own")
     if times_of(turns, LIMIT, 0.0):
-        found["lanes / arithmetic limit"] = ratio(turns, references(first)["lanes"], (LIMIT, 0.0))
+        found["lanes / arithmetic limit"] = ratio(turns, lanes, (LIMIT, 0.0))
     found |= {f"share of the arithmetic limit, {mechanism}": share for mechanism, share in shares(turns).items()}
     for row in rows:
         size = int(row["size"])

@@ -149,8 +149,9 @@ def limits(results, turns):
         Spread.of(times_of(turns, *key).values()).stated() for key in (lanes, (COLD, 1e-8), (COLD, 1e-8, "own"))
     )
     lines = paragraph(
-        f"The {histories} histories take the engine `lanes` {warm} ms in a call from Python that is warm. The whole "
-        f"command `dondolo CASE.nml` takes {whole} ms, from the start of the process to its end, with the reading of "
+        f"The {histories} histories take the engine `lanes` {warm} ms in a call from Python that is warm, of which the "
+        f"histories themselves are {ratio(turns, lanes, lanes, 'own').times(100.0).stated()} %. The whole command "
+        f"`dondolo CASE.nml` takes {whole} ms, from the start of the process to its end, with the reading of "
         f"the records and the writing of the results; its histories take {cold} ms of it."
     )
     loop = times_of(turns, LIMIT, 0.0).values()

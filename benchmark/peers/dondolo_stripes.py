@@ -1,14 +1,46 @@
 """dondolo in a process that is warm, as the other programs are: a call of multiple_stripe from Python, on one thread.
 
 Called as a peer, with a case in place of the problem: CASE METHOD SETTING REPEATS EVERY. The method is the engine, the
-setting its relative tolerance. A second holds the whole call, all histories of it, but no reading.
+setting its relative tolerance. A second holds the whole call, all histories of it, but no reading; its own are those in
+which Fortran runs the histories.
 """
 
 import sys
 import time
 from importlib.metadata import version
+from types import SimpleNamespace
+
+from dondolo._fortran import _core
 
 import dondolo as dd
+
+
+class Watch:
+    """Seconds that a procedure has taken since they were asked for last."""
+
+    def __init__(self, procedure):
+        self.procedure, self.seconds = procedure, 0.0
+
+    def __call__(self, *given):
+        start = time.perf_counter()
+        try:
+            return self.procedure(*given)
+        finally:
+            self.seconds += time.perf_counter() - start
+
+    def read(self):
+        """The seconds, which begin anew."""
+        seconds, self.seconds = self.seconds, 0.0
+        return seconds
+
+
+def watched(module, name):
+    """A watch on a procedure of a module of the extension, which lets none of its own be replaced."""
+    there = getattr(_core, module)
+    procedures = {each: getattr(there, each) for each in dir(there) if not each.startswith("__")}
+    watch = Watch(procedures[name])
+    setattr(_core, module, SimpleNamespace(**procedures | {name: watch}))
+    return watch
 
 
 def main():
@@ -23,12 +55,15 @@ def main():
         return dd.multiple_stripe(wall, case.records, case.levels, solver=solver, threads=1, progress=False)
 
     stripes = call()
+    histories = watched("stripes", "run_block")
     print("version dondolo", version("dondolo"), dd.build_variant())
     # 0 repeats: one for each line of standard input
     for _ in range(int(repeats)) if int(repeats) else sys.stdin:
         start = time.perf_counter()
         stripes = call()
-        print("seconds", time.perf_counter() - start, flush=True)
+        seconds = time.perf_counter() - start
+        print("own", histories.read())
+        print("seconds", seconds, flush=True)
     # Level by level, as in the tables of the reference
     for edp, collapsed in zip(
         stripes.edp.ravel()[:: int(every)], stripes.collapsed.ravel()[:: int(every)], strict=True

@@ -4,11 +4,13 @@ import contextlib
 import re
 import statistics
 import subprocess
+import sys
 import time
 
 import numpy as np
 import pytest
 from costs import growth
+from dondolo._fortran import _core
 
 import dondolo as dd
 
@@ -43,6 +45,50 @@ def test_lanes_outrun_rk45(wall, records):
         ratios.append(slow / fast)
     least = {"avx512": 7.0, "avx2": 5.5}.get(dd.build_variant(), 2.7)
     assert statistics.median(ratios) > least, ratios
+
+
+def test_a_call_costs_little_beside_its_histories(wall, records, replace_procedure):
+    """About five hundredths of a short call, where a quiet machine needs less; twice that is allowed."""
+    inside = []
+    run_block = _core.stripes.run_block
+
+    def timed_block(*given):
+        start = time.perf_counter()
+        done = run_block(*given)
+        inside.append(time.perf_counter() - start)
+        return done
+
+    replace_procedure("stripes.run_block", timed_block)
+    whole = []
+    for _ in range(40):
+        start = time.perf_counter()
+        dd.multiple_stripe(wall, records, np.linspace(0.05, 1.0, 20), threads=1, progress=False)
+        whole.append(time.perf_counter() - start)
+    assert len(inside) == len(whole)
+    assert min(np.subtract(whole, inside)) < 0.1 * min(inside)
+
+
+def test_a_call_costs_the_same_for_many_records(wall, records):
+    """Instructions of Python, which are the same on any machine."""
+    counts = []
+    for several in (records, records[:2]):
+        # The second call: in the first they are uploaded.
+        for _ in range(2):
+            count = 0
+
+            def step(frame, event, _):
+                nonlocal count
+                frame.f_trace_opcodes = True
+                count += event == "opcode"
+                return step
+
+            sys.settrace(step)
+            try:
+                dd.multiple_stripe(wall, several, LEVELS, threads=1, progress=False)
+            finally:
+                sys.settrace(None)
+        counts.append(count)
+    assert 0 < counts[0] < 1.05 * counts[1]
 
 
 def test_arithmetic(executable):
