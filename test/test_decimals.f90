@@ -3,14 +3,14 @@
 program test_decimals
    use, intrinsic :: iso_fortran_env, only : int64
    use checks, only : check, check_text, finish, skip, suite
-   use dondolo_decimals, only : find_digits
+   use dondolo_decimals, only : find_figures
    use dondolo_kinds, only : wp
    use dondolo_text, only : brief, rounded, to_table, to_text
    implicit none
 
    integer, parameter :: kinds = 8
 
-   call test_sure()
+   call test_edges()
    if (precision(1.0_wp) > 17) then
       call skip('random numbers are those of double precision')
    else
@@ -20,34 +20,39 @@ program test_decimals
 
 contains
 
-   !> What is found, and what is left to formatted output
-   subroutine test_sure()
-      integer(int64) :: whole
+   !> Numbers that are written as nobody expects
+   subroutine test_edges()
+      character(len=4) :: figures
       integer :: exponent
-      logical :: is_sure
 
       call suite('decimals')
-      call find_digits(0.0_wp, 4, whole, exponent, is_sure)
-      call check(is_sure .and. whole == 0 .and. exponent == 0, 'zero is zero')
-      call find_digits(ieee_nan(), 4, whole, exponent, is_sure)
-      call check(.not. is_sure, 'NaN has no digits')
-      call find_digits(huge(1.0_wp), 4, whole, exponent, is_sure)
-      call check(.not. is_sure, 'three digits of an exponent are too many')
-      call find_digits(0.125_wp, 2, whole, exponent, is_sure)
-      call check(.not. is_sure, 'a tie is not sure')
+      call find_figures(0.0_wp, figures, exponent)
+      call check(figures == '0000' .and. exponent == 0, 'zero is zero')
+      call find_figures(-9999.6_wp, figures, exponent)
+      call check(figures == '1000' .and. exponent == 4, 'a number next to a power of ten takes its exponent')
+      call find_figures(0.00012345_wp, figures, exponent)
+      call check(figures == '1234' .and. exponent == -4, 'a number below a tie is rounded down')
+      call find_figures(0.125_wp, figures(:2), exponent)
+      call check(figures(:2) == '12' .and. exponent == -1, 'a tie is rounded to even')
       call check_text(to_text(-0.0625_wp**4), '-1.52587890625e-5', 'a power of two')
       call check_text(to_table(-1.0_wp/3.0_wp), merge('-3.3333333333333331E-01                   ', &
          & '-3.33333333333333333333333333333333317E-01', precision(1.0_wp) < 18), 'a third in a table')
+      call check_text(to_table(-1.5e-150_wp), merge('-1.5000000000000001E-150                    ', &
+         & '-1.50000000000000000000000000000000005E-0150', precision(1.0_wp) < 18), 'an exponent of three digits')
       call check_text(rounded(99.996_wp), '100', 'rounded up to another power of ten')
       call check_text(rounded(-2.0_wp/3.0e7_wp), '-6.667e-8', 'a small number')
-   end subroutine test_sure
+      call check(rounded(huge(1.0_wp)) == to_text(huge(1.0_wp)), 'nothing is above the largest number')
+      call check_text(to_table(0.0_wp/draw_zero()), 'NaN', 'no number in a table')
+      call check_text(rounded(-1.0_wp/draw_zero()), '-Infinity', 'less than all numbers')
+   end subroutine test_edges
 
-   !> A number that no other equals
-   real(wp) function ieee_nan()
-      use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
+   !> Zero, which no compiler sees
+   real(wp) function draw_zero()
+      character(len=1) :: text
 
-      ieee_nan = ieee_value(1.0_wp, ieee_quiet_nan)
-   end function ieee_nan
+      text = '0'
+      read (text, *) draw_zero
+   end function draw_zero
 
    !> Random numbers of several kinds
    subroutine test_random(number)

@@ -9,11 +9,11 @@ module dondolo_decimals
    implicit none
    private
 
-   public :: find_digits, reads_back, round_digits, put_digits, is_short
+   public :: find_figures, find_shortest, rounded_to, put_digits, is_short
 
    integer, parameter :: qp = real128
 
-   !> Digits that can be found at most
+   !> Digits that arithmetic finds at most
    integer, parameter :: most_digits = 17
 
    !> Numbers between these have exponents of two digits, and the powers of ten that these need
@@ -39,6 +39,113 @@ contains
    end function is_short
 
    !> The significant digits of a number
+   pure subroutine find_figures(value, figures, exponent)
+      !> Number, finite
+      real(wp), intent(in) :: value
+      !> As many digits as there is room for
+      character(len=*), intent(out) :: figures
+      !> Power of ten of the first of them
+      integer, intent(out) :: exponent
+
+      integer(int64) :: whole
+      logical :: is_sure
+
+      call find_digits(value, len(figures), whole, exponent, is_sure)
+      if (is_sure) then
+         call put_digits(whole, figures)
+      else
+         call write_figures(value, figures, exponent)
+      end if
+   end subroutine find_figures
+
+   !> The digits of the shortest decimal that reads back as a number, or these with zeros at their end
+   pure subroutine find_shortest(value, figures, exponent)
+      !> Number, finite
+      real(wp), intent(in) :: value
+      !> Digits; blanks after them
+      character(len=*), intent(out) :: figures
+      !> Power of ten of the first of them
+      integer, intent(out) :: exponent
+
+      character(len=48) :: buffer
+      integer(int64) :: whole
+      real(wp) :: again
+      integer :: digits, stat
+      logical :: is_sure, is_nearest
+
+      do digits = precision(value), precision(value) + 2
+         call find_digits(value, digits, whole, exponent, is_sure)
+         if (is_sure) call see_nearest(value, digits, whole, exponent, is_nearest, is_sure)
+         if (.not. is_sure) exit
+         if (.not. is_nearest) cycle
+         call put_digits(whole, figures(:digits))
+         figures(digits + 1:) = ''
+         return
+      end do
+      do digits = precision(value), precision(value) + 3
+         figures = ''
+         call write_figures(value, figures(:digits), exponent)
+         write (buffer, '(a, ''E'', i0)') figures(:digits), exponent - digits + 1
+         read (buffer, *, iostat=stat) again
+         if (stat == 0 .and. again == abs(value)) exit
+      end do
+   end subroutine find_shortest
+
+   !> The number that is nearest to some significant digits of another
+   pure real(wp) function rounded_to(value, digits) result(nearest)
+      !> Number; one that is not finite stays as it is
+      real(wp), intent(in) :: value
+      !> How many digits, at most 15
+      integer, intent(in) :: digits
+
+      character(len=48) :: buffer
+      character(len=16) :: figures
+      integer(int64) :: whole
+      integer :: exponent, stat
+      logical :: is_sure
+
+      nearest = value
+      if (.not. abs(value) <= huge(value)) return
+      call find_digits(value, digits, whole, exponent, is_sure)
+      associate (power => exponent - digits + 1)
+         if (is_sure .and. abs(power) <= exact_power) then
+            ! One operation with exact numbers
+            nearest = real(whole, wp)
+            if (power >= 0) nearest = nearest*real(powers(power), wp)
+            if (power < 0) nearest = nearest/real(powers(-power), wp)
+         else
+            call find_figures(value, figures(:digits), exponent)
+            write (buffer, '(a, ''E'', i0)') figures(:digits), exponent - digits + 1
+            read (buffer, *, iostat=stat) nearest
+            ! Up from the largest number there is none.
+            if (stat /= 0 .or. nearest > huge(nearest)) nearest = abs(value)
+         end if
+      end associate
+      nearest = sign(nearest, value)
+   end function rounded_to
+
+   !> The significant digits of a number, by a WRITE
+   pure subroutine write_figures(value, figures, exponent)
+      !> Number, finite
+      real(wp), intent(in) :: value
+      !> As many digits as there is room for
+      character(len=*), intent(out) :: figures
+      !> Power of ten of the first of them
+      integer, intent(out) :: exponent
+
+      character(len=48) :: buffer
+      character(len=16) :: format
+      integer :: mark
+
+      write (format, '(a, i0, a)') '(es48.', len(figures) - 1, 'e4)'
+      write (buffer, format) abs(value)
+      buffer = adjustl(buffer)
+      mark = index(buffer, 'E')
+      figures = buffer(1:1)//buffer(3:mark - 1)
+      read (buffer(mark + 1:), *) exponent
+   end subroutine write_figures
+
+   !> The significant digits of a number, by arithmetic
    pure subroutine find_digits(value, digits, whole, exponent, is_sure)
       !> Number
       real(wp), intent(in) :: value
@@ -76,7 +183,7 @@ contains
    end subroutine find_digits
 
    !> Is a number the one nearest to its digits?
-   pure subroutine reads_back(value, digits, whole, exponent, is_nearest, is_sure)
+   pure subroutine see_nearest(value, digits, whole, exponent, is_nearest, is_sure)
       !> Number, and what find_digits has found, for sure
       real(wp), intent(in) :: value
       integer, intent(in) :: digits
@@ -94,32 +201,7 @@ contains
       is_sure = abs(off - 0.5_qp) > doubt
       ! Below a power of two numbers are twice as dense.
       if (fraction(abs(value)) <= 0.5_wp) is_sure = is_sure .and. (off < 0.25_qp - doubt .or. .not. is_nearest)
-   end subroutine reads_back
-
-   !> The number that is nearest to some significant digits of another
-   pure subroutine round_digits(value, digits, nearest, is_sure)
-      !> Number
-      real(wp), intent(in) :: value
-      !> How many digits, at most 15
-      integer, intent(in) :: digits
-      !> The number that they are
-      real(wp), intent(out) :: nearest
-      !> Is that sure? Else it is not found
-      logical, intent(out) :: is_sure
-
-      integer(int64) :: whole
-      integer :: exponent
-
-      call find_digits(value, digits, whole, exponent, is_sure)
-      nearest = sign(real(whole, wp), value)
-      associate (power => exponent - digits + 1)
-         is_sure = is_sure .and. abs(power) <= exact_power
-         if (.not. is_sure) return
-         ! One operation with exact numbers
-         if (power >= 0) nearest = nearest*real(powers(power), wp)
-         if (power < 0) nearest = nearest/real(powers(-power), wp)
-      end associate
-   end subroutine round_digits
+   end subroutine see_nearest
 
    !> A number times a power of ten
    pure real(qp) function times_power(number, power)

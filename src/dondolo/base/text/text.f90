@@ -4,7 +4,7 @@
 !> place for each call in the source, for all threads.
 module dondolo_text
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_decimals, only : find_digits, is_short, put_digits, reads_back, round_digits
+   use dondolo_decimals, only : find_figures, find_shortest, is_short, put_digits, rounded_to
    use dondolo_kinds, only : wp
    implicit none
    private
@@ -33,24 +33,6 @@ contains
 
    ! The lengths precede the functions whose results they size; otherwise gfortran 12 reports an implicit interface.
 
-   !> The nearest number of few significant digits
-   pure real(wp) function nearest_short(value, digits)
-      !> Number
-      real(wp), intent(in) :: value
-      !> Significant digits, at most 10
-      integer, intent(in) :: digits
-
-      character(len=24) :: buffer
-      character(len=10) :: format
-      logical :: is_sure
-
-      call round_digits(value, digits, nearest_short, is_sure)
-      if (is_sure) return
-      write (format, '(a, i1, a)') '(es24.', digits - 1, 'e4)'
-      write (buffer, format) value
-      read (buffer, *) nearest_short
-   end function nearest_short
-
    !> Length of the text of a number
    pure integer function real_length(value)
       !> Number
@@ -77,14 +59,22 @@ contains
       end do
    end function count_length
 
+   !> Digits of the exponent of a number in a table
+   pure integer function exponent_width(value)
+      !> Number
+      real(wp), intent(in) :: value
+
+      exponent_width = 2
+      if (.not. is_short(value)) exponent_width = merge(3, 4, precision(value) < 18)
+   end function exponent_width
+
    !> Length of a number in a table
    pure integer function table_length(value)
       !> Number
       real(wp), intent(in) :: value
 
-      ! A figure, the point, the decimals, E+00
-      table_length = decimals + 6
-      if (.not. is_short(value)) table_length = table_length + merge(1, 2, precision(value) < 18)
+      ! A figure, the point, the decimals, E and its sign, the exponent
+      table_length = 1 + 1 + decimals + 2 + exponent_width(value)
       if (abs(value) > huge(value)) table_length = len('Infinity')
       if (sign(1.0_wp, value) < 0.0_wp) table_length = table_length + 1
       if (.not. abs(value) >= 0.0_wp) table_length = len('NaN')
@@ -120,9 +110,9 @@ contains
       !> Number
       real(wp), intent(in) :: value
       !> Its text
-      character(len=real_length(nearest_short(value, result_digits))) :: text
+      character(len=real_length(rounded_to(value, result_digits))) :: text
 
-      text = real_to_text(nearest_short(value, result_digits))
+      text = real_to_text(rounded_to(value, result_digits))
    end function rounded
 
    !> A number with eight significant digits, for limits that were computed
@@ -130,9 +120,9 @@ contains
       !> Number
       real(wp), intent(in) :: value
       !> Its text
-      character(len=real_length(nearest_short(value, limit_digits))) :: text
+      character(len=real_length(rounded_to(value, limit_digits))) :: text
 
-      text = real_to_text(nearest_short(value, limit_digits))
+      text = real_to_text(rounded_to(value, limit_digits))
    end function brief
 
    !> Write the shortest decimal that reads back as the same number
@@ -143,9 +133,7 @@ contains
       character(len=:), allocatable, intent(out) :: text
 
       character(len=48) :: figures
-      integer(int64) :: whole
-      integer :: digits, exponent
-      logical :: is_sure, is_nearest
+      integer :: exponent
 
       if (.not. abs(value) <= huge(value)) then
          text = 'NaN'
@@ -155,47 +143,9 @@ contains
       end if
       call make_short(value, text)
       if (allocated(text)) return
-      ! A decimal of so many digits that reads back is the shortest one with zeros at its end.
-      do digits = precision(value), precision(value) + 2
-         call find_digits(value, digits, whole, exponent, is_sure)
-         if (.not. is_sure) exit
-         call reads_back(value, digits, whole, exponent, is_nearest, is_sure)
-         if (is_nearest .or. .not. is_sure) exit
-      end do
-      if (is_sure) then
-         call put_digits(whole, figures(:digits))
-         call make_plain(sign(1.0_wp, value) < 0.0_wp, figures(:digits), exponent, text)
-      else
-         call write_digits(value, figures, exponent)
-         call make_plain(sign(1.0_wp, value) < 0.0_wp, trim(figures), exponent, text)
-      end if
+      call find_shortest(value, figures, exponent)
+      call make_plain(sign(1.0_wp, value) < 0.0_wp, trim(figures), exponent, text)
    end subroutine make_real
-
-   !> The digits of the shortest decimal that reads back as the same number, by WRITE and READ
-   pure subroutine write_digits(value, figures, exponent)
-      !> Number
-      real(wp), intent(in) :: value
-      !> Its significant digits
-      character(len=*), intent(out) :: figures
-      !> Power of ten of the first of them
-      integer, intent(out) :: exponent
-
-      character(len=48) :: buffer
-      character(len=16) :: format
-      real(wp) :: again
-      integer :: digits, stat, mark
-
-      do digits = precision(value), precision(value) + 3
-         write (format, '(a, i0, a)') '(es48.', digits - 1, 'e4)'
-         write (buffer, format) abs(value)
-         read (buffer, *, iostat=stat) again
-         if (stat == 0 .and. again == abs(value)) exit
-      end do
-      buffer = adjustl(buffer)
-      mark = index(buffer, 'E')
-      read (buffer(mark + 1:), *) exponent
-      figures = buffer(1:1)//buffer(3:mark - 1)
-   end subroutine write_digits
 
    !> The text of a number of few decimals, as most are, without a WRITE: a whole number by a power of ten, both exact
    pure subroutine make_short(value, text)
@@ -306,29 +256,19 @@ contains
       !> Its text, e.g. 1.2500000000000000E+00 (more exponent digits only where needed)
       character(len=table_length(value)) :: text
 
-      character(len=11), parameter :: short = merge('(es24.16e2)', '(es43.35e2)', precision(value) < 18)
-      character(len=11), parameter :: long = merge('(es25.16e3)', '(es46.35e4)', precision(value) < 18)
-      character(len=48) :: buffer
       character(len=decimals + 1) :: figures
-      character(len=2) :: power
-      integer(int64) :: whole
-      integer :: exponent
-      logical :: is_sure
+      character(len=4) :: power
+      integer :: exponent, width
 
-      call find_digits(value, decimals + 1, whole, exponent, is_sure)
-      if (is_sure) then
-         call put_digits(whole, figures)
-         call put_digits(int(abs(exponent), int64), power)
-         text = figures(1:1)//'.'//figures(2:)//merge('E-', 'E+', exponent < 0)//power
-         if (sign(1.0_wp, value) < 0.0_wp) text = '-'//text
+      if (.not. abs(value) <= huge(value)) then
+         text = real_to_text(value)
          return
       end if
-      if (is_short(value)) then
-         write (buffer, short) value
-      else
-         write (buffer, long) value
-      end if
-      text = adjustl(buffer)
+      call find_figures(value, figures, exponent)
+      width = exponent_width(value)
+      call put_digits(int(abs(exponent), int64), power(:width))
+      text = figures(1:1)//'.'//figures(2:)//merge('E-', 'E+', exponent < 0)//power(:width)
+      if (sign(1.0_wp, value) < 0.0_wp) text = '-'//text
    end function to_table
 
    !> Lower case
