@@ -79,6 +79,8 @@ class RunFile:
         Numbers of walls (rows of the population), levels, damage states and records; Python does not write the last.
     files : tuple of Written
         The tables of the set.
+    confidence : float
+        Of the intervals in the tables; NaN where Python wrote them, whose tables have none.
     """
 
     version: str
@@ -97,6 +99,7 @@ class RunFile:
     run: str = ""
     shape: Mapping[str, int] = field(default_factory=dict)
     files: tuple[Written, ...] = ()
+    confidence: float = float("nan")
 
     def setting(self, group: str, name: str, default: Any) -> Any:
         """A variable of a group; `default`, which has the type it must have, if it is not there."""
@@ -167,6 +170,7 @@ def read_run_file(path: str) -> RunFile:
             _run(content),
             {name: _member(shape, name, int) for name in shape},
             tuple(_written(one) for one in _all(content, "files", dict)),
+            _member(_member(content, "standard_errors", dict, {}), "confidence", float, float("nan")),
         )
     except (LookupError, TypeError, ValueError) as error:
         raise InputError(f"{path}: {error}") from error

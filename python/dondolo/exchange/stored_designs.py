@@ -13,9 +13,6 @@ from dondolo.exchange.stored_checks import kinematic_checks
 from dondolo.populations.typology import Typology
 from dondolo.retrofit.designs import DesignComparison
 
-# Of the intervals in the table
-_CONFIDENCE = 0.95
-
 
 def stored_designs(typology: Typology, table: ResultFile, run: RunFile) -> DesignComparison:
     """Designs compared, ``_designs.csv``: the ratios of the table, and the curves of the typology.
@@ -27,7 +24,8 @@ def stored_designs(typology: Typology, table: ResultFile, run: RunFile) -> Desig
     table : ResultFile
         A row for each design.
     run : RunFile
-        Names the site, if there is one: checks are made again, to the same numbers.
+        Has the confidence of the intervals, and names the site, if there is one: checks are made again, to the same
+        numbers.
 
     Returns
     -------
@@ -49,7 +47,7 @@ def stored_designs(typology: Typology, table: ResultFile, run: RunFile) -> Desig
         comparisons=tuple(_against(curve, first, table, row) for row, curve in enumerate(typology.curves)),
         steel=table.numbers("steel_kg_m"),
         alpha_0=table.numbers("alpha_0_g"),
-        confidence=_CONFIDENCE,
+        confidence=run.confidence,
         checks=_checks(typology, run),
     )
 
