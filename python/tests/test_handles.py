@@ -3,6 +3,7 @@
 import gc
 import os
 import pickle
+import sys
 import threading
 
 import numpy as np
@@ -28,7 +29,7 @@ def test_the_same_records_are_uploaded_once(few, monkeypatch):
     several = tuple(few)
     suite = upload(several)
     assert upload(several) is suite
-    assert place_of(several[1]) == (suite.number, 2)
+    assert place_of(several[1]) == (suite, 2)
     assert upload(several[::-1]) is not suite
     assert upload(several) is not suite
     twice = (several[0], several[0])
@@ -79,7 +80,7 @@ def test_use_after_free(few):
 
 def test_a_handle_is_freed_with_its_object():
     record = dd.Record([0.1, 0.2], 0.1)
-    number = place_of(record)[0]
+    number = place_of(record)[0].number
     del record
     gc.collect()
     assert _core.records.measure_suite(number, b"pga", 1)[0] == 2
@@ -144,6 +145,49 @@ def test_threads_upload_and_free(few):
     for member in team:
         member.join()
     assert (wrong, done) == ([], dict.fromkeys(range(4), 40))
+
+
+def test_a_suite_is_kept_while_it_is_used():
+    """Another thread uploads the record again, which frees what it was uploaded with before."""
+    noise = np.random.default_rng(0).standard_normal(60_000)
+    a, b = dd.Record(noise, 0.005, "a"), dd.Record(noise[:1000], 0.005, "b")
+    periods = np.geomspace(0.05, 5.0, 40)
+    expected, done = a.spectrum(periods).displacement, threading.Event()
+
+    def other():
+        while not done.is_set():
+            upload((a, b))
+            upload((a,))
+
+    beside = threading.Thread(target=other)
+    beside.start()
+    try:
+        assert all(np.array_equal(a.spectrum(periods).displacement, expected) for _ in range(30))
+    finally:
+        done.set()
+        beside.join()
+
+
+def test_a_wall_has_one_handle():
+    """Two threads upload it at once: both use the handle that stays."""
+    interval = sys.getswitchinterval()
+    sys.setswitchinterval(1e-6)
+    try:
+        for i in range(500):
+            wall, handles, together = dd.OneSidedWall(3.0, 0.25 + 1e-6 * i), [], threading.Barrier(2)
+
+            def work(wall=wall, handles=handles, together=together):
+                together.wait()
+                handles.append(upload_walls((wall,)))
+
+            team = [threading.Thread(target=work) for _ in "ab"]
+            for member in team:
+                member.start()
+            for member in team:
+                member.join()
+            assert handles[0] is handles[1]
+    finally:
+        sys.setswitchinterval(interval)
 
 
 @pytest.mark.skipif(not os.path.exists("/proc/self/statm"), reason="reads how much memory a process has in /proc")

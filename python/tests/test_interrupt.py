@@ -46,6 +46,47 @@ def test_a_history_is_broken_off(what, engine):
     assert done.stdout.split() == ["interrupted", "0"], done.stderr
 
 
+# Another thread goes on, whole, while Ctrl-C breaks off what the main thread computes
+BESIDE = """
+import os, signal, threading
+import numpy as np
+import dondolo as dd
+
+signal.signal(signal.SIGINT, signal.default_int_handler)
+records, wall, levels = list(dd.example_records()), dd.OneSidedWall(1.5, 0.25), np.linspace(0.05, 1.5, 40)
+run = lambda several: dd.multiple_stripe(wall, several, levels, progress=False, threads=2).edp
+expected = run(records)
+mine = [dd.Record(record.acceleration, record.dt, record.name) for record in records[:8]]
+found, stop = [], threading.Event()
+def other():
+    while not stop.is_set():
+        try:
+            found.append("same" if np.array_equal(run(records), expected) else "wrong")
+        except BaseException as error:
+            found.append(repr(error))
+beside = threading.Thread(target=other)
+beside.start()
+broken_off = 0
+for i in range(60):
+    timer = threading.Timer(0.002 + 0.0007 * i, os.kill, (os.getpid(), signal.SIGINT))
+    try:
+        timer.start()
+        while True:
+            run(mine)
+    except (KeyboardInterrupt, dd.Interrupted):
+        broken_off += 1
+stop.set()
+beside.join()
+print(broken_off, len(found) > 9, *sorted(set(found)))
+"""
+
+
+@pytest.mark.slow
+def test_another_thread_is_not_broken_off():
+    done = subprocess.run([sys.executable, "-c", BESIDE], capture_output=True, text=True, timeout=60)
+    assert done.stdout.split() == ["60", "True", "same"], done.stderr
+
+
 def test_the_executable_dies_of_it(executable, tmp_path):
     wall = dd.OneSidedWall(3.0, 0.25)
     ground = 0.6 * wall.trigger_acceleration * np.sin(2.0 * np.pi * 0.01 * np.arange(100_000))

@@ -19,11 +19,14 @@ few = [dd.Record(3.0 * np.sin(0.05 * i * np.arange(200)), 0.01, f"r{i}") for i i
 levels = np.linspace(0.01, 0.02, 50_000)
 dd.simulate(wall, few[0])
 
-def limit(extra):
-    used = int(open("/proc/self/statm").read().split()[0]) * resource.getpagesize()
-    resource.setrlimit(resource.RLIMIT_AS, (used + extra, resource.RLIM_INFINITY))
+# Of all addresses, or of what is no file and no stack: pages in all, and of data, in statm
+kind, place = {"all": (resource.RLIMIT_AS, 0), "data": (resource.RLIMIT_DATA, 5)}[sys.argv[1]]
 
-for extra in map(int, sys.argv[1:]):
+def limit(extra):
+    used = int(open("/proc/self/statm").read().split()[place]) * resource.getpagesize()
+    resource.setrlimit(kind, (used + extra, resource.RLIM_INFINITY))
+
+for extra in map(int, sys.argv[2:]):
     limit(extra * 10**6)
     try:
         WORK
@@ -58,11 +61,12 @@ def folder(tmp_path_factory):
 
 @pytest.mark.skipif(not sys.platform.startswith("linux"), reason="reads how much memory a process has in /proc")
 @pytest.mark.parametrize("work", WORKS)
-def test_lack_of_memory(work, folder):
+@pytest.mark.parametrize("limited", ["all", "data"])
+def test_lack_of_memory(work, limited, folder):
     program = HEAD.replace("WORK", WORKS[work]).replace("FOLDER", repr(str(folder)))
     extras = [1, 20, 50, 80, 110, 150, 1500]
     environment = os.environ | {"OMP_NUM_THREADS": "2"}
-    command = [sys.executable, "-W", "ignore", "-c", program, *map(str, extras)]
+    command = [sys.executable, "-W", "ignore", "-c", program, limited, *map(str, extras)]
     done = subprocess.run(command, capture_output=True, text=True, timeout=100, env=environment)
     assert done.returncode == 0, done.stderr
     words = done.stdout.split()

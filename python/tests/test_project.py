@@ -15,6 +15,7 @@ import subprocess
 import sys
 import time
 import tomllib
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -474,6 +475,16 @@ def test_no_parcel_is_lost(wall, sine):
     for _ in range(3000):
         dd.simulate(wall, sine, 3.0)
         dd.OneSidedWall(3.0, 0.25)
+    odd = dd.Record(1000.0 * sine.acceleration, sine.dt)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        refused = 0
+        for _ in range(3000):
+            try:
+                dd.simulate(wall, odd, 0.003)
+            except dd.DondoloWarning:
+                refused += 1
+    assert refused == 3000
     # A history has about 50 kB; 3000 of them would be 150 MB.
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 20_000
 

@@ -15,7 +15,7 @@ from datetime import UTC, datetime, timedelta
 
 import pytest
 from dondolo._base.files import whole_file
-from dondolo._base.transactions import publishing
+from dondolo._base.transactions import TABLES, publishing
 
 import dondolo as dd
 
@@ -47,6 +47,21 @@ def start(executable, folder, name):
         # What a shell has let a process in the background ignore it goes on to ignore.
         preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     )
+
+
+def test_names_of_tables(root):
+    """Python replaces, and removes, what the executable would."""
+    source = (root / "src/dondolo/case/results/result_files.f90").read_text()
+    names = re.search(r"all_suffixes\(\d+\) = (.*?)\]", source, re.DOTALL).group(1)
+    assert tuple(re.findall(r"'(_\w+\.csv)'", names)) == TABLES
+
+
+def test_a_set_replaces_a_larger_one(few, tmp_path):
+    tied = dd.OneSidedWall(3.0, 0.25, tie_height=2.8, tie_area=1e-4, tie_length=5.0)
+    for wall, has_ties in ((tied, True), (dd.OneSidedWall(3.0, 0.25), False)):
+        dd.typology([wall], few, [0.2, 0.5], progress=False).write_results(tmp_path / "x")
+        assert (tmp_path / "x_ties.csv").exists() == has_ties
+        assert len(dd.read_results(tmp_path / "x").population.walls) == 1
 
 
 def whose(folder):

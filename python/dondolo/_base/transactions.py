@@ -22,9 +22,13 @@ from typing import NamedTuple
 
 from dondolo.errors import DondoloError, InputError
 
-# What the names of the files of a set end with
+# What the names of the files of a set end with, of any task
 TABLES = tuple(
-    f"_{name}.csv" for name in ("walls", "histories", "stripes", "fragility", "typology", "history", "check")
+    f"_{name}.csv"
+    for name in (
+        *("walls", "histories", "stripes", "fragility", "typology", "history", "check", "checks", "unions", "ties"),
+        *("sources", "designs"),
+    )
 )
 RUN_FILE = "_run.json"
 #: A name of a run

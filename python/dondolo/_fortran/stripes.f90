@@ -6,7 +6,7 @@ module stripes
    use dondolo_ensemble, only : ensemble_type
    use dondolo_error, only : add_place, error_type
    use dondolo_handles, only : find_study, find_suite, find_walls, held_study_type, hold
-   use dondolo_interrupt, only : check_interrupt
+   use dondolo_interrupt, only : check_interrupt, watch, watched
    use dondolo_parcel, only : parcel_type, send
    use dondolo_plausibility, only : wall_warning_type
    use dondolo_scaling, only : new_scaling, scaling_type, unscaled
@@ -180,8 +180,9 @@ contains
       type(work_type) :: total
       type(error_type), allocatable :: error
       integer, allocatable :: range(:, :)
-      integer :: i, k, left, crew, shared_out
+      integer :: i, k, left, crew, shared_out, since
 
+      since = watched()
       call check_room(error, walls=last - one + 1, histories=real(count, c_double))
       if (.not. allocated(error)) call find_study(study, chosen, error)
       if (.not. allocated(error)) call find_walls(walls, people, error)
@@ -198,8 +199,9 @@ contains
          crew = team_of(chosen%threads, huge(1))
          shared_out = last - modulo(last - one + 1, crew)
          !$omp parallel do schedule(dynamic) num_threads(crew) if(shared_out >= one) default(none) &
-         !$omp & shared(one, shared_out, chosen, people, range, part)
+         !$omp & shared(one, shared_out, chosen, people, range, part, since)
          do i = one, shared_out
+            call watch(since)
             call run_part(part(i), people(i), chosen, 1, range(:, i))
          end do
          !$omp end parallel do

@@ -110,7 +110,8 @@ def run_again(stripes: Stripes, records: Sequence[Record], threads: int, progres
         status, lowest, highest = stripes.status.copy(), stripes.edp_lowest.copy(), stripes.edp_highest.copy()
     numbers = (stripes.record_index[np.nonzero(doubt)[1]] + 1).astype(np.int32)
     factors = (stripes.scale * stripes.polarity)[doubt]
-    wall, suite = upload_walls((stripes.wall,)).number, upload(tuple(records)).number
+    # Kept until Fortran has returned
+    wall, suite = upload_walls((stripes.wall,)), upload(tuple(records))
     places = np.argwhere(doubt)
 
     def so_far() -> Stripes:
@@ -128,7 +129,13 @@ def run_again(stripes: Stripes, records: Sequence[Record], threads: int, progres
                 rows = tuple(places[here].T)
                 with Stoppable():
                     kind, *values, low, high, stat, message = _core.histories.certify(
-                        wall, suite, numbers[here], factors[here], stripes.edp[rows], stripes.edp_limit, threads
+                        wall.number,
+                        suite.number,
+                        numbers[here],
+                        factors[here],
+                        stripes.edp[rows],
+                        stripes.edp_limit,
+                        threads,
                     )
                 check(stat, message)
                 lowest[rows], highest[rows] = low, high

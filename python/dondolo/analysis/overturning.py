@@ -410,10 +410,11 @@ class _Runner(NamedTuple):
             * self.wall.gravity
             / np.array([pulse.peak_acceleration for pulse in self.pulses])[places]
         )
+        people, suite = upload_walls((self.wall,)), upload(self.pulses)
         with Stoppable():
             edp, collapsed, impacts, time, _, stat, message = _core.histories.run_scaled(
-                upload_walls((self.wall,)).number,
-                upload(self.pulses).number,
+                people.number,
+                suite.number,
                 (np.asarray(places) + 1).astype(np.int32),
                 np.ascontiguousarray(scale),
                 self.engine,

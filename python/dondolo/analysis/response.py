@@ -344,22 +344,21 @@ def simulate(
     history, estimate_error = as_flag("history", history), as_flag("estimate_error", estimate_error)
     how = as_solver(solver)
     settings = how._settings(estimate_error)
+    handle, (suite, place) = upload((wall,)), place_of(record)
     with Stoppable():
         edp, collapsed, impacts, time_of_peak, edp_error, sent, stat, message = _core.histories.simulate(
-            upload((wall,)).number,
-            *place_of(record),
+            handle.number,
+            suite.number,
+            place,
             factor,
             as_text("engine", how.engine),
             settings,
             int(history),
         )
     check(stat, message)
-    if sentences := _warnings(wall, place_of(record), factor if record.vertical is not None else 1.0):
-        warn(sentences)
     edp_limit = float(settings[2])
     motion: dict[str, Any] = {}
-    if estimate_error:
-        warn(warnings_of_errors(np.array([edp]), np.array([edp_error]), edp_limit))
+    # What was sent is received before anything is warned of, since a warning may be an error.
     if history:
         parcel = receive(sent, stat, message)
         side, after = parcel.integers.reshape(2, -1)
@@ -370,6 +369,10 @@ def simulate(
         if ties := number_of_ties(wall):
             times = parcel.reals[-2 * ties :].reshape(2, ties).T
             motion["tie_times"] = np.where(times < 0.0, np.nan, times)
+    found = _warnings(wall, (suite.number, place), factor if record.vertical is not None else 1.0)
+    if estimate_error:
+        found = found + warnings_of_errors(np.array([edp]), np.array([edp_error]), edp_limit)
+    warn(found)
     return Response(
         wall=wall,
         record=record,

@@ -15,6 +15,7 @@ from dondolo._base.files import as_file
 from dondolo._base.shown import Shown
 from dondolo._base.transactions import RUN_FILE, TABLES, published_run
 from dondolo._fortran.buildings import BUILDING_NAMES
+from dondolo._fortran.library import constants
 from dondolo._fortran.walls import WALL_EXTRAS, WALL_LISTS, WALL_PROPERTIES, WALL_TEXTS, WALL_WORDS
 from dondolo._storage.run_file import HistoryResult, RunFile, read_run_file
 from dondolo.analysis.certificate import Certified
@@ -161,7 +162,7 @@ def _read(prefix: str, run: RunFile) -> StoredResults:
     names = {"history": "history", "stripes": "histories", "typology": "stripes"}
     if task not in names:
         raise InputError(f"{run.path}: settings: job: task = {task!r}: must be one of {', '.join(map(repr, names))}")
-    gravity = run.setting("solver", "gravity", 9.81)
+    gravity = run.setting("solver", "gravity", constants().gravity)
     result = run.history if task == "history" else None
     if task == "history" and result is None:
         raise InputError(f"{run.path}: no 'history'")
@@ -169,7 +170,7 @@ def _read(prefix: str, run: RunFile) -> StoredResults:
         work = Work(**run.work)
     except TypeError as error:
         raise InputError(f"{run.path}: work: {error}") from error
-    limit = run.setting("solver", "edp_limit", 1.0)
+    limit = run.setting("solver", "edp_limit", constants().edp_limit)
     tolerances = run.setting("solver", "rtol", np.nan), run.setting("solver", "atol", np.nan)
     engine = run.setting("solver", "engine", "auto")
     walls = ResultFile(prefix + "_walls.csv", run)

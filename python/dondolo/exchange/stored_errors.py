@@ -7,13 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from dondolo._base.arguments import one_of
+from dondolo._fortran.library import constants
 from dondolo.curves.clusters import Errors, no_errors
 from dondolo.curves.table import ERRORS
 from dondolo.exchange.result_file import ResultFile
 from dondolo.populations.errors import KeptErrors
 from dondolo.populations.typology import Typology
-
-_KINDS = ("clustered", "few_clusters", "one_cluster", "few_walls", "one_wall")
 
 
 def kept_errors(typology: Typology, curves: ResultFile, groups: ResultFile) -> KeptErrors:
@@ -57,7 +56,7 @@ def errors_of_row(table: ResultFile, row: int) -> Errors:
     if not kind:
         return no_errors("", 0)
     try:
-        one_of("errors", kind, _KINDS)
+        one_of("errors", kind, constants().errors[1:])
     except ValueError as error:
         raise ValueError(f"{table.place(row)}: {error}") from error
     clusters = table.count("clusters", row)

@@ -135,12 +135,15 @@ def upload(records: tuple[Motion, ...], threads: int = 1) -> Suite:
     return suite
 
 
-def place_of(record: Motion) -> tuple[int, int]:
-    """Where Fortran has a record: the handle of a suite, and the number in it from 1."""
+def place_of(record: Motion) -> tuple[Suite, int]:
+    """Where Fortran has a record: a suite, and the number in it from 1.
+
+    The suite must be kept until Fortran has returned: another thread may upload the record again, beside others.
+    """
     if "_home" not in record.__dict__:
         upload((record,))
     suite, place = record.__dict__["_home"]
-    return suite.number, place + 1
+    return suite, place + 1
 
 
 def intensities(records: tuple[Motion, ...], im: str, gravity: float | None = None) -> FloatArray:
@@ -148,28 +151,32 @@ def intensities(records: tuple[Motion, ...], im: str, gravity: float | None = No
     pull = constants().gravity if gravity is None else as_number("gravity", gravity)
     if not 0.0 < pull < np.inf:
         raise InputError(f"gravity = {pull:g}: must be positive")
-    values, stat, message = _core.records.intensities(upload(records).number, as_text("im", im), len(records), pull, 0)
+    suite = upload(records)
+    values, stat, message = _core.records.intensities(suite.number, as_text("im", im), len(records), pull, 0)
     check(stat, message)
     return np.asarray(values)
 
 
 def spectral_displacements(record: Motion, periods: FloatArray, damping: float) -> FloatArray:
     """Largest displacements of oscillators relative to the ground [m]."""
-    values, stat, message = _core.records.spectrum(*place_of(record), periods, damping)
+    suite, place = place_of(record)
+    values, stat, message = _core.records.spectrum(suite.number, place, periods, damping)
     check(stat, message)
     return np.asarray(values)
 
 
 def velocity(record: Motion) -> FloatArray:
     """Ground velocity at the samples, 0 at the first [m/s]; exact for accelerations linear in between."""
-    values, stat, message = _core.records.ground_velocity(*place_of(record), len(record))
+    suite, place = place_of(record)
+    values, stat, message = _core.records.ground_velocity(suite.number, place, len(record))
     check(stat, message)
     return np.asarray(values)
 
 
 def significant_times(record: Motion, low: float, high: float) -> tuple[float, float]:
     """Times at which Arias' integral reaches two parts of its end value [s]; 0 and 1: where motion begins and ends."""
-    (first, last), stat, message = _core.records.significant_times(*place_of(record), low, high)
+    suite, place = place_of(record)
+    (first, last), stat, message = _core.records.significant_times(suite.number, place, low, high)
     check(stat, message)
     if not last > 0.0:
         raise InputError(f"record '{record.name}': has no motion")

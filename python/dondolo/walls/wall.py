@@ -315,7 +315,8 @@ def upload(walls: tuple[Wall, ...]) -> Handle:
         return alone["_handle"]  # type: ignore[no-any-return]
     number, stat, message = _core.walls.new_walls(*join_walls([wall._flat for wall in walls]))
     check(stat, message)
-    alone["_handle"] = handle = Handle(number)
+    # Another thread may have uploaded it in the meantime, and uses its handle.
+    handle: Handle = alone.setdefault("_handle", Handle(number))
     return handle
 
 

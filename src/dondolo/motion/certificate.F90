@@ -5,7 +5,7 @@ module dondolo_certificate
    use dondolo_ensemble, only : ensemble_type
    use dondolo_error, only : error_type, raise_failure, raise_input
    use dondolo_error_estimate, only : certain
-   use dondolo_interrupt, only : look_for_interrupt
+   use dondolo_interrupt, only : look_for_interrupt, watch, watched
    use dondolo_kinds, only : wp
    use dondolo_property, only : is_list, is_text, is_words
    use dondolo_queue, only : progress_interface, queue_type
@@ -93,16 +93,18 @@ contains
       type(queue_type) :: queue
       real(wp) :: rate
       integer(c_int) :: interrupted
-      integer :: i
+      integer :: i, since
 
       rate = wall%mechanism%frequency_parameter()
+      since = watched()
       allocate (certificates(size(ensemble%record)))
       call new_quadruple_wall(exact, wall, error)
       if (allocated(error)) return
       call queue%announce(size(certificates), progress)
       !$omp parallel do schedule(dynamic) num_threads(team_of(threads, size(certificates))) default(none) &
-      !$omp & private(interrupted) shared(certificates, exact, records, ensemble, edp_limit, rate, queue)
+      !$omp & private(interrupted) shared(certificates, exact, records, ensemble, edp_limit, rate, queue, since)
       do i = 1, size(certificates)
+         call watch(since)
          call look_for_interrupt(interrupted)
          if (interrupted == 1) cycle
          call certify(exact, records(ensemble%record(i)), ensemble%scale(i), ensemble%response(i)%edp, edp_limit, rate, &

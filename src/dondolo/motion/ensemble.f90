@@ -5,6 +5,7 @@
 module dondolo_ensemble
    use dondolo_error, only : error_type, raise_input
    use dondolo_error_estimate, only : estimated_error, other_run, runs_of_estimate
+   use dondolo_interrupt, only : watch, watched
    use dondolo_kinds, only : wp
    use dondolo_lane_constants, only : lane_constants_type, new_lane_constants
    use dondolo_lane_variants, only : build_variant, check_variant, first_variant, simulate_variant
@@ -91,13 +92,15 @@ contains
       type(rest_type) :: rest
       type(work_type) :: own
       character(len=16) :: variant
-      integer :: number
+      integer :: number, since
 
       variant = build_variant()
+      since = watched()
       if (solver%engine /= 'rk45') constants = new_lane_constants(mechanism, solver, suite%has_vertical())
       if (.not. constants%form%exists) rest = new_rest(mechanism)
       !$omp parallel num_threads(team_of(threads, size(queue%record))) default(none) private(own, number) &
-      !$omp & shared(variant, constants, rest, mechanism, suite, solver, queue, work)
+      !$omp & shared(variant, constants, rest, mechanism, suite, solver, queue, work, since)
+      call watch(since)
       own = work_type()
       if (constants%form%exists) then
          call simulate_variant(variant, mechanism, constants, suite%records, suite%set, queue, own)

@@ -5,6 +5,7 @@
 module dondolo_run_rows
    use, intrinsic :: omp_lib, only : omp_get_thread_num
    use dondolo_error, only : add_place, error_type
+   use dondolo_interrupt, only : watch, watched
    use dondolo_member, only : member_type
    use dondolo_queue, only : progress_interface
    use dondolo_row_result, only : row_result_type
@@ -36,14 +37,17 @@ contains
       procedure(progress_interface), optional :: progress
 
       type(work_type) :: work
-      integer :: i, threads, shared_out, failed
+      integer :: i, threads, shared_out, failed, since
 
+      since = watched()
       allocate (rows(size(members)))
       failed = size(members) + 1
       threads = team_of(study%threads, huge(1))
       shared_out = size(members) - modulo(size(members), threads)
-      !$omp parallel do schedule(dynamic) num_threads(threads) if(shared_out > 0) default(none) shared(shared_out)
+      !$omp parallel do schedule(dynamic) num_threads(threads) if(shared_out > 0) default(none) &
+      !$omp & shared(shared_out, since)
       do i = 1, shared_out
+         call watch(since)
          call one_row(i, 1)
       end do
       !$omp end parallel do

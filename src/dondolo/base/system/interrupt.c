@@ -2,24 +2,29 @@
 #include <signal.h>
 #include <stddef.h>
 
-static volatile sig_atomic_t noted, listening;
+/* The last signal, and how many have come; what comes is never taken back, so that no thread can miss it */
+static volatile sig_atomic_t noted, come, listening;
 static struct sigaction before;
+
+/* How many had come when this thread began to listen; -1: it does not listen */
+static _Thread_local int heard = -1;
 
 static void note(int number, siginfo_t *info, void *context)
 {
    noted = number;
+   come = come + 1;
    if (before.sa_flags & SA_SIGINFO)
       before.sa_sigaction(number, info, context);
    else
       before.sa_handler(number);
 }
 
-/* Listen to SIGINT. A program that ignores it or dies of it goes on to do so. */
+/* Let this thread listen to SIGINT. A program that ignores it or dies of it goes on to do so. */
 void dondolo_listen(void)
 {
    struct sigaction ours;
 
-   noted = 0;
+   heard = come;
    if (listening || sigaction(SIGINT, NULL, &before) != 0)
       return;
    if (!(before.sa_flags & SA_SIGINFO) && (before.sa_handler == SIG_DFL || before.sa_handler == SIG_IGN))
@@ -36,12 +41,25 @@ void dondolo_end_listening(void)
    if (listening)
       sigaction(SIGINT, &before, NULL);
    listening = 0;
-   noted = 0;
+   heard = -1;
+}
+
+/* What this thread listens for, which is handed to those that work for it */
+int dondolo_watched(void)
+{
+   return heard;
+}
+
+/* Listen for what another thread listens for */
+void dondolo_watch(int since)
+{
+   heard = since;
 }
 
 static void remember(int number)
 {
    noted = number;
+   come = come + 1;
 }
 
 /* A program of its own ends in order when it is interrupted (SIGINT), terminated (SIGTERM) or its terminal is gone
@@ -51,6 +69,7 @@ void dondolo_end_in_order(void)
    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
    struct sigaction ours, theirs;
 
+   heard = come;
    ours.sa_handler = remember;
    ours.sa_flags = SA_RESTART | SA_RESETHAND;
    sigemptyset(&ours.sa_mask);
@@ -68,8 +87,8 @@ void dondolo_die_of_signal(void)
    raise(noted);
 }
 
-/* 1: the signal has come since listening began */
+/* 1: a signal has come since this thread, or the one that it works for, began to listen */
 void dondolo_look_for_interrupt(int *is_noted)
 {
-   *is_noted = noted != 0;
+   *is_noted = heard >= 0 && come != heard;
 }

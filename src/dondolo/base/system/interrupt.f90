@@ -1,15 +1,15 @@
 !> Signals while histories run: what takes long looks now and then whether it is to end early.
 !>
-!> Only a program that listens is told, and what it gets then are no results: it must look too, and drop them. Python
-!> listens to Ctrl-C while a call runs, and the executable to what ends it from its first history on; who does not
-!> listen dies of the signal.
+!> Only a thread that listens is told, and those that work for it, and what it gets then are no results: it must look too,
+!> and drop them. Python's main thread listens to Ctrl-C while a call runs, and the executable to what ends it from its
+!> first history on; a program that does not listen dies of the signal.
 module dondolo_interrupt
    use, intrinsic :: iso_c_binding, only : c_int
    use dondolo_error, only : error_type, raise_failure
    implicit none
    private
 
-   public :: listen, end_listening, end_in_order, die_of_signal, look_for_interrupt, check_interrupt
+   public :: listen, end_listening, end_in_order, die_of_signal, watched, watch, look_for_interrupt, check_interrupt
 
    interface
 
@@ -29,10 +29,22 @@ module dondolo_interrupt
       subroutine die_of_signal() bind(c, name='dondolo_die_of_signal')
       end subroutine die_of_signal
 
+      !> What this thread listens for
+      integer(c_int) function watched() bind(c, name='dondolo_watched')
+         import :: c_int
+      end function watched
+
+      !> Listen for what another thread listens for: OpenMP's threads, for the one that they work for
+      subroutine watch(since) bind(c, name='dondolo_watch')
+         import :: c_int
+         !> As from watched in that thread
+         integer(c_int), value :: since
+      end subroutine watch
+
       !> Look whether a signal has come
       pure subroutine look_for_interrupt(noted) bind(c, name='dondolo_look_for_interrupt')
          import :: c_int
-         !> 1: it has, since listening began
+         !> 1: it has, since this thread began to listen
          integer(c_int), intent(out) :: noted
       end subroutine look_for_interrupt
 

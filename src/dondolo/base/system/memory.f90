@@ -26,7 +26,7 @@ module dondolo_memory
 
    interface
 
-      !> 1: the process has a limit; see process.c
+      !> 1: the process may be refused memory; see process.c
       integer(c_int) function c_is_limited() bind(c, name='dondolo_is_limited')
          import :: c_int
       end function c_is_limited

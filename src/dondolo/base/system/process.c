@@ -45,10 +45,23 @@ void dondolo_become(char *words, int count)
    free(arguments);
 }
 
-/* 1: the addresses of the process are limited, as by ulimit -v */
+/* 1: memory may be refused to the process before the machine has used it up: by a limit, as of ulimit -v or -d, or since
+   the system promises no more than it has */
 int dondolo_is_limited(void)
 {
+   static const int limits[] = {RLIMIT_AS, RLIMIT_DATA};
+   static int promises_all = -1;
    struct rlimit limit;
 
-   return getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur != RLIM_INFINITY;
+   if (promises_all < 0) {
+      FILE *file = fopen("/proc/sys/vm/overcommit_memory", "r");
+
+      promises_all = file == NULL || fgetc(file) != '2';
+      if (file != NULL)
+         fclose(file);
+   }
+   for (size_t i = 0; i < sizeof limits / sizeof *limits; i++)
+      if (getrlimit(limits[i], &limit) != 0 || limit.rlim_cur != RLIM_INFINITY)
+         return 1;
+   return !promises_all;
 }

@@ -1,5 +1,5 @@
-!> Significant digits of numbers, rounded correctly, by arithmetic: a WRITE takes six times as long, and most of the time
-!> in which large tables are written.
+!> Significant digits of numbers, rounded correctly, by arithmetic: a WRITE takes six times as long, so that tables of many
+!> histories would take longer to write than to compute.
 !>
 !> A number in double precision, times a power of ten, is known to 112 bits in real128, and 17 digits are 57 of them. What
 !> these do not tell for sure, as a tie, is left to a WRITE, and so are numbers with three digits in their exponent.
@@ -35,7 +35,7 @@ contains
       !> Number
       real(wp), intent(in) :: value
 
-      is_short = value == 0.0_wp .or. (abs(value) >= smallest .and. abs(value) < beyond)
+      is_short = value == 0.0_wp .or. (abs(value) > smallest .and. abs(value) < beyond)
    end function is_short
 
    !> The significant digits of a number
@@ -58,7 +58,7 @@ contains
       end if
    end subroutine find_figures
 
-   !> The digits of the shortest decimal that reads back as a number, or these with zeros at their end
+   !> Few digits that read back as a number: the nearest 15, 16 or 17 of real64; zeros may stand at their end
    pure subroutine find_shortest(value, figures, exponent)
       !> Number, finite
       real(wp), intent(in) :: value
