@@ -5,6 +5,7 @@ from __future__ import annotations
 import functools
 import os
 from collections.abc import Iterable
+from copy import copy
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -369,9 +370,12 @@ def simulate(
         if ties := number_of_ties(wall):
             times = parcel.reals[-2 * ties :].reshape(2, ties).T
             motion["tie_times"] = np.where(times < 0.0, np.nan, times)
-    found = _warnings(wall, (suite.number, place), factor if record.vertical is not None else 1.0)
+    # Each its own: one that is raised as an error keeps what raised it.
+    found = [
+        copy(one) for one in _warnings(wall, (suite.number, place), factor if record.vertical is not None else 1.0)
+    ]
     if estimate_error:
-        found = found + warnings_of_errors(np.array([edp]), np.array([edp_error]), edp_limit)
+        found += warnings_of_errors(np.array([edp]), np.array([edp_error]), edp_limit)
     warn(found)
     return Response(
         wall=wall,
