@@ -86,6 +86,7 @@ contains
       type(case_type) :: case
       type(results_type) :: results
       type(result_files_type) :: files
+      type(lines_type) :: warnings
       integer(int64) :: start, finish, rate
       integer :: threads
 
@@ -98,7 +99,8 @@ contains
       if (allocated(error)) return
       call print_lines('note', case%notes)
       if (arguments%action == 'check') then
-         if (.not. arguments%quiet) call print_plan(case, error)
+         call print_plan(case, arguments%quiet, warnings, error)
+         if (arguments%quiet) call print_lines('warning', warnings)
          return
       end if
       threads = team(case%job%threads)

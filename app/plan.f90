@@ -9,7 +9,8 @@ module dondolo_plan
    use dondolo_error, only : error_type, raise_failure
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
-   use dondolo_plan_wall, only : name_width, print_body, print_head, print_row, print_wall
+   use dondolo_name_column, only : name_width
+   use dondolo_plan_wall, only : print_body, print_head, print_row, print_wall
    use dondolo_plausibility, only : wall_warning_type
    use dondolo_member, only : member_type
    use dondolo_population, only : population_reader_type
@@ -19,7 +20,6 @@ module dondolo_plan
    use dondolo_run_case, only : plan_case
    use dondolo_store, only : store_type
    use dondolo_text, only : counted, rounded, to_text
-   use dondolo_wall, only : wall_type
    use dondolo_warning, only : warnings_type
    use dondolo_warning_sentence, only : warning_sentences
    use dondolo_warnings, only : scale_warning_type, warn_of_records
@@ -31,47 +31,68 @@ module dondolo_plan
 
 contains
 
-   !> Print what would run
-   subroutine print_plan(case, error)
+   !> Check what would run, and print it; what a run would warn of beforehand stands last, where it is seen
+   subroutine print_plan(case, quiet, warnings, error)
       type(case_type), intent(in) :: case
+      !> Print nothing?
+      logical, intent(in) :: quiet
+      !> What a run would warn of beforehand
+      type(lines_type), intent(out) :: warnings
       !> What cannot be run
       type(error_type), allocatable, intent(out) :: error
 
       type(scale_warning_type) :: scales
-      type(wall_warning_type) :: oddities
       type(store_type) :: store
       type(work_type) :: work
       type(sheet_type) :: sheet
+      integer :: i
 
       if (case%job%task /= 'history') call plan_case(case, work, scales, error)
       if (allocated(error)) return
+      if (case%job%task == 'typology') then
+         call find_start(case, store, error)
+      else if (allocated(case%check)) then
+         call check_wall(case, case%wall, sheet, error)
+      end if
+      if (allocated(error)) return
+      call find_warnings(case, scales, warnings)
+      if (quiet) return
       write (output_unit, '(a)') case%file//': correct, nothing was run', ''
       write (output_unit, '(a)') 'task: '//case%job%task
       if (len(case%job%title) > 0) write (output_unit, '(a)') 'title: '//case%job%title
       write (output_unit, '(a)') 'results: '//case%job%output//'_*.csv', ''
       if (case%job%task == 'typology') then
-         call find_start(case, store, error)
-         if (.not. allocated(error)) call print_population(case, error)
+         call print_population(case, error)
          if (allocated(error)) return
-         oddities = case%survey%oddities
       else
          call print_wall(case%wall)
          call print_body(case%wall)
          write (output_unit, '(a)') ''
-         if (allocated(case%check)) then
-            call check_wall(case, case%wall, sheet, error)
-            if (allocated(error)) return
-            call print_check(sheet, was_run=.false.)
-         end if
-         call oddities%look(case%wall)
+         if (allocated(case%check)) call print_check(sheet, was_run=.false.)
       end if
       call print_records(case)
       if (case%job%task == 'history') then
          write (output_unit, '(a)') 'one history: record '''//case%suite%records(case%history%record)%name// &
             & ''', scale '//rounded(case%history_scale())
-         call print_warnings(oddities, case, scales, case%history%record)
-         return
+      else
+         call print_histories(case, work, scales, store)
       end if
+      if (warnings%count > 0) write (output_unit, '(a)') ''
+      do i = 1, warnings%count
+         write (output_unit, '(a)') 'warning: '//warnings%line(i)%text
+      end do
+   end subroutine print_plan
+
+   !> Print which histories would run
+   subroutine print_histories(case, work, scales, store)
+      type(case_type), intent(in) :: case
+      !> Work of all
+      type(work_type), intent(in) :: work
+      !> The largest scale factor
+      type(scale_warning_type), intent(in) :: scales
+      !> What an earlier run has done
+      type(store_type), intent(in) :: store
+
       write (output_unit, '(a)') to_text(size(case%stripes%levels))//' levels of '//case%stripes%scaling%name//':'// &
          & trim(list(case%stripes%levels))//case%stripes%scaling%unit_after_blank()
       if (size(case%stripes%thresholds) > 1) then
@@ -86,8 +107,7 @@ contains
          & to_text(case%survey%last - case%survey%first + 1)//' rows, in '//store%path
       write (output_unit, '(a)') 'largest scale factor: '//rounded(scales%largest)//' (record '''//scales%record// &
          & ''' at level '//to_text(scales%level)//')'
-      call print_warnings(oddities, case, scales)
-   end subroutine print_plan
+   end subroutine print_histories
 
    !> Print which records are taken as independent of each other: standard errors rest on that
    subroutine print_clusters(case)
@@ -110,29 +130,31 @@ contains
       write (output_unit, '(a)') line
    end subroutine print_clusters
 
-   !> Print what a run would warn of beforehand: last, where it is seen
-   subroutine print_warnings(oddities, case, scales, number)
-      !> What there is to say of the walls
-      type(wall_warning_type), intent(in) :: oddities
+   !> What a run would warn of beforehand
+   subroutine find_warnings(case, scales, sentences)
       type(case_type), intent(in) :: case
       !> What there is to say of scale factors
       type(scale_warning_type), intent(in) :: scales
-      !> Number of the one record that would be run; all if absent
-      integer, intent(in), optional :: number
+      !> What to say
+      type(lines_type), intent(out) :: sentences
 
+      type(wall_warning_type) :: oddities
       type(warnings_type) :: warnings
-      type(lines_type) :: sentences
-      integer :: i
 
+      if (case%job%task == 'typology') then
+         oddities = case%survey%oddities
+      else
+         call oddities%look(case%wall)
+      end if
       call oddities%warn(warnings)
-      call warn_of_records(case%suite, case%solver%gravity, warnings, number)
+      if (case%job%task == 'history') then
+         call warn_of_records(case%suite, case%solver%gravity, warnings, case%history%record)
+      else
+         call warn_of_records(case%suite, case%solver%gravity, warnings)
+      end if
       call scales%warn(warnings)
-      if (warnings%count > 0) write (output_unit, '(a)') ''
       call warning_sentences(warnings, sentences)
-      do i = 1, sentences%count
-         write (output_unit, '(a)') 'warning: '//sentences%line(i)%text
-      end do
-   end subroutine print_warnings
+   end subroutine find_warnings
 
    !> Print the first rows of the population
    subroutine print_population(case, error)
@@ -141,11 +163,12 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(population_reader_type) :: reader
-      type(member_type) :: member
+      type(member_type) :: members(shown_rows)
       logical :: found
-      integer :: i
+      integer :: i, shown, longest
 
       associate (survey => case%survey)
+         shown = min(survey%last - survey%first + 1, shown_rows)
          call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false., &
             & facade=case%facade)
          if (.not. allocated(error)) call reader%skip(survey%first - 1, error)
@@ -154,18 +177,24 @@ contains
             & to_text(survey%rows)//' mechanisms in all'
          if (survey%is_part) write (output_unit, '(a)') 'rows '// &
             & to_text(survey%first)//' to '//to_text(survey%last)//' of '//to_text(survey%rows)
-         call print_head(name_width)
-         do i = survey%first, min(survey%last, survey%first + shown_rows - 1)
-            call reader%next(member, found, error)
+         longest = 0
+         do i = 1, shown
+            call reader%next(members(i), found, error)
             if (.not. found .and. .not. allocated(error)) then
                call raise_failure(error, case%population_path()//': has changed while it was read')
             end if
             if (allocated(error)) exit
-            call print_row(member%wall, name_width)
+            longest = max(longest, len(members(i)%wall%name()))
          end do
          call reader%close()
          if (allocated(error)) return
-         if (survey%last >= i) write (output_unit, '(a)') '... and '//to_text(survey%last - i + 1)//' more'
+         call print_head(name_width(longest))
+         do i = 1, shown
+            call print_row(members(i)%wall, name_width(longest))
+         end do
+         associate (more => survey%last - survey%first + 1 - shown)
+            if (more > 0) write (output_unit, '(a)') '... and '//to_text(more)//' more'
+         end associate
       end associate
       write (output_unit, '(a)') ''
    end subroutine print_population

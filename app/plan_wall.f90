@@ -13,20 +13,16 @@ module dondolo_plan_wall
 
    public :: print_wall, print_head, print_row, print_body
 
-   !> Width of the column of names
-   integer, parameter, public :: name_width = 30
-
 contains
 
    !> Print one wall and its static quantities
    subroutine print_wall(wall)
       type(wall_type), intent(in) :: wall
 
-      integer :: width
-
-      width = min(max(4, len(wall%name())), name_width)
-      call print_head(width)
-      call print_row(wall, width)
+      associate (width => max(len('wall'), len(wall%name())))
+         call print_head(width)
+         call print_row(wall, width)
+      end associate
    end subroutine print_wall
 
    !> Print the head of the table of walls

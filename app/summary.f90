@@ -11,6 +11,7 @@ module dondolo_summary
    use dondolo_lines, only : lines_type
    use dondolo_plan_wall, only : print_wall
    use dondolo_restitution, only : published_factors
+   use dondolo_name_column, only : name_width
    use dondolo_results, only : results_type, row_counts_type
    use dondolo_source_rows, only : make_model_sentence, make_source_sentence
    use dondolo_text, only : counted, left, right, rounded, to_text
@@ -153,7 +154,7 @@ contains
             & ' by an earlier run, engine '//engines
       else if (seconds > 0.0_wp) then
          write (output_unit, '(a)') to_text(histories)//' histories in '//rounded(seconds)//' s, '// &
-            & to_text(nint(real(histories, wp)/max(seconds, 1.0e-3_wp)))//' a second on '//counted(threads, 'thread')// &
+            & to_text(nint(real(histories, wp)/seconds, int64))//' a second on '//counted(threads, 'thread')// &
             & ', engine '//engines
       else
          write (output_unit, '(a)') to_text(histories)//' histories, engine '//engines
@@ -283,15 +284,15 @@ contains
       type(case_type), intent(in) :: case
       type(results_type), intent(in) :: results
 
-      integer, parameter :: narrowest = 30, widest = 80
       character(len=12) :: theta
       character(len=10) :: beta
-      integer :: width, i, more
+      integer :: width, longest, i, more
 
-      width = narrowest
+      longest = 0
       do i = 1, size(results%shown)
-         width = min(max(width, len(results%shown(i)%name) + 1), widest)
+         longest = max(longest, len(results%shown(i)%name))
       end do
+      width = name_width(longest)
       theta = 'theta'//case%stripes%scaling%unit_after_blank()
       write (output_unit, '(a, a15, 2a10, 2x, a)') left('wall', width), 'mechanism', trim(theta), 'beta', 'status'
       do i = 1, size(results%shown)

@@ -8,16 +8,15 @@ module dondolo_union_lines
    use dondolo_fit_lines, only : bar, fractiles, make_head, print_fit
    use dondolo_fragility, only : fragility_type
    use dondolo_kinds, only : wp
+   use dondolo_name_column, only : name_width
    use dondolo_results, only : results_type, shown_rows
    use dondolo_text, only : counted, left, right, rounded, to_text
    use dondolo_unions, only : union_type
+   use dondolo_wall_curves, only : wall_curves_type
    implicit none
    private
 
    public :: print_unions, print_verdict_rows
-
-   !> Width of the column of names
-   integer, parameter :: name_width = 30
 
 contains
 
@@ -123,15 +122,20 @@ contains
       type(results_type), intent(in) :: results
 
       type(union_type) :: union
-      integer :: i, k
+      integer :: i, k, longest
 
       associate (verdicts => results%verdicts)
          if (verdicts%checked == 0) return
-         write (output_unit, '(a, a10, 4a15, a13)') left('capacity / demand', name_width), 'alpha_0', &
+         longest = 0
+         do i = 1, min(verdicts%checked, shown_verdicts)
+            longest = max(longest, len(verdicts%first(i)%name))
+         end do
+         write (output_unit, '(a, a10, 4a15, a13)') left('capacity / demand', name_width(longest)), 'alpha_0', &
             & (right(trim(check_methods(k))//' '//check_states(k), 15), k=1, size(check_states)), 'P at a_g S'
          do i = 1, min(verdicts%checked, shown_verdicts)
             associate (verdict => verdicts%first(i))
-               write (output_unit, '(a, a10, 4a15, a13)') left(verdict%name, name_width), right(rounded(verdict%multiplier), 10), &
+               write (output_unit, '(a, a10, 4a15, a13)') left(verdict%name, name_width(longest)), &
+                  & right(rounded(verdict%multiplier), 10), &
                   & (right(rounded(verdict%ratio(k)), 15), k=1, size(check_states)), in_column(verdict%probability)
             end associate
          end do
@@ -142,7 +146,7 @@ contains
       associate (spectrum => case%check%spectrum(2))
          do i = 1, min(size(results%unions%wall), shown_rows)
             call results%unions%get(i, results%population, union)
-            call print_chance(union, spectrum%pga)
+            call print_chance(union, results%population%wall(results%unions%wall(i), size(union%curve)), spectrum%pga)
          end do
       end associate
 
@@ -157,20 +161,28 @@ contains
          if (probability >= 0.0_wp) cell = right(trim(chance(probability)), len(cell))
       end function in_column
 
-      !> Print the probability that a facade collapses at the peak acceleration of the site
-      subroutine print_chance(union, pga)
+      !> Print the probability that a facade collapses at the peak acceleration of the site. Its curve is fitted on its own,
+      !> so that far below its levels it may be less than that of a mechanism, which bounds it
+      subroutine print_chance(union, curves, pga)
          type(union_type), intent(in) :: union
+         !> Curves of its mechanisms
+         type(wall_curves_type), intent(in) :: curves
          !> a_g S of SLV [g]
          real(wp), intent(in) :: pga
 
-         real(wp) :: probability(2)
-         integer :: last
+         real(wp) :: survival, chances(size(curves%curve))
+         integer :: k, last
 
          last = size(union%curve)
-         if (.not. (union%curve(last)%has_fit() .and. union%product(last)%has_fit())) return
-         probability = union%saturation*[union%curve(last)%probability(pga), union%product(last)%probability(pga)]
+         if (.not. union%curve(last)%has_fit()) return
+         chances = 0.0_wp
+         do k = 1, size(chances)
+            if (curves%curve(k)%has_fit()) chances(k) = curves%p_occ(k)*curves%curve(k)%probability(pga)
+         end do
+         survival = product(1.0_wp - chances)
          write (output_unit, '(a)') ''''//union%name//''': probability of collapse at a_g S = '//rounded(pga)//' g: '// &
-            & trim(chance(probability(1)))//'; taken as independent '//trim(chance(probability(2)))
+            & trim(chance(max(union%saturation*union%curve(last)%probability(pga), maxval(chances))))// &
+            & '; taken as independent '//trim(chance(1.0_wp - survival))
       end subroutine print_chance
 
    end subroutine print_verdict_rows

@@ -208,6 +208,11 @@ check "work: none below the trigger" contains out/deep/wall_walls.csv \
    '# work: histories = 16, still = 16, intervals = 6384, rocked = 0, steps = 0, evaluations = 0, impacts = 0'
 rm -rf out
 
+sed "s/height = .*/height = 300.0/" good.nml >tall.nml
+run --check --quiet tall.nml
+check "check, quiet: nothing but warnings" equal "$rc $(cat stdout)" "0 "
+check "check, quiet: the warning" contains stderr "dondolo: warning: wall 'wall, one': height = 300 m is more than 60 m"
+
 sed -e "s/levels = .*/first = 0.4, last = 1.0, count = 4/; /0.6, 1.0/d" good.nml >grid.nml
 run grid.nml
 check "grid of levels" contains out/deep/wall_stripes.csv 'levels = 0.4, 0.6, 0.8, 1'
@@ -394,8 +399,12 @@ check "template: defaults are the ones in force" same out/stripes_fragility.csv 
 sed -E "/^ *(record|scale) = /d" history.nml >short.nml
 run --quiet history.nml
 cp out/history_history.csv long.csv
+check "history: the engine that ran" grep -qE '"engine": "lanes \([a-z0-9]+\)"' out/history_run.json
 run --quiet short.nml
 check "template: defaults of history" same out/history_history.csv long.csv
+sed "s/engine = 'auto'/engine = 'rk45'/" history.nml >slow.nml
+run --quiet slow.nml
+check "history: the engine that was asked for" contains out/history_run.json '"engine": "rk45 (baseline)"'
 cd "$work" || exit 1
 rm -rf template
 

@@ -201,6 +201,11 @@ def test_levels_without_medians(executable, root, tmp_path):
         ),
         (
             SOURCES,
+            lambda text: text + "&population file = 'walls.csv' /\n",
+            "&uncertainty (line 3): takes &wall in place of &population",
+        ),
+        (
+            SOURCES,
             lambda text: text.replace("'two_block'", "'one_sided', hinge_level = 0.0, 1.0").replace(
                 ", hinge = 0.6 /", " /"
             ),

@@ -12,6 +12,7 @@ module dondolo_simulate
    use dondolo_rk45, only : simulate_rk45
    use dondolo_solver, only : solver_type
    use dondolo_suite, only : new_suite, suite_type
+   use dondolo_work, only : work_type
    implicit none
    private
 
@@ -20,7 +21,7 @@ module dondolo_simulate
 contains
 
    !> The motion of a wall, at rest at the start
-   subroutine simulate(mechanism, record, scale, solver, response, trace)
+   subroutine simulate(mechanism, record, scale, solver, response, trace, work)
       class(mechanism_type), intent(in) :: mechanism
       type(record_type), intent(in) :: record
       !> Factor on it, negative to reverse its polarity
@@ -30,6 +31,8 @@ contains
       type(response_type), intent(out) :: response
       !> Time history, until rest or 10 s past the end of the record; computed only if present
       type(trace_type), intent(inout), optional :: trace
+      !> What was computed, without the time history
+      type(work_type), intent(out), optional :: work
 
       type(lane_constants_type) :: constants
       type(response_type) :: again
@@ -55,6 +58,7 @@ contains
       call new_suite(suite, records)
       call run_ensemble(ensemble, mechanism, suite, solver, 1)
       response = ensemble%response(1)
+      if (present(work)) work = ensemble%work
       if (.not. present(trace)) return
       ! Once more, row by row: the loop over lanes knows nothing of rows, nor does it pay for them.
       if (solver%engine /= 'rk45') constants = new_lane_constants(mechanism, solver, suite%has_vertical())

@@ -176,6 +176,10 @@ contains
       end if
       has_facade = task == 'typology' .and. (group%has('hinge_level') .or. group%has('hinge_at') .or. variants%line > 0)
       group = namelist%group(trim(needed))
+      if (variants%line > 0 .and. group%line > 0) then
+         call raise_input(error, variants%place()//' (line '//to_text(variants%line)//'): takes &wall in place of &population')
+         return
+      end if
       if (group%line == 0 .and. .not. has_facade) then
          group = namelist%group('job')
          call raise_input(error, namelist%file//': &'//trim(needed)//': must be given for task = '''//task//''''// &

@@ -82,7 +82,7 @@ module dondolo_results
       type(response_type) :: response
       !> Its time history
       type(trace_type) :: trace
-      !> What was computed, of all walls: tasks 'stripes' and 'typology'
+      !> What was computed, of all walls
       type(work_type) :: work
       !> What the user should know
       type(warnings_type) :: warnings

@@ -68,10 +68,10 @@ contains
                call filter_record(case%wall%building, record, floor, error)
                if (allocated(error)) return
                call simulate(case%wall%mechanism, floor, case%history_scale(), case%solver%solver, results%response, &
-                  & results%trace)
+                  & results%trace, results%work)
             else
                call simulate(case%wall%mechanism, record, case%history_scale(), case%solver%solver, results%response, &
-                  & results%trace)
+                  & results%trace, results%work)
             end if
          end associate
          call check_interrupt(error)
