@@ -583,7 +583,7 @@ while IFS='|' read -r change part; do
 done <<'TABLE'
 s/^&wall/\&walls/|bad.nml: &walls (line 8): no such group; there are &job, &wall, &building, &population
 s/^&solver/\&wall/|bad.nml: &wall: given twice, in lines 8 and 23
-s/height/heigth/|bad.nml: &wall: heigth (line 11): no such variable; there are 'name', 'mechanism', 'height'
+s/height/heigth/|bad.nml: &wall: heigth (line 11): no such variable; did you mean 'height'? dondolo --template lists all
 s/task/tasks/|bad.nml: &job: tasks (line 3): no such variable; there are 'task', 'title', 'output', 'histories', 'spreadsheet_safe', 'threads'; did you mean 'task'?
 s/engine/motor/|bad.nml: &solver: motor (line 24): no such variable; there are 'engine', 'rtol'
 s/polarity/sign/|bad.nml: &records: sign (line 16): no such variable; there are 'catalogue', 'polarity'
@@ -762,9 +762,13 @@ people() {
 }
 head='name,mechanism,height,thickness,weight\n'
 people "unknown column" 'name,mechanism,heigth\na,one_sided,3\n' \
-   "walls.csv: column 'heigth': no such column; there are 'name', 'mechanism', 'height'"
-people "unknown column: all that there are" 'name,mechanism,heigth\na,one_sided,3\n' \
-   ", 'building_height', 'refine', 'weight', 'group', 'p_occ'"
+   "walls.csv: column 'heigth': no such column; did you mean 'height'? dondolo --template typology lists all"
+people "unknown column: none is near" 'name,mechanism,altezza\na,one_sided,3\n' \
+   "walls.csv: column 'altezza': no such column; dondolo --template typology lists all"
+run --template typology
+for column in building_height refine weight group p_occ; do
+   check "unknown column: all that there are: $column" contains stdout "! $column "
+done
 people "no walls" "$head" 'walls.csv: no walls under the header'
 people "the same name twice" "${head}a,one_sided,3,0.3,1\na,one_sided,4,0.3,1\n" \
    "walls.csv: line 3: name = 'a': the row before gives this wall the same mechanism"

@@ -8,8 +8,8 @@ module dondolo_population_table
    use dondolo_member, only : member_properties
    use dondolo_property, only : find_item, find_property, is_list, is_many, is_text, is_words, item_name, property_type
    use dondolo_settings, only : settings_type
-   use dondolo_spelling, only : meant
-   use dondolo_text, only : join, lower
+   use dondolo_spelling, only : say_allowed
+   use dondolo_text, only : lower
    use dondolo_wall_properties, only : wall_input_type, wall_properties
    implicit none
    private
@@ -49,7 +49,8 @@ contains
       ! Properties of walls as columns: of a list its first value. An array, for gfortran 12 takes a wrong length for a text
       ! whose length follows from the result of a function.
       character(len=len(item_name(wall_properties(1)%name, 1))) :: shown(size(wall_properties))
-      character(len=len(member_properties%name)) :: of_members(size(member_properties))
+      character(len=len(shown)) :: of_members(size(member_properties))
+      character(len=:), allocatable :: allowed
       integer :: i, at, item
 
       do i = 1, size(shown)
@@ -65,8 +66,8 @@ contains
             call find_item(wall_properties, lower(column), at, item)
             if (at > 0) self%items = reshape([self%items, at, item, i], [3, size(self%items, 2) + 1])
             if (at > 0 .or. any(lower(column) == shown) .or. any(lower(column) == of_members)) cycle
-            call raise_input(error, file//': column '''//column//''': no such column; there are '// &
-               & join(shown)//', '//join(of_members)//trim(meant(lower(column), shown)))
+            call say_allowed(lower(column), [shown, of_members], '--template typology', allowed)
+            call raise_input(error, file//': column '''//column//''': no such column'//allowed)
          end associate
          call self%table%close()
          return

@@ -6,7 +6,7 @@ module dondolo_settings_check
    use dondolo_property, only : check_number, check_word, has_owner, is_integer, is_list, is_real, is_text, is_words, &
       & name_length, number_of_choices, property_type
    use dondolo_settings, only : settings_type
-   use dondolo_spelling, only : meant
+   use dondolo_spelling, only : say_allowed
    use dondolo_text, only : join, to_text
    implicit none
    private
@@ -38,7 +38,8 @@ contains
       call settings%get_unknown(unknown)
       if (allocated(unknown)) then
          names = table%name
-         call problems%note(unknown//': no such variable; there are '//join(names)//trim(meant(unknown, names)))
+         call say_allowed(unknown, names, '--template', allowed)
+         call problems%note(unknown//': no such variable'//allowed)
       end if
       do i = 1, size(table)
          associate (property => table(i))

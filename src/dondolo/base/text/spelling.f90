@@ -1,9 +1,13 @@
 !> Which name somebody may have meant who has written another.
 module dondolo_spelling
+   use dondolo_text, only : join
    implicit none
    private
 
-   public :: meant
+   public :: meant, say_allowed
+
+   !> More names than this hide the one that was meant, and what a message says
+   integer, parameter :: most_names = 20
 
    !> Letters that a hint has besides the name
    integer, parameter :: extra = len('; did you mean ''''?')
@@ -27,6 +31,28 @@ contains
       i = minloc(far, dim=1)
       if (far(i) <= 2 .and. 3*far(i) <= len_trim(names(i))) hint = '; did you mean '''//trim(names(i))//'''?'
    end function meant
+
+   !> What is allowed in place of a name: one that is near, and the names, unless they are too many
+   pure subroutine say_allowed(written, names, template, text)
+      !> What was written, in lower case
+      character(len=*), intent(in) :: written
+      !> The names that there are
+      character(len=*), intent(in) :: names(:)
+      !> What makes dondolo print a template that has them all
+      character(len=*), intent(in) :: template
+      !> To follow a message
+      character(len=:), allocatable, intent(out) :: text
+
+      character(len=len(names) + extra) :: hint
+
+      hint = meant(written, names)
+      if (size(names) <= most_names) then
+         text = '; there are '//join(names)//trim(hint)
+      else
+         if (len_trim(hint) == 0) hint = ';'
+         text = trim(hint)//' dondolo '//template//' lists all'
+      end if
+   end subroutine say_allowed
 
    !> Letters that must be changed, put in, left out or swapped with the next (Damerau 1964)
    pure integer function distance(a, b)

@@ -7,8 +7,8 @@ module dondolo_namelist_group
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_integer, parse_real
    use dondolo_plain, only : name_problem, shown
-   use dondolo_spelling, only : meant
-   use dondolo_text, only : first_word, join, lower, to_text
+   use dondolo_spelling, only : say_allowed
+   use dondolo_text, only : first_word, lower, to_text
    implicit none
    private
 
@@ -202,14 +202,15 @@ contains
       !> Names the first one that is not known
       type(error_type), allocatable, intent(out) :: error
 
+      character(len=:), allocatable :: allowed
       integer :: i
 
       if (.not. allocated(self%variables)) return
       do i = 1, size(self%variables)
          if (any(self%variables(i)%name == names)) cycle
+         call say_allowed(self%variables(i)%name, names, '--template', allowed)
          call raise_input(error, self%place()//': '//self%variables(i)%name//' (line '// &
-            & to_text(self%variables(i)%line)//'): no such variable; there are '//join(names)// &
-            & trim(meant(self%variables(i)%name, names)))
+            & to_text(self%variables(i)%line)//'): no such variable'//allowed)
          return
       end do
    end subroutine check_names
