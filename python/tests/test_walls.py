@@ -249,3 +249,17 @@ def test_sampled_loads():
     walls = dd.sample_population("one_sided", 4, 1, load=dd.Uniform(5e3, 10e3), **common)
     assert all(5e3 < wall.load[0] < 10e3 for wall in walls)
     assert dd.sample_population("one_sided", 2, 1, load=[1e3, 2e3], **common)[1].load == (1e3, 2e3)
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"section_height": [1.0, 2.0], "thickness": 0.3}, "section_thickness: must be given with section_height"),
+        ({"height": 3.0, "section_thickness": [0.3]}, "section_thickness: only with section_height"),
+        ({"height": 3.0, "thickness": 0.25, "compressive_strength": 2.0}, r"at depth 3895 m.*: is it in MPa\?"),
+        ({"height": 3.0, "thickness": 0.25, "compressive_strength": 2e4}, r"at depth 0\.3895 m.*0\.125 m$"),
+    ],
+)
+def test_what_is_missing_is_named(given, message):
+    with pytest.raises(dd.InputError, match=message):
+        dd.OneSidedWall(**given)

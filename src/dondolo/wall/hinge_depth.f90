@@ -5,9 +5,9 @@
 module dondolo_hinge_depth
    use dondolo_error, only : problems_type
    use dondolo_kinds, only : wp
-   use dondolo_property, only : name_length
+   use dondolo_property, only : find_property, name_length
    use dondolo_text, only : rounded, to_text
-   use dondolo_wall_properties, only : wall_input_type
+   use dondolo_wall_properties, only : wall_input_type, wall_properties
    implicit none
    private
 
@@ -55,9 +55,16 @@ contains
       !> What that is, and where
       character(len=*), intent(in) :: what
 
+      ! So many times too deep it follows from a number in another unit.
+      real(wp), parameter :: absurd = 1000.0_wp
+      character(len=:), allocatable :: hint
+
       if (depth < limit) return
       if (depth > 0.0_wp) then
-         call problems%note(trim(name)//': puts the hinge at depth '//rounded(depth)//' m, must be less deep than '//what)
+         hint = ''
+         if (depth > absurd*limit) hint = ': '//trim(wall_properties(find_property(wall_properties, trim(name)))%if_less)
+         call problems%note(trim(name)//': puts the hinge at depth '//rounded(depth)//' m, must be less deep than '// &
+            & what//hint)
       else
          call problems%note(what//': must be deeper than the hinge, which is at the outer face')
       end if

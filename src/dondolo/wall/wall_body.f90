@@ -47,10 +47,8 @@ contains
 
       heights = input%list('section_height')
       thicknesses = input%list('section_thickness')
-      if (size(heights) > 0 .and. size(thicknesses) > 0) then
-         call follow('height', sum(heights), 'the sum of section_height')
-         call follow('thickness', thicknesses(1), 'that of the lowest section')
-      end if
+      if (size(heights) > 0) call follow('height', sum(heights), 'the sum of section_height')
+      if (size(thicknesses) > 0) call follow('thickness', thicknesses(1), 'that of the lowest section')
       if (input%has('mass') .and. input%number('height')*input%number('thickness') > 0.0_wp) call follow('density', &
          & input%number('mass')/(input%number('height')*input%number('thickness')), 'that of the mass')
 
