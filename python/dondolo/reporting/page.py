@@ -66,8 +66,8 @@ def report(
         What `read_results`, `run_case`, `typology`, `uncertain_wall`, `multiple_stripe` or `simulate`
         gave. Files know most of a run.
     path : path
-        The file, ``*.html`` or ``*.pdf``; its folder must exist. PDF is printed by Chromium or WeasyPrint. An earlier
-        report is replaced, any other file is not.
+        The file, ``*.html``, ``*.htm`` or ``*.pdf``; its folder must exist. PDF is printed by Chromium or WeasyPrint.
+        An earlier report is replaced, any other file is not.
     hazard : HazardCurve, optional
         Of the site: adds the annual frequency of collapse with its bounds and deaggregation.
     check : CodeCheck, optional
