@@ -126,3 +126,10 @@ def test_interruption(wall, few, replace_procedure):
     with pytest.raises(dd.Interrupted, match="interrupted: 2 of 5 stripes are complete") as caught:
         dd.multiple_stripe(wall, few, "auto", budget=5 * len(few), progress=False)
     assert len(caught.value.partial.levels) == 2
+
+
+@pytest.mark.parametrize("im", ["pga", "arias"])
+def test_a_median_record_without_motion(im, wall, records):
+    still = [dd.Record(np.zeros(10), 0.01, f"flat{i}") for i in range(3)]
+    with pytest.raises(dd.InputError, match="half of the records at least are without motion"):
+        dd.multiple_stripe(wall, [*records[:2], *still], "auto", budget=100, im=im, progress=False)

@@ -231,3 +231,19 @@ def test_population(root, executable, tmp_path):
                 assert float(row[f"{method}_{state.lower()}_{unit}"]) == pytest.approx(value, rel=1e-14)
         if curve.has_fit:
             assert float(row["probability_site"]) == pytest.approx(curve(check.pga), rel=1e-9)
+
+
+def test_a_wall_in_another_unit_is_warned_of():
+    """As stripes warn of it, and once where both are run."""
+    wall = dd.OneSidedWall(300.0, 25.0, name="in cm")
+    records = dd.synthetic_records(6.5, 10.0, "shallow", count=2)
+    with pytest.warns(dd.DondoloWarning) as caught:
+        dd.check_ntc(wall, SITE)
+    with pytest.warns(dd.DondoloWarning) as said:
+        dd.multiple_stripe(wall, records, [0.1, 0.2], progress=False)
+    found = [one.message for one in caught]
+    assert {one.code for one in found} == {"value_above_usual"}
+    assert found == [one.message for one in said if one.message.code == "value_above_usual"]
+    with pytest.warns(dd.DondoloWarning) as both:
+        dd.compare_designs({"one": wall}, records, [0.1, 0.2], site=SITE, progress=False)
+    assert [one.message for one in both if one.message.code == "value_above_usual"] == found

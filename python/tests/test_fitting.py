@@ -483,3 +483,34 @@ def test_fractions_that_fall_tell_no_median():
     assert drawn is None or not any("median" in text.get_text() for text in drawn.get_texts())
     with pytest.raises(dd.DondoloError, match=r"the median lies between 0\.4 and inf"):
         dd.fit_fragility([0.2, 0.4], [0, 0], 10)(0.3)
+
+
+def test_inverse():
+    """Against the curve itself; its interval is that of theta at one half, and that of the delta method elsewhere."""
+    curve = dd.fit_fragility([0.2, 0.4, 0.6, 0.8], [1, 8, 14, 19], 20, im="pga")
+    p = np.array([[0.05, 0.5], [0.84, 0.99]])
+    np.testing.assert_allclose(curve(curve.ppf(p)), p, rtol=1e-12)
+    assert curve.ppf(0.5) == pytest.approx(curve.theta, rel=1e-15)
+    assert (curve.ppf(0.0), curve.ppf(1.0)) == (0.0, np.inf)
+    assert curve.ppf_interval(0.5, confidence=0.9) == pytest.approx(curve.parameter_interval(confidence=0.9)["theta"])
+    low, high = curve.ppf_interval(p)
+    assert low.shape == p.shape
+    probit = stats.norm.ppf(p)
+    (a, b), (_, c) = curve.covariance
+    np.testing.assert_allclose(
+        np.log(high / low), 2.0 * stats.norm.ppf(0.975) * np.sqrt(a + 2.0 * b * probit + c * probit**2), rtol=1e-9
+    )
+    np.testing.assert_allclose(np.sqrt(low * high), curve.ppf(p), rtol=1e-12)
+    part = dataclasses.replace(curve, saturation=0.8)
+    assert part.ppf(0.4) == pytest.approx(curve.theta, rel=1e-15)
+    assert part.ppf([0.8, 0.9]).tolist() == [np.inf, np.inf]
+    for wrong in (-0.1, 1.1, np.nan, "half"):
+        with pytest.raises(dd.InputError, match=r"p = .*must lie between 0 and 1|p: must be numbers"):
+            curve.ppf(wrong)
+    for wrong in (0.0, 0.8, 1.0):
+        with pytest.raises(dd.InputError, match=r"p = .*: must be greater than 0 and less than 0.8"):
+            part.ppf_interval(wrong)
+    with pytest.raises(dd.DondoloError, match="no standard errors"):
+        dd.Fragility.of_parameters(0.5, 0.4).ppf_interval(0.5)
+    with pytest.raises(dd.DondoloError, match="no curve was fitted"):
+        dd.fit_fragility([0.2, 0.4], [0, 0], 20).ppf(0.5)

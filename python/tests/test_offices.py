@@ -87,6 +87,12 @@ def test_workbook(run):
         dd.write_workbook(run, path)
 
 
+def test_a_workbook_has_its_suffix(run):
+    pytest.importorskip("openpyxl")
+    with pytest.raises(dd.InputError, match=r"path = .*wall.xls': must end in .xlsx"):
+        dd.write_workbook(run, run.with_name("wall.xls"))
+
+
 def test_no_openpyxl(run, monkeypatch):
     monkeypatch.setitem(sys.modules, "openpyxl", None)
     with pytest.raises(dd.DondoloError, match="openpyxl is not installed"):

@@ -243,6 +243,14 @@ def test_significant_times_follow_the_cubic(records):
         np.testing.assert_allclose(padded.significant_times(low=0.0, high=1.0), [0.5, 8.26], atol=1e-5)
 
 
+@pytest.mark.parametrize("parts", [(0.9, 0.1), (0.5, 0.5), (np.nan, 1.0), (0.0, np.nan), (-1.0, 2.0)])
+def test_parts_of_the_significant_duration(records, parts):
+    low, high = parts
+    for function in (records[0].significant_times, records[0].trim):
+        with pytest.raises(dd.InputError, match="must increase, between 0 and 1"):
+            function(low=low, high=high)
+
+
 def test_trimming():
     # Arias' integral of a constant grows evenly: 5 % of it are 5 % of the time.
     record = dd.Record(np.concatenate([np.zeros(300), np.ones(1001), np.zeros(700)]), 0.01)

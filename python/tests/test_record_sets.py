@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from dondolo.records.record_set import scaled_records
 from dondolo.records.target import correlation
 
 import dondolo as dd
@@ -195,3 +196,104 @@ def test_wrong_targets(more, sentence):
 def test_kinds_of_eurocode_8():
     with pytest.raises(dd.InputError, match=r"kind = \[1\]: must be 1 or 2"):
         dd.ec8_spectrum(0.2, kind=[1])
+
+
+def test_a_set_with_factors_is_heeded_or_refused(records, parapet):
+    """Analyses without levels take the scaled records, those that choose levels or factors refuse the set."""
+    factors = np.linspace(0.5, 3.0, len(records))
+    scaled = dd.RecordSet(records, factor=factors)
+    assert dd.RecordSet(scaled).factor.tolist() == factors.tolist()
+    cloud = dd.cloud(parapet, scaled, progress=False)
+    by_hand = [
+        dd.Record(factor * one.acceleration, one.dt, one.name) for one, factor in zip(records, factors, strict=True)
+    ]
+    same = dd.cloud(parapet, by_hand, progress=False)
+    np.testing.assert_array_equal(cloud.edp, same.edp)
+    np.testing.assert_array_equal(cloud.intensity, same.intensity)
+    plain = dd.cloud(parapet, records, progress=False)
+    np.testing.assert_allclose(cloud.intensity, factors * plain.intensity, rtol=1e-12)
+    assert not np.array_equal(cloud.edp, plain.edp)
+    assert cloud.records[0].processing[-1] == "times 0.5"
+    table = dd.intensity_table(scaled, ("pga", "arias", "d5-95"))
+    as_they_stand = dd.intensity_table(records, ("pga", "arias", "d5-95"))
+    for name, power in (("pga [g]", 1), ("arias [m/s]", 2), ("d5-95 [s]", 0)):
+        np.testing.assert_allclose(table[name], factors**power * as_they_stand[name], rtol=1e-12)
+    at_levels = dd.RecordSet(records, level=0.5)
+    for run in (lambda one: dd.cloud(parapet, one, progress=False), dd.intensity_table):
+        with pytest.raises(dd.InputError, match="has a level and no factor"):
+            run(at_levels)
+    target = dd.ec8_spectrum(0.25, soil="C", periods=PERIODS)
+    for one, what in ((scaled, "factor"), (at_levels, "level")):
+        for run in (
+            lambda one: dd.compare_intensities(parapet, one, ["pga"], progress=False),
+            lambda one: dd.select_records(one, target, 3),
+        ):
+            with pytest.raises(dd.InputError, match=f"records: have {what}s of their own"):
+                run(one)
+    with pytest.raises(dd.InputError, match="have factors and no levels"):
+        dd.multiple_stripe(parapet, scaled, levels="auto", budget=200, progress=False)
+
+
+def test_a_record_of_several_rows(records, parapet):
+    twice = dd.RecordSet([*records[:3], records[0]], factor=[1.0, 1.0, 1.0, 2.0])
+    pga = dd.intensity_table(twice, "pga")["pga [g]"]
+    assert pga[3] == 2.0 * pga[0]
+    assert len(dd.cloud(parapet, twice, progress=False).edp) == 4
+
+
+def test_factors_of_the_vertical_component():
+    motion = np.sin(np.linspace(0.0, 9.0, 200))
+    record = dd.Record(motion, 0.01, vertical=0.5 * motion)
+    (scaled,) = scaled_records(dd.RecordSet(record, factor=2.0))
+    np.testing.assert_array_equal(scaled.acceleration, 2.0 * motion)
+    np.testing.assert_array_equal(scaled.vertical, motion)
+
+
+def test_floors_of_a_set(records):
+    """Twice as strong where the factors are 2."""
+    building = dd.Building(period=0.3, participation=1.3)
+    once, twice = (building.plot(records=dd.RecordSet(records, factor=factor)) for factor in (1.0, 2.0))
+    for one, other in zip(once.get_lines()[:12], twice.get_lines()[:12], strict=True):
+        np.testing.assert_allclose(2.0 * one.get_ydata(), other.get_ydata(), rtol=1e-12)
+
+
+def test_designs_and_variants_run_the_records_of_a_set(sets, parapet):
+    """With their levels and factors, as `multiple_stripe` does."""
+    joined = dd.RecordSet.of_levels(sets)
+    alone = dd.multiple_stripe(parapet, sets, progress=False)
+    designs = dd.compare_designs({"as it stands": parapet}, joined, [0.6, 0.8, 1.0], progress=False)
+    np.testing.assert_array_equal(designs.stripes[0].edp, alone.edp)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", dd.DondoloWarning)
+        unsure = dd.uncertain_wall(
+            parapet, joined, [0.6, 0.8, 1.0], sources={"density": dd.Uniform(1700.0, 1900.0)}, count=10, progress=False
+        )
+    assert unsure.typology.curves[0].histories.tolist() == alone.ran.sum(axis=1).tolist()
+
+
+@pytest.mark.parametrize(
+    ("condition", "sentence"),
+    [
+        ("sa(0.5) > 0.3", "a name that is none in Python must stand between backticks, `sa(0.5)`"),
+        ("pga > 0,3", "commas make a list, decimals have a point"),
+        ("pga > 'a'", "combines what does not go together, such as numbers with texts or lists"),
+        ("pga > [1, 2]", "combines what does not go together, such as numbers with texts or lists"),
+    ],
+)
+def test_conditions_say_what_is_wrong(records, condition, sentence):
+    with pytest.raises(dd.InputError) as caught:
+        records.filter(condition)
+    assert str(caught.value).endswith(sentence)
+    assert str(caught.value).count("expression = ") == 1
+
+
+def test_a_selection_is_no_record(records, parapet):
+    selection = dd.select_records(records, dd.ec8_spectrum(0.25, soil="C", periods=PERIODS), 3)
+    with pytest.raises(dd.InputError, match="Selection is no record: must be given as its attribute records"):
+        dd.multiple_stripe(parapet, selection, [0.5], progress=False)
+    site = dd.Site(ag=0.2, f0=2.5, tc_star=0.35, soil="B")
+    check = dd.check_ntc(parapet, site)
+    with pytest.raises(dd.InputError, match=r"must be given as \{level: records\}, or without factors"):
+        dd.check_dynamic(check, selection.records)
+    levels = {site.pga(limit_state=state): selection.records for state in ("SLV", "SLC")}
+    assert "dynamic" in {row.method for row in dd.check_dynamic(check, levels).rows}

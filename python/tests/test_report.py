@@ -434,17 +434,19 @@ def test_report_appears_whole_or_not_at_all(stripes, tmp_path, monkeypatch):
 
 
 def test_only_reports_are_replaced(stripes, tmp_path):
-    path = tmp_path / "walls.csv"
+    path = tmp_path / "walls.html"
     path.write_text("wall\n")
-    with pytest.raises(dd.InputError, match=r"walls\.csv: exists, and is no report of dondolo"):
+    with pytest.raises(dd.InputError, match=r"walls\.html: exists, and is no report of dondolo"):
         dd.report(stripes, path)
     assert path.read_text() == "wall\n"
     with pytest.raises(dd.DondoloError, match="cannot be written"):
         dd.report(stripes, tmp_path / "nowhere" / "report.html")
     with pytest.raises(dd.DondoloError, match="cannot be written: Not a directory"):
         dd.report(stripes, path / "report.html")
+    folder = tmp_path / "folder.html"
+    folder.mkdir()
     with pytest.raises(dd.DondoloError, match="cannot be written"):
-        dd.report(stripes, tmp_path)
+        dd.report(stripes, folder)
 
 
 def test_wrong_input(stripes, wall, sine, hazard, tmp_path):
@@ -463,6 +465,9 @@ def test_wrong_input(stripes, wall, sine, hazard, tmp_path):
             dd.report(stripes, wrong)
         with pytest.raises(dd.InputError, match=r"prefix = .*: must be the path of a file"):
             dd.read_results(wrong)
+    for name in ("a.docx", "a"):
+        with pytest.raises(dd.InputError, match=r"path = .*: must end in .html or .htm or .pdf"):
+            dd.report(stripes, tmp_path / name)
     assert not list(tmp_path.iterdir())
     with pytest.raises(dd.InputError, match="hazard: float is no hazard curve"):
         dd.report(stripes, path, hazard=0.1)

@@ -142,6 +142,42 @@ def test_closed_form_keeps_its_digits_in_the_tails(hazard, theta, beta):
     assert np.all(risk.deaggregate(edges) >= 0.0)
 
 
+@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+@pytest.mark.parametrize(
+    "beta", [*(10.0**-n for n in (0, 1, 2, 3, 4, 6, 7, 8, 9, 10, 12, 16, 50, 154, 200, 300)), 5e-324]
+)
+def test_small_dispersions(beta):
+    """The step between two levels by its own closed form, whose limit is H(theta)."""
+    low, high, theta, k = 0.1, 0.2, 0.15, np.log2(10.0)
+    curve = dd.Fragility.of_parameters(theta, beta, im="pga")
+    risk = dd.mean_annual_frequency(curve, dd.HazardCurve([low, high], [1e-2, 1e-3]))
+    with np.errstate(over="ignore"):
+        ends = np.clip(np.log(np.array([low, high]) / theta) / beta, -1e150, 1e150)
+    inside = 1e-2 * 1.5**-k * np.exp(0.5 * (k * beta) ** 2) * np.diff(stats.norm.cdf(ends + k * beta))[0]
+    inside += 1e-2 * stats.norm.cdf(ends[0]) - 1e-3 * stats.norm.cdf(ends[1])
+    assert risk.inside == pytest.approx(inside, rel=1e-12)
+    assert risk.above[0] == pytest.approx(1e-3 * stats.norm.cdf(ends[1]), rel=1e-12)
+    if beta <= 1e-8:
+        assert sum(risk.bounds) / 2.0 == pytest.approx(1e-2 * 1.5**-k, rel=1e-12)
+
+
+@pytest.mark.parametrize("beta", [1e-3, 1e-4, 1e-5, 1e-7, 1e-10, 1e-12])
+@pytest.mark.parametrize("z", [-0.5, -2.0, -6.0])
+def test_small_dispersions_at_the_end_of_a_step(beta, z):
+    """To the second order in k beta: k H beta times the integrals of Phi, and of Phi times the distance to the end."""
+    k, theta = np.log2(10.0), 0.2 * np.exp(-z * beta)
+    cut = np.log(np.array([0.1, 0.2]))
+    found = integrals_module.lognormal_integrals(
+        np.array(theta), np.array(beta), dd.HazardCurve([0.1, 0.2], [1e-2, 1e-3]), cut
+    )
+    # theta has its own rounding, a part of z
+    z = (cut[1] - np.log(theta)) / beta
+    first, _ = integrate.quad(stats.norm.cdf, z - 30.0, z, epsabs=0.0, epsrel=1e-12)
+    second, _ = integrate.quad(lambda t: stats.norm.cdf(t) * (z - t), z - 30.0, z, epsabs=0.0, epsrel=1e-12)
+    exact = 1e-3 * k * beta * (first + k * beta * second)
+    assert found[0] == pytest.approx(exact, rel=(k * beta) ** 2 + 1e-11, abs=0.0)
+
+
 @pytest.mark.parametrize("beta", [0.4, 1.0])
 @pytest.mark.parametrize("k", [15.0, 25.0, 80.0])
 def test_steep_hazard(beta, k):
@@ -607,9 +643,11 @@ def test_figure(hazard, curve, endless):
         warnings.simplefilter("ignore", dd.DondoloWarning)
         risk = dd.mean_annual_frequency(curve, hazard)
     above, middle, below = risk.plot()
-    x = above.get_lines()[0].get_xdata()
+    drawn = above.get_lines()[0 if endless else 1]
+    assert np.all(np.isin(hazard.levels, drawn.get_xdata())) or endless
+    np.testing.assert_allclose(drawn.get_ydata(), hazard(drawn.get_xdata()))
+    x = middle.get_lines()[0].get_xdata()
     smooth = hazard.smoothed()
-    np.testing.assert_allclose(above.get_lines()[0].get_ydata(), smooth(x))
     np.testing.assert_allclose(middle.get_lines()[0].get_ydata(), curve(x))
     share = below.get_lines()[0]
     density = replace(risk, hazard=smooth).density(x)

@@ -86,3 +86,19 @@ def test_a_fork_after_a_run_does_not_hang():
         return
     done = subprocess.run([sys.executable, "-W", "ignore", "-c", FORK], capture_output=True, text=True, timeout=100)
     assert done.returncode == 0, done.stderr
+
+
+def test_threads_are_those_that_the_process_may_use():
+    """OMP_NUM_THREADS and the affinity, both of which OpenMP heeds."""
+    program = "from dondolo._fortran.library import available_threads; print(available_threads())"
+    free = {what: value for what, value in os.environ.items() if not what.startswith(("OMP_", "GOMP_"))}
+    one = min(os.sched_getaffinity(0))
+    for more, expected in (({}, 1), ({"OMP_NUM_THREADS": "3"}, 3)):
+        run = subprocess.run(
+            [sys.executable, "-c", f"import os; os.sched_setaffinity(0, {{{one}}})\n{program}"],
+            env=free | more,
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        assert int(run.stdout) == expected

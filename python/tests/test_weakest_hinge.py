@@ -1,7 +1,10 @@
 """The hinge of a wall of two blocks that collapses first, against single runs and the statics in closed form."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
+from dondolo.populations.weakest_hinge import _warnings
 
 import dondolo as dd
 
@@ -76,3 +79,36 @@ def test_refused(records):
             dd.weakest_hinge(walls, records, LEVELS, hinges=hinges, progress=False)
     with pytest.raises(dd.DondoloError, match="no height has a curve"):
         dd.weakest_hinge(wall, records, [0.01, 0.02], hinges=HINGES, progress=False)
+
+
+def test_the_end_of_the_range_is_warned_of(found, records):
+    wall = dd.TwoBlockWall(3.0, 0.25, restitution_factor=0.87, name="strip")
+    lower, higher = ([height for height in HINGES if sign * (height - found.hinge) <= 0.0] for sign in (1.0, -1.0))
+    cases = [(lower, "higher"), (higher, "lower")]
+    assert any(len(heights) > 1 for heights, _ in cases)
+    for heights, side in cases:
+        if len(heights) > 1:
+            with pytest.warns(dd.DondoloWarning, match=f"at an end of the range, {found.hinge:g}: {side} ones") as told:
+                dd.weakest_hinge(wall, records, LEVELS, hinges=heights, progress=False)
+            assert told[-1].message.code == "hinge_at_end"
+
+
+@pytest.mark.parametrize(
+    ("hinges", "thetas", "count"),
+    [
+        ([0.01, 0.5], [0.4, 0.5], 0),
+        ([0.02, 0.5], [0.4, 0.5], 1),
+        ([0.5, 0.99], [0.5, 0.4], 0),
+        ([0.5, 0.98], [0.5, 0.4], 1),
+        ([0.4, 0.5, 0.6], [0.5, 0.4, 0.5], 0),
+        ([0.4, 0.5], [0.5, np.nan], 0),
+    ],
+)
+def test_no_wall_has_a_hinge_beyond_its_limits(hinges, thetas, count):
+    search = SimpleNamespace(
+        hinges=np.array(hinges),
+        thetas=np.array(thetas),
+        hinge=hinges[int(np.nanargmin(thetas))],
+        wall=dd.TwoBlockWall(3.0, 0.25),
+    )
+    assert len(_warnings(search)) == count

@@ -121,6 +121,18 @@ def as_levels(x: ArrayLike) -> FloatArray:
     return values
 
 
+def as_probabilities(name: str, p: ArrayLike) -> FloatArray:
+    """Turn what a user gives for probabilities into an array; its shape is kept."""
+    try:
+        values = np.asarray(p, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError):
+        raise InputError(f"{name}: must be numbers") from None
+    wrong = ~((values >= 0.0) & (values <= 1.0))
+    if np.any(wrong):
+        raise InputError(f"{name} = {values[wrong][0]:g}: must lie between 0 and 1")
+    return values
+
+
 def shaped(values: FloatArray, like: FloatArray) -> Any:
     """Values in the shape of the argument: a float for a scalar."""
     return float(values[0]) if like.ndim == 0 else values.reshape(like.shape)

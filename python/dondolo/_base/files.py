@@ -19,8 +19,8 @@ from dondolo.errors import DondoloError, InputError, MissingFileError
 _TRIES = 5
 
 
-def as_file(name: str, path: Any) -> Path:
-    """Turn what a user gives for the path of a file into one."""
+def as_file(name: str, path: Any, *suffixes: str) -> Path:
+    """Turn what a user gives for the path of a file into one; its name must end in one of the suffixes, if any."""
     try:
         target = Path(path)
         named = bool(target.name) and not os.fspath(path).endswith(os.sep)
@@ -29,6 +29,8 @@ def as_file(name: str, path: Any) -> Path:
         valid = False
     if not valid:
         raise InputError(f"{name} = {path!r}: must be the path of a file")
+    if suffixes and target.suffix.lower() not in suffixes:
+        raise InputError(f"{name} = {os.fspath(path)!r}: must end in {' or '.join(suffixes)}")
     return target
 
 

@@ -11,8 +11,11 @@ module checks
    use dondolo_kinematic, only : kinematic_type, new_kinematic
    use dondolo_ntc_check, only : check_by_ntc => check_ntc, check_peaks => check_histories
    use dondolo_parcel, only : parcel_type, send
+   use dondolo_plausibility, only : wall_warning_type
    use dondolo_settings, only : group_settings_type, new_settings
    use dondolo_wall, only : wall_type
+   use dondolo_warning, only : warnings_type
+   use dondolo_warning_sentence, only : warning_objects
    implicit none
    private
 
@@ -91,7 +94,7 @@ contains
       end do
    end subroutine code_spectrum
 
-   !> Kinematic check of a wall: the lines of its sheet, as pack_sheet has them
+   !> Kinematic check of a wall: the lines of its sheet, as pack_sheet has them, then warnings
    subroutine check_ntc(walls, texts, numbers, n, given, sent, stat, message)
       integer(c_int64_t), intent(in) :: walls
       character(len=*), intent(in) :: texts
@@ -104,6 +107,8 @@ contains
       type(check_input_type) :: input
       type(kinematic_type) :: kinematic
       type(sheet_type) :: sheet
+      type(wall_warning_type) :: oddities
+      type(warnings_type) :: warnings
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
 
@@ -113,6 +118,9 @@ contains
       if (.not. allocated(error)) then
          call check_by_ntc(sheet, kinematic, input)
          call pack_sheet(sheet, parcel)
+         call oddities%look(people(1))
+         call oddities%warn(warnings)
+         call warning_objects(warnings, parcel%lines)
       end if
       call send(parcel, error, sent, stat, message)
    end subroutine check_ntc

@@ -10,7 +10,7 @@ import numpy as np
 from dondolo._base.arguments import FloatArray
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
-from dondolo._fortran.library import Parcel, check, properties, receive
+from dondolo._fortran.library import Parcel, check, properties, receive, unpack_warnings, warn
 
 #: Limit states: damage, life safety, collapse
 STATES = ("SLD", "SLV", "SLC")
@@ -73,8 +73,10 @@ def code_spectrum(
 
 
 def kinematic_sheet(wall: Handle, site: SiteInput) -> tuple[SheetRow, ...]:
-    """The sheet of a kinematic check."""
-    return _rows(receive(*_core.checks.check_ntc(wall.number, *site)))
+    """The sheet of a kinematic check; warns of a wall that is most likely a slip."""
+    parcel = receive(*_core.checks.check_ntc(wall.number, *site))
+    warn(unpack_warnings(parcel.lines[len(parcel.reals) :]))
+    return _rows(parcel)
 
 
 def dynamic_sheet(wall: Handle, state: str, pga: float, records: int, edp: FloatArray) -> tuple[SheetRow, ...]:
@@ -85,7 +87,7 @@ def dynamic_sheet(wall: Handle, state: str, pga: float, records: int, edp: Float
 def _rows(parcel: Parcel) -> tuple[SheetRow, ...]:
     """Lines of a sheet."""
     rows = []
-    for line, value in zip(parcel.lines, parcel.reals.tolist(), strict=True):
+    for line, value in zip(parcel.lines[: len(parcel.reals)], parcel.reals.tolist(), strict=True):
         method, state, quantity, symbol, unit, formula, meaning = line.split("\t")
         rows.append(SheetRow(method, state, quantity, symbol, value, unit, formula, meaning))
     return tuple(rows)

@@ -23,12 +23,14 @@ module library
    use dondolo_property_tables, only : property_table, table_names
    use dondolo_solver, only : solver_type
    use dondolo_text, only : join
+   use dondolo_threads, only : threads_here => available_threads
    use dondolo_version, only : dondolo_version_text
    use dondolo_wall, only : standard_gravity
    implicit none
    private
 
-   public :: constants, properties, check_text, variant, listen, end_listening, work_alone, take_parcel, take_series, free
+   public :: constants, properties, check_text, variant, available_threads, listen, end_listening, work_alone, take_parcel, &
+      & take_series, free
 
 contains
 
@@ -111,6 +113,13 @@ contains
       name = build_variant()
       call report(error, stat, message)
    end subroutine variant
+
+   !> Threads that OpenMP gives, which honours OMP_NUM_THREADS and the processors of the process
+   subroutine available_threads(threads)
+      integer(c_int), intent(out) :: threads
+
+      threads = threads_here()
+   end subroutine available_threads
 
    !> Listen to Ctrl-C while something is computed: the main thread alone may
    subroutine listen()

@@ -158,6 +158,11 @@ def build_variant() -> str:
     return str(name.decode().strip())
 
 
+def available_threads() -> int:
+    """Threads that OpenMP gives, which honours OMP_NUM_THREADS and the processors of the process."""
+    return int(_core.library.available_threads())
+
+
 def check(stat: int, message: bytes) -> None:
     """Raise what a status says."""
     if stat == 0:

@@ -59,12 +59,13 @@ from dondolo._fortran.library import warn
 from dondolo._fortran.records import describe_measure, unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
-from dondolo.analysis.request import Polarity, Request, check_threads, new_request, polarity_names
+from dondolo.analysis.request import SMALL_LEVEL, Polarity, Request, check_threads, new_request, polarity_names
 from dondolo.analysis.solver import Solver, as_solver
 from dondolo.analysis.work import Work
 from dondolo.curves.regression import Logistic, Regression, logistic_regression, regress
 from dondolo.errors import DondoloError, InputError, Interrupted
-from dondolo.records.record import Record, as_records
+from dondolo.records.record import Record
+from dondolo.records.record_set import scaled_records
 from dondolo.walls.wall import Wall
 
 if TYPE_CHECKING:
@@ -72,8 +73,6 @@ if TYPE_CHECKING:
 
 BoolArray = np.ndarray[Any, np.dtype[np.bool_]]
 
-# A level of any measure that takes no record beyond all bounds
-_SMALL_LEVEL = 1e-6
 # Probabilities one dispersion below and above the median, with the digits of the source
 _LOW, _HIGH = 0.16, 0.84
 # The equivalent lognormal is sought so far beyond the points, in ln IM
@@ -88,6 +87,7 @@ class Cloud(Shown, Saved):
     ----------
     wall : Wall
     records : tuple of Record
+        As they ran, but for `scale`: those of a `RecordSet` times their factors.
     im : str
         Intensity measure.
     scale : float
@@ -340,7 +340,7 @@ def cloud(
     wall : Wall
         The wall.
     records : Record or iterable of Record
-        Many accelerograms, of a wide range of intensity.
+        Many accelerograms, of a wide range of intensity. The records of a `RecordSet` run with their factors.
     im : str
         Intensity measure, as for `multiple_stripe`; `Cloud.against` gives others without running again.
     scale : float
@@ -357,7 +357,8 @@ def cloud(
     Raises
     ------
     InputError
-        What cannot be run; a record without motion, whose intensity has no logarithm.
+        What cannot be run; a record without motion, whose intensity has no logarithm; a row of a set with a level and
+        no factor.
     Interrupted
         Ctrl-C.
 
@@ -366,7 +367,7 @@ def cloud(
     Jalayer and others (2017). The docstring of the module dondolo.analysis.cloud has the formulas.
     """
     instance_of("wall", wall, Wall, "no wall")
-    several = as_records(records)
+    several = scaled_records(records)
     factor = as_number("scale", scale)
     if not 0.0 < factor < np.inf:
         raise InputError(f"scale = {factor:g}: must be positive")
@@ -414,11 +415,11 @@ def _intensities(
     Measures that the wall makes dimensionless come with the others: the plan of a stripe says by what each record is
     scaled to its level, and measures grow with a power of the scale.
     """
-    request = new_request((wall,), records, [_SMALL_LEVEL], im, "as_recorded", None, threads)
+    request = new_request((wall,), records, [SMALL_LEVEL], im, "as_recorded", None, threads)
     scale = request.plan().scale[0]
     if not scale.all():
         raise InputError(f"records: '{records[int(np.argmin(scale))].name}' is without motion")
-    return _SMALL_LEVEL * (factor / scale) ** describe_measure(request.im).power, request.im
+    return SMALL_LEVEL * (factor / scale) ** describe_measure(request.im).power, request.im
 
 
 def fit(intensity: FloatArray, edp: FloatArray, collapsed: BoolArray) -> dict[str, Any]:

@@ -14,7 +14,7 @@ from dondolo._fortran.library import constants
 from dondolo._fortran.records import blank_unit, describe_measure
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
-from dondolo.analysis.request import Polarity, new_request
+from dondolo.analysis.request import SMALL_LEVEL, Polarity, new_request
 from dondolo.analysis.stripe_runs import multiple_stripe
 from dondolo.analysis.stripes import Stripes
 from dondolo.curves import fitting
@@ -22,7 +22,8 @@ from dondolo.curves.bootstrap import draw_records, resample
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloError, InputError, Interrupted
 from dondolo.figures.style import Panels
-from dondolo.records.record import Record, as_records
+from dondolo.records.record import Record
+from dondolo.records.record_set import plain_records
 from dondolo.walls.wall import Wall
 
 if TYPE_CHECKING:
@@ -30,8 +31,6 @@ if TYPE_CHECKING:
 
 # Levels of an analysis reach so many dispersions from the median, where 0.6 % and 99.4 % collapse
 _REACH = 2.5
-# A level of any measure that takes no record beyond all bounds
-_SMALL_LEVEL = 1e-6
 # A search for levels ends after so many stripes; from one to the next accelerations change by the square root of 2
 _LONGEST_SEARCH = 40
 
@@ -196,10 +195,12 @@ def compare_intensities(
 
     Raises
     ------
+    InputError
+        Records with levels or factors of their own, measures that are not known.
     DondoloError
         A measure without a curve: too few records, say.
     """
-    several = as_records(records)
+    several = plain_records(records)
     names = [describe_measure(im).name for im in as_measures(ims)]
     if not names or len(set(names)) < len(names):
         raise InputError("ims: must be given, and differ")
@@ -249,13 +250,13 @@ def _levels(wall: Wall, records: tuple[Record, ...], im: str, count: int, polari
         return int(outcome.collapsed.sum()), len(outcome.collapsed)
 
     # The search begins where half of the records reach the trigger acceleration.
-    _, plan = plan_at([_SMALL_LEVEL])
+    _, plan = plan_at([SMALL_LEVEL])
     moving = plan.scale[0] > 0.0
     if not moving.any():
         raise InputError("records: all are without motion")
     power = describe_measure(im).power
     peaks = (plan.scale[0] * pga[plan.record])[moving]
-    start = _SMALL_LEVEL * float(wall.trigger_acceleration / np.median(peaks)) ** power
+    start = SMALL_LEVEL * float(wall.trigger_acceleration / np.median(peaks)) ** power
     factor = 2.0 ** (0.5 * power)
     tried = {start: collapses_at(start)}
     for step, last in ((1.0 / factor, 0), (factor, int(moving.sum()))):

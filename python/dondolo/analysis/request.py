@@ -41,6 +41,9 @@ _SECONDS = 0.4
 # twenty levels have fewer: each further block costs the engine vectors that are half empty
 _FIRST_SAMPLES = 20_000_000
 
+#: A level of any measure that takes no record beyond all bounds
+SMALL_LEVEL = 1e-6
+
 # What a request has in Fortran
 _UPLOADED = ("_suite", "_study", "_people")
 

@@ -146,6 +146,8 @@ def _auto(request: Request, budget: int | None, progress: bool) -> Stripes:
     # Scales are powers of the level.
     peaks = np.array([request.records[i].peak_acceleration for i in trials[0].record])
     one, two = (float(np.median(plan.scale[0] * peaks)) for plan in trials)
+    if not one > 0.0:
+        raise InputError("levels = 'auto': half of the records at least are without motion")
     level: float | None = rounded(_TRIAL * (2.0 * wall.trigger_acceleration / one) ** (1.0 / np.log2(two / one)))
     parts: list[Stripes] = []
     pace = Pace(request.facts.samples)

@@ -6,7 +6,7 @@ What is computed, and by which formulas, is in Fortran (``check/ntc_check.f90``)
 from __future__ import annotations
 
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -207,6 +207,11 @@ def check_ntc(wall: Wall, site: Site, *, confidence: float = 1.35, behaviour: fl
     InputError
         A wall of two blocks, factors that the code does not have, a mode without damping.
 
+    Warns
+    -----
+    DondoloWarning
+        A wall that looks as if it were given in another unit.
+
     Examples
     --------
     >>> import dondolo as dd
@@ -222,7 +227,7 @@ def check_ntc(wall: Wall, site: Site, *, confidence: float = 1.35, behaviour: fl
 
 def check_dynamic(
     check: CodeCheck,
-    stripes: Stripes | Record | Iterable[Record],
+    stripes: Stripes | Record | Iterable[Record] | Mapping[float, Record | Iterable[Record]],
     *,
     polarity: Polarity = "as_recorded",
     solver: Solver | None = None,
@@ -236,9 +241,10 @@ def check_dynamic(
     ----------
     check : CodeCheck
         The kinematic check.
-    stripes : Stripes, or records
+    stripes : Stripes, Record, iterable of Record, RecordSet, or mapping of float to these
         Histories of the wall of the check with PGA for measure and a_g S of the site (`CodeCheck.pga`) among the
-        levels; of records, one stripe is run.
+        levels; of records, one stripe is run. Records with factors, such as those of a `Selection`, are given as
+        ``{check.pga: selection.records}``, with the levels of both limit states where they differ.
     polarity : {'as_recorded', 'reversed', 'both'}
         Of records. A one-sided wall feels their sign: with 'both' it meets the criterion in either direction.
     solver : Solver, optional

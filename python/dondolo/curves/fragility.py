@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_levels, as_number, shaped, tails
+from dondolo._base.arguments import FloatArray, as_levels, as_number, as_probabilities, shaped, tails
 from dondolo._base.shown import Shown
 from dondolo._fortran.curves import probability, student_quantile
 from dondolo._fortran.records import blank_unit, name_of_measure, unit_of
@@ -224,6 +224,63 @@ class Fragility(Shown, Saved):
         low, high = self.saturation * ndtr(probit - half), self.saturation * ndtr(probit + half)
         return shaped(low, values), shaped(high, values)
 
+    def ppf(self, p: ArrayLike) -> Any:
+        """Levels at which the probability of collapse is p: the inverse of the curve.
+
+        Parameters
+        ----------
+        p : array_like
+            Probabilities, 0 to 1.
+
+        Returns
+        -------
+        float or ndarray, shape of p
+            In the unit of theta; infinite from `saturation` on, which the curve does not reach.
+
+        Raises
+        ------
+        DondoloError
+            There is no curve.
+        InputError
+            A probability that is not between 0 and 1.
+        """
+        self._need_fit()
+        values, probit = self._probits(p)
+        return shaped(self.theta * np.exp(self.beta * probit), values)
+
+    def ppf_interval(self, p: ArrayLike, *, confidence: float = 0.95) -> tuple[Any, Any]:
+        """Confidence interval of the levels at which the probability of collapse is p (of each on its own).
+
+        From the covariance, symmetric in the logarithm of the level.
+
+        Parameters
+        ----------
+        p : array_like
+            Probabilities, greater than 0 and less than `saturation`.
+        confidence : float
+            Confidence, between 0 and 1.
+
+        Returns
+        -------
+        low, high : float or ndarray, shape of p
+
+        Raises
+        ------
+        DondoloError
+            There is no curve, or it has no standard errors.
+        InputError
+            A probability at which there is no level, a confidence beyond 0 and 1.
+        """
+        quantile = self._quantile(confidence)
+        values, probit = self._probits(p)
+        if not np.all(np.isfinite(probit)):
+            wrong = values.ravel()[~np.isfinite(probit)][0]
+            raise InputError(f"p = {wrong:g}: must be greater than 0 and less than {self.saturation:g}")
+        gradient = np.stack([np.ones_like(probit), probit])
+        half = quantile * np.sqrt(np.einsum("ik,ij,jk->k", gradient, self.covariance, gradient))
+        level = self.theta * np.exp(self.beta * probit)
+        return shaped(level * np.exp(-half), values), shaped(level * np.exp(half), values)
+
     def parameter_interval(self, *, confidence: float = 0.95) -> dict[str, Interval]:
         """Confidence intervals of theta and beta.
 
@@ -365,6 +422,13 @@ class Fragility(Shown, Saved):
         self._need_fit()
         if not self.has_errors:
             raise DondoloError(f"no standard errors: {_WHY[self.errors]}")
+
+    def _probits(self, p: ArrayLike) -> tuple[FloatArray, FloatArray]:
+        """Probabilities as an array, and flat the normal quantiles of their shares of the saturation."""
+        from scipy.special import ndtri
+
+        values = as_probabilities("p", p)
+        return values, ndtri(np.minimum(values.ravel() / self.saturation, 1.0))
 
     def _quantile(self, level: float) -> float:
         """Quantile of Student's t for an interval."""

@@ -20,6 +20,7 @@ from dondolo.analysis.stripe_runs import multiple_stripe
 from dondolo.analysis.stripes import States, Stripes
 from dondolo.checks.ntc import CodeCheck, check_dynamic, check_ntc
 from dondolo.curves.fragility import Fragility
+from dondolo.errors import silent
 from dondolo.populations.study import typology
 from dondolo.populations.typology import Typology
 from dondolo.records.codes import Site
@@ -132,7 +133,9 @@ class Case(Shown):
         """The check of the wall, its histories by one stripe more."""
         if self.site is None:
             return None
-        check = check_ntc(self.population[0], self.site, confidence=self.confidence, behaviour=self.behaviour)
+        # The stripes have said what the wall looks like.
+        with silent():
+            check = check_ntc(self.population[0], self.site, confidence=self.confidence, behaviour=self.behaviour)
         return check_dynamic(check, self.records, polarity=self.polarity, solver=solver)  # type: ignore[arg-type]
 
 

@@ -8,7 +8,7 @@ from typing import Any
 from dondolo._fortran.checks import SheetRow
 from dondolo._storage.run_file import RunFile
 from dondolo.checks.ntc import CodeCheck, check_ntc
-from dondolo.errors import InputError
+from dondolo.errors import InputError, silent
 from dondolo.exchange.result_file import ResultFile
 from dondolo.records.codes import Site
 from dondolo.walls.wall import Wall
@@ -28,7 +28,9 @@ def kinematic_checks(walls: Iterable[Wall], run: RunFile) -> tuple[CodeCheck | N
     checks: list[CodeCheck | None] = []
     for wall in walls:
         try:
-            checks.append(check_ntc(wall, site, **factors))
+            # The file of the run has its warnings.
+            with silent():
+                checks.append(check_ntc(wall, site, **factors))
         except InputError:
             checks.append(None)
     return tuple(checks)

@@ -37,7 +37,8 @@ def write_workbook(prefix: str | os.PathLike[str], path: str | os.PathLike[str])
     Raises
     ------
     InputError
-        The tables are not those of a run; one has more rows than a sheet; another file has the name of the workbook.
+        Another suffix; the tables are not those of a run; one has more rows than a sheet; another file has the name of
+        the workbook.
     DondoloError
         openpyxl is not installed; the workbook cannot be written.
     """
@@ -47,7 +48,7 @@ def write_workbook(prefix: str | os.PathLike[str], path: str | os.PathLike[str])
         raise DondoloError(
             "openpyxl is not installed: pip install 'dondolo[spreadsheets]'; spreadsheets open the CSV files too"
         ) from None
-    target = as_file("path", path)
+    target = as_file("path", path, ".xlsx")
     if target.exists() and not _is_ours(target):
         raise InputError(f"{target}: exists, and is no workbook of dondolo")
     run = read_run_file(os.fspath(prefix) + RUN_FILE)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from dondolo._base.arguments import FloatArray, as_count
 from dondolo._fortran import _core
-from dondolo._fortran.library import Stoppable, receive
+from dondolo._fortran.library import Stoppable, available_threads, receive
 from dondolo.analysis.request import Request, progress_bar
 from dondolo.errors import DondoloError, InputError
 from dondolo.populations.store import Contents, Store
@@ -119,7 +119,7 @@ def _run_rest(
     complete = store.complete()
     sizes = np.array(request.totals(histories), dtype=np.int64)
     seconds = _SECONDS_HERE if executor is None else _SECONDS_THERE
-    blocks = Blocks(sizes, complete, request.threads or _all_threads(), block, seconds)
+    blocks = Blocks(sizes, complete, request.threads or available_threads(), block, seconds)
     shared = Shared(replace(request, walls=()), states)
 
     def parts_here() -> Iterator[tuple[int, int, Part]]:
@@ -193,12 +193,6 @@ class Blocks:
         histories = int(self._ends[first + count - 1] - (self._ends[first - 1] if first else 0))
         wished = histories * self._seconds / max(seconds, 1e-6)
         self._size = min(max(wished, 0.25 * self._size), 4.0 * self._size, self._most)
-
-
-def _all_threads() -> int:
-    """How many threads OpenMP will take, for the size of the first blocks."""
-    asked = os.environ.get("OMP_NUM_THREADS", "").split(",")[0].strip()
-    return int(asked) if asked.isdigit() and int(asked) else os.cpu_count() or 1
 
 
 def _check(executor: Executor | None, block: int | None) -> None:

@@ -30,6 +30,7 @@ from dondolo.populations.curve import PopulationCurve
 from dondolo.populations.study import typology
 from dondolo.populations.typology import Typology
 from dondolo.records.record import Record
+from dondolo.records.record_set import lasting
 from dondolo.walls.distributions import Distribution, Uniform, no_distribution
 from dondolo.walls.population import Population
 from dondolo.walls.sampling import draw, in_words, make_walls
@@ -294,7 +295,7 @@ def uncertain_wall(
         [[float(known[what].ppf(np.array([q]))[0]) for q in (_ENDS[0], _MIDDLE, _ENDS[1])] for what in known]
     )
     people = _variants(wall, known, draw(n, seed, known, {}), values)
-    several = records if isinstance(records, Mapping) else list(_listed(records))
+    several = lasting(records)
     found = typology(
         people,
         several,
@@ -319,11 +320,6 @@ def uncertain_wall(
             progress=False,
         )
     return _result(known, values, found, _numbers(middle))
-
-
-def _listed(records: Record | Iterable[Record]) -> Iterable[Record]:
-    """Records one by one: they are needed twice."""
-    return (records,) if isinstance(records, Record) else records
 
 
 def _distributions(wall: Wall, sources: Any) -> dict[str, Distribution]:

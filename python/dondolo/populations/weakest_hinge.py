@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -11,14 +11,15 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, increasing, instance_of
 from dondolo._base.shown import Shown
+from dondolo._fortran.library import warn
 from dondolo._fortran.records import blank_unit
-from dondolo._fortran.walls import describe_wall
+from dondolo._fortran.walls import WALL_PROPERTIES, describe_wall
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.request import Polarity
 from dondolo.analysis.solver import Solver
 from dondolo.curves.fragility import Fragility
-from dondolo.errors import DondoloError
+from dondolo.errors import DondoloError, DondoloWarning
 from dondolo.populations.study import typology
 from dondolo.populations.typology import Typology
 from dondolo.records.record import Record
@@ -123,7 +124,7 @@ class HingeSearch(Shown, Saved):
 
 def weakest_hinge(
     wall: TwoBlockWall,
-    records: Record | Iterable[Record],
+    records: Record | Iterable[Record] | Mapping[float, Record | Iterable[Record]],
     levels: ArrayLike,
     *,
     hinges: ArrayLike = _HEIGHTS,
@@ -157,6 +158,11 @@ def weakest_hinge(
         A height that the wall cannot have, and what `typology` refuses.
     DondoloError
         No height has a curve, or one without may be the weakest: the levels do not reach its median.
+
+    Warns
+    -----
+    DondoloWarning
+        What `typology` warns of; the lowest median is at an end of the heights, beyond which it may fall further.
 
     Notes
     -----
@@ -198,4 +204,19 @@ def weakest_hinge(
                 f"hinge at {height:g}: may be weaker than all others, but has no curve (status '{curve.status}'):"
                 " choose other levels"
             )
+    warn(_warnings(result))
     return result
+
+
+def _warnings(result: HingeSearch) -> list[DondoloWarning]:
+    """Whether medians still fall at the end where the lowest is, unless a wall can have no hinge beyond."""
+    known = np.flatnonzero(np.isfinite(result.thetas))
+    (limits,) = (row for row in WALL_PROPERTIES if row.name == "hinge")
+    for end, limit, side in ((0, limits.smallest, "lower"), (-1, limits.largest, "higher")):
+        height = float(result.hinges[end])
+        if len(known) > 1 and height == result.hinge and height != limit:
+            sentence = (
+                f"the hinge that collapses first is at an end of the range, {height:g}: {side} ones may be weaker"
+            )
+            return [DondoloWarning(sentence, "hinge_at_end", {"wall": result.wall.name}, {"hinge": height})]
+    return []

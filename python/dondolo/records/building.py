@@ -115,7 +115,7 @@ class Building:
         ax : Axes, optional
             Where to draw; a new figure if left out.
         records : iterable of Record
-            Motions of the ground.
+            Motions of the ground; the records of a `RecordSet` are taken times their factors.
         periods : array_like, optional
             [s]; 100 from 0.05 to 4 s if left out.
         damping : float
@@ -130,8 +130,9 @@ class Building:
             are dotted.
         """
         from dondolo.records.plots import draw_floor
+        from dondolo.records.record_set import scaled_records
 
-        return draw_floor(self, tuple(records), periods, damping, ax=ax, site=site)
+        return draw_floor(self, scaled_records(records), periods, damping, ax=ax, site=site)
 
     def _facts(self) -> list[tuple[str, str]]:
         """What a reader wants to know, name and text."""

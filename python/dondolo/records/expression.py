@@ -88,10 +88,18 @@ def evaluate(expression: str, column: Callable[[str], NDArray[Any]], length: int
                     one = other
                 else:
                     return held
-        raise InputError(f"expression = {expression!r}: cannot be read: {ast.unparse(node)}")
+        text = ast.unparse(node)
+        hint = f": a name that is none in Python must stand between backticks, `{text}`"
+        raise InputError(
+            f"expression = {expression!r}: cannot be read: {text}{hint if isinstance(node, ast.Call) else ''}"
+        )
 
     def condition(node: ast.expr) -> NDArray[np.bool_]:
-        found = np.asarray(value(node))
+        found = value(node)
+        if isinstance(found, list):
+            text = "commas make a list, decimals have a point"
+            raise InputError(f"expression = {expression!r}: is no condition on the records: {text}")
+        found = np.asarray(found)
         if found.dtype != bool or found.shape != (length,):
             raise InputError(f"expression = {expression!r}: {ast.unparse(node)} is no condition on the records")
         return found
@@ -102,5 +110,10 @@ def evaluate(expression: str, column: Callable[[str], NDArray[Any]], length: int
             return condition(tree.body)
     except SyntaxError:
         raise InputError(f"expression = {expression!r}: cannot be read") from None
-    except (TypeError, ValueError, OverflowError, RecursionError, MemoryError) as error:
-        raise InputError(f"expression = {expression!r}: {error}") from None
+    except InputError:
+        raise
+    except (RecursionError, MemoryError):
+        raise InputError(f"expression = {expression!r}: is too long") from None
+    except (TypeError, ValueError, OverflowError):
+        text = "combines what does not go together, such as numbers with texts or lists"
+        raise InputError(f"expression = {expression!r}: {text}") from None

@@ -9,6 +9,7 @@ from dondolo._base.arguments import as_measures
 from dondolo._fortran.records import describe_measure
 from dondolo._storage import tables
 from dondolo.records.record import Record, as_records
+from dondolo.records.record_set import factors_of
 from dondolo.records.suite import intensities
 
 # What a table of records shows unless told otherwise
@@ -23,7 +24,7 @@ def intensity_table(
     Parameters
     ----------
     records : Record or iterable of Record
-        The accelerograms.
+        The accelerograms. Measures are those of the records of a `RecordSet` times their factors.
     ims : str or iterable of str
         Intensity measures, as for `Record.intensity`.
     gravity : float, optional
@@ -38,11 +39,19 @@ def intensity_table(
     Raises
     ------
     InputError
-        No records, or no such measure.
+        No records, or no such measure; a row of a set with a level and no factor.
     """
+    factors = factors_of(records)
     several = as_records(records)
+    # A record may have several rows, and a suite must not hold it twice.
+    each = tuple(dict.fromkeys(several))
+    place = {id(record): i for i, record in enumerate(each)}
+    rows = [place[id(record)] for record in several]
     table: dict[str, Any] = {"record": [record.name for record in several]}
     for im in as_measures(ims):
         measure = describe_measure(im, of_record=True)
-        table[f"{measure.name} [{measure.unit}]"] = intensities(several, im, gravity)
+        values = intensities(each, im, gravity)[rows]
+        if factors is not None:
+            values = values * factors**measure.power
+        table[f"{measure.name} [{measure.unit}]"] = values
     return tables.frame(table)

@@ -134,8 +134,6 @@ def trim(record: Motion, low: float, high: float, before: float, after: float) -
     low, high, before, after = (
         as_number(*pair) for pair in (("low", low), ("high", high), ("before", before), ("after", after))
     )
-    if not 0.0 <= low < high <= 1.0:
-        raise InputError(f"low = {low:g}, high = {high:g}: must increase, between 0 and 1")
     for what, margin in (("before", before), ("after", after)):
         if not 0.0 <= margin < np.inf:
             raise InputError(f"{what} = {margin:g} s: must not be negative")

@@ -600,7 +600,8 @@ def as_records(records: Record | Iterable[Record]) -> tuple[Record, ...]:
     if isinstance(records, Record):
         records = (records,)
     if not isinstance(records, Iterable):
-        raise InputError(f"records: {type(records).__name__} is no record")
+        hint = ": must be given as its attribute records" if hasattr(records, "records") else ""
+        raise InputError(f"records: {type(records).__name__} is no record{hint}")
     several = tuple(records)
     if not several:
         raise InputError("records: must be given")

@@ -60,9 +60,9 @@ class RecordSet(Shown, Saved):
     records : Record or iterable of Record
         The record of each row.
     level : float or array_like, shape (rows,), optional
-        Level of intensity at which each row runs; NaN: every level.
+        Level of intensity at which each row runs; NaN: every level. Those of `records` if left out.
     factor : float or array_like, shape (rows,), optional
-        Factor on each record, positive; NaN: computed from the intensity measure.
+        Factor on each record, positive; NaN: computed from the intensity measure. Those of `records` if left out.
 
     Attributes
     ----------
@@ -73,6 +73,14 @@ class RecordSet(Shown, Saved):
     ------
     InputError
         No records; as many levels or factors as records are needed; values that are not positive.
+
+    Notes
+    -----
+    What takes records heeds the levels and factors of a set, or refuses them. Analyses at levels (`multiple_stripe`,
+    `typology`, `compare_designs` ...) run each row at its level, with its factor; factors without levels they refuse.
+    What has no levels (`cloud`, `intensity_table`, `Building.plot`) takes each record times its factor, and refuses a
+    row whose factor would follow from its level. What chooses levels or factors by itself (`compare_intensities`,
+    `select_records`, levels = 'auto') refuses both. The attribute `records` has the records as they stand.
 
     Examples
     --------
@@ -94,6 +102,9 @@ class RecordSet(Shown, Saved):
         factor: ArrayLike | None = None,
     ) -> None:
         several = as_records(records)
+        if isinstance(records, RecordSet):
+            level = records.level if level is None else level
+            factor = records.factor if factor is None else factor
         if len({record.name for record in several}) < len(several):
             # A record with several rows is one object, also where it comes from a file.
             known: dict[tuple[str, float, bytes, bytes], Record] = {}
@@ -374,7 +385,10 @@ def records_at_levels(
             raise InputError("levels: must be given")
         return as_records(records), as_array("levels", levels).copy(), None
     if records.level is None:
-        raise InputError("records: have factors and no levels: must be given as {level: records}")
+        raise InputError(
+            "records: have factors and no levels: must be given as {level: records}, or without factors (the attribute"
+            " records of the set)"
+        )
     each = tuple(dict.fromkeys(records.records))
     place = {id(record): i + 1 for i, record in enumerate(each)}
     level = np.nan_to_num(records.level, nan=0.0)
@@ -385,6 +399,53 @@ def records_at_levels(
             raise InputError("levels: must be given")
     number = np.array([place[id(record)] for record in records.records], dtype=np.int32)
     return each, as_array("levels", levels).copy(), LevelRows(number, level, factor)
+
+
+def scaled_records(records: Record | Iterable[Record]) -> tuple[Record, ...]:
+    """What an analysis without levels takes for records: those of a set times their factors, one for each row."""
+    factors = factors_of(records)
+    several = as_records(records)
+    if factors is None:
+        return several
+    found: dict[tuple[int, float], Record] = {}
+    for record, factor in zip(several, factors.tolist(), strict=True):
+        if (id(record), factor) not in found:
+            found[id(record), factor] = record if factor == 1.0 else _times(record, factor)
+    return tuple(found[id(record), factor] for record, factor in zip(several, factors.tolist(), strict=True))
+
+
+def _times(record: Record, factor: float) -> Record:
+    """A record times a factor."""
+    upwards = None if record.vertical is None else factor * record.vertical
+    return record.processed(factor * record.acceleration, f"times {factor:.6g}", vertical=upwards)
+
+
+def factors_of(records: Any) -> FloatArray | None:
+    """Factors on the rows of a set where there are no levels to find them from; None for records as they stand."""
+    if not isinstance(records, RecordSet) or (records.level is None and records.factor is None):
+        return None
+    factor = np.full(len(records), np.nan) if records.factor is None else records.factor
+    level = np.full(len(records), np.nan) if records.level is None else records.level
+    unknown = np.isnan(factor) & ~np.isnan(level)
+    if unknown.any():
+        raise InputError(
+            f"records: '{records[int(np.argmax(unknown))].name}' has a level and no factor: must have a factor, or no"
+            " level (the attribute records of the set)"
+        )
+    return np.nan_to_num(factor, nan=1.0)
+
+
+def plain_records(records: Any) -> tuple[Record, ...]:
+    """What chooses levels or factors by itself takes for records: no set that has them."""
+    for what in ("level", "factor"):
+        if isinstance(records, RecordSet) and getattr(records, what) is not None:
+            raise InputError(f"records: have {what}s of their own: must be without (the attribute records of the set)")
+    return as_records(records)
+
+
+def lasting(records: Any) -> Any:
+    """Records that are taken more than once: sets and mappings as they are, all others as a tuple."""
+    return records if isinstance(records, (Mapping, RecordSet)) else as_records(records)
 
 
 def _positive(name: str, given: ArrayLike, length: int) -> FloatArray:

@@ -29,7 +29,7 @@ from dondolo._base.shown import Shown
 from dondolo._storage.saved import Saved
 from dondolo.errors import InputError
 from dondolo.records.record import Record
-from dondolo.records.record_set import RecordSet
+from dondolo.records.record_set import RecordSet, plain_records
 from dondolo.records.target import TargetSpectrum
 
 if TYPE_CHECKING:
@@ -135,7 +135,7 @@ def select_records(
     Parameters
     ----------
     records : iterable of Record
-        The records to select from.
+        The records to select from, without factors.
     target : TargetSpectrum
         Of a code (`ntc_spectrum`, `ec8_spectrum`), of a ground motion model with its dispersion, or conditional on an
         ordinate (`TargetSpectrum.conditional`).
@@ -155,7 +155,8 @@ def select_records(
     Raises
     ------
     InputError
-        Fewer records than are asked for can be scaled to the target; arguments out of range; a record without motion.
+        Fewer records than are asked for can be scaled to the target; arguments out of range; a record without motion;
+        records with levels or factors of their own.
 
     Notes
     -----
@@ -172,7 +173,7 @@ def select_records(
     """
     if not isinstance(target, TargetSpectrum):
         raise InputError(f"target: {type(target).__name__} is no TargetSpectrum")
-    several = tuple(dict.fromkeys(RecordSet(records).records))
+    several = tuple(dict.fromkeys(RecordSet(plain_records(records)).records))
     places = as_count("count", count, 1, len(several))
     if weight is None:
         weight = 1.0 if target.covariance.any() else 0.1

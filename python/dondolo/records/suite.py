@@ -175,6 +175,9 @@ def velocity(record: Motion) -> FloatArray:
 
 def significant_times(record: Motion, low: float, high: float) -> tuple[float, float]:
     """Times at which Arias' integral reaches two parts of its end value [s]; 0 and 1: where motion begins and ends."""
+    low, high = as_number("low", low), as_number("high", high)
+    if not 0.0 <= low < high <= 1.0:
+        raise InputError(f"low = {low:g}, high = {high:g}: must increase, between 0 and 1")
     suite, place = place_of(record)
     (first, last), stat, message = _core.records.significant_times(suite.number, place, low, high)
     check(stat, message)

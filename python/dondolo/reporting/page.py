@@ -10,7 +10,7 @@ from importlib import resources
 from typing import TYPE_CHECKING, Any
 
 from dondolo._base.arguments import instance_of
-from dondolo._base.files import check_replaced
+from dondolo._base.files import as_file, check_replaced
 from dondolo._fortran.library import as_text, constants
 from dondolo._fortran.records import blank_unit
 from dondolo._storage import tables
@@ -66,8 +66,8 @@ def report(
         What `read_results`, `run_case`, `typology`, `uncertain_wall`, `multiple_stripe` or `simulate`
         gave. Files know most of a run.
     path : path
-        The file; its folder must exist. One that ends in ``.pdf`` is printed by Chromium or WeasyPrint. An earlier
-        report is replaced, any other file is not.
+        The file, ``*.html``, ``*.htm`` or ``*.pdf``; its folder must exist. PDF is printed by Chromium or WeasyPrint.
+        An earlier report is replaced, any other file is not.
     hazard : HazardCurve, optional
         Of the site: adds the annual frequency of collapse with its bounds and deaggregation.
     check : CodeCheck, optional
@@ -78,7 +78,8 @@ def report(
     Raises
     ------
     InputError
-        Nothing that a report can be made of; a hazard curve of another intensity measure; a file that is no report.
+        Nothing that a report can be made of; a hazard curve of another intensity measure; another suffix; a file that
+        is no report.
     DondoloError
         The file cannot be written; with a hazard curve, there is no fragility curve; for PDF, neither Chromium nor
         WeasyPrint is here.
@@ -96,6 +97,7 @@ def report(
     """
     import matplotlib.pyplot as plt
 
+    target = as_file("path", path, ".html", ".htm", ".pdf")
     check_replaced(path, _GENERATOR, "report")
     run = run_of(results)
     if title is not None:
@@ -121,7 +123,7 @@ def report(
         version=version,
         made=date_in_words(datetime.now().astimezone()),
     )
-    if os.fspath(path).lower().endswith(".pdf"):
+    if target.suffix.lower() == ".pdf":
         write_pdf(path, text, f"{_GENERATOR} {version}")
     else:
         tables.write_lines(path, [text.rstrip("\n")])

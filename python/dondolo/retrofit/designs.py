@@ -21,9 +21,10 @@ from dondolo.analysis.stripes import Stripes
 from dondolo.checks.ntc import CodeCheck, check_ntc
 from dondolo.curves.comparison import Comparison, compare
 from dondolo.curves.fragility import Fragility
-from dondolo.errors import InputError
+from dondolo.errors import InputError, silent
 from dondolo.records.codes import Site
-from dondolo.records.record import Record, as_records
+from dondolo.records.record import Record
+from dondolo.records.record_set import lasting
 from dondolo.walls.wall import Wall
 
 if TYPE_CHECKING:
@@ -163,7 +164,7 @@ class DesignComparison(Shown, Saved):
 
 def compare_designs(
     designs: Mapping[str, Wall],
-    records: Record | Iterable[Record],
+    records: Record | Iterable[Record] | Mapping[float, Record | Iterable[Record]],
     levels: ArrayLike | Mapping[str, ArrayLike],
     *,
     steel: Mapping[str, float] | None = None,
@@ -184,8 +185,8 @@ def compare_designs(
     ----------
     designs : mapping of str to Wall
         The wall in each design; the first is what the others are compared with, as a rule the wall as it stands.
-    records : Record or iterable of Record
-        The accelerograms.
+    records : Record, iterable of Record, RecordSet, or mapping of float to these
+        The accelerograms, as for `multiple_stripe`.
     levels : array_like, or mapping of str to array_like
         Levels of intensity, as for `multiple_stripe`, for all designs or for each.
     steel : mapping of str to float, optional
@@ -226,10 +227,12 @@ def compare_designs(
         raise InputError("designs: must be a mapping of names to walls, at least one")
     names = tuple(str(name) for name in designs)
     walls = [instance_of(f"designs[{name!r}]", wall, Wall, "no wall") for name, wall in designs.items()]
-    several = as_records(records)
+    several = lasting(records)
     tails(confidence)
     masses = _masses(designs, steel)
-    checks = () if site is None else tuple(check_ntc(wall, site) for wall in walls)
+    # The stripes say what a wall looks like.
+    with silent():
+        checks = () if site is None else tuple(check_ntc(wall, site) for wall in walls)
     grids = [levels[name] if isinstance(levels, Mapping) else levels for name in _known(designs, levels, "levels")]
     stripes = tuple(
         multiple_stripe(

@@ -5,9 +5,9 @@ H(x) = H_j (x/x_j)^-k_j. Nothing is known beyond the levels.
 
 Power laws have an integral with a fragility in closed form, and kinks. True curves bend down on these axes, so that the
 straight lines lie below them: of H = k0 x^-(2.5 + 0.2 ln x) they lose 4, 2.0, 0.5 and 0.1 % of the annual frequency of
-collapse with levels that are 3, 2.2, 1.5 and 1.2 times the one before. Figures show, and `HazardCurve.smoothed` gives,
+collapse with levels that are 3, 2.2, 1.5 and 1.2 times the one before. `HazardCurve.smoothed` gives
 the monotone cubic through the same points, Fritsch and Butland's (`scipy.interpolate.PchipInterpolator`), whose errors
-are 0.1, 0.02, 0.001 and 0.000 % there. What is integrated is the curve that is given.
+are 0.1, 0.02, 0.001 and 0.000 % there. What is integrated and drawn is the curve that is given.
 
 Fractiles
     The hazard of a site is uncertain, and published as a mean with fractiles: in a share q of what may be true the
@@ -378,8 +378,8 @@ class HazardCurve(Shown, Saved):
         Returns
         -------
         Axes
-            Annual frequency of exceedance against intensity: the mean with its levels and the fractiles, smoothed as
-            `smoothed`, and return periods at the right.
+            Annual frequency of exceedance against intensity: the mean with its levels and the fractiles, power laws
+            between them, and return periods at the right.
         """
         from dondolo.risk.plots import draw_hazard
 

@@ -68,12 +68,13 @@ def _inverse(value: ArrayLike) -> ArrayLike:
 
 
 def _hazard(ax: Axes, hazard: HazardCurve, x: FloatArray) -> None:
-    """The mean, its points, and the fractiles."""
-    smooth = hazard.smoothed()
-    ax.plot(x, smooth(x), color=style.BLACK, label="mean" if hazard.fractiles else None)
+    """The mean, its points, and the fractiles; intensities are those at which an endless one is drawn."""
     if not hazard.endless:
-        ax.plot(hazard.levels, hazard.annual_frequency, linestyle="none", marker="o", markersize=4, color="black")
-    for (q, fractile), line in zip(smooth._curves().items(), _lines(), strict=False):
+        # Its kinks; between them power laws are straight lines on these axes.
+        x = hazard.levels
+        ax.plot(x, hazard.annual_frequency, linestyle="none", marker="o", markersize=4, color="black")
+    ax.plot(x, hazard(x), color=style.BLACK, label="mean" if hazard.fractiles else None)
+    for (q, fractile), line in zip(hazard._curves().items(), _lines(), strict=False):
         ax.plot(fractile.levels, fractile.annual_frequency, color=style.GREY, linestyle=line, label=f"fractile {q:g}")
     if hazard.fractiles:
         style.legend(ax, loc="lower left")

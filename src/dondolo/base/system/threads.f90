@@ -25,7 +25,7 @@ contains
       team_of = max(1, min(team_of, pieces))
    end function team_of
 
-   !> Threads that OpenMP gives, which honours OMP_NUM_THREADS
+   !> Threads that OpenMP gives, which honours OMP_NUM_THREADS and the processors of the process
    integer function available_threads()
 
       available_threads = min(omp_get_max_threads(), largest_threads)
