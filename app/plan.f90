@@ -19,7 +19,6 @@ module dondolo_plan
    use dondolo_run_case, only : plan_case
    use dondolo_store, only : store_type
    use dondolo_text, only : counted, rounded, to_text
-   use dondolo_wall, only : wall_type
    use dondolo_warning, only : warnings_type
    use dondolo_warning_sentence, only : warning_sentences
    use dondolo_warnings, only : scale_warning_type, warn_of_records
