@@ -33,5 +33,13 @@ def draw_check(check: CodeCheck, curve: Fragility, ax: Axes | None) -> Axes:
         ax.axvline(level, label=f"{name} {level:.3g} g, P = {chance:.2g}", zorder=1, **look)
         ax.plot(level, chance, marker="x", markersize=6, color=look["color"], zorder=4)
     ax.set_xlim(0.0, right)
-    style.legend(ax, loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=2)
+    style.legend(
+        ax,
+        loc="upper center",
+        bbox_to_anchor=(0.5, -0.15),
+        ncols=2,
+        columnspacing=0.8,
+        handlelength=1.5,
+        handletextpad=0.4,
+    )
     return ax
