@@ -397,6 +397,15 @@ def test_long_tables_are_cut_and_say_so():
     assert f"First {content.ROWS} of {content.ROWS + 7} rows" in page.text
 
 
+def test_tables_fit_printed_pages():
+    """Wide ones have small letters, short ones stay on one page."""
+    table = _environment().get_template("macros.html.j2").module.table
+    for columns, rows, wide, short in ((11, 15, False, False), (12, 14, True, True)):
+        shown = table(content.Table.of({f"{i}": ["x"] * rows for i in range(columns)}), "Caption.")
+        assert ('<table class="wide">' in shown) == wide
+        assert ('class="scroll short"' in shown) == short
+
+
 def test_numbers_are_shown_as_people_write_them():
     def plain(numeral):
         return numeral.text + (f" \N{MULTIPLICATION SIGN} 10{numeral.power}" if numeral.power else "") + numeral.unit
