@@ -40,13 +40,14 @@ contains
       end do
       if (sheet%value('site', 'SLV', 'probability') >= 0.0_wp) write (output_unit, '(a)') 'probability of collapse at a_g S = '// &
          & rounded(sheet%value('site', 'SLV', 'pga'))//' g: '//trim(chance(sheet%value('site', 'SLV', 'probability')))// &
-         & '; P(collapse) above is that at what the wall stands by each formula'
+         & '; P(collapse) above is that at what the wall withstands by each formula'
       if (sheet%value('dynamic', 'SLV', 'histories') > 0.0_wp) then
          write (output_unit, '(a)') 'note: NTC 2018, 3.2.3.6 asks for records that are compatible with the spectrum of the '// &
             & 'site, which is not checked'
       end if
       if (sheet%value('site', 'SLD', 'pga') >= sheet%value('site', 'SLC', 'pga')) then
-         write (output_unit, '(a)') 'note: one hazard is given for all limit states; the code has less for SLD, and more for SLC'
+         write (output_unit, '(a)') 'note: one hazard is given for all limit states; that of the code '// &
+            & 'is lower for SLD, and higher for SLC'
       end if
       write (output_unit, '(a)') ''
 

@@ -2,7 +2,6 @@
 module dondolo_union_lines
    use, intrinsic :: iso_fortran_env, only : output_unit
    use dondolo_case, only : case_type
-   use dondolo_check_input, only : state_names
    use dondolo_check_lines, only : chance
    use dondolo_check_rows, only : check_methods, check_states, shown_verdicts
    use dondolo_fit_lines, only : bar, fractiles, make_head, print_fit

@@ -414,7 +414,8 @@ histories, as here. Degrees of freedom from the kurtosis of the changes r_g, abo
 7 % wider and gained up to one per cent of coverage.
 
 **None at all.** With fewer than three clusters, or if one alone determines the curve, `errors` gives the reason and
-there are no standard errors.
+there are no standard errors. A population of two walls has none either: two are too few to tell how much walls differ.
+One wall is a wall like any other, of which the records alone are a sample.
 
 **Populations.** All walls share the records, and the walls are a sample too. The covariance of a typological curve is
 the sum of that by clusters of records and that by walls, with degrees of freedom after Satterthwaite; what belongs to

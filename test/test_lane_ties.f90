@@ -4,7 +4,6 @@ program test_lane_ties
    use dondolo_ensemble, only : check_engine
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
    use dondolo_record, only : record_type
    use dondolo_response, only : response_type
    use dondolo_rk45, only : simulate_rk45

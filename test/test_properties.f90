@@ -3,7 +3,7 @@
 program test_properties
    use dondolo_check_group, only : read_check_group
    use dondolo_check_input, only : check_input_type, check_properties, put_check
-   use checks, only : check, check_close, check_error, check_ok, check_text, finish, suite
+   use checks, only : check, check_close, check_error, check_ok, finish, suite
    use dondolo_echo, only : echo_type
    use dondolo_error, only : error_type
    use dondolo_history_group, only : history_input_type, read_history_group

@@ -10,7 +10,6 @@ program test_reference
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_record, only : record_type
-   use dondolo_simulate, only : simulate
    use dondolo_response, only : response_type
    use dondolo_solver, only : solver_type
    use dondolo_stripes, only : stripes_type

@@ -7,7 +7,6 @@ module tied_history
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_random, only : new_random, random_type
-   use dondolo_record, only : record_type
    use dondolo_response, only : response_type, tie_response_type, trace_type
    use dondolo_rk45, only : simulate_rk45
    use dondolo_solver, only : solver_type

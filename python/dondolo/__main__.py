@@ -246,7 +246,10 @@ def _plot_run(prefix: str, kind: str, animate: bool) -> None:
 
 def _film(path: str, motion: dd.Response) -> None:
     """Write an animation of a motion; one that is long is shown faster, so that the film does not take minutes."""
-    span = 0.0 if motion.time is None else float(motion.time[-1] - motion.time[0])
+    from dondolo.analysis.film import film_span
+
+    first, last = film_span(motion)
+    span = last - first
     speed = max(1.0, span / _FILM)
     animation = motion.animate(frames_per_second=_FRAMES, speed=speed)
     with whole_file(path) as part, progress_bar(int(span / speed * _FRAMES) + 1, True, "animation", "frame") as bar:

@@ -26,9 +26,7 @@ class DondoloError(Exception):
     def __str__(self) -> str:
         lines = super().__str__().split("\n")
         shown = (line if len(line) <= _LONGEST else f"{line[:1500]} ... {line[-400:]}" for line in lines)
-        return "\n".join(
-            "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in line) for line in shown
-        )
+        return "\n".join("".join(map(_visible, line)) for line in shown)
 
 
 class InputError(DondoloError, ValueError):

@@ -2,6 +2,7 @@
 
 import csv
 import json
+import re
 import subprocess
 import sys
 from dataclasses import replace
@@ -178,6 +179,14 @@ def test_outcomes_that_the_last_digit_decides(wall, records):
     assert high == theta
     counts = told.collapses + np.array([0, 1, 0])
     assert low == dd.fit_fragility(told.levels, counts, told.histories, im="pga").theta < theta
+
+
+def test_the_example_of_the_page_has_bounds(root, capsys):
+    text = (root / "docs/certification.md").read_text()
+    names = {}
+    exec(re.search(r"```python\n(.*?)```", text, re.S).group(1), names)
+    assert np.isfinite(names["stripes"].theta_bounds).all()
+    assert str(names["stripes"].theta_bounds) in capsys.readouterr().out
 
 
 def test_refusals(wall, few):

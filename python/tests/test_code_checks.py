@@ -139,7 +139,7 @@ def test_lines_on_the_curve(stripes, tmp_path):
     assert chances["nonlinear", "SLV"] == curve(check.capacities["nonlinear", "SLV"])
     ax = check.plot(curve=curve)
     labels = [text.get_text() for text in ax.get_legend().get_texts()]
-    assert sum("stands: " in label for label in labels) == 4
+    assert sum("withstands " in label for label in labels) == 4
     other = dd.fit_fragility([0.2, 0.4, 0.6], [1, 5, 9], 10, im="pgv")
     with pytest.raises(dd.InputError, match="its measure is 'pgv'"):
         check.probabilities(other)

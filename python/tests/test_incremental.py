@@ -235,8 +235,8 @@ def test_figure(stripes):
         assert line.get_ydata()[-1] == (first if np.isfinite(first) else LEVELS[-1])
         assert line.get_xdata()[-2] < 1.0
     texts = [text.get_text() for text in ax.get_legend().get_texts()]
-    assert "50 % fractile" in texts
-    bold = next(line for line in lines if line.get_label() == "50 % fractile")
+    assert "50 % fractile of the EDP" in texts
+    bold = next(line for line in lines if line.get_label() == "50 % fractile of the EDP")
     alive = np.isfinite(ida.edp_fractiles[1])
     np.testing.assert_array_equal(bold.get_xdata()[1 : 1 + alive.sum()], ida.edp_fractiles[1][alive])
     circles = next(line for line in lines if "survive above" in str(line.get_label()))

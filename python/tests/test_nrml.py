@@ -326,7 +326,7 @@ def test_without_a_fit(path, tmp_path):
 
 def test_probabilities():
     for levels, p, sentence in (
-        ([0.1], [0.1], "levels: must be two at least"),
+        ([0.1], [0.1], "levels: must be at least two"),
         ([0.2, 0.1], [0.1, 0.2], "levels = 0.2, 0.1: must increase strictly"),
         ([0.0, 0.1], [0.1, 0.2], "levels = 0: must be positive"),
         ([0.1, 0.2], [0.1], "2 levels, 1 probabilities"),

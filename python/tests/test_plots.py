@@ -12,6 +12,7 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
+from dondolo.analysis.film import film_span
 from dondolo.figures.layout import lay_out
 from dondolo.walls.shape import shape
 from matplotlib.axes import Axes
@@ -252,6 +253,34 @@ def test_what_a_wall_carries_is_drawn_with_its_value():
         assert at[0] == pytest.approx(place, abs=1e-6)
 
 
+def test_ties_are_told_with_what_is_usual():
+    wall = dd.OneSidedWall(9.0, 0.5, tie_height=[4.5, 8.0], tie_area=[5e-5, 1e-4], tie_length=8.0, tie_anchor_force=6e3)
+    usual = {"tie_modulus": 2.06e11, "tie_strength": 1.8e8, "tie_preload": 0.0, "tie_strain": 0.02, "tie_depth": 0.0}
+    assert wall.tie_modulus is None
+    given = replace(wall, **usual)
+    assert repr(wall) == repr(given)
+    assert "<td>5\N{MULTIPLICATION SIGN}10⁻⁵ 0.0001 m2/m</td>" in wall._repr_html_()
+    assert wall.greatest_acceleration == given.greatest_acceleration
+    assert "tie_modulus" not in repr(dd.OneSidedWall(9.0, 0.5))
+    ax = wall.plot(rotation=0.0)
+    (below,) = (text.get_text() for text in ax.texts if text.get_text().startswith("Ties"))
+    words = "Ties: length 8 m; modulus 206 GPa; yield stress 180 MPa; preload 0 MPa; breaks at a strain of 0.02; anchor"
+    assert below.replace("\n", " ") == f"{words} gives way at 6 kN/m"
+    # No label lies on another
+    ax.figure.draw_without_rendering()
+    boxes = {text.get_text(): text.get_window_extent() for text in ax.texts if text.get_text()}
+    for label in ("tie 0.5 cm²/m", "tie 1 cm²/m"):
+        assert not boxes[label].overlaps(boxes["transverse wall"])
+
+
+def test_friction_is_told_with_what_is_usual():
+    wall = dd.OneSidedWall(
+        6.0, 0.4, interlock_overlap=0.12, interlock_course=0.1, interlock_thickness=0.25, interlock_spacing=5.0
+    )
+    assert "interlock_friction=0.577" in repr(wall)
+    assert any("coefficient 0.577" in text.get_text() for text in wall.plot().texts)
+
+
 def test_one_block_turns_about_its_toe():
     wall = dd.FreeStandingWall(height=2.0, thickness=0.5)
     for q in (0.2, -0.2):
@@ -272,6 +301,37 @@ def test_wall_is_drawn_at_its_peak(motion):
 def test_one_sided_walls_do_not_turn_inwards(wall):
     with pytest.raises(dd.InputError, match="must not be negative"):
         wall.plot(rotation=-0.01)
+
+
+def test_a_wall_on_a_building_is_moved_by_its_floor(motion, records):
+    house = dd.Building(0.3, storeys=3, level=9.0, building_height=9.0)
+    above, _ = dd.simulate(dd.OneSidedWall(1.5, 0.25, building=house), records[0], 0.3).plot()
+    assert above.get_ylabel() == "floor\nacceleration [g]"
+    assert motion.plot()[0].get_ylabel() == "ground\nacceleration [g]"
+
+
+def test_a_film_shows_the_time_of_the_motion():
+    wall = dd.FreeStandingWall(0.5, 0.4)
+    quiet = np.zeros(500)
+    record = dd.Record(np.concatenate([quiet, 4.0 * np.sin(np.linspace(0.0, 2.0 * np.pi, 100)), quiet, quiet]), 0.01)
+    moved = dd.simulate(wall, record, 2.1)
+    moves = moved.time[moved.rotation != 0.0]
+    assert 5.0 < moves[0] < moves[-1] < 10.0
+    first, last = film_span(moved)
+    assert moves[0] - 0.55 < first < moves[0] - 0.45
+    assert moves[-1] + 0.95 < last < moves[-1] + 1.05
+    still = dd.simulate(wall, record, 1e-3)
+    assert film_span(still) == (still.time[0], still.time[-1])
+
+
+def test_a_frame_is_drawn_once(motion, tmp_path, monkeypatch):
+    animation = motion.animate(frames_per_second=2, speed=4.0)
+    figure, drawn = animation._fig, []
+    original = type(figure).draw
+    monkeypatch.setattr(type(figure), "draw", lambda self, renderer: drawn.append(self) or original(self, renderer))
+    animation.save(tmp_path / "motion.gif", writer="pillow")
+    with Image.open(tmp_path / "motion.gif") as film:
+        assert len(drawn) == film.n_frames > 3
 
 
 @pytest.mark.slow

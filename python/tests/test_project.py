@@ -125,6 +125,25 @@ def boundary(root):
     return [root / "python" / name for name in re.findall(r"'([^']+)'", listed)]
 
 
+def imported_in_vain(path):
+    """Names that a Fortran source imports and does not use; conditional lines of OpenMP and includes count."""
+    text = path.read_text()
+    text += "".join((path.parent / name).read_text() for name in set(re.findall(r'(?m)^#include "(.+)"', text)))
+    text = re.sub(r"&\s*\n\s*&?", " ", re.sub(r"(?m)(^|(?<=\s))!(?!\$).*$", "", text)).lower()
+    imports = re.findall(r"(?m)^ *use\b.*?\bonly *: *(.*)", text)
+    names = {item.split("=>")[0].strip() for one in imports for item in one.split(",") if "(" not in item}
+    # Kinds stand behind an underscore, as in 1.0_wp
+    used = re.findall(r"(?<![a-z])[a-z]\w*|(?<=\d_)[a-z]\w*", re.sub(r"(?m)^ *use\b.*", "", text))
+    return names - set(used)
+
+
+def test_fortran_imports(root):
+    places = ("src/**/*.[fF]90", "src/**/*.inc", "app/*.f90", "python/dondolo/_fortran/*.f90", "test/**/*.[fF]90")
+    paths = [path for place in places for path in root.glob(place)]
+    assert len(paths) > 200
+    assert {path.name: names for path in paths if (names := imported_in_vain(path))} == {}
+
+
 def test_argument_lists(root):
     """Not more than eight arguments, wherever the boundary of f2py does not ask for them."""
     counts = {}
@@ -277,6 +296,10 @@ def test_import_is_quick():
     assert min(float(own) for own, _ in runs) < 1.4
     # Every public name, with all that it needs
     assert min(float(whole) for _, whole in runs) < 2.5
+
+
+def test_pulses_offer_what_is_theirs():
+    assert dir(dd.pulses) == dd.pulses.__all__
 
 
 def test_names_are_loaded_when_they_are_used(tmp_path):

@@ -397,6 +397,15 @@ def test_long_tables_are_cut_and_say_so():
     assert f"First {content.ROWS} of {content.ROWS + 7} rows" in page.text
 
 
+def test_tables_fit_printed_pages():
+    """Wide ones have small letters, short ones stay on one page."""
+    table = _environment().get_template("macros.html.j2").module.table
+    for columns, rows, wide, short in ((11, 15, False, False), (12, 14, True, True)):
+        shown = table(content.Table.of({f"{i}": ["x"] * rows for i in range(columns)}), "Caption.")
+        assert ('<table class="wide">' in shown) == wide
+        assert ('class="scroll short"' in shown) == short
+
+
 def test_numbers_are_shown_as_people_write_them():
     def plain(numeral):
         return numeral.text + (f" \N{MULTIPLICATION SIGN} 10{numeral.power}" if numeral.power else "") + numeral.unit
@@ -524,6 +533,59 @@ def test_damage_states_that_cross_are_told(few, tmp_path):
 def test_no_state_is_said_to_cross(pages):
     for kind in KINDS:
         assert "states that cross" not in read(pages / f"{kind}.html").text
+
+
+def test_an_uncertain_wall_is_one_wall(few, tmp_path):
+    wall = dd.OneSidedWall(1.5, 0.25, name="parapet")
+    sources = {"restitution_factor": dd.Uniform(0.95, 1.0)}
+    found = dd.uncertain_wall(wall, few, [0.3, 0.5, 0.7, 0.9, 1.2], sources=sources, count=12, progress=False)
+    dd.report(found, tmp_path / "report.html")
+    page = read(tmp_path / "report.html")
+    assert "parapet: one-sided, its restitution factor uncertain; 12 variants, and 4 beside them;" in page.text
+    assert "Uncertainty of the mean curve of the variants" in page.text
+    assert page.table("Collapse: parameters")["group"] == ["all variants"]
+    for words in ("population", "of weight 0", "typological", "single walls,"):
+        assert words not in page.text
+
+
+def test_histories_are_counted_once(wall, few, tmp_path):
+    dd.report(dd.multiple_stripe(wall, few, [0.4, 0.8], estimate_error=True, progress=False), tmp_path / "report.html")
+    page = read(tmp_path / "report.html")
+    assert f"{2 * len(few)} histories, each run 3 times." in page.text
+    assert f"histories{2 * len(few)} of these never move" in page.text
+
+
+def test_the_motion_of_a_floor_is_called_so(few, tmp_path):
+    house = dd.Building(0.3, storeys=3, level=9.0, building_height=9.0)
+    for building, words, limit in (
+        (house, "Acceleration of the floor that the wall stands on under", "Each wall is moved by its floor"),
+        (None, "Ground acceleration of", "A wall of an upper storey needs the motion of its floor."),
+    ):
+        dd.report(dd.simulate(dd.OneSidedWall(1.5, 0.25, building=building), few[0]), tmp_path / "report.html")
+        text = read(tmp_path / "report.html").text
+        assert words in text
+        assert limit in text
+        assert ("Each wall is moved" in text) == (building is not None)
+
+
+def test_ties_are_told_whole(few, tmp_path):
+    """Defaults too, in units in which they are easily read; and the one wall is drawn."""
+    wall = dd.OneSidedWall(3.0, 0.3, tie_height=2.8, tie_area=5e-5, tie_length=8.0)
+    dd.report(dd.multiple_stripe(wall, few, [0.4, 0.8], progress=False), tmp_path / "report.html")
+    page = read(tmp_path / "report.html")
+    for words in ("tie area0.5 cm2/m", "tie strength180 MPa", "tie strain0.02", "tie preload0 MPa"):
+        assert words in page.text
+    assert any("half of its capacity" in image["alt"] for image in page.images)
+
+
+def test_walls_that_are_alike_have_no_dispersion(few, tmp_path):
+    walls = [dd.OneSidedWall(3.0, 0.25, name=name) for name in "abcdefg"]
+    people = dd.typology(walls, few, [0.3, 0.5, 0.7], progress=False)
+    (curve,) = people.groups
+    people = dataclasses.replace(people, groups=(dataclasses.replace(curve, beta_walls=8.9e-11),))
+    dd.report(people, tmp_path / "report.html")
+    assert read(tmp_path / "report.html").table("Collapse: parameters")["βwalls"] == ["0.000"]
+    assert "0 between walls" in people["all"]._repr_html_()
 
 
 def test_walls_of_no_weight_are_told(few, tmp_path):

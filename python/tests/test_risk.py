@@ -461,7 +461,7 @@ def test_deaggregation(hazard, curve):
     # Half of it comes from above the median of the lognormal that the integrand is
     assert whole.deaggregate([1e-9, 0.6 * np.exp(-2.5 * 0.4**2), 1e9])[0] < whole.annual_frequency
     for wrong, sentence in (
-        ([0.1], "edges: must be two at least"),
+        ([0.1], "edges: must be at least two"),
         ([0.2, 0.1], r"edges = 0.2, 0.1: must increase strictly"),
         ([0.0, 1.0], "edges = 0: must be positive"),
         ([0.1, np.inf], "edges = inf: must be positive"),
@@ -504,7 +504,7 @@ def test_refused(hazard, curve):
         dd.mean_annual_frequency(curve, [1.0])
     for levels, frequency, sentence in (
         ([0.1, 0.2], [0.01], "2 levels, 1 annual_frequency: must be as many"),
-        ([0.1], [0.01], "levels: must be two at least"),
+        ([0.1], [0.01], "levels: must be at least two"),
         ([0.0, 0.1], [0.02, 0.01], "levels = 0: must be positive"),
         ([0.1, 0.2], [0.01, 0.0], "annual_frequency = 0: must be positive; leave out"),
         ([0.1, 0.2], [0.01, np.nan], "annual_frequency = nan: must be positive"),
@@ -628,7 +628,7 @@ def test_hazard_that_is_no_utf8(tmp_path):
 
 
 def test_shown(hazard, curve):
-    assert repr(hazard) == "<HazardCurve: levels 9 of pga, 0.02 to 6.4 g, exceeded 0.1 to 5e-09 times a year>"
+    assert repr(hazard) == "<HazardCurve: levels 9 of pga, 0.02 to 6.4 g, annual frequency 0.1 to 5e-09>"
     assert repr(dd.HazardCurve.power_law(1e-4, 2.5)) == "<HazardCurve: power law 0.0001 pga^-2.5 a year>"
     assert "return period" in repr(dd.mean_annual_frequency(curve, hazard))
     assert "<table>" in dd.mean_annual_frequency(curve, hazard)._repr_html_()

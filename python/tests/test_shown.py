@@ -123,6 +123,21 @@ def test_units(things, name, row, text):
     assert text in shown
 
 
+def test_curves_show_their_numbers(things, stripes):
+    people, curve = things["PopulationCurve"], things["Fragility"]
+    assert f"theta {people.fit.theta:.6g} g, beta {people.fit.beta:.6g}>" in repr(people)
+    assert repr(curve).startswith(f"<Fragility: wall {curve.wall.name}, measure pga, EDP threshold 1, theta ")
+    measure = dd.fit_fragility([0.2, 0.4, 0.6], [1, 5, 9], 10, im="pgv")
+    assert repr(measure).startswith("<Fragility: measure pgv, theta ")
+
+
+def test_directions_are_not_listed(records):
+    found = records[0].rotd(records[1])
+    assert repr(found) == (
+        f"<RotD: rotd50={found.rotd50:.6g}, rotd100={found.rotd100:.6g}, angle={found.angle:g}, 180 directions>"
+    )
+
+
 def test_a_certificate_is_shown(wall, few):
     sure = dd.multiple_stripe(wall, few, [0.5, 0.9], certify=True, progress=False)
     counts = [int(word) for word in rows(sure)["certified"].replace(",", "").split() if word.isdigit()]

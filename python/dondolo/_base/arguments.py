@@ -62,7 +62,7 @@ def increasing(name: str, values: ArrayLike) -> FloatArray:
     """Turn what a user gives for levels of a curve into positive numbers that increase: a copy that nobody changes."""
     levels = as_array(name, values).copy()
     if len(levels) < 2:
-        raise InputError(f"{name}: must be two at least, positive and increasing")
+        raise InputError(f"{name}: must be at least two, positive and increasing")
     wrong = ~((levels > 0.0) & (levels < np.inf))
     if wrong.any():
         raise InputError(f"{name} = {levels[wrong][0]:g}: must be positive")

@@ -5,6 +5,14 @@ from __future__ import annotations
 import html
 from collections.abc import Sequence
 
+# Dispersions below this are rounding
+_ROUNDING = 1e-6
+
+
+def shown_dispersion(value: float) -> float:
+    """A dispersion to be shown: 0 where it is rounding alone, as between walls that are alike."""
+    return 0.0 if abs(value) < _ROUNDING else value
+
 
 class Shown:
     """What has facts to show, name and text."""

@@ -1,7 +1,7 @@
 !> What the procedures that f2py reads share: errors as statuses, checks of what crosses, lines of text, solver and responses.
 module dondolo_boundary
    use, intrinsic :: iso_c_binding, only : c_double, c_int
-   use dondolo_error, only : error_type, raise_failure, raise_input
+   use dondolo_error, only : error_type, raise_input
    use dondolo_lines, only : lines_type
    use dondolo_memory, only : check_memory => check_room
    use dondolo_record, only : largest_acceleration

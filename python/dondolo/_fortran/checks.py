@@ -10,11 +10,10 @@ import numpy as np
 from dondolo._base.arguments import FloatArray
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
-from dondolo._fortran.library import Parcel, check, properties, receive, unpack_warnings, warn
+from dondolo._fortran.library import Parcel, check, receive, unpack_warnings, warn
 
 #: Limit states: damage, life safety, collapse
 STATES = ("SLD", "SLV", "SLC")
-CHECK_PROPERTIES = {row.name: row for row in properties("check")}
 
 
 class SheetRow(NamedTuple):

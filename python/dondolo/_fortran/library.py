@@ -8,6 +8,7 @@ from __future__ import annotations
 import functools
 import json
 import os
+import re
 import sys
 import threading
 import warnings
@@ -25,6 +26,11 @@ from dondolo.errors import DondoloError, DondoloWarning, InputError, MissingFile
 _PACKAGE = str(Path(__file__).parents[1]) + os.sep
 # Of one object on a line, without blanks around it: json.loads looks for these in twice the time
 _DECODER = json.JSONDecoder()
+
+
+# A power of ten in a number
+_POWER = re.compile(r"(?<=\d)e([+-]\d+)\b")
+_SUPERSCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
 
 class Constants(NamedTuple):
@@ -64,6 +70,8 @@ class Property(NamedTuple):
         Its column in the tables of results.
     meaning : str
         One sentence.
+    absent : float or None
+        What stands in the place of an optional number that is not given beside the others of its kind, if anything.
     """
 
     name: str
@@ -77,6 +85,7 @@ class Property(NamedTuple):
     owners: tuple[str, ...]
     column: str
     meaning: str
+    absent: float | None
 
 
 class Parcel(NamedTuple):
@@ -128,15 +137,23 @@ def properties(group: str) -> tuple[Property, ...]:
             tuple(owners.split()),
             column,
             meaning,
+            None if float(absent) == sys.float_info.max else float(absent),
         )
-        for name, kind, unit, default, smallest, largest, bounds, choices, owners, column, meaning in rows
+        for name, kind, unit, default, smallest, largest, bounds, choices, owners, column, meaning, absent in rows
     )
 
 
 def with_units(group: str, facts: Iterable[tuple[str, str]]) -> list[tuple[str, str]]:
     """Facts of a wall or a building, name and text; those that are properties of the group get their unit."""
     units = {row.name: row.unit for row in properties(group)}
-    return [(what, f"{text} {units.get(what, '')}".strip()) for what, text in facts]
+    return [
+        (what, f"{_POWER.sub(_raised, text)} {units[what]}".strip() if what in units else text) for what, text in facts
+    ]
+
+
+def _raised(power: re.Match[str]) -> str:
+    """A power of ten as people write it."""
+    return "\N{MULTIPLICATION SIGN}10" + str(int(power[1])).translate(_SUPERSCRIPTS)
 
 
 def build_variant() -> str:

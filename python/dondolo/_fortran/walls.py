@@ -195,5 +195,7 @@ WALL_WORDS = tuple(row.name for row in WALL_PROPERTIES if row.kind == "words")
 WALL_EXTRAS = frozenset(
     row.name for row in properties("wall") if row.default == "optional" and row.owners and row.column
 ) | frozenset(BUILDING_NAMES)
+# What stands in the place of those that are not given beside the others of their kind
+WALL_ABSENT = {row.name: row.absent for row in WALL_PROPERTIES if row.absent is not None}
 _WALL_REALS = 10
 _WALL_INTEGERS = len(WALL_NUMBERS) + 1

@@ -57,6 +57,8 @@ def draw_cloud(cloud: Cloud, ax: Axes | None) -> Axes:
     ax.axhline(limit, color=style.BLACK, linewidth=0.9, linestyle=":", label="collapse limit")
     ax.set_xscale("log")
     ax.set_yscale("log")
+    style.plain_ticks(ax.xaxis)
+    style.plain_ticks(ax.yaxis)
     ax.set_xlim(grid[0], grid[-1])
     ax.set_ylim(bottom, 2.2 * limit)
     ax.set_xlabel(style.im_label(cloud.im))

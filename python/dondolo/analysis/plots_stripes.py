@@ -127,7 +127,7 @@ def draw_incremental(incremental: Incremental, ax: Axes | None) -> Axes:
         gone = np.isinf(edp)
         end = levels[np.argmax(gone)] if gone.any() else np.inf
         x, y = _until_collapse(edp[levels < end], levels[levels < end], end, edge)
-        ax.plot(x, y, color=style.BLUE, linewidth=2.4, linestyle=line, label=f"{text} % fractile")
+        ax.plot(x, y, color=style.BLUE, linewidth=2.4, linestyle=line, label=f"{text} % fractile of the EDP")
     ax.axvline(stripes.edp_limit, color=style.BLACK, linewidth=0.9, linestyle=":", label="collapse limit")
     ax.set_xlim(0.0, edge)
     ax.set_ylim(0.0, 1.05 * levels[-1])

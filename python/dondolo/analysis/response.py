@@ -55,7 +55,8 @@ class Response(Shown, Saved):
         Time of the largest rotation, or of reaching the limit [s].
     time, ground_acceleration, rotation, velocity : ndarray, shape (rows,), or None
         Time history at every sample and before and after every impact, until rest or 10 s past the end of the record
-        [s, m/s2, rad, rad/s]; rotation and velocity carry the sign of the side. None with history=False.
+        [s, m/s2, rad, rad/s]; rotation and velocity carry the sign of the side. The acceleration is that of what the
+        wall stands on: of the ground, or of its floor where it has a building. None with history=False.
     side : ndarray of int, shape (rows,), or None
         +1 or -1: the side on which the wall is, at rest the last one; always +1 for one-sided walls.
     after_impact : ndarray of bool, shape (rows,), or None
@@ -87,6 +88,11 @@ class Response(Shown, Saved):
     after_impact: np.ndarray[Any, np.dtype[np.bool_]] | None = None
     edp_error: float | None = None
     tie_times: FloatArray | None = None
+
+    @property
+    def _support(self) -> str:
+        """What the wall stands on, whose acceleration moves it."""
+        return "ground" if self.wall.building is None else "floor"
 
     @property
     def ties(self) -> TieStates:
@@ -174,7 +180,9 @@ class Response(Shown, Saved):
         return float(np.copysign(rotation, self.rotation[np.argmax(np.abs(self.rotation))]))
 
     def plot(self, ax: Iterable[Axes] | None = None) -> Panels:
-        """Draw the motion: ground acceleration above, rotation / capacity below, impacts marked.
+        """Draw the motion: acceleration of the ground above, or of the floor of a wall with a building, rotation below.
+
+        Impacts are marked.
 
         Parameters
         ----------
@@ -215,6 +223,9 @@ class Response(Shown, Saved):
     def animate(self, *, frames_per_second: float = 25, speed: float = 1.0) -> FuncAnimation:
         """Animate the motion: the wall beside its rotation.
 
+        The film begins 0.5 s before the wall first moves and ends 1 s after it comes to rest, or with the motion. Of a
+        wall that does not move it shows the whole record.
+
         Parameters
         ----------
         frames_per_second : float
@@ -235,12 +246,12 @@ class Response(Shown, Saved):
         InputError
             A speed that is not positive.
         """
-        from dondolo.analysis import plots_response
+        from dondolo.analysis import film
 
-        return plots_response.animate(self, frames_per_second, speed)
+        return film.animate(self, frames_per_second, speed)
 
     def _motion(self) -> tuple[FloatArray, FloatArray, FloatArray, np.ndarray[Any, np.dtype[np.bool_]]]:
-        """Time, ground acceleration, rotation, and which rows are just after an impact."""
+        """Time, acceleration of ground or floor, rotation, and which rows are just after an impact."""
         columns = self.time, self.ground_acceleration, self.rotation, self.after_impact
         if any(column is None for column in columns):
             raise DondoloError("this response has no time history: simulate with history=True")

@@ -88,7 +88,7 @@ class CodeCheck(Shown, Saved):
 
     @property
     def capacities(self) -> dict[tuple[str, str], float]:
-        """Peak acceleration at the site that the wall stands [g] by each kinematic check: (method, limit state)."""
+        """Peak acceleration at the site that the wall withstands [g] by each kinematic check: (method, limit state)."""
         return self._of("capacity_pga")
 
     @property
@@ -107,7 +107,7 @@ class CodeCheck(Shown, Saved):
         Returns
         -------
         dict
-            (method, limit state): at what the wall stands by each kinematic check, and at a_g S of the site.
+            (method, limit state): at what the wall withstands by each kinematic check, and at a_g S of the site.
 
         Raises
         ------

@@ -14,13 +14,13 @@ if TYPE_CHECKING:
 
 
 def draw_check(check: CodeCheck, curve: Fragility, ax: Axes | None) -> Axes:
-    """Draw a curve, the peak acceleration of the site, and what the wall stands by each formula."""
+    """Draw a curve, the peak acceleration of the site, and what the wall withstands by each formula."""
     chances = check.probabilities(curve)
     ax = curve.plot(curves.axes(ax, len(chances)))
     right = max(ax.get_xlim()[1], 1.05 * max(check.pga, *check.capacities.values()))
     for i, ((method, state), chance) in enumerate(chances.items()):
         level = check.value(method, state, "pga" if method == "site" else "capacity_pga")
-        name = f"a_g S of the site {state}".strip() if method == "site" else f"{method} {state} stands"
+        name = f"a_g S of the site {state}".strip() + ":" if method == "site" else f"{method} {state} withstands"
         look = (
             {"color": style.BLACK, "linewidth": 1.8}
             if method == "site"
@@ -30,8 +30,16 @@ def draw_check(check: CodeCheck, curve: Fragility, ax: Axes | None) -> Axes:
                 "linestyle": curves.LINES[i % len(curves.LINES)],
             }
         )
-        ax.axvline(level, label=f"{name}: {level:.3g} g, P = {chance:.2g}", zorder=1, **look)
+        ax.axvline(level, label=f"{name} {level:.3g} g, P = {chance:.2g}", zorder=1, **look)
         ax.plot(level, chance, marker="x", markersize=6, color=look["color"], zorder=4)
     ax.set_xlim(0.0, right)
-    style.legend(ax, loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=2)
+    style.legend(
+        ax,
+        loc="upper center",
+        bbox_to_anchor=(0.5, -0.15),
+        ncols=2,
+        columnspacing=0.8,
+        handlelength=1.5,
+        handletextpad=0.4,
+    )
     return ax

@@ -34,7 +34,7 @@ _WHY = {
     "naive": "as if all histories were independent",
     "few_clusters": "less than three clusters of records",
     "one_cluster": "one cluster of records determines the curve",
-    "few_walls": "two walls, one or at least three are needed",
+    "few_walls": "two walls are too few to tell how much walls differ: it takes one, or at least three",
     "one_wall": "one wall determines the curve",
     "given": "the parameters were given",
 }
@@ -439,11 +439,15 @@ class Fragility(Shown, Saved):
 
     def _facts(self) -> list[tuple[str, str]]:
         unit = blank_unit(self.im)
+        what = [("wall", self.wall.name)] if self.wall is not None else []
+        what += [("measure", self.im)] if self.im else []
+        what += [("EDP threshold", f"{self.edp_threshold:g}")] if self.edp_threshold is not None else []
         if not self.has_fit:
             text = self._bracket_in_words().removeprefix("the median lies ")
-            return [("status", self.status), *([("median", text)] if text else [])]
+            return [*what, ("status", self.status), *([("median", text)] if text else [])]
         ends = [("saturation", f"{self.saturation:.6g}")] if self.saturation < 1.0 else []
         return [
+            *what,
             ("theta", f"{self.theta:.6g}{unit}" + self._shown_error("standard error of ln theta", self.se_ln_theta)),
             ("beta", f"{self.beta:.6g}" + self._shown_error("standard error", self.se_beta)),
             ("standard errors", self._kind()),

@@ -11,9 +11,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
-from dondolo._base.shown import Shown
+from dondolo._base.shown import Shown, shown_dispersion
 from dondolo._fortran.curves import FlatPopulation, curve_of_population
 from dondolo._fortran.library import as_text
+from dondolo._fortran.records import blank_unit
 from dondolo._storage.saved import Saved
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.mean_curve import MeanCurve
@@ -289,11 +290,13 @@ class PopulationCurve(Shown, Group, MeanCurve):
 
     def __repr__(self) -> str:
         where = f", group {self.group!r}" if self.group else ""
-        return f"<PopulationCurve of {self.n_walls} walls: mechanism {self.mechanism!r}{where}>"
+        unit, fit = blank_unit(self.fit.im), self.fit
+        numbers = f"theta {fit.theta:.6g}{unit}, beta {fit.beta:.6g}" if fit.has_fit else f"no fit ({fit.status})"
+        return f"<PopulationCurve of {self.n_walls} walls: mechanism {self.mechanism!r}{where}, {numbers}>"
 
     def _facts(self) -> list[tuple[str, str]]:
         facts = [("curve", self._title()), ("walls", str(self.n_walls)), *self.fit._facts()]
         if self.fitted > 0.0:
-            text = f"{self.beta_walls:.3g} between walls, {self.beta_records:.3g} between records"
+            text = f"{shown_dispersion(self.beta_walls):.3g} between walls, {self.beta_records:.3g} between records"
             facts.append(("dispersion", text))
         return facts

@@ -13,7 +13,7 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray, as_number, one_of
 from dondolo._base.files import as_file
-from dondolo._base.shown import Shown
+from dondolo._base.shown import Shown, shown_dispersion
 from dondolo._base.transactions import publishing
 from dondolo._fortran.curves import FlatPopulation, coded
 from dondolo._fortran.library import constants, warn
@@ -480,7 +480,7 @@ class Typology(Shown, Saved):
             facts.append(("damage states", " ".join(f"{edp:g}" for edp in self.edp_thresholds)))
         facts += whole.fit._facts()
         if whole.fitted > 0.0:
-            text = f"{whole.beta_walls:.3g} between walls, {whole.beta_records:.3g} between records"
+            text = f"{shown_dispersion(whole.beta_walls):.3g} between walls, {whole.beta_records:.3g} between records"
             facts.append(("dispersion", text))
         return [*facts, ("work", str(self.work))]
 

@@ -19,6 +19,10 @@ __all__ = ["mavroeidis_papageorgiou", "one_cosine", "one_sine", "ricker"]
 _SMALLEST_ERROR = 1e-12
 
 
+def __dir__() -> list[str]:
+    return __all__
+
+
 def one_sine(amplitude: float, frequency: float, *, error: float = 1e-5) -> Record:
     """One period of a sine: a = amplitude sin(2 pi frequency t), a forward displacement.
 

@@ -37,6 +37,10 @@ class RotD(NamedTuple):
     angles: FloatArray
     values: FloatArray
 
+    def __repr__(self) -> str:
+        numbers = f"rotd50={self.rotd50:.6g}, rotd100={self.rotd100:.6g}, angle={self.angle:g}"
+        return f"<RotD: {numbers}, {len(self.values)} directions>"
+
 
 def component(first: Motion, second: Motion, angle: float) -> FloatArray:
     """Samples of two components in a direction [degrees]; quarters of a circle are exact."""

@@ -29,7 +29,7 @@ def code_check(check: CodeCheck, curve: Fragility | None) -> dict[str, Any]:
     columns: dict[Piece, Sequence[Piece]] = {
         "check": [f"{method}, {state}" for method, state in kinematic],
         (Symbol("a", "g"), Symbol("S"), " of the site [g]"): [number(_site(check, state)) for _, state in kinematic],
-        "stands [g]": [number(level) for level in check.capacities.values()],
+        "withstands [g]": [number(level) for level in check.capacities.values()],
         "capacity / demand": [number(check.value(*key, "ratio"), 3) for key in kinematic],
         "verdict": [_verdict(check, key) for key in kinematic],
     }
@@ -37,7 +37,7 @@ def code_check(check: CodeCheck, curve: Fragility | None) -> dict[str, Any]:
         columns["P(collapse) at the site"] = [
             probability(chances.get(("site", state), chances.get(("site", ""), np.nan))) for _, state in kinematic
         ]
-        columns["at what it stands"] = [probability(chances[key]) for key in kinematic]
+        columns["at what it withstands"] = [probability(chances[key]) for key in kinematic]
     histories: dict[Piece, Sequence[Piece]] = {"limit state": [state for _, state in dynamic]}
     for name, head in _DYNAMIC.items():
         histories[head] = [number(check.value(*key, name)) for key in dynamic]

@@ -15,6 +15,8 @@ from dondolo.reporting.numerals import Numeral, number
 
 # Rows of a table that are written; what is left out is said
 ROWS = 500
+# Rows of a table that stays on one page, and columns of one that fills its width
+_SHORT, _WIDE = 14, 11
 # A drawing is embedded as SVG up to this size, and as pixels beyond: many thin curves make large drawings
 _SVG_BYTES = 600_000
 _DOTS_PER_INCH = 180
@@ -76,6 +78,16 @@ class Table:
     def shown(self) -> int:
         """How many of them are shown."""
         return min(ROWS, self.total)
+
+    @property
+    def is_short(self) -> bool:
+        """Whether it should not be parted by the end of a page."""
+        return self.shown <= _SHORT
+
+    @property
+    def is_wide(self) -> bool:
+        """Whether it needs small letters on a page."""
+        return len(self.columns) > _WIDE
 
     @property
     def rows(self) -> Iterable[tuple[Piece, ...]]:

@@ -24,6 +24,7 @@ from dondolo.reporting.content import (
     Symbol,
     Table,
     date_in_words,
+    figure,
     level_unit,
     state_name,
 )
@@ -31,7 +32,7 @@ from dondolo.reporting.numerals import number, parameter, percent, whole
 from dondolo.reporting.run import Run
 from dondolo.reporting.statuses import status_table
 from dondolo.walls.population import Population
-from dondolo.walls.wall import Wall, property_of
+from dondolo.walls.wall import Wall, effective_property
 
 # What stands behind properties of a wall in place of their units
 _UNITS = {"hinge": "of the height", "eccentricity": "m, to the outer side", "restitution": "model"}
@@ -44,6 +45,8 @@ _COLUMNS = {
     "overburden_inertia": "of it lifted",
     "eccentricity": "ecc. [m]",
 }
+# Units that make numbers of a usual size of what is given in others, and what these are times
+_SHOWN = {"m2/m": ("cm2/m", 1e4), "Pa": ("MPa", 1e-6)}
 # Columns of a table of further properties: what fits across a page
 _ACROSS = 8
 
@@ -103,7 +106,13 @@ def walls(run: Run) -> dict[str, Any]:
     """The walls with their statics, and their curves."""
     people = run.population
     if len(people) == 1:
-        return {"facts": _wall_facts(run), "tables": []}
+        drawing = None
+        if not isinstance(run.results, Response):
+            alt = (
+                "The wall at rest and at half of its capacity, with what it carries and what holds it, drawn to scale."
+            )
+            drawing = figure(people.walls[0].plot, alt)
+        return {"facts": _wall_facts(run), "tables": [], "drawing": drawing}
     further = _further_properties(people.walls)
     part = "" if len(further) == 1 else ", part {} of " + str(len(further))
     tables = [
@@ -114,7 +123,7 @@ def walls(run: Run) -> dict[str, Any]:
         ),
         ("Statics of the walls, and their curves of collapse.", _statics(run)),
     ]
-    return {"facts": [*people._facts(), *people._ranges()], "tables": tables}
+    return {"facts": [*people._facts(), *people._ranges()], "tables": tables, "drawing": None}
 
 
 def _wall_facts(run: Run) -> Facts:
@@ -122,13 +131,9 @@ def _wall_facts(run: Run) -> Facts:
     wall = run.population.walls[0]
     pairs: Facts = [("name", wall.name), ("mechanism", mechanism_name(wall.mechanism))]
     for row in WALL_PROPERTIES[2:]:
-        value, unit = property_of(wall, row.name), _UNITS.get(row.name, row.unit)
-        if value is None or (isinstance(value, float) and np.isnan(value)):
-            continue
-        if isinstance(value, tuple):
-            value = _set(value)
-        text = f"{value} {unit}" if isinstance(value, str) else number(value, 6, f" {unit}")
-        pairs.append((row.name.replace("_", " "), text))
+        unit, factor = _SHOWN.get(row.unit, (_UNITS.get(row.name, row.unit), 1.0))
+        if value := _set(effective_property(wall, row.name), factor):
+            pairs.append((row.name.replace("_", " "), (value, f" {unit}" if unit else "")))
     if wall.base_hinge_depth > 0.0 and getattr(wall, "hinge_depth", None) is None:
         pairs.append(("depth of the hinge", number(wall.base_hinge_depth, unit=" m")))
     pairs += [
@@ -166,12 +171,15 @@ def _main_properties(people: Population) -> Table:
 def _further_properties(walls: Sequence[Wall]) -> list[Table]:
     """Sections, loads, ties, floors: what some of the walls have, as many columns a table as a page is wide."""
     rows = [row for row in WALL_PROPERTIES if row.name in WALL_EXTRAS and row.name not in _COLUMNS]
-    known = {row.name: [_set(property_of(wall, row.name)) for wall in walls] for row in rows}
+    shown = {row.name: _SHOWN.get(row.unit, (row.unit, 1.0)) for row in rows}
+    known = {
+        name: [_set(effective_property(wall, name), factor) for wall in walls] for name, (_, factor) in shown.items()
+    }
     having = [i for i in range(len(walls)) if any(cells[i] for cells in known.values())]
     columns: list[tuple[Piece, Sequence[Piece]]] = [
-        (row.name.replace("_", " ") + (f" [{row.unit}]" if row.unit else ""), cells)
-        for row in rows
-        if any(cells := [known[row.name][i] for i in having])
+        (name.replace("_", " ") + (f" [{unit}]" if unit else ""), cells)
+        for name, (unit, _) in shown.items()
+        if any(cells := [known[name][i] for i in having])
     ]
     tables = []
     for first in range(0, len(columns), _ACROSS):
@@ -181,13 +189,14 @@ def _further_properties(walls: Sequence[Wall]) -> list[Table]:
     return tables
 
 
-def _set(value: Any) -> str:
-    """A property in words, empty if it is not set."""
+def _set(value: Any, factor: float = 1.0) -> Piece:
+    """A property to be set, times a factor if it is a number; empty if it is not given."""
     if isinstance(value, tuple):
-        return ", ".join(map(_set, value))
+        pieces = [part for one in value for part in (", ", _set(one, factor))]
+        return tuple(pieces[1:])
     if value is None or isinstance(value, str):
         return value or ""
-    return "" if np.isnan(value) else f"{value:.6g}"
+    return "" if np.isnan(value) else number(factor * value, 6)
 
 
 def _statics(run: Run) -> Table:
@@ -217,6 +226,12 @@ def has_vertical(run: Run) -> bool | None:
     if run.records:
         return any(record.vertical is not None for record in run.records)
     return run.results.uplift is not None if isinstance(run.results, Stripes) else None
+
+
+def on_ground(run: Run) -> bool | None:
+    """Whether no wall stands on a building, or every one (False); None where some do."""
+    grounded = {wall.building is None for wall in run.population.walls}
+    return grounded.pop() if len(grounded) == 1 else None
 
 
 def records(run: Run) -> dict[str, Any]:
@@ -298,15 +313,25 @@ def checks(run: Run) -> dict[str, Any]:
     if error is not None:
         pairs.append(("largest estimated error of an EDP", number(float(np.max(error)), 3)))
     work = results.work
+    histories, runs = counted_histories(results)
+    still = (whole(work.still // runs), " (", percent(work.still / max(work.histories, 1)), ")")
+    pairs += [("histories", whole(histories)), ("of these never move", still)]
+    if runs > 1:
+        pairs.append(("runs of each history, to estimate its error; what follows counts all", whole(runs)))
     pairs += [
-        ("histories", whole(work.histories)),
-        ("of these never move", (whole(work.still), " (", percent(work.still / max(work.histories, 1)), ")")),
         ("sample intervals", whole(work.intervals)),
         ("of these with rocking", (whole(work.rocked), " (", percent(work.rocked / max(work.intervals, 1)), ")")),
         ("steps of the integration", whole(work.steps)),
         ("impacts located", whole(work.impacts)),
     ]
     return {"statuses": status_table(states), "facts": pairs}
+
+
+def counted_histories(results: Typology | Stripes) -> tuple[int, int]:
+    """How many histories there are, and how many times each was run: several to estimate its error."""
+    runs = results.work.histories
+    histories = int(results.ran.sum()) if isinstance(results, Stripes) else runs
+    return histories, runs // max(histories, 1)
 
 
 def software(run: Run) -> Facts:

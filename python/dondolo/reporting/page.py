@@ -151,14 +151,15 @@ def _chapters(run: Run, hazard: HazardCurve | None) -> list[Chapter]:
     results = run.results
     if isinstance(results, Typology):
         summary = typology.summary(results)
+        words = typology.WALLS if run.uncertain is None else typology.VARIANTS
         chapters = [
-            Chapter("curves", "Fragility curves", "typology_curves", typology.curves(results)),
-            Chapter("numbers", "Parameters and fractiles", "typology_numbers", typology.numbers(results)),
+            Chapter("curves", "Fragility curves", "typology_curves", typology.curves(results) | {"words": words}),
+            Chapter("numbers", "Parameters and fractiles", "typology_numbers", typology.numbers(results, words)),
             Chapter(
                 "uncertainty",
-                "Uncertainty of the typological curve",
+                f"Uncertainty of the {words.curve}",
                 "typology_uncertainty",
-                typology.uncertainty(results),
+                typology.uncertainty(results) | {"words": words},
             ),
         ]
         if run.uncertain is not None:
@@ -205,25 +206,42 @@ def _chapters(run: Run, hazard: HazardCurve | None) -> list[Chapter]:
         Chapter("summary", "Summary", "summary", {"warnings": found, **summary}),
         *chapters,
         Chapter("inputs", "What was run", "inputs", inputs.inputs(run)),
-        Chapter("walls", "Walls" if len(run.population) > 1 else "The wall", "walls", inputs.walls(run)),
+        Chapter("walls", _title_of_walls(run), "walls", inputs.walls(run)),
         Chapter("records", "Records", "records", inputs.records(run)),
         Chapter("checks", "Checks", "checks", inputs.checks(run)),
         Chapter(
             "limits",
             "Limits of the models",
             "limits",
-            {"is_population": isinstance(results, Typology), "is_shaken": inputs.has_vertical(run)},
+            {
+                "is_population": isinstance(results, Typology),
+                "is_uncertain": run.uncertain is not None,
+                "is_shaken": inputs.has_vertical(run),
+                "on_ground": inputs.on_ground(run),
+            },
         ),
         Chapter("symbols", "Symbols and terms", "symbols", {"measure": measure}),
         Chapter("software", "Software", "facts", inputs.software(run)),
     ]
 
 
+def _title_of_walls(run: Run) -> str:
+    """Title of the chapter on the walls."""
+    if run.uncertain is not None:
+        return "The wall and its variants"
+    return "Walls" if len(run.population) > 1 else "The wall"
+
+
 def _lead(run: Run) -> str:
     """What this is, in a line."""
     results = run.results
     parts = []
-    if isinstance(results, Typology):
+    if run.uncertain is not None:
+        everything, many = run.uncertain.typology.walls, len(run.uncertain.sample)
+        wall, names = everything[many], ", ".join(run.uncertain.sources).replace("_", " ")
+        parts.append(f"{wall.name}: {mechanism_name(wall.mechanism)}, its {names} uncertain")
+        parts.append(f"{many} variants, and {len(everything) - many} beside them")
+    elif isinstance(results, Typology):
         rows, walls = len(results.walls), len(results.combined)
         counted = results["all"].n_walls
         parts.append(f"{walls} walls" + (f" with {rows} mechanisms" if rows > walls else ""))
@@ -237,7 +255,8 @@ def _lead(run: Run) -> str:
         levels = results.levels
         number_of = f"{len(levels)} level{'s' if len(levels) > 1 else ''} of {results.im}"
         parts.append(f"{number_of}, {levels[0]:g} to {levels[-1]:g}{blank_unit(results.im)}")
-        parts.append(f"{whole(results.work.histories).text} histories")
+        histories, runs = inputs.counted_histories(results)
+        parts.append(f"{whole(histories).text} histories" + (f", each run {runs} times" if runs > 1 else ""))
     if run.file is not None and run.file.written is not None:
         parts.append(f"run of {date_in_words(run.file.written)}")
     return "; ".join(parts) + "."

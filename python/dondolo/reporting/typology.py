@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from dondolo._base.shown import shown_dispersion
 from dondolo._fortran.records import blank_unit
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloError
@@ -30,6 +31,29 @@ from dondolo.reporting.content import (
 from dondolo.reporting.numerals import number, parameter, percent, probability, whole
 from dondolo.reporting.statuses import crossings
 
+
+class Words(NamedTuple):
+    """What a report calls a population.
+
+    Attributes
+    ----------
+    whole : str
+        All of it.
+    singles : str
+        Its members.
+    curve : str
+        Its curve.
+    """
+
+    whole: str
+    singles: str
+    curve: str
+
+
+WALLS = Words("whole population", "single walls", "typological curve")
+# Of one wall whose properties are uncertain
+VARIANTS = Words("all variants", "single variants", "mean curve of the variants")
+
 # Samples of the bootstrap
 _SAMPLES = 500
 # Facades that are drawn one by one
@@ -48,7 +72,7 @@ def summary(people: Typology) -> dict[str, Any]:
         cards.append((("dispersion ", BETA), number(curve.fit.beta, 3), "of the lognormal fitted to the mean"))
     else:
         cards.append(("lognormal fit", "none", curve.fit.status.replace("_", " ")))
-    cards.append((Symbol("β", "walls"), number(curve.beta_walls, 3), "dispersion between walls"))
+    cards.append((Symbol("β", "walls"), number(shown_dispersion(curve.beta_walls), 3), "dispersion between walls"))
     cards.append((Symbol("β", "records"), number(curve.beta_records, 3), "dispersion between records"))
     chosen = dict.fromkeys(int(i) for i in np.linspace(0, len(people.levels) - 1, 5)[1:-1]) or [0]
     shares = [(percent(curve.mean_curve[i]), level(people.levels[i], people.im)) for i in chosen]
@@ -143,26 +167,30 @@ def _unions_table(people: Typology) -> Table | None:
     return Table.of(columns, ("facade or wall", "status"))
 
 
-def numbers(people: Typology) -> dict[str, Any]:
+def numbers(people: Typology, words: Words) -> dict[str, Any]:
     """Tables of parameters and of probabilities at the levels."""
     limit, whole_population = float(people.edp_thresholds[-1]), people["all"]
     return {
-        "curves": _curves_table(people),
+        "words": words,
+        "curves": _curves_table(people, words),
         "unions": _unions_table(people),
-        "states": [(f"EDP ≥ {edp:g}", _curves_table(people.at(edp))) for edp in people.edp_thresholds[:-1]],
+        "states": [(f"EDP ≥ {edp:g}", _curves_table(people.at(edp), words)) for edp in people.edp_thresholds[:-1]],
         "levels": [
             (state_name(edp, limit), _levels_table(people, people.at(float(edp))["all"]))
             for edp in people.edp_thresholds[::-1]
         ],
         "others": [
-            (f"{curve.group or 'Whole population'}, {mechanism_name(curve.mechanism)}", _levels_table(people, curve))
+            (
+                f"{curve.group or words.whole.capitalize()}, {mechanism_name(curve.mechanism)}",
+                _levels_table(people, curve),
+            )
             for curve in people.groups
             if (curve.group, curve.mechanism) != (whole_population.group, whole_population.mechanism)
         ],
     }
 
 
-def _curves_table(people: Typology) -> Table:
+def _curves_table(people: Typology, words: Words) -> Table:
     """Parameters of all curves of one state."""
     curves = people.groups
 
@@ -172,7 +200,7 @@ def _curves_table(people: Typology) -> Table:
         return float(np.abs(curve.fit(people.levels) - curve.mean_fraction).max())
 
     columns: dict[Piece, Sequence[Piece]] = {
-        "group": [curve.group or "whole population" for curve in curves],
+        "group": [curve.group or words.whole for curve in curves],
         "mechanism": [mechanism_name(curve.mechanism) for curve in curves],
         "walls": [whole(curve.n_walls) for curve in curves],
         "weight": [number(curve.weight) for curve in curves],
@@ -180,7 +208,7 @@ def _curves_table(people: Typology) -> Table:
         ("standard error of ln ", THETA): [number(curve.fit.se_ln_theta, 3) for curve in curves],
         BETA: [parameter(curve.fit.beta) for curve in curves],
         ("standard error of ", BETA): [number(curve.fit.se_beta, 3) for curve in curves],
-        Symbol("β", "walls"): [parameter(curve.beta_walls) for curve in curves],
+        Symbol("β", "walls"): [parameter(shown_dispersion(curve.beta_walls)) for curve in curves],
         Symbol("β", "records"): [parameter(curve.beta_records) for curve in curves],
         Symbol("β", "total"): [parameter(curve.beta_total) for curve in curves],
         "misfit": [number(misfit(curve), 2) for curve in curves],

@@ -169,10 +169,13 @@ def motion_summary(motion: Response) -> dict[str, Any]:
 def motion(motion: Response) -> dict[str, Any]:
     """Figures of a motion."""
     outcome = "it overturns" if motion.collapsed else f"largest rotation {motion.edp:.4g} of the capacity"
-    alt = f"Ground acceleration and rotation over time: {outcome} at {motion.time_of_peak:.4g} s."
+    alt = (
+        f"{motion._support.capitalize()} acceleration and rotation over time: {outcome} at {motion.time_of_peak:.4g} s."
+    )
     return {
         "record": motion.record.name,
         "scale": f"{motion.scale:.4g}",
+        "on_floor": motion.wall.building is not None,
         "history": None if motion.time is None else figure(motion.plot, alt),
         "wall": figure(motion.plot_peak, f"The wall at its largest rotation: {outcome}."),
     }

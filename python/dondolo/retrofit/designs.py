@@ -111,7 +111,7 @@ class DesignComparison(Shown, Saved):
         Returns
         -------
         ndarray of two Axes
-            Probability of collapse against intensity, with what each stands by the nonlinear check of SLV where
+            Probability of collapse against intensity, with what each withstands by the nonlinear check of SLV where
             there is one and the measure is PGA; and the ratios with their intervals, beside those of the static
             accelerations.
         """
@@ -158,7 +158,7 @@ class DesignComparison(Shown, Saved):
             facts.append((name, text))
         for name, check in zip(self.names, self.checks, strict=False):
             stood = ", ".join(f"{' '.join(key)} {check.capacities[key]:.4g} g" for key in _CHECKS)
-            facts.append((f"{name}, check", f"stands a_g S of {stood}"))
+            facts.append((f"{name}, check", f"withstands a_g S of {stood}"))
         return facts
 
 

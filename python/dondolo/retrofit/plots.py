@@ -32,7 +32,7 @@ def draw_designs(found: DesignComparison, ax: Iterable[Any] | None) -> style.Pan
         for i, (check, curve, color) in enumerate(zip(found.checks, found.curves, colors, strict=False)):
             stood = check.capacities["nonlinear", "SLV"]
             at = float(curve(stood)) if curve.has_fit else 0.0
-            label = "stands by the nonlinear check, SLV" if i == 0 else None
+            label = "withstands by the nonlinear check, SLV" if i == 0 else None
             left.plot(stood, at, linestyle="none", marker="v", markersize=7, color=color, label=label, zorder=4)
     left.set_xlim(0.0, grid[-1])
     left.set_ylim(-0.02, 1.02)

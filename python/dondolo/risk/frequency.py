@@ -224,7 +224,7 @@ class Risk(Shown, Saved):
         Returns
         -------
         float or ndarray, shape of x
-            [1/year] a unit of ln x; 0 beyond the levels of the hazard curve.
+            [1/year] per unit of ln x; 0 beyond the levels of the hazard curve.
 
         Raises
         ------
@@ -368,7 +368,7 @@ class Risk(Shown, Saved):
         Returns
         -------
         ndarray of three Axes
-            Annual frequency of exceedance, probability of collapse and share of the risk a unit of ln IM, against
+            Annual frequency of exceedance, probability of collapse and share of the risk per unit of ln IM, against
             intensity on a logarithmic axis.
         """
         from dondolo.risk.plots import draw_risk

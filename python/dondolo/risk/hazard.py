@@ -424,7 +424,7 @@ class HazardCurve(Shown, Saved):
             return [("power law", f"{self(1.0):.4g} {self.im}^-{k:.4g} a year")]
         facts = [
             ("levels", levels_in_words(self.levels, self.im)),
-            ("exceeded", f"{self.annual_frequency[0]:.3g} to {self.annual_frequency[-1]:.3g} times a year"),
+            ("annual frequency", f"{self.annual_frequency[0]:.3g} to {self.annual_frequency[-1]:.3g}"),
         ]
         return facts + ([("fractiles", " ".join(f"{q:g}" for q in self.fractiles))] if self.fractiles else [])
 

@@ -42,7 +42,7 @@ def draw_risk(risk: Risk, ax: Iterable[Axes] | None) -> style.Panels:
     below.fill_between(x, share, color=style.BRICK, linewidth=0.0)
     below.plot(x, share, color=style.RED)
     below.set_ylim(bottom=0.0)
-    below.set_ylabel("share of the risk\na unit of ln IM")
+    below.set_ylabel("share of the risk\nper unit of ln IM")
     _intensities(below, hazard.im, x[0], x[-1])
     return axes
 

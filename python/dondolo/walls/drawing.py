@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import TYPE_CHECKING
 
 from dondolo.figures import style
-from dondolo.walls.drawing_loads import draw_loads
+from dondolo.walls.drawing_loads import caption, draw_loads
 from dondolo.walls.mechanisms import TwoBlockWall
 from dondolo.walls.shape import shape
 from dondolo.walls.wall import Wall
@@ -16,7 +17,8 @@ if TYPE_CHECKING:
 
 def draw_wall(wall: Wall, rotation: float, ax: Axes | None, note: str = "") -> Axes:
     """Draw a wall at rest (dashed) and rotated, with the hinges it rotates about and what it carries."""
-    ax = style.axes(ax, (3.6, 4.6))
+    lines = caption(wall)
+    ax = style.axes(ax, (3.6, 4.6 + 0.14 * len(lines)))
     draw_surroundings(ax, wall)
     for block in shape(wall, 0.0).blocks:
         ax.fill(*block.T, facecolor="none", edgecolor=style.GREY, linestyle="--", linewidth=0.9)
@@ -26,6 +28,9 @@ def draw_wall(wall: Wall, rotation: float, ax: Axes | None, note: str = "") -> A
     ax.plot(*now.hinges.T, linestyle="none", marker="o", color=style.RED, markersize=6, label="hinge", zorder=4)
     frame(ax, wall)
     draw_loads(ax, wall, rotation, now)
+    if lines:
+        text = "\n".join(lines)
+        ax.annotate(text, (0.0, 0.0), (-30, -34), "axes fraction", textcoords="offset points", fontsize=7.5, va="top")
     style.title(ax, f"{wall.name}\nrotation {rotation:.3g} rad{note}", fontsize=9.5)
     # A legend's own marker would pass for one more hinge.
     base = now.hinges[0]
@@ -54,7 +59,21 @@ def draw_surroundings(ax: Axes, wall: Wall) -> None:
         ax.annotate("held at the top", (t + 0.1 * reach, 0.955 * h), fontsize=7.5)
     elif not wall.two_sided:
         ax.fill_betweenx([0.0, h], -reach, 0.0, facecolor=style.LIGHT, hatch="//", edgecolor="white", linewidth=0.0)
-        ax.annotate("transverse wall", (-0.5 * reach, 0.5 * h), rotation=90, ha="center", va="center", fontsize=7.5)
+        middle = _free_height(wall)
+        ax.annotate("transverse wall", (-0.5 * reach, middle), rotation=90, ha="center", va="center", fontsize=7.5)
+
+
+def _free_height(wall: Wall) -> float:
+    """Height in the middle of the largest part behind the wall where no label of what holds it stands."""
+    taken = [0.0, wall.height]
+    for what in ("tie_height", "thrust_height", "spring_height"):
+        taken += getattr(wall, what, None) or ()
+    if getattr(wall, "interlock_overlap", None) is not None:
+        taken.append(wall.height / 3.0)
+    taken.sort()
+    gap, bottom = max((above - below, below) for below, above in pairwise(taken))
+    # A label stands above its height
+    return bottom + (0.5 if len(taken) == 2 else 0.55) * gap
 
 
 def _reach(wall: Wall) -> float:

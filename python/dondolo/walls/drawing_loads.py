@@ -7,6 +7,7 @@ plate are ties, teeth behind the wall are stones that interlock with transverse 
 
 from __future__ import annotations
 
+import textwrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,13 +15,31 @@ import numpy as np
 from dondolo.figures import style
 from dondolo.walls.mechanisms import TwoBlockWall
 from dondolo.walls.shape import Points, Shape, moved, storeys
-from dondolo.walls.wall import Wall
+from dondolo.walls.wall import Wall, effective_property
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 # Parts of a load that the wall lifts and pushes
 _PARTS = {"none": (0.0, 0.0), "vertical": (1.0, 0.0), "both": (1.0, 1.0)}
+# What ties and friction are made of: words, property, factor and unit
+_OF_TIES = (
+    ("length", "tie_length", 1.0, " m"),
+    ("modulus", "tie_modulus", 1e-9, " GPa"),
+    ("yield stress", "tie_strength", 1e-6, " MPa"),
+    ("preload", "tie_preload", 1e-6, " MPa"),
+    ("breaks at a strain of", "tie_strain", 1.0, ""),
+    ("anchor gives way at", "tie_anchor_force", 1e-3, " kN/m"),
+)
+_OF_FRICTION = (
+    ("coefficient", "interlock_friction", 1.0, ""),
+    ("overlap", "interlock_overlap", 1.0, " m"),
+    ("course", "interlock_course", 1.0, " m"),
+    ("transverse walls thick", "interlock_thickness", 1.0, " m"),
+    ("every", "interlock_spacing", 1.0, " m"),
+)
+# Characters of a line below the drawing
+_ACROSS = 44
 _PREFIXES = ((1e6, "M"), (1e3, "k"), (1.0, ""))
 
 
@@ -71,6 +90,30 @@ def draw_loads(ax: Axes, wall: Wall, rotation: float, now: Shape) -> None:
         for height in np.linspace(bottom, top, 5):
             words = f"{_with_prefix(stiffness, 'N/m³')}" if height == bottom else ""
             _spring(ax, wall, _place(wall, depth, float(height), rotation), size, words)
+
+
+def caption(wall: Wall) -> list[str]:
+    """Lines that say what the ties of a wall and its friction are made of; none for a wall without them.
+
+    Parameters
+    ----------
+    wall : Wall
+        The wall.
+
+    Returns
+    -------
+    list of str
+    """
+    lines = []
+    for head, rows in (("Ties", _OF_TIES), ("Friction", _OF_FRICTION)):
+        parts = []
+        for words, name, factor, unit in rows:
+            if (value := effective_property(wall, name)) is not None:
+                numbers = dict.fromkeys(f"{factor * one:.4g}" for one in np.atleast_1d(value))
+                parts.append(f"{words} {', '.join(numbers)}{unit}")
+        if parts:
+            lines += textwrap.wrap(f"{head}: {'; '.join(parts)}", _ACROSS)
+    return lines
 
 
 def _tie(ax: Axes, at: Points, size: float, text: str) -> None:

@@ -16,6 +16,7 @@ from dondolo._fortran.buildings import BUILDING_NAMES
 from dondolo._fortran.handles import Handle
 from dondolo._fortran.library import check, with_units
 from dondolo._fortran.walls import (
+    WALL_ABSENT,
     WALL_PROPERTIES,
     FlatWall,
     WallData,
@@ -34,6 +35,8 @@ if TYPE_CHECKING:
 # What is left out gets its value from Fortran; from then on it is there.
 DEFAULT: Any = None
 
+# What the others of its kind go with
+_FIRST = {"tie": "tie_height", "interlock": "interlock_overlap"}
 _GREEK = (("R", "radius", "m"), ("alpha", "slenderness_angle", "rad"), ("p", "frequency_parameter", "rad/s"))
 
 
@@ -277,12 +280,8 @@ class Wall:
 
     def _facts(self) -> list[tuple[str, str]]:
         """What a reader wants to know, name and text."""
-        own = [
-            (field.name, getattr(self, field.name))
-            for field in dataclasses.fields(self)
-            if field.name != "name" and getattr(self, field.name) is not None
-        ]
-        facts = [(what, _in_words(value)) for what, value in own]
+        own = [(field.name, effective_property(self, field.name)) for field in dataclasses.fields(self)]
+        facts = [(what, _in_words(value)) for what, value in own if what != "name" and value is not None]
         facts += [(letter, f"{getattr(self, what):.6g} {unit}") for letter, what, unit in _GREEK]
         trigger = f"{self.trigger_acceleration:.6g} m/s2 ({self.trigger_acceleration / self.gravity:.4g} g)"
         return [*facts, ("trigger", trigger), ("speed ratio", f"{self.restitution_coefficient:.6g}")]
@@ -323,3 +322,11 @@ def upload(walls: tuple[Wall, ...]) -> Handle:
 def property_of(wall: Wall, name: str) -> Any:
     """A property of a wall, or of the building that it stands on; None where it has none."""
     return getattr(wall.building if name in BUILDING_NAMES else wall, name, None)
+
+
+def effective_property(wall: Wall, name: str) -> Any:
+    """A property of a wall as it is computed with: that of a tie, say, which is not given, is the usual one."""
+    value = property_of(wall, name)
+    if value is None and name in WALL_ABSENT and getattr(wall, _FIRST[name.split("_", 1)[0]], None) is not None:
+        return WALL_ABSENT[name]
+    return value

@@ -39,9 +39,9 @@ module dondolo_check_sheet
       & quantity_type('a_0', 'a_0*', 'm/s2', 'spectral acceleration that starts the mechanism, alpha_0 g/(e* FC)'), &
       & quantity_type('d_0', 'd_0*', 'm', 'displacement at which the multiplier vanishes'), &
       & quantity_type('tie_fracture', '', 'm', 'displacement at which ties break that carry more than half'), &
-      & quantity_type('capacity_ag', 'a_gC', 'g', 'a_g that the wall stands'), &
-      & quantity_type('capacity_pga', 'a_gC S', 'g', 'peak acceleration at the site that the wall stands'), &
-      & quantity_type('displacement', 'd_C', 'm', 'displacement that the wall stands'), &
+      & quantity_type('capacity_ag', 'a_gC', 'g', 'a_g that the wall withstands'), &
+      & quantity_type('capacity_pga', 'a_gC S', 'g', 'peak acceleration at the site that the wall withstands'), &
+      & quantity_type('displacement', 'd_C', 'm', 'displacement that the wall withstands'), &
       & quantity_type('acceleration', 'a(d_C)', 'm/s2', 'spectral acceleration of capacity there'), &
       & quantity_type('period', 'T', 's', 'equivalent period'), &
       & quantity_type('damping', 'xi', '', 'equivalent damping ratio'), &

@@ -8,7 +8,7 @@
 !>     SLC, nonlinear   d_SLC = 0.6 d_0* or where a load loses its seat, T = 1.56 pi sqrt(d/a(d)), xi = 10 %   C8.7.1.11
 !>     dynamic          no history beyond d_0*, mean of the largest d at most d_SLV or d_SLC         C8.7.1.2.1.9
 !>
-!> The a_g that a wall stands is the site's, scaled until capacity and demand are equal; shape and soil factor of the spectrum
+!> The a_g that a wall withstands is the site's, scaled until capacity and demand are equal; shape and soil factor of the spectrum
 !> stay. That of the nonlinear check is not below the one that starts the mechanism.
 module dondolo_ntc_check
    use dondolo_check_input, only : check_input_type, state_names
@@ -67,7 +67,7 @@ contains
       spectrum = new_floor_spectrum(input%spectrum(state), kinematic%period, kinematic%damping, kinematic%participation)
    end function spectrum_of
 
-   !> Put the probability of collapse behind each peak acceleration at the site, the site's own and what the wall stands
+   !> Put the probability of collapse behind each peak acceleration at the site, the site's own and what the wall withstands
    pure subroutine put_probabilities(sheet, curve)
       type(sheet_type), intent(inout) :: sheet
       type(fragility_type), intent(in) :: curve
@@ -198,12 +198,12 @@ contains
       call put_capacity(sheet, 'nonlinear', name, max(d/demand, activation(kinematic, input, spectrum)), spectrum)
    end subroutine put_nonlinear
 
-   !> Put the a_g that a wall stands
+   !> Put the a_g that a wall withstands
    pure subroutine put_capacity(sheet, method, state, factor, spectrum)
       type(sheet_type), intent(inout) :: sheet
       !> Part of the check and limit state
       character(len=*), intent(in) :: method, state
-      !> a_g that the wall stands / that of the site
+      !> a_g that the wall withstands / that of the site
       real(wp), intent(in) :: factor
       type(floor_spectrum_type), intent(in) :: spectrum
 

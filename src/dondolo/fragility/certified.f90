@@ -1,7 +1,7 @@
 !> Certified stripes: every history whose estimated error leaves a doubt is run again in 33 digits, and counts with what it
 !> comes to there (docs/certification.md).
 module dondolo_certified
-   use dondolo_certificate, only : certificate_type, certified_type, certify_histories, in_double, not_computable
+   use dondolo_certificate, only : certificate_type, certified_type, certify_histories, in_double
    use dondolo_ensemble, only : ensemble_type
    use dondolo_error, only : error_type
    use dondolo_floors, only : floors_type

@@ -8,7 +8,6 @@ module dondolo_store_format
    use dondolo_error, only : error_type, raise_input
    use dondolo_fingerprint, only : fingerprint_type
    use dondolo_kinds, only : wp
-   use dondolo_lines, only : lines_type
    use dondolo_row_result, only : bytes_of_row, pack_row, row_result_type, shape_type, unpack_row
    use dondolo_study_key, only : study_key_type
    use dondolo_text, only : to_text

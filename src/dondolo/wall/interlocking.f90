@@ -13,14 +13,11 @@ module dondolo_interlocking
    use dondolo_rigid_body, only : faces_at, same, section_type
    use dondolo_text, only : to_text
    use dondolo_tie, only : new_friction, tie_type
-   use dondolo_wall_properties, only : wall_input_type
+   use dondolo_wall_properties, only : absent_value, wall_input_type
    implicit none
    private
 
    public :: read_interlocking
-
-   !> Coefficient of friction where none is given
-   real(wp), parameter :: usual_friction = 0.577_wp
 
    !> What belongs together; the last may be left out
    character(len=*), parameter :: names(5) = [character(len=19) :: 'interlock_overlap', 'interlock_course', &
@@ -58,7 +55,7 @@ contains
       tall = sum(sections%height)
       if (input%number('interlock_course') > tall*(1.0_wp + same)) call problems%note('interlock_course = '// &
          & to_text(input%number('interlock_course'))//': must be at most '//to_text(tall)//' m, the height of the wall')
-      friction = usual_friction
+      friction = absent_value('interlock_friction')
       if (input%has('interlock_friction')) friction = input%number('interlock_friction')
       force = friction_force(tall, input%number('interlock_course'), input%number('interlock_overlap'), &
          & input%number('interlock_thickness'), friction, gravity*input%number('density'))/input%number('interlock_spacing')

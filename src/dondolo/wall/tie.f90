@@ -6,7 +6,7 @@
 !> falls, and is slack on every way back.
 module dondolo_tie
    use dondolo_kinds, only : wp
-   use dondolo_travel, only : lever, rotation_after, travel
+   use dondolo_travel, only : rotation_after, travel
    implicit none
    private
 

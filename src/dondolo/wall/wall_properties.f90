@@ -13,8 +13,8 @@ module dondolo_wall_properties
    private
 
    public :: wall_input_type, wall_properties, gravity_property
-   public :: is_beyond_bare, is_extra, is_of_building, mechanism_names, load_inertias, own_properties, standard_gravity, &
-      & wall_numbers
+   public :: absent_value, is_beyond_bare, is_extra, is_of_building, mechanism_names, load_inertias, own_properties, &
+      & standard_gravity, wall_numbers
 
    !> Names of the mechanisms
    character(len=choices_length), parameter :: mechanism_names(*) = &
@@ -155,7 +155,7 @@ module dondolo_wall_properties
       & property_type('tie_height', is_list, unit='m', owners=one_sided, optional=.true., example='7.4', &
       &   meaning='height of the anchor of each tie above the base'), &
       & property_type('tie_depth', is_list, unit='m', owners=one_sided, optional=.true., example='0.0', &
-      &   meaning='depth of each anchor behind the outer face, 0 if not given'), &
+      &   absent=0.0_wp, meaning='depth of each anchor behind the outer face, 0 if not given'), &
       & property_type('tie_area', is_list, unit='m2/m', owners=one_sided, optional=.true., positive=.true., &
       &   largest=1.0e-2_wp, usual_least=1.0e-6_wp, usual_most=1.0e-3_wp, if_less='is it in m2 per metre?', &
       &   if_more='is it per metre of wall, in m2?', example='5.0e-5', &
@@ -163,18 +163,20 @@ module dondolo_wall_properties
       & property_type('tie_length', is_list, unit='m', owners=one_sided, optional=.true., positive=.true., &
       &   smallest=0.1_wp, largest=1.0e3_wp, usual_most=60.0_wp, if_more='is it in centimetres?', example='8.0', &
       &   meaning='length of each tie that is free to stretch, as a rule up to its other anchor'), &
+      ! Where none are given: modulus and yield stress of historic iron, and the strain that anchorages leave
       & property_type('tie_modulus', is_list, unit='Pa', owners=one_sided, optional=.true., positive=.true., &
       &   smallest=1.0e8_wp, largest=1.0e12_wp, usual_least=1.0e9_wp, usual_most=5.0e11_wp, if_less='is it in MPa?', &
-      &   if_more='is it in Pa?', example='2.06e11', meaning='modulus of elasticity of each tie, 2.06e11 if not given'), &
+      &   if_more='is it in Pa?', example='2.06e11', absent=2.06e11_wp, &
+      &   meaning='modulus of elasticity of each tie, 2.06e11 if not given'), &
       & property_type('tie_strength', is_list, unit='Pa', owners=one_sided, optional=.true., positive=.true., &
       &   largest=1.0e10_wp, usual_least=1.0e7_wp, usual_most=3.0e9_wp, if_less='is it in MPa?', if_more='is it in Pa?', &
-      &   example='1.8e8', meaning='yield stress of each tie, 1.8e8 if not given'), &
+      &   example='1.8e8', absent=1.8e8_wp, meaning='yield stress of each tie, 1.8e8 if not given'), &
       & property_type('tie_preload', is_list, unit='Pa', owners=one_sided, optional=.true., smallest=0.0_wp, &
       &   largest=1.0e10_wp, usual_least=1.0e5_wp, if_less='is it in MPa, or a force?', example='0.0', &
-      &   meaning='stress of each tie at rest, less than its yield stress, 0 if not given'), &
+      &   absent=0.0_wp, meaning='stress of each tie at rest, less than its yield stress, 0 if not given'), &
       & property_type('tie_strain', is_list, owners=one_sided, optional=.true., positive=.true., largest=1.0_wp, &
       &   usual_most=0.3_wp, if_more='is it in per cent?', example='0.02', &
-      &   meaning='strain of each tie at which it or its anchorage breaks, 0.02 if not given'), &
+      &   absent=0.02_wp, meaning='strain of each tie at which it or its anchorage breaks, 0.02 if not given'), &
       & property_type('tie_anchor_force', is_list, unit='N/m', owners=one_sided, optional=.true., smallest=1.0e-9_wp, &
       &   largest=1.0e9_wp, usual_least=100.0_wp, usual_most=1.0e6_wp, if_less='is it in kN/m?', &
       &   if_more='is it per metre of wall?', example='6.0e3', &
@@ -195,7 +197,7 @@ module dondolo_wall_properties
       &   meaning='distance of two transverse walls'), &
       & property_type('interlock_friction', owners=one_sided, optional=.true., positive=.true., largest=2.0_wp, &
       &   usual_most=1.0_wp, if_more='is it an angle, or in per cent?', example='0.577', &
-      &   meaning='coefficient of friction in the overlaps, 0.577 if not given'), &
+      &   absent=0.577_wp, meaning='coefficient of friction in the overlaps, 0.577 if not given'), &
       & property_type('hinge', default=0.5_wp, smallest=0.01_wp, largest=0.99_wp, owners=two_block, &
       &   meaning='height of the intermediate hinge / height of the wall'), &
       & property_type('restitution', is_text, word='default', checked_by_owner=.true., column='restitution_model', &
@@ -256,6 +258,14 @@ module dondolo_wall_properties
    end type wall_input_type
 
 contains
+
+   !> What stands in the place of a number that is not given beside the others of its kind
+   pure real(wp) function absent_value(name)
+      !> Name of the property, in lower case
+      character(len=*), intent(in) :: name
+
+      absent_value = wall_properties(find_property(wall_properties, name))%absent
+   end function absent_value
 
    !> The table
    subroutine get_table(self, table)

@@ -6,14 +6,11 @@ module dondolo_wall_ties
    use dondolo_text, only : rounded, to_text
    use dondolo_tie, only : new_tie, tie_input_type, tie_type
    use dondolo_wall_lists, only : take
-   use dondolo_wall_properties, only : wall_input_type
+   use dondolo_wall_properties, only : absent_value, wall_input_type
    implicit none
    private
 
    public :: read_ties
-
-   !> Values where none are given: modulus [Pa] and yield stress [Pa] of historic iron, and the strain that anchorages leave
-   real(wp), parameter :: usual_modulus = 2.06e11_wp, usual_strength = 1.8e8_wp, usual_strain = 0.02_wp
 
    !> How far outside the outer face an anchor may be [m]
    real(wp), parameter :: outside = 0.1_wp
@@ -37,14 +34,14 @@ contains
       type(tie_input_type), allocatable :: given(:)
       integer :: i
 
-      call take(input, problems, 'tie_depth', 'tie_height', depth, 0.0_wp)
+      call take(input, problems, 'tie_depth', 'tie_height', depth, absent_value('tie_depth'))
       call take(input, problems, 'tie_area', 'tie_height', area)
       call take(input, problems, 'tie_length', 'tie_height', length)
-      call take(input, problems, 'tie_modulus', 'tie_height', modulus, usual_modulus)
-      call take(input, problems, 'tie_strength', 'tie_height', strength, usual_strength)
-      call take(input, problems, 'tie_preload', 'tie_height', preload, 0.0_wp)
-      call take(input, problems, 'tie_strain', 'tie_height', strain, usual_strain)
-      call take(input, problems, 'tie_anchor_force', 'tie_height', anchor, huge(1.0_wp))
+      call take(input, problems, 'tie_modulus', 'tie_height', modulus, absent_value('tie_modulus'))
+      call take(input, problems, 'tie_strength', 'tie_height', strength, absent_value('tie_strength'))
+      call take(input, problems, 'tie_preload', 'tie_height', preload, absent_value('tie_preload'))
+      call take(input, problems, 'tie_strain', 'tie_height', strain, absent_value('tie_strain'))
+      call take(input, problems, 'tie_anchor_force', 'tie_height', anchor, absent_value('tie_anchor_force'))
       allocate (given(size(depth)), ties(size(depth)))
       given%depth = depth
       given%height = input%list('tie_height')

@@ -50,6 +50,8 @@ module dondolo_property
       logical :: optional = .false.
       !> Default of a number; of a logical 1 for true
       real(wp) :: default = 0.0_wp
+      !> What stands in the place of an optional number that is not given beside the others of its kind; no_limit: nothing
+      real(wp) :: absent = no_limit
       !> Default of a text
       character(len=16) :: word = ''
       !> Must it be greater than 0?
@@ -273,6 +275,7 @@ contains
       call add(listed(property%owners))
       call add(merge(repeat(' ', len(property%column)), column_name(property), property%replaced))
       call add(property%meaning)
+      call add(to_text(property%absent))
 
    contains
 

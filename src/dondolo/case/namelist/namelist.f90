@@ -10,7 +10,7 @@ module dondolo_namelist
    use dondolo_error, only : error_type, raise_input
    use dondolo_limits, only : longest_case
    use dondolo_name_index, only : name_index_type
-   use dondolo_namelist_group, only : group_type, value_type, variable_type
+   use dondolo_namelist_group, only : group_type, variable_type
    use dondolo_namelist_tokens, only : comma, cut, end_of_file, equals, group_begin, group_end, quoted, token_type, word
    use dondolo_text, only : lower, to_text
    use dondolo_text_file, only : read_text_file, text_file_type

@@ -124,7 +124,7 @@ contains
 
       !> Probability of collapse at the peak acceleration of SLV; empty where there is none
       function chance(method) result(cell)
-         !> 'site', or the check that says what the wall stands
+         !> 'site', or the check that says what the wall withstands
          character(len=*), intent(in) :: method
          !> Cell
          character(len=48) :: cell

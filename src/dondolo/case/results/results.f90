@@ -7,7 +7,6 @@ module dondolo_results
    use dondolo_designs, only : design_type
    use dondolo_ensemble, only : name_engines
    use dondolo_fragility, only : fragility_type
-   use dondolo_kinds, only : wp
    use dondolo_population_counts, only : population_counts_type
    use dondolo_response, only : response_type, trace_type
    use dondolo_sensitivity, only : sensitivity_type

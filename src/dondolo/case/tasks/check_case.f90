@@ -10,7 +10,7 @@ module dondolo_check_case
    use dondolo_response, only : response_type
    use dondolo_scaling, only : new_scaling
    use dondolo_stripes, only : multiple_stripe, stripes_type
-   use dondolo_study, only : find_level, new_study, study_type
+   use dondolo_study, only : find_level, study_type
    implicit none
    private
 

@@ -4,7 +4,6 @@
 !> rules that all engines share (dondolo_history, dondolo_rest, dondolo_events; docs/theory.md, section 4).
 module dondolo_lane_history
    use, intrinsic :: iso_c_binding, only : c_int
-   use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_events, only : impact, level_above, level_below, limit_reached, no_event, turning
    use dondolo_history, only : history_type
    use dondolo_interrupt, only : look_for_interrupt
@@ -21,7 +20,7 @@ module dondolo_lane_history
    use dondolo_record_set, only : record_set_type
    use dondolo_response, only : trace_type
    use dondolo_rest, only : rest_type
-   use dondolo_step_limits, only : longest_step, shortest_motion, smallest_step
+   use dondolo_step_limits, only : longest_step, shortest_motion
    use dondolo_tail, only : tail_type
    use dondolo_work, only : work_type
    implicit none
