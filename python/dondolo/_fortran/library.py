@@ -60,6 +60,8 @@ class Property(NamedTuple):
         'positive' for a number greater than 0, 'less' for one less than the largest.
     choices, owners : tuple of str
         What a text can be; the mechanisms that have it, () for all.
+    instead : str
+        What can take its place, where one of both must be given.
     column : str
         Its column in the tables of results.
     meaning : str
@@ -75,6 +77,7 @@ class Property(NamedTuple):
     bounds: str
     choices: tuple[str, ...]
     owners: tuple[str, ...]
+    instead: str
     column: str
     meaning: str
 
@@ -126,10 +129,11 @@ def properties(group: str) -> tuple[Property, ...]:
             bounds,
             tuple(choices.split()),
             tuple(owners.split()),
+            instead,
             column,
             meaning,
         )
-        for name, kind, unit, default, smallest, largest, bounds, choices, owners, column, meaning in rows
+        for name, kind, unit, default, smallest, largest, bounds, choices, owners, instead, column, meaning in rows
     )
 
 
