@@ -4,6 +4,7 @@ The formulas are held against worked numbers in test/test_code_check.f90.
 """
 
 import csv
+import re
 import subprocess
 
 import matplotlib
@@ -231,3 +232,10 @@ def test_population(root, executable, tmp_path):
                 assert float(row[f"{method}_{state.lower()}_{unit}"]) == pytest.approx(value, rel=1e-14)
         if curve.has_fit:
             assert float(row["probability_site"]) == pytest.approx(curve(check.pga), rel=1e-9)
+
+
+def test_check_without_a_run(run, root):
+    """`--check` prints the kinematic check of one wall, and none of a population."""
+    for case, shown in (("facade", True), ("facade_hinges", False)):
+        done = run("--check", root / f"data/cases/{case}.nml")
+        assert (done.returncode, bool(re.search(r"(?m)^kinematic +limit state", done.stdout))) == (0, shown)
