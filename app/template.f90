@@ -6,6 +6,7 @@ module dondolo_template
    use dondolo_property, only : default_text, has_owner, is_many, is_text, item_name, number_of_choices, property_type
    use dondolo_property_tables, only : property_table
    use dondolo_text, only : join
+   use dondolo_wall_properties, only : mechanism_names
    implicit none
    private
 
@@ -120,6 +121,7 @@ contains
       if (len_trim(property%instead) > 0) comment = 'required, or '//trim(property%instead)//': '
       if (.not. any(property%owners(1) == task_names)) then
          count = number_of_choices(property%owners)
+         if (count == size(mechanism_names)) count = 0
          do i = 1, count
             comment = comment//trim(merge('only ', 'or   ', i == 1))//' '//trim(property%owners(i))
             comment = comment//merge(': ', '  ', i == count)

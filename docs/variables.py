@@ -1,8 +1,13 @@
 """Write docs/variables.md, the variables of a case, from the tables of the library: python docs/variables.py."""
 
+import re
 from pathlib import Path
 
 from dondolo._fortran.library import Property, properties
+
+# How the meaning of a variable says what applies where it is left out
+LEFT_OUT = re.compile(r", ([^,;]+) if not given|; ([^,;]+) if not given")
+MECHANISMS = next(row.choices for row in properties("wall") if row.name == "mechanism")
 
 TITLES = {
     "job": "What is to be done",
@@ -24,6 +29,7 @@ HEAD = """# Variables of a case
 What a namelist file can say, group by group; `dondolo --template` prints the same as a case that runs in the root of
 the repository. The names of the groups `&wall` and `&building` are the columns of a population, and the arguments of
 the walls and of `dd.Building` in Python too; values of a list stand in columns with numbers, `period1`, `period2` ...
+A variable without a default has no value where it is left out. An empty `only for` means all mechanisms and tasks.
 This page is written by `docs/variables.py` from the tables of properties in the sources, where ranges and defaults have
 their only home.
 """
@@ -45,8 +51,14 @@ def allowed(row: Property) -> str:
 
 def default(row: Property) -> str:
     """Its default, or that it has none."""
-    if row.default in ("required", "optional"):
-        return {"required": "required", "optional": ""}[row.default]
+    if row.instead:
+        return "required, or " + re.sub(r"\b(?!and\b)\w+", lambda name: f"`{name[0]}`", row.instead)
+    if row.default == "required":
+        return "required"
+    if row.default == "optional":
+        said = LEFT_OUT.search(row.meaning)
+        text = (said[1] or said[2]) if said else ""
+        return f"`{text}`" if re.fullmatch(r"[\d.e-]+", text) else text
     return f"`'{row.default}'`" if row.kind == "text" else f"`{row.default}`" if row.default else ""
 
 
@@ -56,8 +68,8 @@ def table(group: str) -> list[str]:
     lines = [title, "", TITLES[group] + ".", "", "| variable | unit | default | allowed | only for | meaning |"]
     lines.append("|---|---|---|---|---|---|")
     for row in properties(group):
-        owners = ", ".join(row.owners)
-        cells = [f"`{row.name}`", row.unit, default(row), allowed(row), owners, row.meaning]
+        owners = "" if set(row.owners) == set(MECHANISMS) else ", ".join(row.owners)
+        cells = [f"`{row.name}`", row.unit, default(row), allowed(row), owners, LEFT_OUT.sub("", row.meaning)]
         lines.append("| " + " | ".join(cells) + " |")
     return [*lines, ""]
 

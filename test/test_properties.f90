@@ -445,7 +445,7 @@ contains
       call input%set('mechanism', 'one_sided')
       call input%set('heigth', 3.0_wp)
       call new_wall(wall, input, error)
-      call check_error(error, 'heigth: no such variable; there are ''name'', ''mechanism'', ''height''', 'heigth')
+      call check_error(error, 'heigth: no such variable; did you mean ''height''? dondolo --template lists all', 'heigth')
    end subroutine test_unknown
 
    !> Remove a file

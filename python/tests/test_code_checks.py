@@ -4,6 +4,7 @@ The formulas are held against worked numbers in test/test_code_check.f90.
 """
 
 import csv
+import re
 import subprocess
 
 import matplotlib
@@ -247,3 +248,10 @@ def test_a_wall_in_another_unit_is_warned_of():
     with pytest.warns(dd.DondoloWarning) as both:
         dd.compare_designs({"one": wall}, records, [0.1, 0.2], site=SITE, progress=False)
     assert [one.message for one in both if one.message.code == "value_above_usual"] == found
+
+
+def test_check_without_a_run(run, root):
+    """`--check` prints the kinematic check of one wall, and none of a population."""
+    for case, shown in (("facade", True), ("facade_hinges", False)):
+        done = run("--check", root / f"data/cases/{case}.nml")
+        assert (done.returncode, bool(re.search(r"(?m)^kinematic +limit state", done.stdout))) == (0, shown)

@@ -9,24 +9,41 @@ import pytest
 import dondolo as dd
 
 
-@pytest.mark.slow
-def test_program_with_dondolo(root, records, wall, tmp_path):
+def compiled(root, folder, source):
+    """A program, compiled with the library of the build."""
     libraries = sorted((root / "build-python/src").glob("**/libdondolo*.a"))
     if not libraries or shutil.which("gfortran") is None:
         pytest.skip("needs gfortran and the build of ./run setup")
     modules = [f"-I{library}.p" for library in libraries]
-    program = tmp_path / "median"
-    source = root / "docs/examples/fpm/app/main.f90"
+    program = folder / source.stem
     archives = ["-Wl,--start-group", *libraries, "-Wl,--end-group"]
     subprocess.run(
         ["gfortran", "-fopenmp", *modules, source, *archives, "-llapack", "-lblas", "-o", program],
         check=True,
-        cwd=tmp_path,
+        cwd=folder,
     )
+    return program
+
+
+@pytest.mark.slow
+def test_program_with_dondolo(root, records, wall, tmp_path):
+    program = compiled(root, tmp_path, root / "docs/examples/fpm/app/main.f90")
     said = subprocess.run([program, root / "data/records/synthetic44.csv"], capture_output=True, text=True, check=True)
+    assert said.stdout in (root / "docs/fortran.md").read_text()
     theta, beta = map(float, re.findall(r"= *([\d.]+)", said.stdout))
     curve = dd.multiple_stripe(wall, records, levels=[0.4, 0.6, 0.8, 1.0, 1.2], progress=False).fit()
     assert (theta, beta) == (pytest.approx(curve.theta, abs=6e-4), pytest.approx(curve.beta, abs=6e-4))
+
+
+@pytest.mark.slow
+def test_program_of_the_page(root, records, tmp_path):
+    """The motion of a wall, as docs/fortran.md shows it."""
+    source = tmp_path / "one_motion.f90"
+    source.write_text(re.search(r"(?s)```fortran\n(.*?)```", (root / "docs/fortran.md").read_text())[1])
+    program = compiled(root, tmp_path, source)
+    said = subprocess.run([program, root / "data/records/synthetic44.csv"], capture_output=True, text=True, check=True)
+    response = dd.simulate(dd.OneSidedWall(1.5, 0.25), records[6], 1.5, solver=dd.Solver(rtol=1e-9), history=False)
+    assert said.stdout == f"EDP = {response.edp:6.3f}, collapse: F\n"
 
 
 def test_the_manifest_uses_the_repository(root):

@@ -134,6 +134,68 @@ def test_page_of_variables(root):
     assert variables.page() == (root / "docs/variables.md").read_text(encoding="utf-8"), "python docs/variables.py"
 
 
+BASES = {
+    "section": {"section_height": [1.5, 1.5], "section_thickness": [0.3, 0.25]},
+    "tie": {"height": 3.0, "thickness": 0.25, "tie_height": 2.8, "tie_area": 2e-5, "tie_length": 4.0},
+    "interlock": {"height": 3.0, "thickness": 0.25, "interlock_overlap": 0.1, "interlock_course": 0.1}
+    | {"interlock_thickness": 0.25, "interlock_spacing": 5.0},
+    "stress": {"height": 3.0, "thickness": 0.25, "compressive_strength": 1e6},
+}
+
+
+def test_what_is_not_given(records):
+    """What meanings say of a number that is left out is what is computed with."""
+    shown = {row.name: re.search(r" (\d[\d.e]*) if not given", row.meaning) for row in WALL}
+    numbers = {name: float(found[1]) for name, found in shown.items() if found}
+    assert {name.split("_")[0] for name in numbers} == set(BASES)
+    others = {"section_offset": 0.05, "tie_depth": 0.1, "tie_preload": 5e7}
+    for name, number in numbers.items():
+        stem, other = name.split("_")[0], others.get(name, 0.7 * number)
+        values = (number, [number, other] if stem == "section" else other)
+        walls = [dd.OneSidedWall(**BASES[stem], **more) for more in ({}, *({name: value} for value in values))]
+        scale = 2.4 if stem == "tie" else 1.0
+        said, given, changed = (dd.simulate(wall, records[6], scale, history=False).edp for wall in walls)
+        assert said == given != changed, (name, said, given, changed)
+
+
+# What a template's variable says where another one is missing, or takes its place
+TOGETHER = re.compile(
+    r"only with|only for|must be given|give either|belong together|must be above|instead of"
+    r"|must be less than the height of the wall|a property must have a distribution"
+)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("task", ["stripes", "history", "typology"])
+def test_template_uncommented(run, root, tmp_path, task):
+    """Every variable of a template is read as it is shown, once its exclamation mark is taken away."""
+    text = run("--template", task).stdout.replace("'data/", f"'{root}/data/")
+    if task == "typology":
+        # The wall of one case alone can be uncertain
+        wall = "&wall mechanism = 'two_block', height = 3.0, thickness = 0.25\n"
+        wall += "overburden = 5.0e3, overburden_inertia = 1.0 /"
+        text = re.sub(r"(?s)&population\n.*?\n/", wall, text)
+    elif task == "history":
+        text = text.replace("\n   scale = ", "\n   ! scale = ")
+    lines, number = text.splitlines(), 0
+    group = ""
+    for i, line in enumerate(lines):
+        group = match[1] if (match := re.match(r"(?:! )?&(\w+)$", line)) else group
+        variable = re.match(r" *! +(\w+ = .*)", line)
+        if variable is None or (task == "history" and group not in ("history", "building")):
+            continue
+        number += 1
+        case = [*lines[:i], variable[1], *lines[i + 1 :]]
+        if f"! &{group}" in lines:
+            case = [one[2:] if one in (f"! &{group}", "! /") else one for one in case]
+        (tmp_path / "case.nml").write_text("\n".join(case) + "\n")
+        done = run("--check", "case.nml")
+        said = [one for one in done.stderr.splitlines() if "warning" not in one and "note" not in one]
+        assert done.returncode in (0, 2), done.stderr
+        assert all(TOGETHER.search(one) for one in said), said
+    assert number >= {"stripes": 70, "history": 7, "typology": 9}[task]
+
+
 def test_template_has_every_property(run, tmp_path):
     for task, groups in {
         "stripes": ("job", "wall", "building", "records", "stripes", "solver"),

@@ -73,7 +73,7 @@ def test_refused(records):
         (dd.OneSidedWall(3.0, 0.25), HINGES, "no wall of two blocks"),
         (wall, [0.5, 1.2], "must lie between 0.01 and 0.99|hinge = 1.2"),
         (wall, [0.6, 0.5], "must increase"),
-        (wall, [0.6], "two at least"),
+        (wall, [0.6], "at least two"),
     ):
         with pytest.raises(dd.InputError, match=message):
             dd.weakest_hinge(walls, records, LEVELS, hinges=hinges, progress=False)

@@ -66,6 +66,8 @@ class Property(NamedTuple):
         'positive' for a number greater than 0, 'less' for one less than the largest.
     choices, owners : tuple of str
         What a text can be; the mechanisms that have it, () for all.
+    instead : str
+        What can take its place, where one of both must be given.
     column : str
         Its column in the tables of results.
     meaning : str
@@ -83,6 +85,7 @@ class Property(NamedTuple):
     bounds: str
     choices: tuple[str, ...]
     owners: tuple[str, ...]
+    instead: str
     column: str
     meaning: str
     absent: float | None
@@ -123,23 +126,26 @@ def constants() -> Constants:
 @functools.cache
 def properties(group: str) -> tuple[Property, ...]:
     """The table of properties of a group of a case ('wall', 'solver' ...), or of rows of a population ('member')."""
-    rows = (line.split("\t") for line in receive(*_core.library.properties(group.encode())).lines)
-    return tuple(
-        Property(
-            name,
-            kind,
-            unit,
-            default,
-            float(smallest),
-            float(largest),
-            bounds,
-            tuple(choices.split()),
-            tuple(owners.split()),
-            column,
-            meaning,
-            None if float(absent) == sys.float_info.max else float(absent),
-        )
-        for name, kind, unit, default, smallest, largest, bounds, choices, owners, column, meaning, absent in rows
+    return tuple(_property(*line.split("\t")) for line in receive(*_core.library.properties(group.encode())).lines)
+
+
+def _property(*entries: str) -> Property:
+    """A property out of its line."""
+    name, kind, unit, default, smallest, largest, bounds, choices, owners, instead, column, meaning, absent = entries
+    return Property(
+        name,
+        kind,
+        unit,
+        default,
+        float(smallest),
+        float(largest),
+        bounds,
+        tuple(choices.split()),
+        tuple(owners.split()),
+        instead,
+        column,
+        meaning,
+        None if float(absent) == sys.float_info.max else float(absent),
     )
 
 

@@ -42,7 +42,7 @@ class Building:
     building_height : float, optional
         Height of the building, with storeys [m].
     refine : int, optional
-        Parts that a step of a record is divided into; 0, or not given: as many as the shortest period needs.
+        Parts that a step of a record is divided into; 0: as many as the shortest period needs, 0 if not given.
 
     Raises
     ------

@@ -41,8 +41,8 @@ module dondolo_building
       & property_type('building_height', unit='m', optional=.true., positive=.true., largest=1.0e3_wp, example='9.0', &
       &   meaning='height of the building, with storeys'), &
       & property_type('refine', is_integer, optional=.true., smallest=0.0_wp, largest=real(most_parts, wp), zero='auto', &
-      &   example='0', meaning='parts that a step of a record is divided into; 0, or not given: as many as the '// &
-      &   'shortest period needs')]
+      &   example='0', meaning='parts that a step of a record is divided into; 0: as many as the shortest '// &
+      &   'period needs, 0 if not given')]
 
    !> The same where pointers can point
    type(property_type), target, protected :: building_properties(size(building_rows)) = building_rows

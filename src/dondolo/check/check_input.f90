@@ -34,7 +34,8 @@ module dondolo_check_input
       & property_type('topography', is_text, word='T1', meaning='class of topography', &
       &   choices=reshape([character(len=choices_length) :: topography_names], [most_choices], pad=blank)), &
       & property_type('confidence', default=1.35_wp, smallest=1.0_wp, largest=1.35_wp, &
-      &   meaning='confidence factor FC: 1.35, 1.2 or 1; 1.35 where no compressive strength moves the hinge'), &
+      &   meaning='confidence factor FC; the code has 1, 1.2 and 1.35, the last of them where no compressive strength '// &
+      &   'moves the hinge'), &
       & property_type('behaviour', default=2.0_wp, smallest=1.0_wp, largest=2.0_wp, &
       &   meaning='behaviour factor q of the linear check')]
 

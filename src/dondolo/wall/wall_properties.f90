@@ -116,7 +116,7 @@ module dondolo_wall_properties
       &   meaning='height of each load above the base'), &
       & property_type('load_inertia', is_words, owners=one_block, optional=.true., &
       &   choices=reshape(load_inertias, [most_choices], pad=blank), more='one for all loads, or one for each', &
-      &   example='both', meaning='which mass of each load the wall moves'), &
+      &   example='''both''', meaning='which mass of each load the wall moves'), &
       & property_type('load_lifted', is_list, owners=one_block, optional=.true., smallest=0.0_wp, largest=1.0_wp, &
       &   example='1.0, 0.5', meaning='part of each load whose mass the wall lifts, with load_pushed instead of load_inertia'), &
       & property_type('load_pushed', is_list, owners=one_block, optional=.true., smallest=0.0_wp, largest=1.0_wp, &

@@ -252,8 +252,8 @@ contains
    end function limit_text
 
    !> A property as a line: name, kind, unit, 'required', 'optional' or its default, smallest and largest value,
-   !> 'positive' or 'less' where one of them cannot be reached, choices, owners, column (empty where it has none) and
-   !> meaning, with a tab between two; entries with several names have blanks between
+   !> 'positive' or 'less' where one of them cannot be reached, choices, owners, what can take its place, column (empty
+   !> where it has none) and meaning, with a tab between two; entries with several names have blanks between
    subroutine describe_property(property, line)
       type(property_type), intent(in) :: property
       !> Its line
@@ -273,6 +273,7 @@ contains
       call add(trim(merge('positive', merge('less    ', '        ', property%less), property%positive)))
       call add(listed(property%choices))
       call add(listed(property%owners))
+      call add(property%instead)
       call add(merge(repeat(' ', len(property%column)), column_name(property), property%replaced))
       call add(property%meaning)
       call add(to_text(property%absent))

@@ -22,7 +22,8 @@ module dondolo_stripes_group
    !> Variables of the group; first, last and count become levels
    type(property_type), target, protected :: stripes_properties(7) = [ &
       & property_type('im', is_text, word='pga', meaning='intensity measure: also ''sa(0.5)'', ''saavg(0.2:2)'' (periods '// &
-      &   'in s; levels in g), ''pgv'', ''arias'', ''cav'' (m/s), ''pgd'', ''hi'' (m), ''pga/a0'', ''p*pgv/a0'' (1)'), &
+      &   'in s; levels in g), ''pgv'', ''arias'', ''arias-trapz'', ''cav'', ''cav-trapz'' (m/s), ''pgd'', ''hi'' (m), '// &
+      &   '''pga/a0'', ''p*pgv/a0'' (1)'), &
       & property_type('levels', is_list, optional=.true., instead='first, last and count', &
       &   example='0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8', meaning='levels of the measure, increasing, in its unit'), &
       & property_type('first', optional=.true., positive=.true., example='0.1', changes_results=.false., &

@@ -19,8 +19,8 @@ module dondolo_uncertainty_group
 
    !> Variables of the group; behind the first two properties of walls, by their names
    type(property_type), target, protected :: uncertainty_properties(11) = [ &
-      & property_type('samples', is_integer, default=200.0_wp, smallest=1.0_wp, largest=10000.0_wp, &
-      &   meaning='walls of the sample'), &
+      & property_type('samples', is_integer, default=200.0_wp, smallest=8.0_wp, largest=10000.0_wp, &
+      &   meaning='walls of the sample; of k properties at least 2 + 6 k + k (k - 1): 8 of one, 38 of four'), &
       & property_type('seed', is_integer, default=1.0_wp, smallest=1.0_wp, largest=1.0e6_wp, &
       &   meaning='seed of the random numbers; the same seed gives the same walls'), &
       & property_type('restitution_factor', is_text, optional=.true., example='graziotti_2016', meaning='distribution of '// &

@@ -1,0 +1,153 @@
+"""docs/files.md describes every column of every table of a run, and every key of its file."""
+
+import json
+import re
+import subprocess
+
+import pytest
+from dondolo._fortran.library import constants, properties
+
+import dondolo as dd
+
+# What a case of the repository becomes, so that a column that few runs have is written
+CASES = {
+    "parapet": {"&stripes": "&solver certify = .true. /\n&stripes edp_thresholds = 0.3,"},
+    "history": {"&history": "&solver estimate_error = .true. /\n&history"},
+    "tied_facade": {},
+    "facade": {},
+    "facade_hinges": {},
+    "facades": {"task = 'typology'": "task = 'typology', histories = .true."},
+    "designs": {},
+    "gable": {"&stripes": "&solver estimate_error = .true. /\n&stripes"},
+    "population": {},
+    "uncertain_strip": {"samples = 200": "samples = 38", "first = 0.2": "first = 0.4", "count = 15": "count = 4"},
+}
+
+
+@pytest.fixture(scope="module")
+def written(executable, root, tmp_path_factory):
+    """Folder with the results of small cases of every task: of the executable, and of Python."""
+    folder = tmp_path_factory.mktemp("tables")
+    for name, changes in CASES.items():
+        text = (root / f"data/cases/{name}.nml").read_text().replace("'../", f"'{root}/data/")
+        text = re.sub(r"output = '[^']*'", f"output = '{name}'", text)
+        for old, new in changes.items():
+            assert text.count(old) == 1, (name, old)
+            text = text.replace(old, new)
+        (folder / f"{name}.nml").write_text(text)
+    few = dd.example_records()[:3]
+    moved = [dd.Record(one.acceleration, one.dt, name=one.name, vertical=0.5 * one.acceleration) for one in few]
+    dd.RecordSet(moved).to_catalogue(folder / "records.csv")
+    (folder / "vertical.nml").write_text(
+        "&job output = 'vertical' /\n&wall mechanism = 'one_sided', height = 3.0, thickness = 0.25 /\n"
+        "&records catalogue = 'records.csv', vertical = 'recorded' /\n&stripes levels = 0.2, 0.4 /\n"
+    )
+    for name in (*CASES, "vertical"):
+        subprocess.run([executable, "--quiet", f"{name}.nml"], cwd=folder, check=True, capture_output=True)
+    walls = dd.read_population(root / "data/walls/designs.csv")
+    typology = dd.typology(walls, dd.example_records()[:6], [0.3, 0.6, 0.9, 1.2], progress=False)
+    typology.write_results(folder / "python")
+    return folder
+
+
+def sections(root):
+    """Names in the first column of the tables of each section of the page."""
+    parts = re.split(r"(?m)^### (.*)\n", (root / "docs/files.md").read_text())
+    found = {}
+    for title, text in zip(parts[1::2], parts[2::2], strict=True):
+        rows = re.findall(r"(?m)^\| ([^|]*) \|.*\|$", text.split("\n## ")[0])
+        found[title] = {name for row in rows for name in re.findall(r"`([^`]+)`", row)}
+    return found
+
+
+def head(path):
+    """Columns of a table."""
+    with path.open() as lines:
+        return next(line for line in lines if not line.startswith("#")).rstrip("\n").split(",")
+
+
+def of_a_wall():
+    """Columns of the properties of walls and buildings; those of lists without their number."""
+    return {row.column: row for group in ("wall", "building") for row in properties(group) if row.column}
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+def test_columns_are_described(written, root):
+    page = sections(root)
+    common, seen = page.pop("Columns of several tables"), {}
+    for path in written.glob("*.csv"):
+        if "_" in path.name:
+            seen.setdefault(f"`PREFIX_{path.name.rpartition('_')[2]}`", set()).update(head(path))
+    described = {title: names for title, names in page.items() if title.startswith("`PREFIX_")}
+    assert set(seen) == set(described)
+    for title, columns in seen.items():
+        columns = {re.sub(r"^([a-z]+)\d+", r"\1", name) for name in columns}
+        if "walls" in title:
+            columns -= set(of_a_wall())
+        assert columns <= described[title] | common, (title, columns - described[title] - common)
+        # Nothing is described that no table has
+        assert described[title] <= columns, (title, described[title] - columns)
+    # Every table is in the list of tables
+    assert {title.strip("`") for title in described} <= page_names(root)
+    words = set(constants().statuses) | set(constants().errors) | {"given"}
+    assert words <= common
+
+
+@pytest.mark.slow
+def test_heads_are_skipped(written, root):
+    """As the page says for pandas."""
+    pandas = pytest.importorskip("pandas")
+    call = re.search(r"`pandas\.read_csv\(\"out/(\w+\.csv)\", (\w+)=\"(.)\"\)`", (root / "docs/files.md").read_text())
+    table = pandas.read_csv(written / call[1], **{call[2]: call[3]})
+    assert list(table.columns) == head(written / call[1])
+    assert table["wall"].eq("parapet").all()
+
+
+def page_names(root):
+    """Names of tables in the list of tables."""
+    return set(re.findall(r"(?m)^\| `(PREFIX_\w+\.csv)` \|", (root / "docs/files.md").read_text()))
+
+
+def test_names_of_columns_of_walls(root):
+    """The rule of the page, and those that differ from it."""
+    text = (root / "docs/files.md").read_text()
+    section = re.search(r"(?s)### `PREFIX_walls.csv`\n(.*?)\n\|", text)[1]
+    differ = {row.column for row in of_a_wall().values() if row.column != by_rule(row)}
+    assert {name for name in differ if f"`{name}`" in section} == differ
+    assert f"{['no', 'one', 'two', 'three', 'four'][len(differ)]} names differ" in section.lower()
+
+
+def by_rule(row):
+    """Name of the column of a property by the rule of the page."""
+    return re.sub(r"[/ ]", "_", f"{row.name}_{row.unit.lower()}" if row.unit else row.name)
+
+
+@pytest.mark.slow
+def test_keys_are_described(written, root):
+    page = (root / "docs/files.md").read_text()
+    keys = set(re.findall(r"(?m)^\| `(\w+)` \| (?:string|array|object|integer)", page))
+    found = {path.name: set(json.loads(path.read_text())) for path in written.glob("*_run.json")}
+    assert len(found) == len(CASES) + 2
+    assert set().union(*found.values()) <= keys
+    assert {"history"} == found["history_run.json"] - set().union(
+        *(found[name] for name in found if name != "history_run.json")
+    )
+    rows = dict(re.findall(r"(?m)^\| `(\w+)` \| (?:string|array|object) \| (.*) \|$", page))
+    for key in set().union(*found.values()) - found["history_run.json"] - {"certified", "floor"}:
+        assert "not of task `history`" in rows[key], key
+
+
+@pytest.mark.slow
+def test_settings_in_force(written):
+    """All variables with a default are in the settings; others are if they are given."""
+    settings = json.loads((written / "tied_facade_run.json").read_text())["settings"]
+    for group in ("job", "wall", "records", "stripes", "solver"):
+        filled = {
+            row.name
+            for row in properties(group)
+            if row.default != "optional" and (not row.owners or {"stripes", "one_sided"} & set(row.owners))
+        }
+        assert filled <= set(settings[group]), group
+    assert "tie_strength" in settings["wall"]
+    assert "tie_modulus" not in settings["wall"]
