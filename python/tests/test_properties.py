@@ -161,7 +161,8 @@ def test_what_is_not_given(records):
 # What a template's variable says where another one is missing, or takes its place
 TOGETHER = re.compile(
     r"only with|only for|must be given|give either|belong together|must be above|instead of"
-    r"|must be less than the height of the wall|a property must have a distribution"
+    r"|must be less than the height of the wall|the sum of section_height|that of the lowest section"
+    r"|a property must have a distribution"
 )
 
 
