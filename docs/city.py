@@ -1,7 +1,7 @@
 """Compute the numbers of docs/city.md for the illustrative historic centre, and draw its figures into docs/figures.
 
 Run it by ./run city. Everything is computed with the embedded synthetic accelerograms, and also with recorded ones if
-they are available in the folder DONDOLO_RECORDS (default ../shared/records). Checkpoints in out/city store the results;
+they are available in the folder DONDOLO_RECORDS. Checkpoints in out/city store the results;
 remove the folder to compute everything again.
 """
 
@@ -34,7 +34,7 @@ def main() -> None:
     warnings.simplefilter("ignore", dd.DondoloWarning)
     out.mkdir(parents=True, exist_ok=True)
     sets = {"synthetic44": dd.read_catalogue(root / "data/records/synthetic44.csv")}
-    folder = Path(os.environ.get("DONDOLO_RECORDS", root.parent / "shared/records"))
+    folder = Path(os.environ.get("DONDOLO_RECORDS", "none"))
     if (folder / "italy44.csv").is_file():
         sets["recorded"] = dd.read_catalogue(folder / "italy44.csv")
     else:

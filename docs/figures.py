@@ -1,7 +1,7 @@
 """Draw the figures of the README and of docs into docs/figures.
 
 The accelerograms are the embedded synthetic ones. One figure compares them with recorded ones, and is drawn only if
-these are available in the folder DONDOLO_RECORDS (default ../shared/records).
+these are available in the folder DONDOLO_RECORDS.
 """
 
 import os
@@ -288,7 +288,7 @@ def statistics():
 
 def spectra():
     """Draw response spectra of the synthetic suite and of recorded Italian accelerograms."""
-    folder = Path(os.environ.get("DONDOLO_RECORDS", root.parent / "shared/records"))
+    folder = Path(os.environ.get("DONDOLO_RECORDS", "none"))
     if not (folder / "italy44.csv").is_file():
         print("synthetic_spectra.png: not drawn, no recorded accelerograms found (set DONDOLO_RECORDS to their folder)")
         return

@@ -164,7 +164,7 @@ def measure(installations, folder, paths, catalogue):
 def main():
     """Compare, then measure."""
     old, new = (Path(path).resolve() for path in sys.argv[1:3])
-    sets = motions(os.environ.get("DONDOLO_RECORDS", ROOT.parent / "shared" / "records"))
+    sets = motions(os.environ.get("DONDOLO_RECORDS", "none"))
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         paths = cases(folder, sets)

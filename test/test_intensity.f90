@@ -389,10 +389,9 @@ contains
 
       call suite('El Centro')
       call get_environment_variable('DONDOLO_RECORDS', folder)
-      if (folder == '') folder = '../shared/records'
       inquire (file=trim(folder)//'/elcentro/elcentro_NS_trunc.dat', exist=there)
       if (.not. there) then
-         call skip('no El Centro record in '//trim(folder))
+         call skip('no El Centro record: DONDOLO_RECORDS names the folder of recorded accelerograms')
          return
       end if
       call read_record(trim(folder)//'/elcentro/elcentro_NS_trunc.dat', record, error, units='m/s2')

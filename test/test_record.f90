@@ -970,10 +970,9 @@ contains
       call get_environment_variable('DONDOLO_RECORDS', length=length)
       allocate (character(len=length) :: folder)
       if (length > 0) call get_environment_variable('DONDOLO_RECORDS', folder)
-      if (length == 0) folder = '../shared/records'
       inquire (file=folder//'/manifest.csv', exist=exists)
       if (.not. exists) then
-         call skip('no recorded accelerograms in '//folder)
+         call skip('no recorded accelerograms: DONDOLO_RECORDS names their folder')
          return
       end if
       call table%open(folder//'/manifest.csv', error)

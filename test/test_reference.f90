@@ -1,8 +1,7 @@
 !> Multiple stripes by both engines against the tables of test/reference: the same histories computed in 33 digits
 !> (./run reference).
 !>
-!> Recorded accelerograms are not part of dondolo: DONDOLO_RECORDS names their folder, ../shared/records if it is
-!> not set.
+!> Recorded accelerograms are not part of dondolo: DONDOLO_RECORDS names their folder.
 program test_reference
    use checks, only : check, check_close, check_ok, check_text, finish, skip, suite
    use dondolo_catalogue, only : read_catalogue
@@ -37,14 +36,13 @@ program test_reference
 
    call suite('recorded accelerograms')
    call get_environment_variable('DONDOLO_RECORDS', folder)
-   if (folder == '') folder = '../shared/records'
    inquire (file=trim(folder)//'/italy44.csv', exist=there)
    if (there) then
       call read_catalogue(trim(folder)//'/italy44.csv', records, error)
       call check_ok(error, 'recorded accelerograms')
       call test_walls('recorded', recorded_levels)
    else
-      call skip('no recorded accelerograms in '//trim(folder))
+      call skip('no recorded accelerograms: DONDOLO_RECORDS names their folder')
    end if
    call finish()
 

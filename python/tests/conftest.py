@@ -32,12 +32,18 @@ def records() -> list[dd.Record]:
 
 
 @pytest.fixture(scope="session")
-def recorded() -> dict[str, dd.Record]:
-    """Recorded accelerograms by their names, where there are any."""
-    catalogue = Path(os.environ.get("DONDOLO_RECORDS", ROOT.parent / "shared/records")) / "italy44.csv"
-    if not catalogue.is_file():
+def recordings() -> Path:
+    """The folder of recorded accelerograms, which are not part of dondolo."""
+    folder = Path(os.environ.get("DONDOLO_RECORDS", ""))
+    if not (folder / "italy44.csv").is_file():
         pytest.skip("no recorded accelerograms here: DONDOLO_RECORDS names their folder")
-    return {record.name: record for record in dd.read_catalogue(catalogue)}
+    return folder
+
+
+@pytest.fixture(scope="session")
+def recorded(recordings: Path) -> dict[str, dd.Record]:
+    """Recorded accelerograms by their names."""
+    return {record.name: record for record in dd.read_catalogue(recordings / "italy44.csv")}
 
 
 @pytest.fixture(scope="session")

@@ -186,12 +186,9 @@ def test_vertical_channels(tmp_path):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("part", ["italy", "formats"])
-def test_vertical_components_of_recordings(part, root, tmp_path):
-    recorded = Path(os.environ.get("DONDOLO_RECORDS", root.parent / "shared/records"))
-    if not (recorded / part).is_dir():
-        pytest.skip("no recorded accelerograms here: DONDOLO_RECORDS names their folder")
+def test_vertical_components_of_recordings(part, recordings, tmp_path):
     target = tmp_path / "all.csv"
-    code, _, err = run("catalogue", recorded / part, "-o", target, "--dt", "0.005", "--units", "m/s2")
+    code, _, err = run("catalogue", recordings / part, "-o", target, "--dt", "0.005", "--units", "m/s2")
     vertical = [line for line in err.splitlines() if "a vertical component" in line]
     assert (code, len(vertical)) == (0, {"italy": 27, "formats": 6}[part])
     files = [line.split(",")[0] for line in target.read_text().splitlines()[2:]]

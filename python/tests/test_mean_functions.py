@@ -1,10 +1,8 @@
 """Mean curves of populations as fragility functions: close to the means, ordered, and nothing left out."""
 
-import os
 import subprocess
 import sys
 from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -44,15 +42,12 @@ def centre(executable, root, tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def facades(root, tmp_path_factory):
+def facades(recordings, tmp_path_factory):
     """Two facades under recorded motions."""
-    folder = Path(os.environ.get("DONDOLO_RECORDS", root.parent / "shared/records"))
-    if not (folder / "italy44.csv").is_file():
-        pytest.skip("no recorded accelerograms here: DONDOLO_RECORDS names their folder")
     table = tmp_path_factory.mktemp("facades") / "walls.csv"
     table.write_text(WALLS)
     levels = [0.1 * i for i in range(1, 16)]
-    walls, records = dd.read_population(table), dd.read_catalogue(folder / "italy44.csv")
+    walls, records = dd.read_population(table), dd.read_catalogue(recordings / "italy44.csv")
     return dd.typology(walls, records, levels, polarity="both", edp_thresholds=[0.1, 0.4], progress=False)
 
 

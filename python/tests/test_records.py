@@ -1,8 +1,6 @@
 """Records: what they keep, and how files are read."""
 
-import os
 import pickle
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -108,11 +106,8 @@ def test_a_catalogue(records, root):
         dd.read_catalogue(root / "nothing.csv")
 
 
-def test_recorded_accelerograms(root):
-    folder = Path(os.environ.get("DONDOLO_RECORDS", root.parent / "shared/records"))
-    if not (folder / "italy44.csv").is_file():
-        pytest.skip("no recorded accelerograms here: DONDOLO_RECORDS names their folder")
-    records = dd.read_catalogue(folder / "italy44.csv")
+def test_recorded_accelerograms(recordings):
+    records = dd.read_catalogue(recordings / "italy44.csv")
     assert len(records) == 44
     assert all(0.05 < record.peak_acceleration < 20.0 for record in records)
 
