@@ -2,6 +2,7 @@
 
 import csv
 import itertools
+import re
 import subprocess
 
 import numpy as np
@@ -275,3 +276,17 @@ def test_ties_above_a_hinge():
     assert 0.0 < motions[0].edp < 1.0
     none = dd.OneSidedWall(9.0, 0.5, tie_height=2.5, hinge_level=4.0, tie_area=5e-5, tie_length=8.0)
     assert none.trigger_acceleration == dd.OneSidedWall(5.0, 0.5).trigger_acceleration
+
+
+def test_a_facade_is_as_likely_to_collapse_as_its_hinges(run, root, tmp_path):
+    """At a_g S, which lies below most of the levels."""
+    text = (root / "data/cases/facades.nml").read_text().replace("'../", f"'{root}/data/")
+    (tmp_path / "facades.nml").write_text(text + "&check ag = 0.2, f0 = 2.5, tc_star = 0.35 /\n")
+    done = run("facades.nml")
+    assert done.returncode == 0, done.stderr
+    found = re.findall(r"(?m)^'(.+)': probability of collapse at a_g S = 0\.2 g: (\S+); .* (\S+)$", done.stdout)
+    assert len(found) == 6
+    for name, same, independent in found:
+        hinges = re.findall(rf"(?m)^{re.escape(name)} at \S+ m .*? (?:< )?(\S+)$", done.stdout)
+        assert len(hinges) > 1
+        assert min(float(same), float(independent)) >= max(map(float, hinges)), name

@@ -257,6 +257,7 @@ def test_sampled_loads():
         ({"section_height": [1.0, 2.0], "thickness": 0.3}, "section_thickness: must be given with section_height"),
         ({"height": 3.0, "section_thickness": [0.3]}, "section_thickness: only with section_height"),
         ({"height": 3.0, "thickness": 0.25, "compressive_strength": 2.0}, r"at depth 3895 m.*: is it in MPa\?"),
+        ({"height": 3.0, "thickness": 0.25, "hinge_depth": 200.0}, r"at depth 200 m.*0\.125 m$"),
         ({"height": 3.0, "thickness": 0.25, "compressive_strength": 2e4}, r"at depth 0\.3895 m.*0\.125 m$"),
     ],
 )

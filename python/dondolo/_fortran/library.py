@@ -24,7 +24,7 @@ from dondolo._fortran import _core
 from dondolo.errors import DondoloError, DondoloWarning, InputError, MissingFileError
 
 _PACKAGE = str(Path(__file__).parents[1]) + os.sep
-# Of one object on a line, without blanks around it: json.loads looks for these in twice the time
+# Each line is one object without blanks around it; json.loads would look for blanks first.
 _DECODER = json.JSONDecoder()
 
 

@@ -62,7 +62,10 @@ contains
       if (depth < limit) return
       if (depth > 0.0_wp) then
          hint = ''
-         if (depth > absurd*limit) hint = ': '//trim(wall_properties(find_property(wall_properties, trim(name)))%if_less)
+         if (limit > 0.0_wp .and. depth > absurd*limit) then
+            hint = trim(wall_properties(find_property(wall_properties, trim(name)))%if_less)
+            if (len(hint) > 0) hint = ': '//hint
+         end if
          call problems%note(trim(name)//': puts the hinge at depth '//rounded(depth)//' m, must be less deep than '// &
             & what//hint)
       else

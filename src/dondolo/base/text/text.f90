@@ -22,7 +22,7 @@ module dondolo_text
    !> Decimals of a number in result tables: with the digit before them as many as read back exactly
    integer, parameter :: decimals = merge(16, 35, precision(1.0_wp) < 18)
 
-   !> Shortest readable text of a number, for messages
+   !> Readable text of a number, for messages
    interface to_text
       module procedure :: real_to_text
       module procedure :: integer_to_text
@@ -92,7 +92,7 @@ contains
       if (first > 0) word_length = scan(text(first:)//separators(1:1), separators) - 1
    end function word_length
 
-   !> Shortest decimal that reads back as the same number
+   !> A decimal that reads back as the same number: of as few decimals as it has, else the nearest of 15, 16 or 17 digits
    pure function real_to_text(value) result(text)
       !> Number
       real(wp), intent(in) :: value
@@ -125,7 +125,7 @@ contains
       text = real_to_text(rounded_to(value, limit_digits))
    end function brief
 
-   !> Write the shortest decimal that reads back as the same number
+   !> Write a number as real_to_text has it
    pure subroutine make_real(value, text)
       !> Number
       real(wp), intent(in) :: value
