@@ -35,9 +35,9 @@ contains
       rounded = whole_vectors(active)
       if (form%is_held .and. form%is_shaken) then
          if (form%degree == held_degrees(1)) then
-            call step_shaken_held_14(lanes, rounded, form, samples, verticals, rtol, atol)
+            call shaken_step_held_14(lanes, rounded, form, samples, verticals, rtol, atol)
          else
-            call step_shaken_held_22(lanes, rounded, form, samples, verticals, rtol, atol)
+            call shaken_step_held_22(lanes, rounded, form, samples, verticals, rtol, atol)
          end if
       else if (form%is_held) then
          if (form%degree == held_degrees(1)) then
@@ -47,9 +47,9 @@ contains
          end if
       else if (form%is_harmonic .and. form%is_shaken) then
          if (form%degree == harmonic_degrees(1)) then
-            call step_shaken_harmonic_10(lanes, rounded, form, samples, verticals, rtol, atol)
+            call shaken_step_harmonic_10(lanes, rounded, form, samples, verticals, rtol, atol)
          else
-            call step_shaken_harmonic_16(lanes, rounded, form, samples, verticals, rtol, atol)
+            call shaken_step_harmonic_16(lanes, rounded, form, samples, verticals, rtol, atol)
          end if
       else if (form%is_harmonic) then
          if (form%degree == harmonic_degrees(1)) then
@@ -60,17 +60,17 @@ contains
       else if (form%is_shaken) then
          select case (form%degree)
          case (degrees(1))
-            call step_shaken_8(lanes, rounded, form, samples, verticals, rtol, atol)
+            call shaken_step_8(lanes, rounded, form, samples, verticals, rtol, atol)
          case (degrees(2))
-            call step_shaken_13(lanes, rounded, form, samples, verticals, rtol, atol)
+            call shaken_step_13(lanes, rounded, form, samples, verticals, rtol, atol)
          case (degrees(3))
-            call step_shaken_15(lanes, rounded, form, samples, verticals, rtol, atol)
+            call shaken_step_15(lanes, rounded, form, samples, verticals, rtol, atol)
          case (degrees(4))
-            call step_shaken_18(lanes, rounded, form, samples, verticals, rtol, atol)
+            call shaken_step_18(lanes, rounded, form, samples, verticals, rtol, atol)
          case (degrees(5))
-            call step_shaken_22(lanes, rounded, form, samples, verticals, rtol, atol)
+            call shaken_step_22(lanes, rounded, form, samples, verticals, rtol, atol)
          case default
-            call step_shaken_32(lanes, rounded, form, samples, verticals, rtol, atol)
+            call shaken_step_32(lanes, rounded, form, samples, verticals, rtol, atol)
          end select
       else
          select case (form%degree)
@@ -94,75 +94,34 @@ contains
 #ifndef LANES_IN_TURN
 #define LANES_IN_TURN 4
 #endif
-#define LANE_HELD
-#define LANE_A(j) lanes%a(i, j)
-#define LANE_STEP step_held_14
-#define LANE_DEGREE 14
-#include "lane_step.inc"
-#define LANE_STEP step_held_22
-#define LANE_DEGREE 22
-#include "lane_step.inc"
-#define LANE_SHAKEN
-#define LANE_STEP step_shaken_held_14
-#define LANE_DEGREE 14
-#include "lane_step.inc"
-#define LANE_STEP step_shaken_held_22
-#define LANE_DEGREE 22
-#include "lane_step.inc"
-#undef LANE_SHAKEN
-#undef LANE_HELD
-#undef LANE_A
-#define LANE_A(j) a(j)
-#define LANE_STEP step_8
+! Each inclusion defines two subroutines, LANE_KIND and its degree, for shaken forms and for the others.
+#define LANE_KIND step_
 #define LANE_DEGREE 8
 #include "lane_step.inc"
-#define LANE_STEP step_13
 #define LANE_DEGREE 13
 #include "lane_step.inc"
-#define LANE_STEP step_15
 #define LANE_DEGREE 15
 #include "lane_step.inc"
-#define LANE_STEP step_18
 #define LANE_DEGREE 18
 #include "lane_step.inc"
-#define LANE_STEP step_22
 #define LANE_DEGREE 22
 #include "lane_step.inc"
-#define LANE_STEP step_32
 #define LANE_DEGREE 32
 #include "lane_step.inc"
+#undef LANE_KIND
+#define LANE_KIND step_harmonic_
 #define LANE_HARMONIC
-#define LANE_STEP step_harmonic_10
 #define LANE_DEGREE 10
 #include "lane_step.inc"
-#define LANE_STEP step_harmonic_16
-#define LANE_DEGREE 16
-#include "lane_step.inc"
-#define LANE_SHAKEN
-#define LANE_STEP step_shaken_harmonic_10
-#define LANE_DEGREE 10
-#include "lane_step.inc"
-#define LANE_STEP step_shaken_harmonic_16
 #define LANE_DEGREE 16
 #include "lane_step.inc"
 #undef LANE_HARMONIC
-#define LANE_STEP step_shaken_8
-#define LANE_DEGREE 8
+#undef LANE_KIND
+#define LANE_KIND step_held_
+#define LANE_HELD
+#define LANE_DEGREE 14
 #include "lane_step.inc"
-#define LANE_STEP step_shaken_13
-#define LANE_DEGREE 13
-#include "lane_step.inc"
-#define LANE_STEP step_shaken_15
-#define LANE_DEGREE 15
-#include "lane_step.inc"
-#define LANE_STEP step_shaken_18
-#define LANE_DEGREE 18
-#include "lane_step.inc"
-#define LANE_STEP step_shaken_22
 #define LANE_DEGREE 22
-#include "lane_step.inc"
-#define LANE_STEP step_shaken_32
-#define LANE_DEGREE 32
 #include "lane_step.inc"
 
 end module dondolo_lane_kernel
