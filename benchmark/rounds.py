@@ -13,17 +13,18 @@ from dataclasses import asdict, dataclass, fields
 from operator import le
 
 import arithmetic
-from programs import BUILD, DONDOLO, command_of, peer_of, run_dondolo
+from programs import BUILD, DONDOLO, command_of, parse, peer_of, run_dondolo
 from progress import say
 from spread import Spread
 
 SHARE, WRONG = 0.01, 1  # acceptable share of histories with an error above 1e-6, acceptable number of wrong flags
 ROUNDS, QUICK_ROUNDS = (3, 2, 2), (1, 1)  # of all programs in turns, in each of the groups
 TURN = 0.3  # seconds: a program that needs less repeats its call until they are over, and the median counts
+STILLNESS = 1e-3  # factor on the levels at which no history moves
 SLOWEST = 20.0  # seconds: a program that needs more has no turns; the time of its settings counts
 
 #: What is measured beside the programs of `programs.csv`
-COLD, LIMIT = "dondolo, command, cold", "arithmetic limit"
+COLD, STILL, LIMIT = "dondolo, command, cold", "dondolo, call without motion", "arithmetic limit"
 #: Name of the turns of the engine's arithmetic for a mechanism: milliseconds of 1e9 operations
 ARITHMETIC = "1e9 operations, "
 
@@ -33,7 +34,7 @@ class Turn:
     """Time of one program in one round."""
 
     round: int  # 0: its setting alone, without rounds
-    name: str  # program and method, or COLD, LIMIT or ARITHMETIC and a mechanism
+    name: str  # program and method, or COLD, STILL, LIMIT or ARITHMETIC and a mechanism
     setting: float
     ms: float  # all histories
     own: float  # of it in the steps of a library called from Python, or in the histories of dondolo; 0: not known
@@ -101,7 +102,7 @@ class Rounds:
 
     def __init__(self, executable, problem, results, path, case):
         """Choose the contestants among the results; path and case are what they are called with."""
-        self.executable, self.problem = executable, problem
+        self.executable, self.problem, self.case = executable, problem, case
         self.turns, self.number = [], 0
         self.programs = []  # (result, command)
         for each in contestants(results):
@@ -126,6 +127,7 @@ class Rounds:
             arguments = (self.executable, self.problem.wall, self.problem.motions, 1e-8, "lanes", 1)
             (whole,), (histories,) = run_dondolo(*arguments)
             self.turns.append(Turn(number, COLD, 1e-8, 1e3 * whole, 1e3 * histories))
+            self.turns.append(Turn(number, STILL, 1e-8, 1e3 * still_seconds(self.case, self.problem), 0.0))
             for mechanism, rate in arithmetic.measured(self.executable).rates.items():
                 self.turns.append(Turn(number, ARITHMETIC + mechanism, 0.0, 1e3 / rate, 0.0))
             if (BUILD / "arithmetic").is_file():
@@ -160,6 +162,16 @@ def calls_of(command):
         finally:
             process.kill()
     return tuple(map(statistics.median, zip(*calls, strict=True)))
+
+
+def still_seconds(case, problem):
+    """Median of the seconds of calls from Python, one after the other, of as many histories that never move."""
+    command = [*command_of(DONDOLO, case, "lanes", 1e-8, 200, problem), str(STILLNESS)]
+    done = subprocess.run(command, check=True, capture_output=True, text=True)
+    _, seconds, _, rows = parse(done.stdout)
+    if rows[:, 0].any():
+        raise RuntimeError(f"{STILL}: a history moves")
+    return statistics.median(seconds)
 
 
 def loop_seconds():

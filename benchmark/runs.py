@@ -8,7 +8,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from problem import ROOT
-from rounds import LIMIT, compared, ratio, references, shares, times_of
+from rounds import LIMIT, STILL, compared, ratio, references, shares, times_of
 from scaling import VARIANTS, spread_of
 from spread import NAMES, Spread
 
@@ -88,6 +88,7 @@ def figures(results, turns, rows):
             found[f"{name} / {engine}"] = ratio(turns, key, under, what)
     lanes = references(first)["lanes"]
     found["histories / call from Python"] = ratio(turns, lanes, lanes, "own")
+    found["call without motion / call from Python"] = ratio(turns, (STILL, 1e-8), lanes)
     if times_of(turns, LIMIT, 0.0):
         found["lanes / arithmetic limit"] = ratio(turns, lanes, (LIMIT, 0.0))
     found |= {f"share of the arithmetic limit, {mechanism}": share for mechanism, share in shares(turns).items()}

@@ -7,6 +7,7 @@ from rounds import (
     LIMIT,
     SHARE,
     SLOWEST,
+    STILL,
     TURN,
     WRONG,
     compared,
@@ -145,12 +146,16 @@ def limits(results, turns):
     """What dondolo's own times hold, and how far they are from the limit of the processor."""
     lanes = references(results)["lanes"]
     histories = next(each.histories for each in results if each.name == lanes[0])
+    still = Spread.of(times_of(turns, STILL, 1e-8).values())
     warm, whole, cold = (
         Spread.of(times_of(turns, *key).values()).stated() for key in (lanes, (COLD, 1e-8), (COLD, 1e-8, "own"))
     )
     lines = paragraph(
         f"The {histories} histories take the engine `lanes` {warm} ms in a call from Python that is warm, of which the "
-        f"histories themselves are {ratio(turns, lanes, lanes, 'own').times(100.0).stated()} %. The whole command "
+        f"histories themselves are {ratio(turns, lanes, lanes, 'own').times(100.0).stated()} %. Calls of as many "
+        f"histories that never move, one right after the other, take {still.stated()} ms each, "
+        f"{ratio(turns, (STILL, 1e-8), lanes).times(100.0).stated()} % of it; they find code and data in the caches. The "
+        "whole command "
         f"`dondolo CASE.nml` takes {whole} ms, from the start of the process to its end, with the reading of "
         f"the records and the writing of the results; its histories take {cold} ms of it."
     )

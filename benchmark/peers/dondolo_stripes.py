@@ -1,8 +1,8 @@
 """dondolo in a process that is warm, as the other programs are: a call of multiple_stripe from Python, on one thread.
 
-Called as a peer, with a case in place of the problem: CASE METHOD SETTING REPEATS EVERY. The method is the engine, the
-setting its relative tolerance. A second holds the whole call, all histories of it, but no reading; its own are those in
-which Fortran runs the histories.
+Called as a peer, with a case in place of the problem: CASE METHOD SETTING REPEATS EVERY [FACTOR]. The method is the
+engine, the setting its relative tolerance; levels are multiplied by the factor. A second holds the whole call, all
+histories of it, but no reading; its own are those in which Fortran runs the histories.
 """
 
 import sys
@@ -45,14 +45,14 @@ def watched(module, name):
 
 def main():
     """Run all histories the required number of times, after a call that is not timed."""
-    path, engine, setting, repeats, every = sys.argv[1:]
+    path, engine, setting, repeats, every, *factor = sys.argv[1:]
     case = dd.read_case(path)
     rtol = float(setting)
     solver = dd.Solver(rtol=rtol, atol=rtol / 100.0, engine=engine)
-    wall = case.population[0]
+    wall, levels = case.population[0], case.levels * float(*factor or [1.0])
 
     def call():
-        return dd.multiple_stripe(wall, case.records, case.levels, solver=solver, threads=1, progress=False)
+        return dd.multiple_stripe(wall, case.records, levels, solver=solver, threads=1, progress=False)
 
     stripes = call()
     histories = watched("stripes", "run_block")

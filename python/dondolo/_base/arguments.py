@@ -45,7 +45,7 @@ def as_array(name: str, values: ArrayLike) -> FloatArray:
     """Turn what a user gives for a row of numbers into one."""
     try:
         given = np.asarray(values)
-        if given.dtype.kind not in "biufO" or np.ma.isMaskedArray(values):
+        if given.dtype.kind not in "biufO" or isinstance(values, np.ma.MaskedArray):
             raise TypeError
         array = np.ascontiguousarray(given, dtype=np.float64)
     except (TypeError, ValueError, OverflowError):

@@ -71,7 +71,7 @@ contains
       integer(c_int64_t), intent(in) :: handle
       integer(c_int), intent(in) :: w
       integer(c_int), intent(out) :: is_there(w)
-      real(c_double), intent(out) :: work(7)
+      integer(c_int64_t), intent(out) :: work(7)
       integer(c_int), intent(out) :: stat
       character(len=2048), intent(out) :: message
       type(store_type), pointer :: store
@@ -83,7 +83,7 @@ contains
       call find_store(handle, store, error)
       if (.not. allocated(error)) then
          is_there = [(merge(1, 0, store%has(i)), i=1, w)]
-         work = real(store%work%counts(), c_double)
+         work = store%work%counts()
       end if
       call report(error, stat, message)
    end subroutine store_state

@@ -111,8 +111,9 @@ contains
    end subroutine runs_of_records
 
    !> Check what stripes of walls would be, without running them. The parcel's integers are the histories of each wall in a
-   !> stripe in which every record runs; then of those of the last wall the record (from 1) and the polarity of each, and
-   !> stripe by stripe 1 where it runs, else 0. Its reals are their scales, stripe by stripe, its lines the warnings
+   !> stripe in which every record runs; then of those of the last wall the record (from 1) and the polarity of each, and,
+   !> unless all run at every level, stripe by stripe 1 where it runs, else 0. Its reals are their scales, stripe by stripe,
+   !> its lines the warnings
    subroutine plan(study, walls, w, sent, stat, message)
       integer(c_int64_t), intent(in) :: study, walls
       integer(c_int), intent(in) :: w
@@ -155,7 +156,8 @@ contains
          call oddities%warn(warnings)
          call warn_of_records(chosen%suite, people(1)%gravity, warnings)
          call scales%warn(warnings)
-         parcel%integers = [histories, stripes%record, stripes%polarity, merge(1, 0, stripes%ran)]
+         parcel%integers = [histories, stripes%record, stripes%polarity]
+         if (allocated(chosen%factor)) call parcel%add([merge(1, 0, stripes%ran)])
          parcel%reals = [stripes%scale]
          call warning_objects(warnings, parcel%lines)
       end if
@@ -171,7 +173,7 @@ contains
       integer(c_int), intent(in) :: one, last, first, count
       real(c_double), intent(inout) :: edp(count), time_of_peak(count), edp_error(count)
       integer(c_int), intent(inout) :: collapsed(count), impacts(count)
-      real(c_double), intent(out) :: work(7)
+      integer(c_int64_t), intent(out) :: work(7)
       integer(c_int), intent(out) :: stat
       character(len=2048), intent(out) :: message
       type(study_type), pointer :: chosen
@@ -219,7 +221,7 @@ contains
          end do
          call check_interrupt(error)
       end if
-      work = real(total%counts(), c_double)
+      work = total%counts()
       call report(error, stat, message)
    end subroutine run_block
 

@@ -13,7 +13,6 @@ from bisect import bisect_right
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from itertools import accumulate
-from operator import add
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -121,7 +120,7 @@ class Request:
         suite = self._suite
         words = [as_text(what, getattr(self, what)) for what in ("im", "polarity", "engine")]
         if self.im:
-            check(*_core.records.measure_suite(suite.number, words[0], self.threads))
+            suite.measure(self.im, self.threads)
         number, stat, message = _core.stripes.new_study(
             suite.number, words[0], self.levels, *words[1:], self.settings, self.threads
         )
@@ -163,10 +162,12 @@ class Request:
         """Check everything; nothing is run."""
         walls, levels = len(self.walls), len(self.levels)
         parcel = receive(*_core.stripes.plan(self._study.number, self._people.number, walls))
-        # Histories of each wall; of the last, record and polarity of each, and which run at each level
-        histories, rest = parcel.integers[:walls], parcel.integers[walls:].reshape(levels + 2, -1)
-        record, polarity, ran = rest[0] - 1, rest[1], rest[2:] == 1
-        return Plan(histories, record, polarity, parcel.reals.reshape(levels, -1), ran, unpack_warnings(parcel.lines))
+        # Histories of each wall; of the last, record and polarity of each, and which run at each level if not all do
+        scale = parcel.reals.reshape(levels, -1)
+        histories, rest = parcel.integers[:walls], parcel.integers[walls:].reshape(-1, scale.shape[1])
+        record, polarity = rest[0] - 1, rest[1]
+        ran = np.ones(scale.shape, dtype=np.bool_) if self.rows is None else rest[2:] == 1
+        return Plan(histories, record, polarity, scale, ran, unpack_warnings(parcel.lines))
 
     def totals(self, histories: IntArray) -> list[int]:
         """Histories of each wall in all stripes."""
@@ -186,9 +187,10 @@ class Request:
         edp, peak, error = np.empty(total), np.empty(total), np.empty(total)
         collapsed, impacts = np.empty(total, dtype=np.int32), np.empty(total, dtype=np.int32)
         study, people = self._study.number, self._people.number
-        work = [0] * len(Work.__dataclass_fields__)
+        work = Work()
 
         def block(done: int, count: int) -> None:
+            nonlocal work
             # The walls that the block touches
             one, last = bisect_right(ends, done), bisect_right(ends, done + count - 1)
             first = done - (ends[one - 1] if one else 0)
@@ -199,10 +201,10 @@ class Request:
                     study, people, one + 1, last + 1, first + 1, *rows, count
                 )
             check(stat, message)
-            work[:] = map(add, work, map(int, counts.tolist()))
+            work = Work.total([work, counts.tolist()])
 
         done, interrupted = in_blocks(total, pace, block, report)
-        return Outcome(edp, collapsed.astype(np.bool_), impacts, peak, error, Work.of(work), done), interrupted
+        return Outcome(edp, collapsed.astype(np.bool_), impacts, peak, error, work, done), interrupted
 
 
 class Pace:

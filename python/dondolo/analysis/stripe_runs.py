@@ -189,7 +189,8 @@ def _stripes(request: Request, plan: Plan, outcome: Outcome, complete: int) -> S
     """The stripes up to a level."""
     levels, ran = request.levels[:complete], plan.ran[:complete]
     rtol, atol, edp_limit, estimated, _ = request.settings.tolist()
-    count, scale = np.count_nonzero(ran), plan.scale[:complete]
+    scale = plan.scale[:complete]
+    count = len(outcome.edp) if complete == len(request.levels) else int(ran.sum())
     if count < ran.size:
         scale = np.where(ran, scale, np.nan)
     facts = request.facts

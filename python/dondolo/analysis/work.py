@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from dondolo._storage.saved import part_of_results
 
 
 @part_of_results
-@dataclass(frozen=True, kw_only=True)
-class Work:
+class Work(NamedTuple):
     """Counts that show that nothing is integrated that a result does not need.
 
     They do not depend on the number of threads. With estimated errors every history is run and counts three times;
@@ -44,12 +43,7 @@ class Work:
     @classmethod
     def total(cls, parts: Iterable[Work]) -> Work:
         """The sum of counts."""
-        return cls.of(map(sum, zip(*(vars(part).values() for part in (cls(), *parts)), strict=True)))
-
-    @classmethod
-    def of(cls, counts: Iterable[int]) -> Work:
-        """Counts in the order of the fields."""
-        return cls(**dict(zip(cls.__dataclass_fields__, map(int, counts), strict=True)))
+        return cls(*map(sum, zip(cls(), *parts, strict=True)))
 
     def __str__(self) -> str:
         return (

@@ -92,7 +92,7 @@ class Store:
     def read(self) -> Contents:
         """Everything that is there."""
         request, rows = self._request, len(self._request.walls)
-        complete, counts = self._state()
+        complete, work = self._state()
         states, levels = len(self._states), len(request.levels)
         parcel = receive(*_core.stores.read_store(self._handle))
         numbers, lengths = parcel.integers, parcel.reals
@@ -104,12 +104,12 @@ class Store:
         events, checksums = zip(*((record.event, record.checksum) for record in request.records), strict=True)
         labels = cluster_labels(len(events), events, checksums)
         flags = Flags(histories[complete], levels, states, request.runs, labels, packed)
-        return Contents(complete, exceedances, tied, flags, Work.of(counts))
+        return Contents(complete, exceedances, tied, flags, work)
 
-    def _state(self) -> tuple[NDArray[np.bool_], FloatArray]:
+    def _state(self) -> tuple[NDArray[np.bool_], Work]:
         there, counts, stat, message = _core.stores.store_state(self._handle, len(self._request.walls))
         check(stat, message)
-        return there.astype(bool), counts
+        return there.astype(bool), Work(*counts.tolist())
 
     def __enter__(self) -> Store:
         return self

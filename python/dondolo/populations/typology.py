@@ -396,7 +396,7 @@ class Typology(Shown, Saved):
         )
 
     def _comments(self) -> list[str]:
-        counts = ", ".join(f"{name} = {count}" for name, count in dataclasses.asdict(self.work).items())
+        counts = ", ".join(f"{name} = {count}" for name, count in self.work._asdict().items())
         return [
             *(f"gravity = {tables.shortest(pull)}" for pull in dict.fromkeys(wall.gravity for wall in self.walls)),
             f"unit of im_level and theta: {unit_of(self.im) or '1'}",
@@ -466,7 +466,7 @@ class Typology(Shown, Saved):
         stripes = {"im": self.im, "levels": self.levels.tolist(), "edp_thresholds": self.edp_thresholds.tolist()}
         solver = {"edp_limit": float(self.edp_thresholds[-1]), "gravity": gravity}
         settings = {"job": {"task": "typology"}, "stripes": stripes, "solver": solver}
-        version, work = constants().version, dataclasses.asdict(self.work)
+        version, work = constants().version, self.work._asdict()
         return RunFile(version, settings=settings, work=work, warnings=self.warnings)
 
     def _facts(self) -> list[tuple[str, str]]:

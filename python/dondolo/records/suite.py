@@ -83,16 +83,23 @@ class Suite(Handle):
         The records.
     """
 
-    __slots__ = ("_facts", "_members")
+    __slots__ = ("_facts", "_measured", "_members")
 
     def __init__(self, number: int, records: tuple[Motion, ...]) -> None:
         super().__init__(number)
         self._members = tuple(map(weakref.ref, records))
         self._facts: Facts | None = None
+        self._measured: set[str] = set()
 
     def holds(self, records: tuple[Motion, ...]) -> bool:
         """Whether these are its records, in their order."""
         return len(records) == len(self._members) and all(map(is_, map(_referred, self._members), records))
+
+    def measure(self, im: str, threads: int) -> None:
+        """Let Fortran measure its records, which keeps the values for all studies to come."""
+        if im not in self._measured:
+            check(*_core.records.measure_suite(self.number, as_text("im", im), threads))
+            self._measured.add(im)
 
     def facts(self, records: tuple[Motion, ...]) -> Facts:
         """What results tell of its records, which must be given."""
