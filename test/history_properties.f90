@@ -8,7 +8,7 @@ module history_properties
    use dondolo_record, only : record_type
    use dondolo_response, only : response_type, trace_type
    use dondolo_rk45, only : simulate_rk45
-   use dondolo_solver, only : check_limit, solver_type
+   use dondolo_solver, only : check_limit, check_solver, solver_type
    use dondolo_text, only : to_text
    use dondolo_work, only : work_type
    use energy_balance, only : balance_type, energy_balance_of
@@ -122,11 +122,16 @@ contains
       character(len=*), intent(in) :: what
       type(response_type) :: again
       type(solver_type) :: solver
+      type(error_type), allocatable :: error, refused
 
       solver = history%solver
       solver%estimate_error = .true.
       solver%engine = 'rk45'
-      call simulate(history%wall%mechanism, history%record, history%scale, solver, again)
+      call simulate(history%wall%mechanism, history%record, history%scale, solver, again, error)
+      ! A solver that has lost its digits to underflow is refused.
+      call check_solver(solver, refused)
+      call check(allocated(error) .eqv. allocated(refused), what//': refused')
+      if (allocated(refused)) return
       call check(is_same(again, response), what//': the same with an estimated error')
       call check(again%edp_error >= 0.0_wp .and. again%edp_error <= solver%edp_limit, what//': estimated error '// &
          & to_text(again%edp_error))

@@ -1,7 +1,8 @@
 !> The engine lanes against the engine rk45 and against closed forms, and what must not change its results: place,
 !> neighbours, order, threads.
 program test_lanes
-   use checks, only : check, check_close, finish, suite
+   use checks, only : check, check_close, check_ok, finish, suite
+   use dondolo_error, only : error_type
    use dondolo_error_estimate, only : estimated_error, other_run, runs_of_estimate
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
@@ -89,6 +90,7 @@ contains
       integer, parameter :: histories = 400
       type(history_type) :: history
       type(response_type) :: lane, other
+      type(error_type), allocatable :: refused
       real(wp) :: error
       integer :: i, sure
 
@@ -102,7 +104,8 @@ contains
          if (.not. runs_in_lanes(history%wall%mechanism, history%solver)) cycle
          call run_alone(history%wall%mechanism, history%record, history%scale, history%solver, lane)
          history%solver%engine = 'rk45'
-         call simulate(history%wall%mechanism, history%record, history%scale, history%solver, other)
+         call simulate(history%wall%mechanism, history%record, history%scale, history%solver, other, refused)
+         call check_ok(refused, to_text(50000 + i))
          if (lane%is_ill_conditioned() .or. other%is_ill_conditioned()) cycle
          sure = sure + 1
          call check((lane%collapsed .eqv. other%collapsed) .or. other%is_unsure(history%solver%edp_limit), &

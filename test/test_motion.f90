@@ -4,13 +4,16 @@
 !> Makris (2001), J. Eng. Mech. 127, 473-483. Digits that these do not print were computed independently by
 !> quadrature or by an eighth-order method with tolerance 1e-11.
 program test_motion
-   use checks, only : check, check_close, finish, suite
+   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
+   use checks, only : check, check_close, check_error, finish, suite
+   use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_one_sided, only : one_sided_restitution
    use dondolo_record, only : record_type
    use dondolo_response, only : response_type, trace_type
    use dondolo_rk45, only : simulate_rk45
+   use dondolo_simulate, only : simulate
    use dondolo_solver, only : solver_type
    use dondolo_wall, only : wall_type
    use linear_block, only : new_linear_block
@@ -25,6 +28,7 @@ program test_motion
    call test_symmetries()
    call test_trace()
    call test_doubt()
+   call test_refusals()
    call finish()
 
 contains
@@ -252,5 +256,35 @@ contains
       response%edp_error = 0.3_wp
       call check(response%is_unsure(1.0_wp), 'one of them does not')
    end subroutine test_doubt
+
+   !> What no motion is computed with
+   subroutine test_refusals()
+      real(wp) :: nan
+
+      call suite('refusals')
+      nan = ieee_value(nan, ieee_quiet_nan)
+      call refuse(solver_type(rtol=-1.0e-8_wp), 1.0_wp, 'rtol = -1e-8: ')
+      call refuse(solver_type(rtol=nan), 1.0_wp, 'rtol = NaN: ')
+      call refuse(solver_type(atol=0.0_wp), 1.0_wp, 'atol = 0: ')
+      call refuse(solver_type(edp_limit=0.0_wp), 1.0_wp, 'edp_limit = 0: ')
+      call refuse(solver_type(edp_limit=100.0_wp), 1.0_wp, 'edp_limit = 100: must be less than ')
+      call refuse(solver_type(engine='fast'), 1.0_wp, 'engine = ''fast'': ')
+      call refuse(solver_type(), nan, 'scale = NaN: must be a number')
+   end subroutine test_refusals
+
+   !> Check that no motion is computed with a solver and a scale
+   subroutine refuse(solver, scale, sentence)
+      type(solver_type), intent(in) :: solver
+      real(wp), intent(in) :: scale
+      character(len=*), intent(in) :: sentence
+      type(wall_type) :: wall
+      type(response_type) :: response
+      type(error_type), allocatable :: error
+
+      wall = a_wall(1)
+      call simulate(wall%mechanism, accelerogram([0.0_wp, 5.0_wp, -5.0_wp, 0.0_wp], 0.1_wp), scale, solver, response, error)
+      call check_error(error, sentence, sentence)
+      call check(.not. response%edp > 0.0_wp, sentence//'no result')
+   end subroutine refuse
 
 end program test_motion

@@ -8,7 +8,7 @@ module histories
    use dondolo_floors, only : check_floor, floors_type
    use dondolo_handles, only : find_suite, find_walls
    use dondolo_interrupt, only : check_interrupt
-   use dondolo_memory, only : check_memory => check_room, raise_shortage
+   use dondolo_memory, only : check_memory => check_room
    use dondolo_parcel, only : parcel_type, send
    use dondolo_plausibility, only : wall_warning_type
    use dondolo_record, only : record_type
@@ -26,6 +26,9 @@ module histories
    private
 
    public :: certify, is_doubtful, simulate, run_scaled, warn_of_motion, warn_of_errors
+
+   !> Memory that sending a row of a time history takes: six columns, twice [bytes]
+   real(c_double), parameter :: bytes_of_row = 96.0_c_double
 
 contains
 
@@ -55,20 +58,16 @@ contains
       call find_walls(walls, people, error)
       if (.not. allocated(error)) call find_suite(suite, records, error)
       solver = as_solver(engine, settings)
-      if (.not. allocated(error)) call check_solver(solver, error)
-      if (.not. allocated(error)) call check_limit(solver, people(1)%mechanism, error)
-      if (.not. allocated(error)) call check_engine(solver, people(1)%mechanism, error, records%has_vertical())
       if (.not. allocated(error)) call check_scale(records, number, scale, error)
       if (.not. allocated(error)) call find_motions(people(1), records, 1, own, motions, error)
       if (.not. allocated(error)) then
          if (history == 1) then
-            call simulate_wall(people(1)%mechanism, motions%records(number), scale, solver, response, trace)
+            call simulate_wall(people(1)%mechanism, motions%records(number), scale, solver, response, error, trace)
          else
-            call simulate_wall(people(1)%mechanism, motions%records(number), scale, solver, response)
+            call simulate_wall(people(1)%mechanism, motions%records(number), scale, solver, response, error)
          end if
-         call check_interrupt(error)
       end if
-      if (.not. allocated(error) .and. history == 1) call check_trace(trace, error)
+      if (.not. allocated(error) .and. history == 1) call check_memory(bytes_of_row*real(trace%rows, c_double), error)
       if (.not. allocated(error) .and. history == 1) then
          parcel%reals = [trace%time, trace%acceleration, trace%rotation, trace%velocity, trace%ties%time_of_yield, &
             & trace%ties%time_of_fracture]
@@ -99,23 +98,6 @@ contains
       call check_floor(wall%building, records, error)
       if (.not. allocated(error)) call floors%take(wall%building, records, int(threads), place, motions)
    end subroutine find_motions
-
-   !> Check that there was room for a time history, and that there is some to send it
-   subroutine check_trace(trace, error)
-      !> The time history
-      type(trace_type), intent(in) :: trace
-      !> There was not, or is not
-      type(error_type), allocatable, intent(out) :: error
-
-      ! Six columns, twice
-      real(c_double), parameter :: bytes_of_row = 96.0_c_double
-
-      if (trace%lacks_memory) then
-         call raise_shortage(2.0_c_double*bytes_of_row*real(trace%rows, c_double), error)
-      else
-         call check_memory(bytes_of_row*real(trace%rows, c_double), error)
-      end if
-   end subroutine check_trace
 
    !> Run k histories of one wall: each has its record (numbered from 1) and its factor, negative to reverse the polarity
    subroutine run_scaled(walls, suite, record, scale, k, engine, settings, threads, &

@@ -1,27 +1,34 @@
 !> The motion of a wall under an accelerogram, by the engine that runs its stripes: result and estimated error are those of the
 !> same history in a stripe, to the bit.
 module dondolo_simulate
-   use dondolo_ensemble, only : ensemble_type, run_ensemble
+   use dondolo_ensemble, only : check_engine, ensemble_type, run_ensemble
+   use dondolo_error, only : error_type, raise_input
+   use dondolo_interrupt, only : check_interrupt
    use dondolo_kinds, only : wp
    use dondolo_lane_constants, only : lane_constants_type, new_lane_constants
    use dondolo_lane_variants, only : trace_variant
    use dondolo_mechanism, only : mechanism_type
+   use dondolo_memory, only : raise_shortage
    use dondolo_record, only : record_type
    use dondolo_response, only : response_type, trace_type
    use dondolo_rest, only : new_rest, rest_type
    use dondolo_rk45, only : simulate_rk45
-   use dondolo_solver, only : solver_type
+   use dondolo_solver, only : check_limit, check_solver, solver_type
    use dondolo_suite, only : new_suite, suite_type
+   use dondolo_text, only : to_text
    use dondolo_work, only : work_type
    implicit none
    private
 
    public :: simulate
 
+   !> Memory that a row of a time history takes while it grows [bytes]
+   real(wp), parameter :: bytes_of_row = 140.0_wp
+
 contains
 
    !> The motion of a wall, at rest at the start
-   subroutine simulate(mechanism, record, scale, solver, response, trace, work)
+   subroutine simulate(mechanism, record, scale, solver, response, error, trace, work)
       class(mechanism_type), intent(in) :: mechanism
       type(record_type), intent(in) :: record
       !> Factor on it, negative to reverse its polarity
@@ -29,6 +36,8 @@ contains
       !> Engine, tolerances and limit; whether the error of the EDP is to be estimated
       type(solver_type), intent(in) :: solver
       type(response_type), intent(out) :: response
+      !> What cannot be run: `variable = value: what is allowed`; an interrupt; lack of memory for the time history
+      type(error_type), allocatable, intent(out) :: error
       !> Time history, until rest or 10 s past the end of the record; computed only if present
       type(trace_type), intent(inout), optional :: trace
       !> What was computed, without the time history
@@ -44,6 +53,14 @@ contains
       integer :: interval
       logical :: found
 
+      call check_solver(solver, error)
+      if (.not. allocated(error)) call check_limit(solver, mechanism, error)
+      if (.not. allocated(error)) call check_engine(solver, mechanism, error, allocated(record%vertical))
+      if (allocated(error)) return
+      if (.not. abs(scale) <= huge(scale)) then
+         call raise_input(error, 'scale = '//to_text(scale)//': must be a number')
+         return
+      end if
       if (.not. (present(trace) .or. solver%estimate_error)) then
          ! A wall that never moves costs a look at the record and no more.
          rest = new_rest(mechanism)
@@ -59,7 +76,8 @@ contains
       call run_ensemble(ensemble, mechanism, suite, solver, 1)
       response = ensemble%response(1)
       if (present(work)) work = ensemble%work
-      if (.not. present(trace)) return
+      call check_interrupt(error)
+      if (allocated(error) .or. .not. present(trace)) return
       ! Once more, row by row: the loop over lanes knows nothing of rows, nor does it pay for them.
       if (solver%engine /= 'rk45') constants = new_lane_constants(mechanism, solver, suite%has_vertical())
       if (constants%form%exists) then
@@ -68,6 +86,8 @@ contains
       else
          call simulate_rk45(mechanism, record, scale, solver, again, trace)
       end if
+      call check_interrupt(error)
+      if (trace%lacks_memory .and. .not. allocated(error)) call raise_shortage(bytes_of_row*real(trace%rows, wp), error)
    end subroutine simulate
 
 end module dondolo_simulate

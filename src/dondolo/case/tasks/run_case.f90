@@ -9,8 +9,6 @@ module dondolo_run_case
    use dondolo_floor_motion, only : filter_record
    use dondolo_floors, only : floors_type
    use dondolo_interrupt, only : check_interrupt
-   use dondolo_kinds, only : wp
-   use dondolo_memory, only : raise_shortage
    use dondolo_plausibility, only : wall_warning_type
    use dondolo_member, only : member_type
    use dondolo_population, only : population_reader_type
@@ -30,9 +28,6 @@ module dondolo_run_case
    private
 
    public :: run_case, plan_case
-
-   !> Memory that a row of a time history takes while it grows [bytes]
-   real(wp), parameter :: bytes_of_row = 140.0_wp
 
 contains
 
@@ -68,15 +63,12 @@ contains
                call filter_record(case%wall%building, record, floor, error)
                if (allocated(error)) return
                call simulate(case%wall%mechanism, floor, case%history_scale(), case%solver%solver, results%response, &
-                  & results%trace, results%work)
+                  & error, results%trace, results%work)
             else
                call simulate(case%wall%mechanism, record, case%history_scale(), case%solver%solver, results%response, &
-                  & results%trace, results%work)
+                  & error, results%trace, results%work)
             end if
          end associate
-         call check_interrupt(error)
-         if (allocated(error)) return
-         if (results%trace%lacks_memory) call raise_shortage(bytes_of_row*real(results%trace%rows, wp), error)
          if (allocated(error)) return
          call warn_of_error(results%response, case%solver%solver%edp_limit, results%warnings)
       case ('stripes')
