@@ -897,6 +897,8 @@ warned 's/thickness/interlock_overlap = 0.1 interlock_course = 0.1 interlock_thi
 warned 's/thickness/tie_height = 2.8 tie_area = 1e-4 tie_length = 5 tie_preload = 50 thickness/' \
    "tie_preload = 50 Pa is less than 100000 Pa: is it in MPa, or a force?"
 warned "s/one_sided'/two_block' overburden = 15 overburden_inertia = 0/" "overburden = 15 N/m is less than 200 N/m: is it in kN/m?"
+warned 's/gravity = [0-9.]+/gravity = 981/' "wall '.*': gravity = 981 m/s2 is more than 10 m/s2: is it in cm/s2 or ft/s2?"
+warned 's/gravity = [0-9.]+/gravity = 1/' "wall '.*': gravity = 1 m/s2 is less than 9.7 m/s2: is it in g?"
 for polarity in both reversed; do
    good_case | sed "s/'both'/'$polarity'/; \$s/\$/\n\&check ag = 0.2, f0 = 2.5, tc_star = 0.35 \//" >one_way.nml
    run one_way.nml

@@ -174,11 +174,12 @@ def test_a_record_without_motion_warns(wall, sine):
 def test_values_in_other_units_warn(sine):
     """Each is named with its unit, in an analysis of stripes and in one motion."""
     strong = dd.Record(1000.0 * sine.acceleration, sine.dt, "strong")
-    strip = dd.TwoBlockWall(3.0, 0.25, density=18.0, overburden=15.0, overburden_inertia=0.0, name="strip")
+    strip = dd.TwoBlockWall(3.0, 0.25, density=18.0, overburden=15.0, overburden_inertia=0.0, gravity=32.2, name="strip")
     sentences = [
         "wall 'strip': density = 18 kg/m3 is less than 500 kg/m3: is it in kN/m3 or t/m3?",
         "wall 'strip': overburden = 15 N/m is less than 200 N/m: is it in kN/m?",
-        f"record 'strong': a PGA of {strong.peak_acceleration / 9.81:.4g} g, more than 3 g: wrong units?",
+        "wall 'strip': gravity = 32.2 m/s2 is more than 10 m/s2: is it in cm/s2 or ft/s2?",
+        f"record 'strong': a PGA of {strong.peak_acceleration / 32.2:.4g} g, more than 3 g: wrong units?",
     ]
     with pytest.warns(dd.DondoloWarning) as caught:
         dd.multiple_stripe(strip, strong, [0.1], progress=False)

@@ -244,8 +244,8 @@ module dondolo_wall_properties
 
    !> What walls have of their place; in namelists it stands in &solver, for all walls
    type(property_type), parameter :: gravity_property = property_type('gravity', unit='m/s2', &
-      & default=standard_gravity, positive=.true., smallest=1.0e-3_wp, largest=1.0e3_wp, &
-      & meaning='acceleration of gravity')
+      & default=standard_gravity, positive=.true., smallest=1.0e-3_wp, largest=1.0e3_wp, usual_least=9.7_wp, usual_most=10.0_wp, &
+      & if_less='is it in g?', if_more='is it in cm/s2 or ft/s2?', meaning='acceleration of gravity')
 
    !> How many of them are numbers
    integer, parameter :: wall_numbers = count(rows%kind /= is_text .and. rows%kind /= is_words)

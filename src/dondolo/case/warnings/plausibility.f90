@@ -2,18 +2,18 @@
 module dondolo_plausibility
    use dondolo_kinds, only : wp
    use dondolo_lines, only : line_type
-   use dondolo_property, only : no_limit
+   use dondolo_property, only : no_limit, property_type
    use dondolo_rigid_body, only : same
    use dondolo_wall, only : wall_type
-   use dondolo_wall_properties, only : wall_properties
+   use dondolo_wall_properties, only : gravity_property, wall_properties
    use dondolo_warning, only : warning_type, warnings_type
    implicit none
    private
 
    public :: wall_warning_type
 
-   !> Place behind the properties: what is said of values that do not go together
-   integer, parameter :: together = size(wall_properties) + 1
+   !> Places behind the properties: the gravity of a wall, and what is said of values that do not go together
+   integer, parameter :: gravity = size(wall_properties) + 1, together = size(wall_properties) + 2
 
    !> Codes of values that are less than usual, and more, and of those that do not go together
    character(len=24), parameter :: beyond_codes(2) = [character(len=24) :: 'value_below_usual', 'value_above_usual'], &
@@ -60,6 +60,9 @@ contains
             call note(self, wall, i, [.false., high > property%usual_most], high)
          end associate
       end do
+      associate (pull => wall%gravity, usual => gravity_property)
+         call note(self, wall, gravity, [pull < usual%usual_least, pull > usual%usual_most], pull)
+      end associate
       associate (input => wall%input)
          outside(1) = input%number('height') < input%number('thickness')
          outside(2) = (wall%bears .or. abs(input%number('eccentricity')) > 0.0_wp) &
@@ -81,7 +84,7 @@ contains
    subroutine note(self, wall, i, outside, value)
       class(wall_warning_type), intent(inout) :: self
       type(wall_type), intent(in) :: wall
-      !> Number of a property, or `together`
+      !> Number of a property, `gravity` or `together`
       integer, intent(in) :: i
       !> What there is to say
       logical, intent(in) :: outside(:)
@@ -107,6 +110,7 @@ contains
       type(warnings_type), intent(inout) :: warnings
 
       type(warning_type) :: warning
+      type(property_type) :: property
       integer :: i, k
 
       do i = 1, together
@@ -116,12 +120,12 @@ contains
             if (i < together) warning%code = beyond_codes(k)
             call warning%about('wall', self%first(k, i)%text)
             if (i < together) then
-               associate (property => wall_properties(i))
-                  call warning%about('variable', trim(property%name))
-                  call warning%about('unit', trim(property%unit))
-                  call warning%with('value', self%value(k, i))
-                  call warning%with('limit', merge(property%usual_least, property%usual_most, k == 1))
-               end associate
+               property = gravity_property
+               if (i < gravity) property = wall_properties(i)
+               call warning%about('variable', trim(property%name))
+               call warning%about('unit', trim(property%unit))
+               call warning%with('value', self%value(k, i))
+               call warning%with('limit', merge(property%usual_least, property%usual_most, k == 1))
             end if
             call warning%with('walls_beyond', self%number(k, i))
             call warning%with('walls', self%walls)

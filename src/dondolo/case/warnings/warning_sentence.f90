@@ -3,10 +3,10 @@ module dondolo_warning_sentence
    use dondolo_json, only : json_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
-   use dondolo_property, only : find_property
+   use dondolo_property, only : find_property, property_type
    use dondolo_record_table, only : describe_pace, describe_pga
    use dondolo_text, only : rounded, to_text
-   use dondolo_wall_properties, only : wall_properties
+   use dondolo_wall_properties, only : gravity_property, wall_properties
    use dondolo_warning, only : warning_type, warnings_type
    implicit none
    private
@@ -104,19 +104,20 @@ contains
       character(len=:), allocatable, intent(out) :: text
 
       character(len=:), allocatable :: wall, variable, unit
+      type(property_type) :: property
 
       call warning%get_word('wall', wall)
       call warning%get_word('variable', variable)
       call warning%get_word('unit', unit)
       if (len(unit) > 0) unit = ' '//unit
       text = 'wall '''//wall//''': '//variable//' = '//rounded(warning%value('value'))//unit
-      associate (property => wall_properties(find_property(wall_properties, variable)))
-         if (warning%code == 'value_below_usual') then
-            text = text//' is less than '//to_text(warning%value('limit'))//unit//': '//trim(property%if_less)
-         else
-            text = text//' is more than '//to_text(warning%value('limit'))//unit//': '//trim(property%if_more)
-         end if
-      end associate
+      property = gravity_property
+      if (variable /= property%name) property = wall_properties(find_property(wall_properties, variable))
+      if (warning%code == 'value_below_usual') then
+         text = text//' is less than '//to_text(warning%value('limit'))//unit//': '//trim(property%if_less)
+      else
+         text = text//' is more than '//to_text(warning%value('limit'))//unit//': '//trim(property%if_more)
+      end if
       call count_walls(warning, text)
    end subroutine say_implausible
 
