@@ -154,10 +154,9 @@ def limits(results, turns):
         f"The {histories} histories take the engine `lanes` {warm} ms in a call from Python that is warm, of which the "
         f"histories themselves are {ratio(turns, lanes, lanes, 'own').times(100.0).stated()} %. Calls of as many "
         f"histories that never move, one right after the other, take {still.stated()} ms each, "
-        f"{ratio(turns, (STILL, 1e-8), lanes).times(100.0).stated()} % of it; they find code and data in the caches. The "
-        "whole command "
-        f"`dondolo CASE.nml` takes {whole} ms, from the start of the process to its end, with the reading of "
-        f"the records and the writing of the results; its histories take {cold} ms of it."
+        f"{ratio(turns, (STILL, 1e-8), lanes).times(100.0).stated()} % of it; they find code and data in the caches. "
+        f"The whole command `dondolo CASE.nml` takes {whole} ms, from the start of the process to its end, with the "
+        f"reading of the records and the writing of the results; its histories take {cold} ms of it."
     )
     loop = times_of(turns, LIMIT, 0.0).values()
     if not loop:

@@ -15,7 +15,7 @@ import cost_model
 import page
 import runs
 from programs import Result, write_results
-from rounds import ARITHMETIC, COLD, LIMIT, Turn, write_rounds
+from rounds import ARITHMETIC, COLD, LIMIT, STILL, Turn, write_rounds
 from runs import Figure, Run
 from scaling import row, write_scaling
 from sections_runs import chances, earlier_runs
@@ -245,6 +245,7 @@ def tables(tmp_path):
             Turn(number, "heyoka, batch", 1e-9, 2000.0, 250.0),
             Turn(number, "SciPy, RK45", 1e-6, 1e5, 0.0),
             Turn(number, COLD, 1e-8, 70.0, 18.0),
+            Turn(number, STILL, 1e-8, 0.4, 0.0),
             Turn(number, LIMIT, 0.0, 10.0, 0.0),
             # A quarter of the operations per second of the loop
             Turn(number, f"{ARITHMETIC}one_sided", 0.0, 40.0 / arithmetic.LOOP, 0.0),
@@ -282,6 +283,7 @@ def test_page(tables, site):
     assert "| `one_sided` | 25 |" in text
     words = " ".join(text.split())
     assert "of which the histories themselves are 95 %" in words
+    assert "never move, one right after the other, take 0.4 ms each, 2 % of it" in words
     assert "command `dondolo CASE.nml` takes 70 ms" in words
     assert "its histories take 18 ms of it" in words
     assert "A call takes 2 ms + 0.3 ms for each record + 0.04 ms for each history" in words

@@ -174,7 +174,9 @@ def test_a_record_without_motion_warns(wall, sine):
 def test_values_in_other_units_warn(sine):
     """Each is named with its unit, in an analysis of stripes and in one motion."""
     strong = dd.Record(1000.0 * sine.acceleration, sine.dt, "strong")
-    strip = dd.TwoBlockWall(3.0, 0.25, density=18.0, overburden=15.0, overburden_inertia=0.0, gravity=32.2, name="strip")
+    strip = dd.TwoBlockWall(
+        3.0, 0.25, density=18.0, overburden=15.0, overburden_inertia=0.0, gravity=32.2, name="strip"
+    )
     sentences = [
         "wall 'strip': density = 18 kg/m3 is less than 500 kg/m3: is it in kN/m3 or t/m3?",
         "wall 'strip': overburden = 15 N/m is less than 200 N/m: is it in kN/m?",
