@@ -126,7 +126,7 @@ class PopulationCurve(Shown, Group, MeanCurve):
     _source: Typology = field(repr=False)
 
     @classmethod
-    def of(cls, data: Group, source: Typology) -> PopulationCurve:
+    def _of(cls, data: Group, source: Typology) -> PopulationCurve:
         """The curve of some walls of an analysis."""
         return cls(**{one.name: getattr(data, one.name) for one in fields(data)}, _source=source)
 

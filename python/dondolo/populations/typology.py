@@ -161,7 +161,7 @@ class Typology(Shown, Saved):
         # Where there is but one mechanism, and it can occur in all walls, its curve is that of all.
         last = list(of_group)[-1]
         one_of("mechanism", mechanism, (*of_group, "all"))
-        return PopulationCurve.of(of_group[last if mechanism == "all" else mechanism], self)
+        return PopulationCurve._of(of_group[last if mechanism == "all" else mechanism], self)
 
     def at(self, edp_threshold: float) -> Typology:
         """The typology of one damage state.
