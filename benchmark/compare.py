@@ -119,6 +119,8 @@ def main():
     if not quick:
         runs.append(runs.FILE, run, ratios)
         page.write(OUT)
+    if not runs.is_quiet(ratios):
+        say("other programs on the machine have disturbed this run: its times vary too much; run it again")
     say(f"{progress.elapsed():.0f} s; the tables are in {OUT}")
 
 

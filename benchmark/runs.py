@@ -15,6 +15,7 @@ from spread import NAMES, Spread
 FILE = Path(__file__).resolve().parent / "runs.csv"
 SOURCES = ("src", "app", "python", "benchmark", "meson.build", ":!benchmark/runs.csv")
 UNCOMMITTED = "+"  # ends the commit of a run whose sources were not committed
+QUIET = 0.1  # largest unrest of a run that other programs on the machine have not disturbed
 
 
 @dataclass(frozen=True)
@@ -54,6 +55,16 @@ class Figure:
         """Whether each median lies between the quartiles of the other."""
         mine = self.spread
         return mine.lower <= stated.median <= mine.upper and stated.lower <= mine.median <= stated.upper
+
+
+def unrest(found):
+    """How far apart the quartiles of a ratio are, relative to its median: the median of several ratios."""
+    return statistics.median((each.spread.upper - each.spread.lower) / each.spread.median for each in found)
+
+
+def is_quiet(found):
+    """Whether the ratios of a run show that it was not disturbed."""
+    return unrest(found) <= QUIET
 
 
 def new_run(report):

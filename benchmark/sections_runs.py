@@ -5,7 +5,7 @@ import statistics
 import numpy as np
 from markdown import many, paragraph, table
 from rounds import ROUNDS
-from runs import Figure, earlier, together
+from runs import QUIET, Figure, earlier, is_quiet, together, unrest
 from spread import Spread
 
 
@@ -14,23 +14,40 @@ def earlier_runs(runs, run):
     lines = ["## 3. Earlier runs", ""]
     if not run.is_committed:
         return lines + paragraph("This run is of sources that were not committed, and is not compared with others.")
+    lines += paragraph(
+        f"Earlier runs are those of the same commit ({run.commit}), compiler options, processor, version and build "
+        "variant in `benchmark/runs.csv`. A run is disturbed, by other programs on the machine, if the quartiles of "
+        f"half of its ratios are farther apart than {100.0 * QUIET:g} % of the median; disturbed runs are listed, and "
+        f"not compared. In this run the quartiles of half of the ratios are within {apart(runs[run])}."
+    )
+    if not is_quiet(runs[run]):
+        return lines + paragraph("**This run was disturbed**, and is not compared with others.")
     others = earlier(runs, run)
     if not others:
-        return lines + paragraph(
-            "`benchmark/runs.csv` has no earlier run of the same commit, compiler options, processor, version and "
-            "build variant."
-        )
+        return lines + paragraph("There is no earlier run.")
+    quiet = [other for other in others if is_quiet(runs[other])]
+    lines += table(
+        ["earlier run", "quartiles within", "median difference", "largest difference"],
+        [
+            [other.date, apart(runs[other]), *(differences(runs, run, other) if other in quiet else ["disturbed", ""])]
+            for other in others
+        ],
+    )
+    return lines + (comparison(runs, run, quiet) if quiet else [])
+
+
+def comparison(runs, run, others):
+    """Each ratio of a run, and whether it agrees with those of other runs."""
     stated = together(runs[other] for other in others)
     found = [each for each in runs[run] if each.name in stated]
     agree = sum(each.agrees(stated[each.name]) for each in found)
     closely = sum(each.agrees_closely(stated[each.name]) for each in found)
     by_chance, closely_by_chance = chances(len(others))
-    lines += paragraph(
-        f"Earlier runs are those of the same commit ({run.commit}), compiler options, processor, version and build "
-        "variant in `benchmark/runs.csv`. Their spread is that of all their rounds: the median of their medians, the "
-        "least lower and the largest upper quartile that one of them has, and the least and the largest value. A ratio "
-        "agrees if each median, of this run and of the earlier ones, lies between the least and the largest value of "
-        "the other, closely if it lies between the quartiles. Of runs that differ by chance alone "
+    lines = paragraph(
+        "The spread of earlier runs is that of all their rounds: the median of their medians, the least lower and the "
+        "largest upper quartile that one of them has, and the least and the largest value. A ratio agrees if each "
+        "median, of this run and of the earlier ones, lies between the least and the largest value of the other, "
+        "closely if it lies between the quartiles. Of runs that differ by chance alone "
         f"{by_chance} % of the ratios would agree and {closely_by_chance} % closely (simulated, {sum(ROUNDS)} normal "
         "errors a run)."
     )
@@ -38,12 +55,6 @@ def earlier_runs(runs, run):
         f"{agree} of {many(len(found), 'ratio')} agree with {many(len(others), 'earlier run')}, {closely} of them "
         "closely."
     )
-    body = []
-    for other in others:
-        before = {each.name: each.spread for each in runs[other]}
-        apart = [abs(difference(each, before[each.name])) for each in found if each.name in before]
-        body.append([other.date, f"{statistics.median(apart):.1f} %", f"{max(apart):.1f} %"])
-    lines += table(["earlier run", "median difference", "largest difference"], body)
     body = [
         [
             each.name,
@@ -55,6 +66,18 @@ def earlier_runs(runs, run):
         for each in found
     ]
     return lines + table(["ratio", run.date, "earlier runs", "difference", "agree"], body)
+
+
+def apart(found):
+    """How far apart the quartiles of half of the ratios are at most, in words."""
+    return f"{100.0 * unrest(found):.1f} %"
+
+
+def differences(runs, run, other):
+    """Median and largest difference between the ratios of two runs, in words."""
+    before = {each.name: each.spread for each in runs[other]}
+    found = [abs(difference(each, before[each.name])) for each in runs[run] if each.name in before]
+    return [f"{statistics.median(found):.1f} %", f"{max(found):.1f} %"]
 
 
 def difference(mine, stated):

@@ -106,21 +106,38 @@ def test_uncommitted_runs_are_never_judged():
 
 
 def test_section_of_earlier_runs():
-    oldest = replace(RUN, date="2026-01-01T10:00:00Z")
+    oldest, disturbed = (replace(RUN, date=f"2026-01-{day}T10:00:00Z") for day in ("01", "15"))
     found = {
-        oldest: [figure("a", 0.96)],
-        BEFORE: [figure("a", 1.0), figure("b", 2.0), figure("c", 3.0), figure("gone", 1.0)],
-        RUN: [figure("a", 1.05), figure("b", 2.15), figure("c", 3.3), figure("new", 1.0)],
+        oldest: [figure("a", 0.99, 0.04)],
+        disturbed: [figure("a", 5.0, 1.0)],
+        BEFORE: [figure("a", 1.0, 0.04), figure("b", 2.0, 0.04), figure("c", 3.0, 0.04), figure("gone", 1.0, 0.04)],
+        RUN: [figure("a", 1.02, 0.04), figure("b", 2.06, 0.04), figure("c", 3.3, 0.04), figure("new", 1.0, 0.04)],
     }
     lines = earlier_runs(found, RUN)
     text = " ".join(lines)
+    assert "In this run the quartiles of half of the ratios are within 5.9 %." in text
     assert "2 of 3 ratios agree with 2 earlier runs, 1 of them closely." in text
-    assert f"| {BEFORE.date} | 7.5 % | 10.0 % |" in lines
-    assert f"| {oldest.date} | 9.4 % | 9.4 % |" in lines
-    assert "| a | 1.05, 0.95 to 1.15 (0.85 to 1.25) | 0.98, 0.86 to 1.1 (0.76 to 1.2) | +7.1 % | closely |" in lines
-    assert any(line.startswith("| b |") and line.endswith("| +7.5 % | yes |") for line in lines)
+    assert f"| {BEFORE.date} | 6.0 % | 3.0 % | 10.0 % |" in lines
+    assert f"| {disturbed.date} | 40.0 % | disturbed |  |" in lines
+    assert f"| {oldest.date} | 8.1 % | 3.0 % | 3.0 % |" in lines
+    assert "| a | 1.02, 0.98 to 1.06 (0.94 to 1.1) | 0.995, 0.95 to 1.04 (0.91 to 1.08) | +2.5 % | closely |" in lines
+    assert any(line.startswith("| b |") and line.endswith("| +3.0 % | yes |") for line in lines)
     assert any(line.startswith("| c |") and line.endswith("| +10.0 % | no |") for line in lines)
     assert not any("new" in line or "gone" in line for line in lines)
+
+
+def test_disturbed_runs_are_not_judged():
+    """Half of the ratios tell: one that varies is not enough."""
+    quiet = [figure("a", 1.0, 0.04), figure("b", 1.0, 0.045), figure("c", 1.0, 0.5)]
+    noisy = [figure("a", 1.0, 0.04), figure("b", 1.0, 0.06), figure("c", 1.0, 0.5)]
+    assert runs.is_quiet(quiet)
+    assert not runs.is_quiet(noisy)
+    text = " ".join(earlier_runs({BEFORE: quiet, RUN: noisy}, RUN))
+    assert "This run was disturbed" in text
+    assert "agree" not in text
+    text = " ".join(earlier_runs({BEFORE: noisy, RUN: quiet}, RUN))
+    assert f"| {BEFORE.date} | 12.0 % | disturbed |  |" in text
+    assert "agree" not in text
 
 
 def test_file_of_runs(tmp_path):
@@ -287,7 +304,7 @@ def test_page(tables, site):
     assert "command `dondolo CASE.nml` takes 70 ms" in words
     assert "its histories take 18 ms of it" in words
     assert "A call takes 2 ms + 0.3 ms for each record + 0.04 ms for each history" in words
-    assert "no earlier run of the same commit" in words
+    assert "There is no earlier run." in words
     readme = (site / "README.md").read_text()
     assert "8 times as fast as Boost.odeint (36 at dondolo's accuracy)" in readme
     assert readme.endswith(f"{page.END} Kept.\n")
