@@ -23,7 +23,7 @@ METHODS = [
     "step.",
     "*Boost.odeint*: Dormand-Prince stepper, with controlled steps that end at every sample, or with free steps and "
     "dense output. *SUNDIALS*: ARKODE's Dormand-Prince pair and CVODE's Adams method with their own root finding, "
-    "stopped at every sample, or free. The libraries are Debian's builds.",
+    "stopped at every sample, or free. Its library is Debian's build.",
     "*heyoka*: Taylor's method with its own events, called from Python, one history after the other or in lanes: its "
     "wheel has the library without the headers of its C++ interface, so that no program in C++ is built with it here; "
     "of the lanes the time within the library's own steps is given as well. "
@@ -62,7 +62,9 @@ def programs(results, turns, machine):
             "Every program computes the same motion (theory.md, sections 1 to 4): accelerograms linear between their "
             "samples, rocking from the exact crossing of the trigger, impacts, the rule that ends a chain of bounces, "
             "the peak at q' = 0, and the motion after the record by its energy. Programs in the same language share "
-            "all source except the integration. All run on one core, in a warm process: reading and compilation "
+            "all source except the integration. Those in C++ are compiled for the processor at hand, as those of "
+            "heyoka and Numba are; dondolo's are portable binaries, of which the engine `lanes` chooses the variant "
+            "that fits. All run on one core, in a warm process: reading and compilation "
             "are over before the clock starts. Times are medians of several repeats where a program is not too slow "
             "for them; how much they vary is stated for the best settings below."
         ),
