@@ -649,6 +649,7 @@ s/'records.records.csv'/'records\/none.csv'/|bad.nml: &records: catalogue = 'rec
 s/'records.records.csv'/'records'/|bad.nml: &records: catalogue = 'records': records is a folder, must be a file
 s/'records.records.csv'/'records\\records.csv'/|bad.nml: &records: catalogue = 'records\records.csv': there is no file records\records.csv (paths are relative to the case); folders must be separated by /, not \
 s/output = .*/output = 'a\\b'/|bad.nml: &job: output = 'a\b': must have / between folders, not \
+s#output = .*#output = '~/a/b'#|bad.nml: &job: output = '~/a/b': must be a path from the current folder or from /: ~ is not replaced by the home folder
 s/'It''s a wall'/‘It is a wall’/|bad.nml: line 4: the quote ‘ of a word processor: must be a straight one, '
 s/'It''s a wall'/“It is a wall”/|bad.nml: line 4: the quote “ of a word processor: must be a straight one, '
 s/'It''s a wall'/«It is a wall»/|bad.nml: line 4: the quote « of a word processor: must be a straight one, '

@@ -84,6 +84,10 @@ contains
             & error)
       else if (index(job%output, '\') > 0) then
          call group%refuse('output', 'must have / between folders, not \', error)
+      else if (job%output(1:1) == '~' .and. index(job%output, '/') > 0) then
+         ! A folder ~ would be made; who removes it as shells understand it removes the home folder
+         call group%refuse('output', 'must be a path from the current folder or from /: '// &
+            & '~ is not replaced by the home folder', error)
       end if
       job%output_line = group%in_line('output')
    end subroutine read_job
