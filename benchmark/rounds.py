@@ -25,6 +25,8 @@ SLOWEST = 20.0  # seconds: a program that needs more has no turns; the time of i
 
 #: What is measured beside the programs of `programs.csv`
 COLD, STILL, LIMIT = "dondolo, command, cold", "dondolo, call without motion", "arithmetic limit"
+#: What the core has for a program, before each turn: milliseconds of 1e9 additions, and as own of 1e9 multiplications
+CORE = "core"
 #: Name of the turns of the engine's arithmetic for a mechanism: milliseconds of 1e9 operations
 ARITHMETIC = "1e9 operations, "
 
@@ -34,7 +36,7 @@ class Turn:
     """Time of one program in one round."""
 
     round: int  # 0: its setting alone, without rounds
-    name: str  # program and method, or COLD, STILL, LIMIT or ARITHMETIC and a mechanism
+    name: str  # program and method, or COLD, STILL, LIMIT, CORE or ARITHMETIC and a mechanism
     setting: float
     ms: float  # all histories
     own: float  # of it in the steps of a library called from Python, or in the histories of dondolo; 0: not known
@@ -122,7 +124,9 @@ class Rounds:
         """Run some rounds."""
         first = self.number + 1
         for number in range(first, first + rounds):
-            for each, command in self.programs:
+            for place, (each, command) in enumerate(self.programs):
+                if (BUILD / "core").is_file():
+                    self.turns.append(Turn(number, CORE, float(place), *(1e12 * each for each in core_seconds())))
                 self.turns.append(self.turn(number, each, *calls_of(command)))
             arguments = (self.executable, self.problem.wall, self.problem.motions, 1e-8, "lanes", 1)
             (whole,), (histories,) = run_dondolo(*arguments)
@@ -178,6 +182,19 @@ def loop_seconds():
     """Median of the seconds of the loop that shows what the processor can do."""
     done = subprocess.run([BUILD / "arithmetic", "20"], check=True, capture_output=True, text=True)
     return statistics.median(float(line.split()[1]) for line in done.stdout.splitlines())
+
+
+def core_seconds():
+    """Seconds of an addition beside others, and of a multiplication that waits for the one before."""
+    done = subprocess.run([BUILD / "core"], check=True, capture_output=True, text=True)
+    multiplication, addition = (float(line.split()[1]) for line in done.stdout.splitlines())
+    return addition, multiplication
+
+
+def core_of(turns):
+    """Spread of the additions that a core did in the time of a multiplication, None if they were not measured."""
+    found = [turn.own / turn.ms for turn in turns if turn.name == CORE]
+    return Spread.of(found) if found else None
 
 
 def times_of(turns, name, setting, what="ms"):

@@ -8,7 +8,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 
 from problem import ROOT
-from rounds import LIMIT, STILL, compared, ratio, references, shares, times_of
+from rounds import LIMIT, STILL, compared, core_of, ratio, references, shares, times_of
 from scaling import VARIANTS, spread_of
 from spread import NAMES, Spread
 
@@ -102,6 +102,8 @@ def figures(results, turns, rows):
     found["call without motion / call from Python"] = ratio(turns, (STILL, 1e-8), lanes)
     if times_of(turns, LIMIT, 0.0):
         found["lanes / arithmetic limit"] = ratio(turns, lanes, (LIMIT, 0.0))
+    if core_of(turns):
+        found["additions / multiplication"] = core_of(turns)
     found |= {f"share of the arithmetic limit, {mechanism}": share for mechanism, share in shares(turns).items()}
     for row in rows:
         size = int(row["size"])

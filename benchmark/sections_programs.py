@@ -11,6 +11,7 @@ from rounds import (
     TURN,
     WRONG,
     compared,
+    core_of,
     ratio,
     references,
     shares,
@@ -160,6 +161,13 @@ def limits(results, turns):
         f"The whole command `dondolo CASE.nml` takes {whole} ms, from the start of the process to its end, with the "
         f"reading of the records and the writing of the results; its histories take {cold} ms of it."
     )
+    if core_of(turns):
+        lines += paragraph(
+            f"Before each turn, the core did {core_of(turns).stated()} independent additions in the time of a "
+            "multiplication that waits for the one before. A core that runs a thread of another program as well, which "
+            "may be of another machine on the same host, multiplies as fast and does as few as half of the additions; "
+            "programs take longer then, each by another factor."
+        )
     loop = times_of(turns, LIMIT, 0.0).values()
     if not loop:
         return lines

@@ -44,8 +44,9 @@ compiler="g++ $(g++ -dumpfullversion), ${flags[*]}"
 # What another compiler or other flags have made is made again.
 [ "$compiler" = "$(cat "$build/compiler" 2>/dev/null)" ] || rm -f "$build"/*
 echo "$compiler" >"$build/compiler"
-# The limit of this processor, not a program that is compared
+# The limit of this processor and what it has for us, no programs that are compared
 compile arithmetic
+compile core
 compile rkn4
 compile odeint
 compile sundials -lsundials_cvode -lsundials_arkode -lsundials_nvecserial -lsundials_sunnonlinsolfixedpoint

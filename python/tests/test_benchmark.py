@@ -15,7 +15,7 @@ import cost_model
 import page
 import runs
 from programs import Result, write_results
-from rounds import ARITHMETIC, COLD, LIMIT, STILL, Turn, write_rounds
+from rounds import ARITHMETIC, COLD, CORE, LIMIT, STILL, Turn, write_rounds
 from runs import Figure, Run
 from scaling import row, write_scaling
 from sections_runs import chances, earlier_runs
@@ -264,6 +264,10 @@ def tables(tmp_path):
             Turn(number, COLD, 1e-8, 70.0, 18.0),
             Turn(number, STILL, 1e-8, 0.4, 0.0),
             Turn(number, LIMIT, 0.0, 10.0, 0.0),
+            # The last two of three gauges find the core shared
+            Turn(number, CORE, 0.0, 80.0, 800.0),
+            Turn(number, CORE, 1.0, 100.0, 800.0),
+            Turn(number, CORE, 2.0, 160.0, 800.0),
             # A quarter of the operations per second of the loop
             Turn(number, f"{ARITHMETIC}one_sided", 0.0, 40.0 / arithmetic.LOOP, 0.0),
         ]
@@ -302,6 +306,7 @@ def test_page(tables, site):
     assert "of which the histories themselves are 95 %" in words
     assert "never move, one right after the other, take 0.4 ms each, 2 % of it" in words
     assert "command `dondolo CASE.nml` takes 70 ms" in words
+    assert "the core did 8, 5 to 10 (5 to 10) independent additions in the time of a multiplication" in words
     assert "its histories take 18 ms of it" in words
     assert "A call takes 2 ms + 0.3 ms for each record + 0.04 ms for each history" in words
     assert "There is no earlier run." in words
@@ -317,6 +322,7 @@ def test_page_compares_with_an_earlier_run(tables, site):
     names = [each.name for each in found]
     assert "Boost.odeint / lanes" in names
     assert "share of the arithmetic limit, one_sided" in names
+    assert "additions / multiplication" in names
     assert not any("Octave" in name for name in names)
     other = [Figure(each.name, each.spread.times(2.5)) for each in found[:2]]
     runs.append(site / "runs.csv", BEFORE, other + found[2:])
