@@ -13,6 +13,7 @@ from dataclasses import asdict, dataclass, fields
 from operator import le
 
 import arithmetic
+from cores import Cores, additions
 from programs import BUILD, DONDOLO, command_of, parse, peer_of, run_dondolo
 from progress import say
 from spread import Spread
@@ -25,7 +26,7 @@ SLOWEST = 20.0  # seconds: a program that needs more has no turns; the time of i
 
 #: What is measured beside the programs of `programs.csv`
 COLD, STILL, LIMIT = "dondolo, command, cold", "dondolo, call without motion", "arithmetic limit"
-#: What the core has for a program, before each turn: milliseconds of 1e9 additions, and as own of 1e9 multiplications
+#: What the core of a turn has for it: milliseconds of 1e9 additions, and as own of 1e9 multiplications
 CORE = "core"
 #: Name of the turns of the engine's arithmetic for a mechanism: milliseconds of 1e9 operations
 ARITHMETIC = "1e9 operations, "
@@ -105,7 +106,7 @@ class Rounds:
     def __init__(self, executable, problem, results, path, case):
         """Choose the contestants among the results; path and case are what they are called with."""
         self.executable, self.problem, self.case = executable, problem, case
-        self.turns, self.number = [], 0
+        self.turns, self.number, self.cores = [], 0, Cores()
         self.programs = []  # (result, command)
         for each in contestants(results):
             peer = peer_of(each)
@@ -124,20 +125,28 @@ class Rounds:
         """Run some rounds."""
         first = self.number + 1
         for number in range(first, first + rounds):
-            for place, (each, command) in enumerate(self.programs):
-                if (BUILD / "core").is_file():
-                    self.turns.append(Turn(number, CORE, float(place), *(1e12 * each for each in core_seconds())))
+            self.number = number
+            for each, command in self.programs:
+                self.settle()
                 self.turns.append(self.turn(number, each, *calls_of(command)))
+            self.settle()
             arguments = (self.executable, self.problem.wall, self.problem.motions, 1e-8, "lanes", 1)
             (whole,), (histories,) = run_dondolo(*arguments)
             self.turns.append(Turn(number, COLD, 1e-8, 1e3 * whole, 1e3 * histories))
             self.turns.append(Turn(number, STILL, 1e-8, 1e3 * still_seconds(self.case, self.problem), 0.0))
+            self.settle()
             for mechanism, rate in arithmetic.measured(self.executable).rates.items():
                 self.turns.append(Turn(number, ARITHMETIC + mechanism, 0.0, 1e3 / rate, 0.0))
             if (BUILD / "arithmetic").is_file():
                 self.turns.append(Turn(number, LIMIT, 0.0, 1e3 * loop_seconds(), 0.0))
-            self.number = number
             say(f"round {number}")
+        self.cores.leave()
+
+    def settle(self):
+        """Choose the core of the next turn."""
+        found = self.cores.choose()
+        if found:
+            self.turns.append(Turn(self.number, CORE, float(len(self.turns)), *(1e12 * each for each in found)))
 
 
 def call(process):
@@ -184,16 +193,9 @@ def loop_seconds():
     return statistics.median(float(line.split()[1]) for line in done.stdout.splitlines())
 
 
-def core_seconds():
-    """Seconds of an addition beside others, and of a multiplication that waits for the one before."""
-    done = subprocess.run([BUILD / "core"], check=True, capture_output=True, text=True)
-    multiplication, addition = (float(line.split()[1]) for line in done.stdout.splitlines())
-    return addition, multiplication
-
-
 def core_of(turns):
     """Spread of the additions that a core did in the time of a multiplication, None if they were not measured."""
-    found = [turn.own / turn.ms for turn in turns if turn.name == CORE]
+    found = [additions(turn.ms, turn.own) for turn in turns if turn.name == CORE]
     return Spread.of(found) if found else None
 
 

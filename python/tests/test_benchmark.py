@@ -11,6 +11,7 @@ import pytest
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "benchmark"))
 
 import arithmetic
+import cores
 import cost_model
 import page
 import runs
@@ -182,6 +183,48 @@ def test_report_of_the_executable(executable):
     assert "/" not in report.compiler
 
 
+@pytest.fixture
+def two_cores(monkeypatch):
+    """Two cores of which the additions are made up, one list a core, and where the process is moved to."""
+    offered, moves = {0: [], 1: []}, []
+    monkeypatch.setattr(cores, "GAUGE", Path(__file__))
+    monkeypatch.setattr(cores, "measured", lambda core: (1.0, offered[core].pop(0)))
+    monkeypatch.setattr(cores.os, "sched_getaffinity", lambda _: {0, 1}, raising=False)
+    monkeypatch.setattr(cores.os, "sched_setaffinity", lambda _, where: moves.append(where), raising=False)
+    return offered, moves
+
+
+def test_a_turn_takes_the_core_that_is_left_alone(two_cores):
+    offered, moves = two_cores
+    own = cores.Cores()
+    offered[0], offered[1] = [10.0, 6.0], [6.0, 9.0]
+    assert own.choose() == (1.0, 10.0)
+    assert own.choose() == (1.0, 9.0)
+    own.leave()
+    assert moves == [{0}, {1}, {0, 1}]
+
+
+def test_a_turn_waits_for_a_core(two_cores, monkeypatch):
+    offered, moves = two_cores
+    own = cores.Cores()
+    offered[0], offered[1] = [10.0, 6.0, 6.0, 9.0], [6.0, 7.0, 6.0, 6.0]
+    own.choose()
+    assert own.choose() == (1.0, 9.0)
+    # Not for ever
+    monkeypatch.setattr(cores, "WAIT", 0.0)
+    offered[0], offered[1] = [6.0], [7.0]
+    assert own.choose() == (1.0, 7.0)
+    assert moves == [{0}, {0}, {1}]
+
+
+def test_cores_without_a_gauge(two_cores, monkeypatch, tmp_path):
+    monkeypatch.setattr(cores, "GAUGE", tmp_path / "core")
+    own = cores.Cores()
+    assert own.choose() is None
+    own.leave()
+    assert two_cores[1] == []
+
+
 def made_up_rows(call=2e-3, record=3e-4, history=4e-5, serial=0.1):
     """Rows of the scaling by known laws."""
     rows = []
@@ -306,7 +349,7 @@ def test_page(tables, site):
     assert "of which the histories themselves are 95 %" in words
     assert "never move, one right after the other, take 0.4 ms each, 2 % of it" in words
     assert "command `dondolo CASE.nml` takes 70 ms" in words
-    assert "the core did 8, 5 to 10 (5 to 10) independent additions in the time of a multiplication" in words
+    assert "that core did 8, 5 to 10 (5 to 10) independent additions in the time of a multiplication" in words
     assert "its histories take 18 ms of it" in words
     assert "A call takes 2 ms + 0.3 ms for each record + 0.04 ms for each history" in words
     assert "There is no earlier run." in words
