@@ -35,7 +35,7 @@ contains
             call print_histories(sheet, state_names(k))
          else if (was_run) then
             write (output_unit, '(a)') 'dynamic '//state_names(k)//': left out, since each level has records of its own '// &
-               & 'and none is at a_g S = '//rounded(sheet%value('site', state_names(k), 'pga'))//' g'
+               & 'and none is followed to d_0* at a_g S = '//rounded(sheet%value('site', state_names(k), 'pga'))//' g'
          end if
       end do
       if (sheet%value('site', 'SLV', 'probability') >= 0.0_wp) write (output_unit, '(a)') 'probability of collapse at a_g S = '// &

@@ -125,7 +125,7 @@ contains
       if (unknown == 0) then
          line = line//' by event, or by station and date'
       else if (size(case%suite%records) > 1) then
-         line = line//'; '//to_text(unknown)//' without event, or station and date, taken as independent of all others'
+         line = line//'; '//to_text(unknown)//' without event, or station and date, taken as independent of all others but copies'
       end if
       write (output_unit, '(a)') line
    end subroutine print_clusters

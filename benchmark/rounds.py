@@ -19,6 +19,7 @@ from progress import say
 from spread import Spread
 
 SHARE, WRONG = 0.01, 1  # acceptable share of histories with an error above 1e-6, acceptable number of wrong flags
+WORST = 2.0  # largest errors that differ by at most this factor are equal
 ROUNDS, QUICK_ROUNDS = (3, 2, 2), (1, 1)  # of all programs in turns, in each of the groups
 TURN = 0.3  # seconds: a program that needs less repeats its call until they are over, and the median counts
 STILLNESS = 1e-3  # factor on the levels at which no history moves
@@ -74,12 +75,15 @@ def by_program(results):
 
 
 def as_accurate(results, yardstick):
-    """Cheapest setting of a program with no more errors than another result in any respect, None if there is none."""
+    """Cheapest setting of a program with no more errors than another result, None if there is none.
 
-    def errors(each):
-        return each.flags / each.histories, each.share, each.worst
+    The largest error is that of a history near collapse, which rounding alone changes: up to WORST is equal.
+    """
 
-    return cheapest(each for each in results if all(map(le, errors(each), errors(yardstick))))
+    def errors(each, factor):
+        return each.flags / each.histories, each.share, each.worst / factor
+
+    return cheapest(each for each in results if all(map(le, errors(each, WORST), errors(yardstick, 1.0))))
 
 
 def opponents(results):

@@ -10,6 +10,7 @@ from rounds import (
     SLOWEST,
     STILL,
     TURN,
+    WORST,
     WRONG,
     compared,
     core_of,
@@ -130,8 +131,9 @@ def ratios(results, turns):
         *paragraph(
             f"For each program the cheapest setting with at most {100 * SHARE:g} % of the EDPs with an error above "
             f"1e-6 and at most {many(WRONG, 'wrong flag')}, or, if there is none, its most accurate setting; and *as "
-            "accurate* the cheapest with no more wrong flags, no larger share of errors above 1e-6 and no larger "
-            "error than `lanes` at its defaults, where that is another one. Cheapest is the loosest setting of each "
+            "accurate* the cheapest with no more wrong flags, no larger share of errors above 1e-6 and at most "
+            f"{WORST:g} times the largest error of `lanes` at its defaults, which rounding changes as much, where that "
+            "is another one. Cheapest is the loosest setting of each "
             "method, and of these the fastest. "
             f"These settings ran in {many(rounds, 'round')}, in which every program has its turn, each in a new "
             "process that is warm after a call that is not timed. Some of the rounds ran before the second wall and "

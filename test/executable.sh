@@ -197,7 +197,7 @@ run --check calm.nml
 check "work: --check knows what stays still" contains stdout \
    "of them $still stay below the trigger and never move; $((40 - still)) will be integrated"
 check "check: records that name no event" contains stdout \
-   '4 records in 4 clusters; 4 without event, or station and date, taken as independent of all others'
+   '4 records in 4 clusters; 4 without event, or station and date, taken as independent of all others but copies'
 sed 's/place$/event/' records/records.csv >records/events.csv
 sed 's/records.csv/events.csv/' calm.nml >events.nml
 run --check events.nml
@@ -649,7 +649,10 @@ s/'records.records.csv'/'records\/none.csv'/|bad.nml: &records: catalogue = 'rec
 s/'records.records.csv'/'records'/|bad.nml: &records: catalogue = 'records': records is a folder, must be a file
 s/'records.records.csv'/'records\\records.csv'/|bad.nml: &records: catalogue = 'records\records.csv': there is no file records\records.csv (paths are relative to the case); folders must be separated by /, not \
 s/output = .*/output = 'a\\b'/|bad.nml: &job: output = 'a\b': must have / between folders, not \
-s#output = .*#output = '~/a/b'#|bad.nml: &job: output = '~/a/b': must be a path from the current folder or from /: ~ is not replaced by the home folder
+s#output = .*#output = '~/a/b'#|bad.nml: &job: output = '~/a/b': must be a path from the current folder or from /: ~ is not replaced as a shell does
+s#output = .*#output = '$HOME/a'#|bad.nml: &job: output = '$HOME/a': must be a path from the current folder or from /: $ is not replaced as a shell does
+s#output = .*#output = '.'#|bad.nml: &job: output = '.': must end in the beginning of a file's name, such as './wall'
+s#output = .*#output = 'a/..'#|bad.nml: &job: output = 'a/..': must end in the beginning of a file's name, such as 'a/../wall'
 s/'It''s a wall'/‘It is a wall’/|bad.nml: line 4: the quote ‘ of a word processor: must be a straight one, '
 s/'It''s a wall'/“It is a wall”/|bad.nml: line 4: the quote “ of a word processor: must be a straight one, '
 s/'It''s a wall'/«It is a wall»/|bad.nml: line 4: the quote « of a word processor: must be a straight one, '
@@ -882,7 +885,7 @@ warned() {
    rm -rf out
 }
 warned 's/0.6, 1.0/0.6, 5.0/' 'scale factors above 10 in 6 of 40 histories, the largest 25'
-warned 's/levels.*/levels = 0.01, 0.02/;/0.6, 1.0/d' 'no motion at levels 0.01 to 0.02, no curve is fitted: the wall begins to rock at 0.08333 g'
+warned 's/levels.*/levels = 0.01, 0.02/;/0.6, 1.0/d' 'no motion at levels 0.01 to 0.02, no curve is fitted: the wall begins to rock at a PGA of 0.08333 g'
 warned 's/levels.*/levels = 0.09, 0.1/;/0.6, 1.0/d' 'no collapse at levels 0.09 to 0.1'
 warned 's/levels.*/levels = 2, 3/;/0.6, 1.0/d;s/height = 3.0/height = 1.0/;s/0.25/0.05/' 'every history collapses at levels 2 to 3'
 warned 's/height = 3.0/height = 300/' "wall '.*': height = 300 m is more than 60 m: is it in centimetres?"

@@ -127,6 +127,11 @@ def test_histories_at_the_level_of_the_site(stripes, records):
     assert "of 6 histories of 6 records in one direction beyond d_0*" in repr(dd.check_dynamic(check, records))
     free = dd.check_ntc(dd.FreeStandingWall(3.0, 0.25), SITE)
     assert "of 6 histories of 6 records beyond d_0*" in repr(dd.check_dynamic(free, records))
+    # Histories that end early do not tell what is beyond d_0*; those that are run for the check do not end early.
+    early = dd.Solver(edp_limit=0.5)
+    assert dd.check_dynamic(check, records, polarity="both", solver=early).rows == check.rows
+    with pytest.raises(dd.InputError, match=r"edp_limit = 0\.5: must be at least 1"):
+        dd.check_dynamic(check, dd.multiple_stripe(WALL, records, [0.24], solver=early))
     with pytest.raises(dd.InputError, match=r"no level of 0\.24 g"):
         dd.check_dynamic(check, stripes[1:])
     with pytest.raises(dd.InputError, match="of the wall of the check"):
@@ -189,6 +194,12 @@ def test_case_and_report(root, executable, tmp_path):
     )
     assert stored.check.value("site", "", "probability") == pytest.approx(stored.fragility(0.24), rel=1e-9)
     again = dd.run_case(tmp_path / "wall.nml", progress=False)
+    # Nor is it another one where collapse is less than the capacity
+    early = CASE.format(root=root).replace("out/wall", "early").replace("0.4,", "0.24,") + "&solver edp_limit = 0.1 /\n"
+    (tmp_path / "early.nml").write_text(early)
+    subprocess.run([executable, "early.nml"], cwd=tmp_path, check=True, capture_output=True)
+    rows = dd.read_results(tmp_path / "early").check.rows
+    assert [row for row in rows if row.method == "dynamic"] == [row for row in more.rows if row.method == "dynamic"]
     assert again.check.rows == more.rows
     dd.report(stored, tmp_path / "report.html")
     page = (tmp_path / "report.html").read_text()

@@ -77,8 +77,16 @@ def test_fractiles_in_tables(hazard, tmp_path):
     table.write_text("pga,poe,investigation_time,fractile_0.05\n0.1,0.2,50,0.1\n0.2,0.1,50,0\n")
     read = dd.HazardCurve.from_csv(table)
     np.testing.assert_allclose(read.fractiles[0.05], [-np.log(0.9) / 50.0, 0.0], rtol=1e-14)
-    table.write_text("pga,annual_frequency,fractile_low\n0.1,0.2,0.1\n0.2,0.1,0\n")
-    with pytest.raises(dd.InputError, match=r"column 'fractile_low': must be as fractile_0.16"):
+    for title in ("fractile_low", "fractile_16"):
+        table.write_text(f"pga,annual_frequency,{title}\n0.1,0.2,0.1\n0.2,0.1,0\n")
+        with pytest.raises(dd.InputError, match=f"column '{title}': must be as fractile_0.16"):
+            dd.HazardCurve.from_csv(table)
+
+
+def test_levels_in_another_unit_are_warned_of(tmp_path):
+    table = tmp_path / "hazard.csv"
+    table.write_text("pga,annual_frequency\n0.5,0.02\n5,0.0002\n")
+    with pytest.warns(dd.DondoloWarning, match=r"hazard.csv: levels up to 5 of pga, more than 4 g: are they in m/s2"):
         dd.HazardCurve.from_csv(table)
 
 

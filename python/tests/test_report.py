@@ -306,6 +306,14 @@ def test_risk_is_that_of_the_curves(people, stripes, hazard, pages):
         assert ends(fractiles[interval][row]) == expected(uncertain["low"][row], uncertain["high"][row])
 
 
+def test_a_hazard_in_another_unit_is_warned_of(stripes, tmp_path):
+    levels = np.array([0.5, 1.0, 2.0, 5.0])
+    dd.report(stripes, tmp_path / "report.html", hazard=dd.HazardCurve(levels, 1e-3 * np.power(levels, -2.5)))
+    text = (tmp_path / "report.html").read_text()
+    assert "hazard: levels up to 5 of pga, more than 4 g: are they in m/s2 or cm/s2?" in text
+    assert "as it was given, from 0.5 g to 5 g" in " ".join(text.split())
+
+
 def test_a_curve_without_standard_errors_has_no_interval_of_the_risk(wall, few, hazard, tmp_path):
     levels = [0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.4]
     curve = dd.multiple_stripe(wall, few[:2], levels, progress=False)

@@ -167,7 +167,7 @@ def test_a_record_without_motion_warns(wall, sine):
         stripes = dd.multiple_stripe(wall, [dd.Record([0.0, 0.0], 0.01, "still"), sine], [0.1], progress=False)
     assert caught[0].filename == __file__
     assert np.array_equal(stripes.scale[:, 0], [0.0])
-    with pytest.warns(dd.DondoloWarning, match="the wall begins to rock at 0.1667 g"):
+    with pytest.warns(dd.DondoloWarning, match="the wall begins to rock at a PGA of 0.1667 g"):
         assert stripes.fit().status == "no_collapse"
 
 

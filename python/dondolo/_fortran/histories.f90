@@ -21,11 +21,12 @@ module histories
    use dondolo_wall, only : wall_type
    use dondolo_warning, only : warnings_type
    use dondolo_warning_sentence, only : warning_objects
-   use dondolo_warnings, only : sentence => warn_of_error, sentences => warn_of_errors, warn_of_fall, warn_of_records
+   use dondolo_warnings, only : scale_warning_type, sentence => warn_of_error, sentences => warn_of_errors, warn_of_fall, &
+      & warn_of_records
    implicit none
    private
 
-   public :: certify, is_doubtful, simulate, run_scaled, warn_of_motion, warn_of_errors
+   public :: certify, is_doubtful, simulate, run_scaled, warn_of_motion, warn_of_levels, warn_of_errors
 
    !> Memory that sending a row of a time history takes: six columns, twice [bytes]
    real(c_double), parameter :: bytes_of_row = 96.0_c_double
@@ -246,6 +247,25 @@ contains
       end if
       call send(parcel, error, sent, stat, message)
    end subroutine warn_of_motion
+
+   !> What the executable would warn of, of levels of a measure
+   subroutine warn_of_levels(im, levels, n, sent, stat, message)
+      integer(c_int), intent(in) :: n
+      character(len=*), intent(in) :: im
+      real(c_double), intent(in) :: levels(n)
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(scale_warning_type) :: scales
+      type(warnings_type) :: warnings
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+
+      call scales%look_at_levels(im, levels)
+      call scales%warn(warnings)
+      call warning_objects(warnings, parcel%lines)
+      call send(parcel, error, sent, stat, message)
+   end subroutine warn_of_levels
 
    !> What the executable would warn of, of estimated errors; record and level are those of the largest, without a record
    !> it is one history

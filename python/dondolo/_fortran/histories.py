@@ -58,6 +58,11 @@ def warnings_of_motion(wall: Handle, record: tuple[int, int], scale: float) -> l
     return unpack_warnings(receive(*_core.histories.warn_of_motion(wall.number, *record, scale)).lines)
 
 
+def warnings_of_levels(im: str, levels: FloatArray) -> list[DondoloWarning]:
+    """What the executable would warn of, of levels of a measure."""
+    return unpack_warnings(receive(*_core.histories.warn_of_levels(im.encode(), levels)).lines)
+
+
 def warnings_of_errors(
     edp: FloatArray, edp_error: FloatArray, edp_limit: float, record: str = "", level: float = 0.0
 ) -> list[DondoloWarning]:

@@ -18,7 +18,7 @@ from dondolo._fortran.checks import SheetRow, dynamic_sheet, kinematic_sheet
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved, part_of_results
 from dondolo.analysis.request import Polarity
-from dondolo.analysis.solver import Solver
+from dondolo.analysis.solver import Solver, as_solver
 from dondolo.analysis.stripe_runs import multiple_stripe
 from dondolo.analysis.stripes import Stripes
 from dondolo.curves.fragility import Fragility
@@ -248,7 +248,7 @@ def check_dynamic(
     polarity : {'as_recorded', 'reversed', 'both'}
         Of records. A one-sided wall feels their sign: with 'both' it meets the criterion in either direction.
     solver : Solver, optional
-        Of records.
+        Of records. Their histories are followed to d_0* at least, whatever its `edp_limit`.
 
     Returns
     -------
@@ -258,16 +258,22 @@ def check_dynamic(
     Raises
     ------
     InputError
-        Stripes of another wall or measure, or without the level.
+        Stripes of another wall or measure, without the level, or whose histories end before the capacity (edp_limit
+        less than 1).
     """
     instance_of("check", check, CodeCheck, "no check")
     states: tuple[LimitState, ...] = ("SLV", "SLC")
     levels = {state: check.site.pga(limit_state=state) for state in states}
     if not isinstance(stripes, Stripes):
         several: Sequence[float] = sorted(set(levels.values()))
-        stripes = multiple_stripe(check.wall, stripes, several, polarity=polarity, progress=False, solver=solver)
+        how = as_solver(solver)
+        if how.edp_limit is not None and how.edp_limit < 1.0:
+            how = replace(how, edp_limit=1.0)
+        stripes = multiple_stripe(check.wall, stripes, several, polarity=polarity, progress=False, solver=how)
     if stripes.im != "pga" or stripes.wall != check.wall:
         raise InputError("stripes: must be of the wall of the check, with im = 'pga'")
+    if stripes.edp_limit < 1.0:
+        raise InputError(f"edp_limit = {stripes.edp_limit:g}: must be at least 1: histories are followed to d_0*")
     rows = tuple(row for row in check.rows if row.method != "dynamic")
     handle = upload((check.wall,))
     for state, level in levels.items():
@@ -275,7 +281,6 @@ def check_dynamic(
         if not len(found):
             raise InputError(f"stripes: have no level of {level:.10g} g, the peak acceleration of {state}")
         ran = stripes.ran[found[0]]
-        # A history that collapsed at a limit below the capacity was not followed to d_0*.
-        edp = np.where(stripes.collapsed[found[0]], np.maximum(stripes.edp[found[0]], 1.0), stripes.edp[found[0]])[ran]
+        edp = stripes.edp[found[0]][ran]
         rows += dynamic_sheet(handle, state, level, len(np.unique(stripes.record_index[ran])), edp)
     return replace(check, rows=rows)

@@ -6,6 +6,7 @@ import warnings
 from collections.abc import Sequence
 from typing import Any
 
+from dondolo._fortran.histories import warnings_of_levels
 from dondolo._fortran.records import blank_unit
 from dondolo.errors import DondoloError, DondoloWarning
 from dondolo.populations.typology import Typology
@@ -38,7 +39,7 @@ def risk_facts(results: Any, curve: Any, hazard: HazardCurve) -> tuple[dict[str,
         warnings.simplefilter("always", DondoloWarning)
         risks = [mean_annual_frequency(fragility, hazard) for _, fragility in cases]
     risk = risks[main]
-    found = []
+    found = [str(one.placed("hazard: ")) for one in warnings_of_levels(hazard.im, hazard.levels)]
     if any(issubclass(one.category, DondoloWarning) for one in caught):
         short = [name for (name, _), one in zip(cases, risks, strict=True) if one.bounds[0] < 0.99 * one.bounds[1]]
         first, last = hazard.levels[[0, -1]]
@@ -72,6 +73,7 @@ def risk_facts(results: Any, curve: Any, hazard: HazardCurve) -> tuple[dict[str,
         "population": population,
         "years": f"{_YEARS:g}",
         "frequency": frequency,
+        "levels": [] if hazard.endless else [f"{level:g}{blank_unit(hazard.im)}" for level in hazard.levels[[0, -1]]],
         "is_sure": f"{low:.3g}" == f"{high:.3g}",
         "figure": figure(risk.plot, f"Hazard, fragility and the intensities that the risk comes from: {frequency}."),
         "frequencies": Table.of(frequencies),

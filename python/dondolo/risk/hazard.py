@@ -34,6 +34,8 @@ from numpy.typing import ArrayLike
 from dondolo._base.arguments import FloatArray, as_array, as_count, as_levels, as_number, increasing, shaped
 from dondolo._base.files import as_file
 from dondolo._base.shown import Shown
+from dondolo._fortran.histories import warnings_of_levels
+from dondolo._fortran.library import warn
 from dondolo._fortran.records import describe_measure, levels_in_words, unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
@@ -183,6 +185,11 @@ class HazardCurve(Shown, Saved):
         InputError
             The file cannot be read, or is no such table; a cell is no number; what it holds is no hazard curve.
 
+        Warns
+        -----
+        DondoloWarning
+            Levels that no ground motion has, which may be in another unit; ag, and columns that are not used.
+
         Notes
         -----
         ag of the Italian code is that of rigid, level ground: multiply it by the factors of soil and topography of the
@@ -191,9 +198,11 @@ class HazardCurve(Shown, Saved):
         name = os.fspath(as_file("path", path))
         im, levels, frequency, fractiles = read_hazard(name)
         try:
-            return cls(levels, frequency, im=im, fractiles=fractiles)
+            curve = cls(levels, frequency, im=im, fractiles=fractiles)
         except InputError as error:
             raise InputError(f"{name}: {error}") from None
+        warn(one.placed(f"{name}: ") for one in warnings_of_levels(curve.im, curve.levels))
+        return curve
 
     @classmethod
     def from_openquake(

@@ -135,9 +135,12 @@ def _frequencies(columns: dict[str, FloatArray]) -> tuple[FloatArray, Fractiles]
 def _share(title: str) -> float:
     """Share of a fractile, from the title of its column."""
     try:
-        return float(title.removeprefix(FRACTILE))
+        share = float(title.removeprefix(FRACTILE))
     except ValueError:
-        raise InputError(f"column {title!r}: must be as {FRACTILE}0.16") from None
+        share = np.nan
+    if not 0.0 < share < 1.0:
+        raise InputError(f"column {title!r}: must be as {FRACTILE}0.16")
+    return share
 
 
 def _as_frequency(title: str, kind: str, column: FloatArray, time: FloatArray) -> FloatArray:

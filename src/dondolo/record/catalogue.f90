@@ -11,7 +11,7 @@ module dondolo_catalogue
    use dondolo_catalogue_source, only : describe_source, read_source, source_type, take_source
    use dondolo_channel, only : stem
    use dondolo_csv_reader, only : csv_reader_type
-   use dondolo_error, only : error_type, raise_input
+   use dondolo_error, only : add_place, error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_limits, only : most_records
@@ -220,6 +220,7 @@ contains
 
       if (len_trim(table%get_text(table%column(name))) == 0) return
       call table%get_real(table%column(name), value, error)
+      call add_place(error, table%place())
       if (allocated(error)) return
       if (.not. (value > 0.0_wp .and. value <= huge(value))) call raise_input(error, table%place()//': '//name//' = '// &
          & to_text(value)//': must be positive')

@@ -82,12 +82,15 @@ contains
       else if (job%output(len(job%output):) == '/') then
          call group%refuse('output', 'must end in the beginning of a file''s name, such as '''//job%output//'wall''', &
             & error)
+      else if (any(job%output(index(job%output, '/', back=.true.) + 1:) == ['. ', '..'])) then
+         call group%refuse('output', 'must end in the beginning of a file''s name, such as '''//job%output//'/wall''', &
+            & error)
       else if (index(job%output, '\') > 0) then
          call group%refuse('output', 'must have / between folders, not \', error)
-      else if (job%output(1:1) == '~' .and. index(job%output, '/') > 0) then
+      else if (scan(job%output(1:1), '~$') > 0) then
          ! A folder ~ would be made; who removes it as shells understand it removes the home folder
          call group%refuse('output', 'must be a path from the current folder or from /: '// &
-            & '~ is not replaced by the home folder', error)
+            & job%output(1:1)//' is not replaced as a shell does', error)
       end if
       job%output_line = group%in_line('output')
    end subroutine read_job

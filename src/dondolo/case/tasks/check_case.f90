@@ -19,7 +19,7 @@ module dondolo_check_case
 contains
 
    !> Add the criterion for time histories, from a stripe that stands at the peak acceleration of the site or from one more;
-   !> nothing where each level has records of its own and none stands there
+   !> nothing where each level has records of its own and none stands there, or histories end before the capacity
    subroutine check_stripes(case, stripes, sheet, error, threads)
       type(case_type), intent(in), target :: case
       !> What was run
@@ -35,7 +35,9 @@ contains
       type(stripes_type) :: more
       real(wp) :: level
       integer :: state, at
+      logical :: ends_early
 
+      ends_early = case%solver%solver%edp_limit < 1.0_wp
       call new_kinematic(kinematic, case%wall, error)
       do state = 2, size(state_names)
          if (allocated(error)) return
@@ -43,16 +45,18 @@ contains
             level = spectrum%pga
          end associate
          at = 0
-         if (stripes%im == 'pga') at = find_level(stripes%levels, level)
+         if (stripes%im == 'pga' .and. .not. ends_early) at = find_level(stripes%levels, level)
          if (at > 0) then
             call put(stripes%response(:, at), stripes%ran(:, at))
          else if (.not. allocated(case%factor)) then
             if (state == 2 .or. case%check%has_states()) then
+               ! d_0 is the capacity, whatever collapse is in the stripes
                call case%make_study(study, threads)
                call new_scaling(study%scaling, 'pga', error)
                study%values = case%suite%values(study%scaling%measure, threads)
                study%levels = [level]
                study%solver%estimate_error = .false.
+               study%solver%edp_limit = max(study%solver%edp_limit, 1.0_wp)
                if (.not. allocated(error)) call multiple_stripe(more, case%wall, study, error)
                if (allocated(error)) return
             end if
@@ -68,11 +72,7 @@ contains
          !> Which of the histories were run
          logical, intent(in) :: ran(:)
 
-         real(wp), allocatable :: edp(:)
-
-         ! A history that collapsed at a limit below the capacity was not followed to d_0
-         edp = pack(merge(max(response%edp, 1.0_wp), response%edp, response%collapsed), ran)
-         call check_histories(sheet, kinematic, state, level, count_records(ran), edp)
+         call check_histories(sheet, kinematic, state, level, count_records(ran), pack(response%edp, ran))
       end subroutine put
 
       !> Records that were run

@@ -146,8 +146,8 @@ contains
          text = 'no collapse at levels '//levels//none//'the largest EDP is '//rounded(warning%value('largest_edp'))// &
             & ', higher levels are needed'
       case ('no_motion')
-         text = 'no motion at levels '//levels//none//'the wall begins to rock at '//rounded(warning%value('trigger_g'))// &
-            & ' g, higher levels are needed'
+         text = 'no motion at levels '//levels//none//'the wall begins to rock at a PGA of '// &
+            & rounded(warning%value('trigger_g'))//' g, higher levels are needed'
       case ('all_collapse')
          text = 'every history collapses at levels '//levels//none//'lower levels are needed'
       case ('single_level')

@@ -51,8 +51,10 @@ module dondolo_warnings
       real(wp) :: farthest = 1.0_wp, missed = 0.0_wp
       character(len=:), allocatable :: off_record
    contains
-      !> Look at the factors of a wall
+      !> Look at the levels and factors of a wall
       procedure :: look
+      !> Look at levels alone
+      procedure :: look_at_levels
       !> Warn, if there is reason to
       procedure :: warn
    end type scale_warning_type
@@ -82,7 +84,24 @@ module dondolo_warnings
 
 contains
 
-   !> Look at the factors of a wall
+   !> Look at levels: does a ground motion have them?
+   subroutine look_at_levels(self, im, levels)
+      !> What there is to say
+      class(scale_warning_type), intent(inout) :: self
+      !> Name of the measure
+      character(len=*), intent(in) :: im
+      !> Levels of it, in its unit
+      real(wp), intent(in) :: levels(:)
+
+      if (.not. maxval(levels) > self%highest) return
+      self%highest = maxval(levels)
+      self%im = im
+      if (im == 'pga') self%usual = largest_pga
+      if (im == 'pgv') self%usual = largest_pgv
+      if (im(:min(2, len(im))) == 'sa') self%usual = largest_sa
+   end subroutine look_at_levels
+
+   !> Look at the levels and factors of a wall
    subroutine look(self, stripes, study, wall)
       !> What there is to say
       class(scale_warning_type), intent(inout) :: self
@@ -95,13 +114,7 @@ contains
 
       self%histories = self%histories + count(stripes%ran, kind=int64)
       self%large = self%large + count(stripes%scale > large_scale, kind=int64)
-      if (maxval(stripes%levels) > self%highest) then
-         self%highest = maxval(stripes%levels)
-         self%im = stripes%im
-         if (stripes%im == 'pga') self%usual = largest_pga
-         if (stripes%im == 'pgv') self%usual = largest_pgv
-         if (stripes%im(:min(2, len(stripes%im))) == 'sa') self%usual = largest_sa
-      end if
+      call self%look_at_levels(stripes%im, stripes%levels)
       if (allocated(study%factor)) call look_at_given(self, study, wall)
       if (any(study%suite%falls > 0.0_wp)) call look_at_falls(self, stripes, study%suite, wall%gravity)
       at = maxloc(stripes%scale)
