@@ -210,7 +210,7 @@ def test_saved(tmp_path, few):
     assert again.unions["front"].theta == result.unions["front"].theta
 
 
-def test_plot(ran):
+def test_plot(ran, few):
     result = dd.run_case(ran[0] / "case.nml", progress=False).typology
     ax = result.plot_union()
     words = [text.get_text() for text in ax.get_legend().get_texts()]
@@ -218,6 +218,8 @@ def test_plot(ran):
     assert any(word.startswith("same histories: θ = ") for word in words)
     with pytest.raises(dd.InputError, match="name = 'back'"):
         result.plot_union(name="back")
+    with pytest.raises(dd.InputError, match="unions: there are none"):
+        dd.typology([dd.OneSidedWall(1.5, 0.25)], few, [0.4, 0.8], progress=False).plot_union()
 
 
 @pytest.mark.parametrize(

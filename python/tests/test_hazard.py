@@ -1,5 +1,7 @@
 """Hazard curves: fractiles, the smooth line through the levels, and the files of OpenQuake."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
@@ -88,6 +90,16 @@ def test_levels_in_another_unit_are_warned_of(tmp_path):
     table.write_text("pga,annual_frequency\n0.5,0.02\n5,0.0002\n")
     with pytest.warns(dd.DondoloWarning, match=r"hazard.csv: levels up to 5 of pga, more than 4 g: are they in m/s2"):
         dd.HazardCurve.from_csv(table)
+
+
+def test_replaced(hazard):
+    half = dataclasses.replace(hazard, annual_frequency=0.5 * hazard.annual_frequency, fractiles=None)
+    np.testing.assert_array_equal(half(LEVELS), 0.5 * hazard(LEVELS))
+    law = dataclasses.replace(dd.HazardCurve.power_law(1e-4, 2.5), im="pgv")
+    assert law.endless
+    assert law(10.0) == pytest.approx(1e-4 * 10.0**-2.5)
+    with pytest.raises(dd.InputError, match="endless: must have two levels"):
+        dataclasses.replace(hazard, endless=True)
 
 
 def test_smoothed(hazard):

@@ -80,6 +80,12 @@ def test_rows_and_parts():
         PEOPLE.group("none")
     with pytest.raises(dd.InputError, match="walls: must be given"):
         PEOPLE[4:]
+    assert same(PEOPLE[PEOPLE.weights > 1.0], PEOPLE[np.flatnonzero(PEOPLE.weights > 1.0)])
+    assert [wall.name for wall in PEOPLE[[3, 0]]] == ["c", "a"]
+    assert PEOPLE[np.int64(1)] is ROWS[1]
+    for which in ("low", None, [True, False], [4], 1.5):
+        with pytest.raises(dd.InputError, match="must be a number, a slice, or numbers or a mask of 4 rows"):
+            PEOPLE[which]
     assert not PEOPLE.p_occ.flags.writeable
     assert same(pickle.loads(pickle.dumps(PEOPLE)), PEOPLE)
 

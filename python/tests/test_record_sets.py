@@ -71,6 +71,33 @@ def test_stripes_are_joined_and_cut(records, parapet):
         whole + one
     with pytest.raises(dd.InputError, match="must be of one"):
         one + dd.multiple_stripe(dd.OneSidedWall(2.0, 0.25), records[:2], [0.6], progress=False)
+    # The tables of two floors look alike
+    floors = [dd.Building(period, storeys=3, level=6.0, building_height=9.0) for period in (0.3000001, 0.3000004)]
+    first, second = (
+        dd.multiple_stripe(dd.OneSidedWall(1.5, 0.25, building=floor), records[:2], [level], progress=False)
+        for floor, level in zip(floors, (0.5, 0.6), strict=True)
+    )
+    with pytest.raises(dd.InputError, match="must be of one"):
+        first + second
+
+
+def test_levels_that_differ_by_rounding_are_the_same(records, parapet):
+    assert 0.1 * 3 > 0.3
+    one, other = (
+        dd.multiple_stripe(parapet, part, [level], progress=False)
+        for part, level in ((records[:2], 0.3), (records[2:4], 0.1 * 3))
+    )
+    both = one + other
+    assert both.levels.tolist() == [0.3]
+    assert both.histories.tolist() == [4]
+    with pytest.raises(dd.InputError, match=r"levels = 0\.3: record .* runs in both stripes"):
+        one + dd.multiple_stripe(parapet, records[:2], [0.1 * 3, 0.6], progress=False)
+
+
+def test_stripes_in_turn(records, parapet):
+    whole = dd.multiple_stripe(parapet, records, [0.6, 0.8], progress=False)
+    assert len(whole) == 2
+    assert [stripe.levels.tolist() for stripe in whole] == [[0.6], [0.8]]
 
 
 def test_the_executable_runs_the_catalogue(sets, parapet, tmp_path):

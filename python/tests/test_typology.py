@@ -83,6 +83,9 @@ def test_mechanisms(typology):
     for group in parts:
         assert typology[group.mechanism].mean(LEVELS) == pytest.approx(group.mean_curve, rel=1e-12)
         assert typology[group.mechanism].fit is group.fit
+    for key in (1, None, ("all", "a", "b"), ("all", 1)):
+        with pytest.raises(dd.InputError, match="must be a mechanism, or a mechanism and a group"):
+            typology[key]
     with pytest.raises(dd.InputError, match="mechanism = 'arch': must be one of 'one_sided', 'two_block', 'all'"):
         typology["arch"]
 

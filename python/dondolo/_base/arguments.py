@@ -99,7 +99,10 @@ def as_measures(ims: str | Iterable[str]) -> list[str]:
 
 def as_path(path: str | os.PathLike[str]) -> bytes:
     """Turn a path into the bytes Fortran takes."""
-    return os.fsencode(path)
+    try:
+        return os.fsencode(path)
+    except TypeError:
+        raise InputError(f"path = {path!r}: must be the path of a file") from None
 
 
 def as_generator(seed: Any) -> np.random.Generator:

@@ -31,6 +31,9 @@ _MATRICES = {
 }
 # Fields with a text for each record, or with none
 _OF_RECORDS = ("events", "checksums")
+#: Levels that differ by less than this part are the same, as in Fortran (fragility/study.f90)
+SAME_LEVEL = 1e-9
+
 # What must be the same for stripes to be joined
 _SHARED = ("im", "engine", "rtol", "atol", "edp_limit")
 
@@ -69,7 +72,7 @@ def join(one: Stripes, other: Stripes) -> Stripes:
     """The stripes of two runs of one wall."""
     if type(other) is not type(one):
         raise InputError(f"stripes: cannot be joined with {type(other).__name__}")
-    if repr(one.wall) != repr(other.wall):
+    if one.wall != other.wall:
         raise InputError(f"stripes: are of the walls '{one.wall.name}' and '{other.wall.name}': must be of one")
     for name in _SHARED:
         first, second = getattr(one, name), getattr(other, name)
@@ -89,8 +92,11 @@ def join(one: Stripes, other: Stripes) -> Stripes:
         if len(set(own)) < len(own):
             raise InputError("stripes: two records have the same name, so that they cannot be joined")
     joint = list(dict.fromkeys([*names[0], *names[1]]))
-    levels = np.union1d(one.levels, other.levels)
-    rows = [np.searchsorted(levels, part.levels) for part in (one, other)]
+    # The levels of the other, by the names that the first has for them
+    nearest = one.levels[np.abs(one.levels[:, None] - other.levels).argmin(axis=0)]
+    theirs = np.where(np.abs(nearest - other.levels) <= SAME_LEVEL * other.levels, nearest, other.levels)
+    levels = np.union1d(one.levels, theirs)
+    rows = [np.searchsorted(levels, own) for own in (one.levels, theirs)]
     place = {name: i for i, name in enumerate(joint)}
     order = one.polarity[:: one.n_records]
     columns = []

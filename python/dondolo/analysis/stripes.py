@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import os
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -128,6 +128,14 @@ class Stripes(Shown, Saved):
     def __getitem__(self, which: Any) -> Stripes:
         """The stripes of some levels, by a slice, numbers or a mask; a second index chooses among the records."""
         return cut(self, which)
+
+    def __len__(self) -> int:
+        """Number of levels."""
+        return len(self.levels)
+
+    def __iter__(self) -> Iterator[Stripes]:
+        """The stripe of each level."""
+        return (self[i] for i in range(len(self)))
 
     def __add__(self, other: Stripes) -> Stripes:
         """The stripes of both, of one wall; records of the same name are the same, and run once at a level."""

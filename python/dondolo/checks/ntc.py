@@ -20,6 +20,7 @@ from dondolo._storage.saved import Saved, part_of_results
 from dondolo.analysis.request import Polarity
 from dondolo.analysis.solver import Solver, as_solver
 from dondolo.analysis.stripe_runs import multiple_stripe
+from dondolo.analysis.stripe_sets import SAME_LEVEL
 from dondolo.analysis.stripes import Stripes
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import InputError
@@ -31,9 +32,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 part_of_results(SheetRow)
-
-# Levels that differ by less than this part are the same (fragility/study.f90)
-_SAME_LEVEL = 1e-9
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -277,7 +275,7 @@ def check_dynamic(
     rows = tuple(row for row in check.rows if row.method != "dynamic")
     handle = upload((check.wall,))
     for state, level in levels.items():
-        found = np.flatnonzero(np.abs(stripes.levels - level) <= _SAME_LEVEL * level)
+        found = np.flatnonzero(np.abs(stripes.levels - level) <= SAME_LEVEL * level)
         if not len(found):
             raise InputError(f"stripes: have no level of {level:.10g} g, the peak acceleration of {state}")
         ran = stripes.ran[found[0]]

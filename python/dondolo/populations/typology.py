@@ -154,7 +154,10 @@ class Typology(Shown, Saved):
         InputError
             There is no such mechanism or group.
         """
-        mechanism, group = (key, "") if isinstance(key, str) else key
+        several = (key, "") if isinstance(key, str) else key
+        if not (isinstance(several, tuple) and [type(word) for word in several] == [str, str]):
+            raise InputError(f"typology[{key!r}]: must be a mechanism, or a mechanism and a group")
+        mechanism, group = several
         known = {one.group: None for one in self.groups}
         one_of("group", group, known)
         of_group = {one.mechanism: one for one in self.groups if one.group == group}
@@ -252,6 +255,8 @@ class Typology(Shown, Saved):
         """
         from dondolo.populations.plots import draw_union
 
+        if not self.unions:
+            raise InputError("unions: there are none; they are of walls with several mechanisms")
         chosen = next(iter(self.unions)) if name is None and len(self.unions) == 1 else name
         one_of("name", chosen, self.unions)
         return draw_union(self, str(chosen), ax)

@@ -31,7 +31,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, as_count, as_levels, as_number, increasing, shaped
+from dondolo._base.arguments import FloatArray, as_array, as_count, as_flag, as_levels, as_number, increasing, shaped
 from dondolo._base.files import as_file
 from dondolo._base.shown import Shown
 from dondolo._fortran.histories import warnings_of_levels
@@ -64,6 +64,8 @@ class HazardCurve(Shown, Saved):
         Intensity measure.
     fractiles : mapping of float to array_like, shape (levels,), optional
         Share q, between 0 and 1 -> annual frequency of the fractile q, not increasing with the level [1/year].
+    endless : bool
+        Does the power law through two levels go on beyond them? See `power_law`.
 
     Raises
     ------
@@ -80,7 +82,6 @@ class HazardCurve(Shown, Saved):
     fractiles : dict
         Share -> annual frequency, in increasing order; empty if none are known.
     endless : bool
-        Do the power laws of the first and the last step go on beyond the levels? Only those of `power_law` do.
 
     Examples
     --------
@@ -103,6 +104,7 @@ class HazardCurve(Shown, Saved):
         *,
         im: str = "pga",
         fractiles: Mapping[float, ArrayLike] | None = None,
+        endless: bool = False,
     ) -> None:
         x = increasing("levels", levels)
         h = as_array("annual_frequency", annual_frequency).copy()
@@ -112,6 +114,8 @@ class HazardCurve(Shown, Saved):
         if wrong.any():
             hint = "; leave out the levels that are never exceeded" if h[wrong][0] == 0.0 else ""
             raise InputError(f"annual_frequency = {h[wrong][0]:g}: must be positive{hint}")
+        if endless and len(x) != 2:
+            raise InputError(f"endless: must have two levels, which give the power law, not {len(x)}")
         rises = h[1:] > h[:-1]
         if rises.any():
             i = int(np.argmax(rises))
@@ -122,7 +126,7 @@ class HazardCurve(Shown, Saved):
             ("annual_frequency", h),
             ("im", describe_measure(im).name),
             ("fractiles", _fractiles(fractiles, len(x))),
-            ("endless", False),
+            ("endless", as_flag("endless", endless)),
         ):
             object.__setattr__(self, what, value)
 
@@ -153,9 +157,7 @@ class HazardCurve(Shown, Saved):
             if not 0.0 < as_number(what, value) < np.inf:
                 raise InputError(f"{what} = {value:g}: must be positive")
         levels = np.array([0.5, 2.0])
-        curve = cls(levels, k0 * levels**-k, im=im)
-        object.__setattr__(curve, "endless", True)
-        return curve
+        return cls(levels, k0 * levels**-k, im=im, endless=True)
 
     @classmethod
     def from_csv(cls, path: str | os.PathLike[str]) -> HazardCurve:

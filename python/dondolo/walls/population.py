@@ -155,15 +155,15 @@ class Population(Shown):
     def __getitem__(self, index: int) -> Wall: ...
 
     @overload
-    def __getitem__(self, index: slice) -> Population: ...
+    def __getitem__(self, index: slice | ArrayLike) -> Population: ...
 
-    def __getitem__(self, index: int | slice) -> Wall | Population:
-        """The wall of a row, or a population of the rows in a slice.
+    def __getitem__(self, index: Any) -> Wall | Population:
+        """The wall of a row, or a population of several rows.
 
         Parameters
         ----------
-        index : int or slice
-            Which rows.
+        index : int, slice or array_like
+            Which rows: several as a slice, their numbers or a mask of all rows.
 
         Returns
         -------
@@ -171,12 +171,20 @@ class Population(Shown):
 
         Raises
         ------
+        IndexError
+            There is no such row.
         InputError
-            There are no rows in the slice.
+            None are left of several, or what is given does not choose rows.
         """
-        if isinstance(index, slice):
-            return self._chosen(range(len(self))[index])
-        return self.walls[index]
+        if isinstance(index, (int, np.integer)):
+            return self.walls[index]
+        try:
+            rows = np.arange(len(self))[index if isinstance(index, slice) else np.asarray(index)]
+        except (IndexError, TypeError, ValueError):
+            raise InputError(
+                f"population[{index!r}]: must be a number, a slice, or numbers or a mask of {len(self)} rows"
+            ) from None
+        return self._chosen(rows.ravel().tolist())
 
     def __add__(self, other: Population) -> Population:
         """Both populations together.
