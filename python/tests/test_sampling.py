@@ -226,7 +226,7 @@ def test_few_walls(seed):
 @settings(deadline=None)
 @given(rho=st.floats(-0.99, 0.99), n=st.integers(100, 500), seed=st.integers(0, 1000))
 def test_any_correlation(rho, n, seed):
-    """The error falls with the number of walls: its standard deviation over seeds is 1.2 / n at most."""
+    """The error falls with the number of walls: its standard deviation over seeds is 1.4 / n at most."""
     people = dd.sample_population(
         "one_sided",
         n,
