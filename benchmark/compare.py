@@ -43,7 +43,7 @@ def compare(executable, records, quick, progress):
                 turns = Rounds(executable, each, own, path, case)
             turns.group(count)
             progress.finish("rounds")
-        rows = measure(executable, 1 if quick else 7)
+        rows = measure(executable, 1 if quick else sum(ROUNDS))
         progress.finish("scaling")
         turns.group(last)
         progress.finish("rounds")
@@ -67,7 +67,7 @@ def plan(progress, problems, quick):
                 progress.plan(f"{each.wall}, {peer.name}, {method}", factor * peer.expected * len(values))
     for count in QUICK_ROUNDS if quick else ROUNDS:
         progress.plan("rounds", 38.0 * count)
-    progress.plan("scaling", 20.0 if quick else 100.0)
+    progress.plan("scaling", 20.0 if quick else 130.0)
 
 
 def settings(each, folder, whole, progress):

@@ -1,7 +1,8 @@
 """The core that a turn runs on: one that other programs leave alone, if there is one.
 
 A processor with two threads on a core shares its units between them, and the other thread may belong to another machine
-of the same host, which nothing else shows: peers/core.cpp.
+of the same host, which nothing else shows: peers/core.cpp. A turn waits for a core that is free, and is taken again if
+the core is shared at its end.
 """
 
 import os
@@ -13,7 +14,8 @@ from programs import BUILD
 GAUGE = BUILD / "core"
 FREE = 0.85  # of the most additions that any core has done: a core that does fewer is shared
 WAIT = 3.0  # seconds that a turn waits for a core that is not
-MOST = 4  # cores that are tried
+MOST = 16  # cores that are tried
+TRIES = 3  # times that a turn is taken whose core is shared at its end
 
 
 class Cores:
@@ -24,29 +26,56 @@ class Cores:
         self.own = os.sched_getaffinity(0) if hasattr(os, "sched_getaffinity") and GAUGE.is_file() else set()
         self.most = 0.0  # additions in the time of a multiplication
 
-    def choose(self):
-        """Go to the core that other programs leave most of, with all that is started from now on.
+    def turn(self, take, count=1):
+        """Take a turn on the cores that other programs leave most of.
+
+        Parameters
+        ----------
+        take : function
+            Takes the turn: what it starts runs on these cores.
+        count : int
+            How many cores.
 
         Returns
         -------
-        (float, float) or None
-            Seconds of an addition beside others there, and of a multiplication that waits for the one before.
+        taken
+            What the turn gave, the last of TRIES if all of them were disturbed.
+        gauges : list of (float, float)
+            Of each core, before the turn and after it: seconds of an addition beside others, and of a multiplication
+            that waits for the one before.
         """
-        end = time.monotonic() + WAIT
-        while self.own:
-            found = {core: measured(core) for core in sorted(self.own)[:MOST]}
-            core = max(found, key=lambda each: additions(*found[each]))
-            best = additions(*found[core])
-            self.most = max(self.most, best)
-            if best >= FREE * self.most or time.monotonic() > end:
-                os.sched_setaffinity(0, {core})
-                return found[core]
-        return None
-
-    def leave(self):
-        """Run on all of them again."""
-        if self.own:
+        if not self.own:
+            return take(), []
+        try:
+            for _ in range(TRIES):
+                chosen = self.choose(count)
+                os.sched_setaffinity(0, set(chosen) if count < len(self.own) else self.own)
+                taken, after = take(), self.gauges(chosen)
+                if self.are_free(after):
+                    break
+        finally:
             os.sched_setaffinity(0, self.own)
+        return taken, [*chosen.values(), *after.values()]
+
+    def choose(self, count):
+        """So many cores with their gauges; they are free, unless that takes too long."""
+        end = time.monotonic() + WAIT
+        while True:
+            found = self.gauges(self.own)
+            best = sorted(found, key=lambda core: additions(*found[core]), reverse=True)[:count]
+            chosen = {core: found[core] for core in best}
+            if self.are_free(chosen) or time.monotonic() > end:
+                return chosen
+
+    def gauges(self, cores):
+        """What cores have for a program, as `turn` gives it."""
+        found = {core: measured(core) for core in sorted(cores)[:MOST]}
+        self.most = max(self.most, *(additions(*each) for each in found.values()))
+        return found
+
+    def are_free(self, found):
+        """Whether other programs leave the cores of some gauges alone."""
+        return all(additions(*each) >= FREE * self.most for each in found.values())
 
 
 def measured(core):

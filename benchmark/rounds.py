@@ -10,6 +10,7 @@ import statistics
 import subprocess
 import time
 from dataclasses import asdict, dataclass, fields
+from functools import partial
 from operator import le
 
 import arithmetic
@@ -20,7 +21,7 @@ from spread import Spread
 
 SHARE, WRONG = 0.01, 1  # acceptable share of histories with an error above 1e-6, acceptable number of wrong flags
 WORST = 2.0  # largest errors that differ by at most this factor are equal
-ROUNDS, QUICK_ROUNDS = (3, 2, 2), (1, 1)  # of all programs in turns, in each of the groups
+ROUNDS, QUICK_ROUNDS = (3, 3, 3), (1, 1)  # of all programs in turns, in each of the groups
 TURN = 0.3  # seconds: a program that needs less repeats its call until they are over, and the median counts
 STILLNESS = 1e-3  # factor on the levels at which no history moves
 SLOWEST = 20.0  # seconds: a program that needs more has no turns; the time of its settings counts
@@ -131,26 +132,24 @@ class Rounds:
         for number in range(first, first + rounds):
             self.number = number
             for each, command in self.programs:
-                self.settle()
-                self.turns.append(self.turn(number, each, *calls_of(command)))
-            self.settle()
+                self.turns.append(self.turn(number, each, *self.taken(partial(calls_of, command))))
             arguments = (self.executable, self.problem.wall, self.problem.motions, 1e-8, "lanes", 1)
-            (whole,), (histories,) = run_dondolo(*arguments)
+            (whole,), (histories,) = self.taken(partial(run_dondolo, *arguments))
             self.turns.append(Turn(number, COLD, 1e-8, 1e3 * whole, 1e3 * histories))
-            self.turns.append(Turn(number, STILL, 1e-8, 1e3 * still_seconds(self.case, self.problem), 0.0))
-            self.settle()
-            for mechanism, rate in arithmetic.measured(self.executable).rates.items():
+            still = self.taken(partial(still_seconds, self.case, self.problem))
+            self.turns.append(Turn(number, STILL, 1e-8, 1e3 * still, 0.0))
+            for mechanism, rate in self.taken(partial(arithmetic.measured, self.executable)).rates.items():
                 self.turns.append(Turn(number, ARITHMETIC + mechanism, 0.0, 1e3 / rate, 0.0))
             if (BUILD / "arithmetic").is_file():
-                self.turns.append(Turn(number, LIMIT, 0.0, 1e3 * loop_seconds(), 0.0))
+                self.turns.append(Turn(number, LIMIT, 0.0, 1e3 * self.taken(loop_seconds), 0.0))
             say(f"round {number}")
-        self.cores.leave()
 
-    def settle(self):
-        """Choose the core of the next turn."""
-        found = self.cores.choose()
-        if found:
-            self.turns.append(Turn(self.number, CORE, float(len(self.turns)), *(1e12 * each for each in found)))
+    def taken(self, take):
+        """What a turn gives; what its core had for it is kept."""
+        found, gauges = self.cores.turn(take)
+        for each in gauges:
+            self.turns.append(Turn(self.number, CORE, float(len(self.turns)), *(1e12 * seconds for seconds in each)))
+        return found
 
 
 def call(process):

@@ -10,9 +10,11 @@ import subprocess
 import tempfile
 import time
 from dataclasses import asdict
+from functools import partial
 from pathlib import Path
 
 import numpy as np
+from cores import Cores
 from problem import ROOT
 from spread import NAMES, Spread
 
@@ -75,15 +77,16 @@ def threads(executable, repeats):
     The numbers of threads take turns; beside the seconds there are the efficiencies of each turn, relative to one
     thread in the same turn.
     """
-    cores = os.cpu_count()
-    counts = sorted({*(2**k for k in range(20) if 2**k <= cores), cores})
-    rows = []
-    for kind, walls_of in (("strong", lambda n: 40 * cores), ("weak", lambda n: 40 * n)):
+    most = os.cpu_count()
+    counts = sorted({*(2**k for k in range(20) if 2**k <= most), most})
+    rows, cores = [], Cores()
+    for kind, walls_of in (("strong", lambda n: 40 * most), ("weak", lambda n: 40 * n)):
         seconds = {n: [] for n in counts}
         for _ in range(repeats):
             for n in counts:
                 with tempfile.TemporaryDirectory() as folder:
-                    seconds[n].append(typology(executable, walls_of(n), n, folder)[0])
+                    (taken, _), _ = cores.turn(partial(typology, executable, walls_of(n), n, folder), n)
+                seconds[n].append(taken)
         for n in counts:
             share = walls_of(n) / walls_of(1) / n
             efficiency = [share * one / several for one, several in zip(seconds[1], seconds[n], strict=True)]
@@ -97,11 +100,12 @@ def variants(executable, repeats):
 
     Beside the seconds there is the speed-up of each turn relative to the first variant.
     """
-    seconds = {name: [] for name in VARIANTS}
+    seconds, cores = {name: [] for name in VARIANTS}, Cores()
     for _ in range(repeats):
         for name in VARIANTS:
             with tempfile.TemporaryDirectory() as folder:
-                seconds[name].append(typology(executable, 16, 1, folder, name)[0])
+                (taken, _), _ = cores.turn(partial(typology, executable, 16, 1, folder, name))
+            seconds[name].append(taken)
     rows = []
     for place, name in enumerate(VARIANTS):
         gains = [slow / fast for slow, fast in zip(seconds[VARIANTS[0]], seconds[name], strict=True)]

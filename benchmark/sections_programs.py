@@ -1,6 +1,6 @@
 """Comparison of dondolo with other programs on the same histories."""
 
-from cores import WAIT
+from cores import TRIES, WAIT
 from markdown import bullets, many, paragraph, small, table
 from programs import DONDOLO, PEERS
 from rounds import (
@@ -167,10 +167,11 @@ def limits(results, turns):
     if core_of(turns):
         lines += paragraph(
             f"Each turn ran on the core that other programs left most of just before, and waited up to {WAIT:g} s for "
-            f"one that they left alone; that core did {core_of(turns).stated()} independent additions in the time of a "
-            "multiplication that waits for the one before. A core that runs a thread of another program as well, which "
-            "may be of another machine on the same host, multiplies as fast and does as few as half of the additions; "
-            "programs take longer then, each by another factor."
+            f"one that they left alone; if that core was shared at its end it was taken again, {TRIES} times at most. "
+            f"Before and after the turns that count it did {core_of(turns).stated()} independent additions in the "
+            "time of a multiplication that waits for the one before. A core that runs a thread of another program as "
+            "well, which may be of another machine on the same host, multiplies as fast and does as few as half of the "
+            "additions; programs take longer then, each by another factor. The threads below waited for as many cores."
         )
     loop = times_of(turns, LIMIT, 0.0).values()
     if not loop:

@@ -915,6 +915,11 @@ awk 'BEGIN { for (k = 0; k < 10; k++) print 0 }' >records/still.txt
 cp records/records.csv records/bad.csv
 echo 'still.txt,0.01,g,here' >>records/bad.csv
 warned 's/records.csv/bad.csv/' "record 'still' has a PGA of 0"
+(head -n 1 records/records.csv && tail -n 1 records/bad.csv) >records/still.csv
+good_case | sed 's/records.csv/still.csv/' >still.nml
+run --check still.nml
+check "check: no motion" contains stdout 'never move; 0 will be integrated'
+check "check: no scale factor without motion" equal "$(grep -c 'largest scale factor' stdout)" 0
 awk 'BEGIN { for (k = 0; k < 10; k++) print 100 * k }' >records/strong.txt
 echo 'strong.txt,0.01,g,here' >>records/bad.csv
 warned 's/records.csv/bad.csv/' "record 'strong': a PGA of 899.7 g, more than 3 g: wrong units? (1 of 6 records)"

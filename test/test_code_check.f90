@@ -142,6 +142,12 @@ contains
       ! The load at the top moves twice as far as the centroid
       call check(slc > 0.05_wp, 'd_SLC without a seat')
       call check_close(sheet%value('nonlinear', 'SLC', 'displacement'), 0.05_wp, 0.01_wp, 'd_SLC where the load falls')
+      slc = sheet%value('nonlinear', 'SLC', 'displacement')
+      call input%set('load_seat', [0.06_wp])
+      call make_sheet(sheet, input, the_site([0.2_wp]))
+      call check_close(sheet%value('nonlinear', 'SLC', 'displacement'), 0.6_wp*slc, 0.01_wp, 'd_SLC with a short seat')
+      call check_close(sheet%value('nonlinear', 'SLV', 'displacement'), sheet%value('nonlinear', 'SLC', 'displacement'), &
+         & exact, 'd_SLV is not beyond it')
       input = a_wall(0.3_wp, 0.25_wp)
       call make_sheet(sheet, input, the_site([0.2_wp]))
       call check_close(sheet%value('nonlinear', 'SLV', 'capacity_ag'), max(sheet%value('linear', 'SLD', 'capacity_ag'), &

@@ -72,6 +72,12 @@ contains
       end do
       call new_distribution(d, 'hinge', 'graziotti_2016', error)
       call check(index(error%message, 'published') == 0, 'ranges are of the restitution')
+      call new_distribution(d, 'hinge', 'normal(0.6, 0.02, 0.8, 0.9)', error)
+      call check_error(error, 'hinge = ''normal(0.6, 0.02, 0.8, 0.9)'': low and high leave ', 'nothing is left of a normal')
+      call new_distribution(d, 'hinge', 'lognormal(0.6, 0.02, 0.8, 0.9)', error)
+      call check_error(error, 'hinge = ''lognormal(0.6, 0.02, 0.8, 0.9)'': low and high leave ', 'nor of a lognormal')
+      call new_distribution(d, 'hinge', 'normal(0.6, 0.1, 0.8, 0.9)', error)
+      call check(.not. allocated(error), 'a tail')
    end subroutine test_wrong_texts
 
    !> Every part of equal probability holds one sample; the rows behind the sample

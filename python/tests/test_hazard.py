@@ -1,6 +1,7 @@
 """Hazard curves: fractiles, the smooth line through the levels, and the files of OpenQuake."""
 
 import dataclasses
+import zlib
 
 import numpy as np
 import pytest
@@ -92,6 +93,25 @@ def test_levels_in_another_unit_are_warned_of(tmp_path):
         dd.HazardCurve.from_csv(table)
 
 
+def test_source(hazard, tmp_path):
+    """A curve tells its file, how that was read, and what was done to it."""
+    table = tmp_path / "hazard.csv"
+    table.write_text("ag (g),TR,F0\n0.05,30,2.5\n0.2,475,2.4\n")
+    with pytest.warns(dd.DondoloWarning) as caught:
+        curve = dd.HazardCurve.from_csv(table)
+    checksum = f"{zlib.crc32(table.read_bytes()):08x}"
+    assert curve.source == (f"{table} (CRC-32 {checksum})", *(str(one.message) for one in caught))
+    assert [one.split(": ")[1][:7] for one in curve.source[1:]] == ["columns", "ag is t"]
+    assert curve.smoothed().source == (*curve.source, "smoothed, 16 steps in each")
+    assert hazard.source == ()
+    assert hazard.fractile(0.84).source == ("fractile 0.84",)
+    assert dataclasses.replace(hazard, source="a study").source == ("a study",)
+    with pytest.raises(dd.InputError, match="source = 3: must be a text"):
+        dataclasses.replace(hazard, source=[3])
+    with pytest.raises(dd.InputError, match="source = 3: must be sentences"):
+        dataclasses.replace(hazard, source=3)
+
+
 def test_replaced(hazard):
     half = dataclasses.replace(hazard, annual_frequency=0.5 * hazard.annual_frequency, fractiles=None)
     np.testing.assert_array_equal(half(LEVELS), 0.5 * hazard(LEVELS))
@@ -142,7 +162,10 @@ def test_openquake(tmp_path):
     np.testing.assert_array_equal(curve.annual_frequency, -np.log1p(-np.array([0.15, 0.02, 1e-3, 1e-6])))
     assert curve.fractiles[0.84][0] == -np.log1p(-0.25)
     with pytest.warns(dd.DondoloWarning, match=r"site 0: levels with a probability of 0 or 1 are left out: 9$"):
-        assert len(dd.HazardCurve.from_openquake(mean, site=0).levels) == 3
+        first = dd.HazardCurve.from_openquake(mean, site=0)
+    assert len(first.levels) == 3
+    assert first.source[1] == f"{mean}: site 0: levels with a probability of 0 or 1 are left out: 9"
+    assert [one.split(" (CRC-32 ")[0] for one in curve.source] == [str(quantile), str(mean)]
     alone = dd.HazardCurve.from_openquake(str(quantile), site=1)
     assert alone.annual_frequency[0] == curve.fractiles[0.84][0]
     old = dd.HazardCurve.from_openquake(file_of(tmp_path, "hazard_curve-mean.csv", OLD))

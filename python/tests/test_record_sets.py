@@ -118,6 +118,8 @@ def test_the_executable_runs_the_catalogue(sets, parapet, tmp_path):
 
 
 def test_bad_levels(records, parapet):
+    with pytest.raises(dd.InputError, match=r"levels = 0\.3, 0\.30000000000000004: are the same but for rounding"):
+        dd.multiple_stripe(parapet, {0.1 + 0.2: records[:2], 0.3: records[2:]})
     with pytest.raises(dd.InputError, match=r"levels = 0\.8: no record runs at this level"):
         dd.multiple_stripe(parapet, {0.6: records[:2], 0.8: []})
     with pytest.raises(dd.InputError, match=r"levels: do not include 0\.7"):

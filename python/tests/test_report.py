@@ -314,6 +314,15 @@ def test_a_hazard_in_another_unit_is_warned_of(stripes, tmp_path):
     assert "as it was given, from 0.5 g to 5 g" in " ".join(text.split())
 
 
+def test_the_source_of_the_hazard_is_told(stripes, hazard, tmp_path):
+    told = dataclasses.replace(hazard, source=("site <1>.csv (CRC-32 0123abcd)", "ag is taken for the PGA"))
+    dd.report(stripes, tmp_path / "report.html", hazard=told)
+    text = " ".join((tmp_path / "report.html").read_text().split())
+    assert "Its source: site &lt;1&gt;.csv (CRC-32 0123abcd); ag is taken for the PGA." in text
+    dd.report(stripes, tmp_path / "report.html", hazard=hazard)
+    assert "Its source" not in (tmp_path / "report.html").read_text()
+
+
 def test_a_curve_without_standard_errors_has_no_interval_of_the_risk(wall, few, hazard, tmp_path):
     levels = [0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.4]
     curve = dd.multiple_stripe(wall, few[:2], levels, progress=False)

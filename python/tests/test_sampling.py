@@ -110,6 +110,14 @@ def test_anything_with_quantiles_is_a_distribution():
         (lambda: dd.Triangular(1.0, 5.0, 4.0), "mode = 5: must lie between 1 and 4"),
         (lambda: dd.Normal(1.0, 0.0), "sd = 0: must be positive"),
         (lambda: dd.Normal(1.0, 1.0, low=2.0, high=1.0), "high = 1: must be greater than low = 2"),
+        (
+            lambda: dd.Normal(1.0, 0.1, low=2.0),
+            "low, high: leave 0 of the distribution between them, must leave 1e-06 at least",
+        ),
+        (
+            lambda: dd.Lognormal(1.0, 0.1, high=0.5),
+            "low, high: leave 2.08e-12 of the distribution between them, must leave 1e-06 at least",
+        ),
         (lambda: dd.Lognormal(-1.0, 0.2), "theta = -1: must be positive"),
         (lambda: dd.Lognormal(1.0, -0.2), "beta = -0.2: must be positive"),
         (lambda: dd.Lognormal(1.0, 0.2, low=0.0), "low = 0: must be positive"),

@@ -191,7 +191,7 @@ def test_levels_without_medians(executable, root, tmp_path):
         ("restitution_factor = 'nobody'", None, "or a published range: 'graziotti_2016', 'elgawady_2010'"),
         ("hinge = 'normal(nan, 0.1)'", None, "hinge = 'normal(nan, 0.1)': must be"),
         ("", lambda text: text.replace("seed = 3, ", "seed = 3"), "a property must have a distribution"),
-        ("hinge = 'uniform(0.9, 1.2)'", None, "wall 'strip 00"),
+        ("hinge = 'uniform(0.9, 1.2)'", None, "&uncertainty: variant 'strip 00"),
         ("thick = 'uniform(0.9, 1.2)'", None, "thick"),
         (SOURCES, lambda text: text.replace("samples = 60", "samples = 20"), "samples = 20: must be at least 38"),
         (

@@ -97,6 +97,18 @@ def as_measures(ims: str | Iterable[str]) -> list[str]:
     return list(ims)
 
 
+def as_sentences(name: str, sentences: str | Iterable[str]) -> tuple[str, ...]:
+    """Turn what a user gives for sentences into a tuple of them; a text is one."""
+    several = (sentences,) if isinstance(sentences, str) else sentences
+    if not isinstance(several, Iterable):
+        raise InputError(f"{name} = {sentences!r}: must be sentences")
+    found = tuple(several)
+    for one in found:
+        if not isinstance(one, str):
+            raise InputError(f"{name} = {one!r}: must be a text")
+    return found
+
+
 def as_path(path: str | os.PathLike[str]) -> bytes:
     """Turn a path into the bytes Fortran takes."""
     try:

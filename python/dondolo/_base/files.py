@@ -7,6 +7,7 @@ import errno
 import fcntl
 import os
 import re
+import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -58,6 +59,15 @@ def read_text(path: str | os.PathLike[str]) -> str:
         number = content.count(b"\n", 0, begin) + 1
         place = f"line {number}: byte {error.start - begin + 1}"
         raise InputError(f"{path}: {place} is not {error.encoding.upper()}: save it as UTF-8") from None
+
+
+def described(path: str | os.PathLike[str]) -> str:
+    """A file that was read, as results tell their source: its path and the checksum of its bytes."""
+    target = Path(path)
+    # A pipe has been read, and gives nothing any more
+    if not target.is_file():
+        return str(target)
+    return f"{target} (CRC-32 {zlib.crc32(target.read_bytes()):08x})"
 
 
 @contextmanager

@@ -11,6 +11,7 @@ module library
    use, intrinsic :: omp_lib, only : omp_set_max_active_levels
    use dondolo_boundary, only : report
    use dondolo_clustered, only : fewest_clusters
+   use dondolo_distribution, only : least_share
    use dondolo_error, only : error_type, raise_input
    use dondolo_fragility, only : error_names, status_names
    use dondolo_handles, only : release
@@ -22,6 +23,7 @@ module library
    use dondolo_property, only : describe_property, property_type
    use dondolo_property_tables, only : property_table, table_names
    use dondolo_solver, only : solver_type
+   use dondolo_study, only : same_level
    use dondolo_text, only : join
    use dondolo_threads, only : threads_here => available_threads
    use dondolo_version, only : dondolo_version_text
@@ -38,8 +40,9 @@ contains
    subroutine constants(longest, fewest, defaults, version, statuses, errors)
       ! Bytes of a name, and clusters that standard errors need
       integer(c_int), intent(out) :: longest, fewest
-      ! rtol, atol, edp_limit, gravity
-      real(c_double), intent(out) :: defaults(4)
+      ! rtol, atol, edp_limit, gravity; the part of a distribution that must be left where it is cut off, and of a level by
+      ! which another differs
+      real(c_double), intent(out) :: defaults(6)
       character(len=32), intent(out) :: version
       character(len=256), intent(out) :: statuses, errors
       type(solver_type) :: solver
@@ -47,7 +50,7 @@ contains
 
       longest = longest_name
       fewest = fewest_clusters
-      defaults = [solver%rtol, solver%atol, solver%edp_limit, standard_gravity]
+      defaults = [solver%rtol, solver%atol, solver%edp_limit, standard_gravity, least_share, same_level]
       version = dondolo_version_text
       statuses = ''
       do i = 1, size(status_names)

@@ -42,6 +42,8 @@ class Constants(NamedTuple):
     atol: float
     edp_limit: float
     gravity: float
+    least_share: float
+    same_level: float
     version: str
     statuses: tuple[str, ...]
     errors: tuple[str, ...]
@@ -109,7 +111,7 @@ class Parcel(NamedTuple):
 def constants() -> Constants:
     """Ask Fortran for its version, defaults and the names of its statuses."""
     longest, fewest, defaults, version, statuses, errors = _core.library.constants()
-    rtol, atol, edp_limit, gravity = (float(value) for value in defaults)
+    rtol, atol, edp_limit, gravity, least_share, same_level = (float(value) for value in defaults)
     return Constants(
         int(longest),
         int(fewest),
@@ -117,6 +119,8 @@ def constants() -> Constants:
         atol,
         edp_limit,
         gravity,
+        least_share,
+        same_level,
         version=version.decode().strip(),
         statuses=tuple(statuses.decode().split()),
         errors=tuple(errors.decode().split()),

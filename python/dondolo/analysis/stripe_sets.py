@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from dondolo._fortran.library import constants
 from dondolo.analysis.work import Work
 from dondolo.errors import InputError
 
@@ -31,8 +32,6 @@ _MATRICES = {
 }
 # Fields with a text for each record, or with none
 _OF_RECORDS = ("events", "checksums")
-#: Levels that differ by less than this part are the same, as in Fortran (fragility/study.f90)
-SAME_LEVEL = 1e-9
 
 # What must be the same for stripes to be joined
 _SHARED = ("im", "engine", "rtol", "atol", "edp_limit")
@@ -94,7 +93,7 @@ def join(one: Stripes, other: Stripes) -> Stripes:
     joint = list(dict.fromkeys([*names[0], *names[1]]))
     # The levels of the other, by the names that the first has for them
     nearest = one.levels[np.abs(one.levels[:, None] - other.levels).argmin(axis=0)]
-    theirs = np.where(np.abs(nearest - other.levels) <= SAME_LEVEL * other.levels, nearest, other.levels)
+    theirs = np.where(np.abs(nearest - other.levels) <= constants().same_level * other.levels, nearest, other.levels)
     levels = np.union1d(one.levels, theirs)
     rows = [np.searchsorted(levels, own) for own in (one.levels, theirs)]
     place = {name: i for i, name in enumerate(joint)}

@@ -15,12 +15,12 @@ import numpy as np
 from dondolo._base.arguments import instance_of
 from dondolo._base.shown import Shown
 from dondolo._fortran.checks import SheetRow, dynamic_sheet, kinematic_sheet
+from dondolo._fortran.library import constants
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved, part_of_results
 from dondolo.analysis.request import Polarity
 from dondolo.analysis.solver import Solver, as_solver
 from dondolo.analysis.stripe_runs import multiple_stripe
-from dondolo.analysis.stripe_sets import SAME_LEVEL
 from dondolo.analysis.stripes import Stripes
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import InputError
@@ -275,7 +275,7 @@ def check_dynamic(
     rows = tuple(row for row in check.rows if row.method != "dynamic")
     handle = upload((check.wall,))
     for state, level in levels.items():
-        found = np.flatnonzero(np.abs(stripes.levels - level) <= SAME_LEVEL * level)
+        found = np.flatnonzero(np.abs(stripes.levels - level) <= constants().same_level * level)
         if not len(found):
             raise InputError(f"stripes: have no level of {level:.10g} g, the peak acceleration of {state}")
         ran = stripes.ran[found[0]]

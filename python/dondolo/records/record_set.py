@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any, NamedTuple, overload
 
 import numpy as np
@@ -140,12 +141,16 @@ class RecordSet(Shown, Saved):
         Raises
         ------
         InputError
-            A level that is not positive, or has no records.
+            A level that is not positive, has no records, or differs from another by rounding alone.
         """
         if not isinstance(sets, Mapping) or not sets:
             raise InputError("records: must be a mapping of levels to records, one level at least")
         parts = []
-        for level in sorted(sets, key=lambda one: as_number("levels", one)):
+        levels = sorted(sets, key=lambda one: as_number("levels", one))
+        for one, other in pairwise(levels):
+            if other - one <= constants().same_level * other:
+                raise InputError(f"levels = {float(one)!r}, {float(other)!r}: are the same but for rounding")
+        for level in levels:
             several = sets[level]
             if isinstance(several, Sequence) and not several:
                 raise InputError(f"levels = {level:g}: no record runs at this level")

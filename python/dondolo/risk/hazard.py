@@ -24,15 +24,25 @@ Journal on Scientific and Statistical Computing 5(2):300-304.
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, as_count, as_flag, as_levels, as_number, increasing, shaped
-from dondolo._base.files import as_file
+from dondolo._base.arguments import (
+    FloatArray,
+    as_array,
+    as_count,
+    as_flag,
+    as_levels,
+    as_number,
+    as_sentences,
+    increasing,
+    shaped,
+)
+from dondolo._base.files import as_file, described
 from dondolo._base.shown import Shown
 from dondolo._fortran.histories import warnings_of_levels
 from dondolo._fortran.library import warn
@@ -66,6 +76,9 @@ class HazardCurve(Shown, Saved):
         Share q, between 0 and 1 -> annual frequency of the fractile q, not increasing with the level [1/year].
     endless : bool
         Does the power law through two levels go on beyond them? See `power_law`.
+    source : iterable of str, optional
+        Where the curve is from and what was done to it, a sentence each, for reports; `from_csv` and `from_openquake`
+        name their files and how they were read.
 
     Raises
     ------
@@ -82,6 +95,7 @@ class HazardCurve(Shown, Saved):
     fractiles : dict
         Share -> annual frequency, in increasing order; empty if none are known.
     endless : bool
+    source : tuple of str
 
     Examples
     --------
@@ -96,6 +110,7 @@ class HazardCurve(Shown, Saved):
     im: str
     fractiles: dict[float, FloatArray]
     endless: bool
+    source: tuple[str, ...]
 
     def __init__(
         self,
@@ -105,6 +120,7 @@ class HazardCurve(Shown, Saved):
         im: str = "pga",
         fractiles: Mapping[float, ArrayLike] | None = None,
         endless: bool = False,
+        source: Iterable[str] = (),
     ) -> None:
         x = increasing("levels", levels)
         h = as_array("annual_frequency", annual_frequency).copy()
@@ -127,6 +143,7 @@ class HazardCurve(Shown, Saved):
             ("im", describe_measure(im).name),
             ("fractiles", _fractiles(fractiles, len(x))),
             ("endless", as_flag("endless", endless)),
+            ("source", as_sentences("source", source)),
         ):
             object.__setattr__(self, what, value)
 
@@ -198,12 +215,13 @@ class HazardCurve(Shown, Saved):
         site. Tables of spreadsheets with semicolons and decimal commas are read as those of walls and records are.
         """
         name = os.fspath(as_file("path", path))
-        im, levels, frequency, fractiles = read_hazard(name)
+        im, levels, frequency, fractiles, notes = read_hazard(name)
+        source = [described(name), *map(str, notes)]
         try:
-            curve = cls(levels, frequency, im=im, fractiles=fractiles)
+            curve = cls(levels, frequency, im=im, fractiles=fractiles, source=source)
         except InputError as error:
             raise InputError(f"{name}: {error}") from None
-        warn(one.placed(f"{name}: ") for one in warnings_of_levels(curve.im, curve.levels))
+        warn([*notes, *(one.placed(f"{name}: ") for one in warnings_of_levels(curve.im, curve.levels))])
         return curve
 
     @classmethod
@@ -246,12 +264,16 @@ class HazardCurve(Shown, Saved):
         and a column 'poe-x' the probability p that x is exceeded in t years, of which the frequency is -ln(1 - p)/t.
         Levels of SA and PGA are in g, as here; those of PGV are in cm/s there and in m/s here.
         """
-        files = [paths] if isinstance(paths, (str, os.PathLike)) else list(paths)
-        im, levels, mean, fractiles = read_curves([os.fspath(as_file("paths", one)) for one in files], site)
+        several = [paths] if isinstance(paths, (str, os.PathLike)) else paths
+        files = [os.fspath(as_file("paths", one)) for one in several]
+        im, levels, mean, fractiles, notes = read_curves(files, site)
+        source = [*map(described, files), *map(str, notes)]
         try:
-            return cls(levels, mean, im=im, fractiles=fractiles)
+            curve = cls(levels, mean, im=im, fractiles=fractiles, source=source)
         except InputError as error:
-            raise InputError(f"{os.fspath(files[0])}: {error}") from None
+            raise InputError(f"{files[0]}: {error}") from None
+        warn(notes)
+        return curve
 
     def to_openquake(
         self, folder: str | os.PathLike[str], *, site: tuple[float, float], investigation_time: float = 50.0
@@ -340,7 +362,8 @@ class HazardCurve(Shown, Saved):
                 f"fractile {share:g} of the hazard curve: must be exceeded at {_FEWEST} levels at least, not at"
                 f" {exceeded.sum()}"
             )
-        return HazardCurve(self.levels[exceeded], h[exceeded], im=self.im)
+        source = (*self.source, f"fractile {share:g}")
+        return HazardCurve(self.levels[exceeded], h[exceeded], im=self.im, source=source)
 
     def _curves(self) -> dict[float, HazardCurve]:
         """The curves of the fractiles, of those that are exceeded at enough levels for one."""
@@ -376,7 +399,8 @@ class HazardCurve(Shown, Saved):
         x = np.exp(fine)
         x[::parts] = self.levels
         fractiles = {q: _cubic(u, h, fine, parts) for q, h in self.fractiles.items()}
-        return HazardCurve(x, _cubic(u, self.annual_frequency, fine, parts), im=self.im, fractiles=fractiles)
+        mean, source = _cubic(u, self.annual_frequency, fine, parts), (*self.source, f"smoothed, {parts} steps in each")
+        return HazardCurve(x, mean, im=self.im, fractiles=fractiles, source=source)
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the curve on logarithmic axes.

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
-from dondolo._fortran.library import constants, warn
+from dondolo._fortran.library import constants
 from dondolo._fortran.records import describe_measure, read_number_table
 from dondolo.errors import DondoloWarning, InputError
 
@@ -32,8 +32,8 @@ _YEARS = ("year", "years", "yr", "anno", "anni")
 Fractiles = dict[float, FloatArray]
 
 
-def read_hazard(path: str | os.PathLike[str]) -> tuple[str, FloatArray, FloatArray, Fractiles]:
-    """Intensity measure, levels and annual frequencies of a table, and of its fractiles."""
+def read_hazard(path: str | os.PathLike[str]) -> tuple[str, FloatArray, FloatArray, Fractiles, list[DondoloWarning]]:
+    """Intensity measure, levels and annual frequencies of a table, and of its fractiles; how it was read."""
     titles, values = read_number_table(path)
     try:
         if any(title.lower().startswith("poe-") for title in titles):
@@ -43,15 +43,18 @@ def read_hazard(path: str | os.PathLike[str]) -> tuple[str, FloatArray, FloatArr
         frequency, fractiles = _frequencies(columns)
     except InputError as error:
         raise InputError(f"{os.fspath(path)}: {error}") from None
+    notes = []
     if unused:
         names = ", ".join(unused)
         subject = {"file": os.fspath(path), "columns": names}
-        warn([DondoloWarning(f"{subject['file']}: columns that are not used: {names}", "columns_unused", subject)])
+        notes.append(
+            DondoloWarning(f"{subject['file']}: columns that are not used: {names}", "columns_unused", subject)
+        )
     if is_rigid:
         subject = {"file": os.fspath(path)}
         text = "ag is taken for the PGA; that of rigid ground must be multiplied by the factors of soil and topography"
-        warn([DondoloWarning(f"{subject['file']}: {text}", "hazard_of_rigid_ground", subject)])
-    return im, levels, frequency, fractiles
+        notes.append(DondoloWarning(f"{subject['file']}: {text}", "hazard_of_rigid_ground", subject))
+    return im, levels, frequency, fractiles, notes
 
 
 def _understand(titles: list[str], values: FloatArray) -> tuple[str, FloatArray, dict[str, FloatArray], list[str]]:

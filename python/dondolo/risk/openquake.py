@@ -25,10 +25,9 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray, as_number
 from dondolo._base.files import read_text
-from dondolo._fortran.library import warn_of_notes
 from dondolo._fortran.records import describe_measure
 from dondolo._storage import tables
-from dondolo.errors import DondoloError, InputError
+from dondolo.errors import DondoloError, DondoloWarning, InputError
 
 #: Number of a site in a file, from 0, or its longitude and latitude [degrees]
 Site = int | tuple[float, float]
@@ -86,8 +85,13 @@ def over(text: str, unit: int) -> float:
     return float(text) if unit == 1 else float(Decimal(text.strip()) / unit)
 
 
-def read_curves(paths: Sequence[str], site: Site | None) -> tuple[str, FloatArray, FloatArray, dict[float, FloatArray]]:
-    """Measure, levels, annual frequencies of the mean and of the fractiles of a site, from files of one calculation."""
+def read_curves(
+    paths: Sequence[str], site: Site | None
+) -> tuple[str, FloatArray, FloatArray, dict[float, FloatArray], list[DondoloWarning]]:
+    """Measure, levels, annual frequencies of the mean and of the fractiles of a site, from files of one calculation.
+
+    The last are the notes of how they were read.
+    """
     files = [_read(path) for path in paths]
     if not files:
         raise InputError("paths: must be one file at least")
@@ -112,12 +116,14 @@ def read_curves(paths: Sequence[str], site: Site | None) -> tuple[str, FloatArra
     kept = np.all(poe < 1.0, axis=0) & (poe[0] > 0.0)
     if kept.sum() < 2:
         raise InputError(f"{first.path}: site {row}: has fewer than two levels with a probability between 0 and 1")
+    notes = []
     if not kept.all():
         left = ", ".join(f"{level:g}" for level in levels[~kept])
-        warn_of_notes([f"{first.path}: site {row}: levels with a probability of 0 or 1 are left out: {left}"])
+        text = f"{first.path}: site {row}: levels with a probability of 0 or 1 are left out: {left}"
+        notes.append(DondoloWarning(text, "note"))
     frequency = -np.log1p(-poe[:, kept]) / first.time
     shares = [_share(one) for one in quantiles.values()]
-    return im, levels[kept], frequency[0], dict(zip(shares, frequency[1:], strict=True))
+    return im, levels[kept], frequency[0], dict(zip(shares, frequency[1:], strict=True)), notes
 
 
 def write_curves(

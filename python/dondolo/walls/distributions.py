@@ -10,6 +10,7 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 
 from dondolo._base.arguments import FloatArray, as_array, as_number
+from dondolo._fortran.library import constants
 from dondolo.errors import InputError
 
 
@@ -119,7 +120,8 @@ class Normal(_CutOff):
     Raises
     ------
     InputError
-        A parameter is no finite number, `sd` not positive, or `high` not greater than `low`.
+        A parameter is no finite number, `sd` not positive, `high` not greater than `low`, or next to nothing of the
+        distribution between them.
     """
 
     mean: float
@@ -133,11 +135,16 @@ class Normal(_CutOff):
         if not self.sd > 0.0:
             raise InputError(f"sd = {self.sd:g}: must be positive")
         _check_ends(self.low, self.high)
+        _check_share(*self._ends())
+
+    def _ends(self) -> tuple[float, float]:
+        """Where the standard normal distribution behind it is cut off."""
+        low = -math.inf if self.low is None else (self.low - self.mean) / self.sd
+        return low, math.inf if self.high is None else (self.high - self.mean) / self.sd
 
     def ppf(self, q: FloatArray, /) -> FloatArray:
         """Values that are exceeded with probability 1 - q, see `Distribution`."""
-        ends = (None if end is None else (end - self.mean) / self.sd for end in (self.low, self.high))
-        return self.mean + self.sd * _cut_normal(q, *ends)
+        return self.mean + self.sd * _cut_normal(q, *self._ends())
 
 
 @dataclass(frozen=True)
@@ -156,7 +163,8 @@ class Lognormal(_CutOff):
     Raises
     ------
     InputError
-        A parameter is no positive finite number, or `high` not greater than `low`.
+        A parameter is no positive finite number, `high` not greater than `low`, or next to nothing of the distribution
+        between them.
     """
 
     theta: float
@@ -172,11 +180,16 @@ class Lognormal(_CutOff):
             if value is not None and not value > 0.0:
                 raise InputError(f"{what} = {value:g}: must be positive")
         _check_ends(self.low, self.high)
+        _check_share(*self._ends())
+
+    def _ends(self) -> tuple[float, float]:
+        """Where the standard normal distribution behind it is cut off."""
+        low = -math.inf if self.low is None else math.log(self.low / self.theta) / self.beta
+        return low, math.inf if self.high is None else math.log(self.high / self.theta) / self.beta
 
     def ppf(self, q: FloatArray, /) -> FloatArray:
         """Values that are exceeded with probability 1 - q, see `Distribution`."""
-        ends = (None if end is None else math.log(end / self.theta) / self.beta for end in (self.low, self.high))
-        return self.theta * np.exp(self.beta * _cut_normal(q, *ends))
+        return self.theta * np.exp(self.beta * _cut_normal(q, *self._ends()))
 
 
 @dataclass(frozen=True)
@@ -219,13 +232,22 @@ class Choice:
         return np.asarray(self.values)[np.searchsorted(ends, q)]
 
 
-def _cut_normal(q: FloatArray, low: float | None, high: float | None) -> FloatArray:
+def _cut_normal(q: FloatArray, low: float, high: float) -> FloatArray:
     """Quantiles of the standard normal distribution between two ends."""
     from scipy import stats
 
-    ends = -np.inf if low is None else low, np.inf if high is None else high
-    quantiles: FloatArray = stats.truncnorm(*ends).ppf(q)
+    quantiles: FloatArray = stats.truncnorm(low, high).ppf(q)
     return quantiles
+
+
+def _check_share(low: float, high: float) -> None:
+    """Enough of the standard normal distribution must be left between two ends."""
+    least = constants().least_share
+    share = 0.5 * (math.erfc(-high / math.sqrt(2.0)) - math.erfc(-low / math.sqrt(2.0)))
+    if not share >= least:
+        raise InputError(
+            f"low, high: leave {share:.3g} of the distribution between them, must leave {least:g} at least"
+        )
 
 
 def _check_numbers(distribution: Any) -> None:

@@ -165,9 +165,9 @@ contains
       !> 2: SLV, 3: SLC
       integer, intent(in) :: state
 
-      d = shares(state)*kinematic%end_displacement
+      ! The text names the loss of a seat for SLC alone, but SLV comes first
+      d = min(shares(state)*kinematic%end_displacement, kinematic%unseating)
       if (state == 2) d = min(d, kinematic%tie_fracture)
-      if (state == 3) d = min(d, kinematic%unseating)
    end function capacity_displacement
 
    !> Put a nonlinear check

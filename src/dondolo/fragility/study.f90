@@ -18,7 +18,7 @@ module dondolo_study
    implicit none
    private
 
-   public :: runs_of, study_type, new_study
+   public :: runs_of, same_level, study_type, new_study
    public :: check_levels, check_thresholds, find_level, polarity_names
 
    !> Levels that differ by less than this part are the same: a table may give them in fewer digits than a computation

@@ -4,11 +4,11 @@ module dondolo_distribution
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_real
    use dondolo_restitution, only : published_factors
-   use dondolo_text, only : join, lower
+   use dondolo_text, only : join, lower, rounded, to_text
    implicit none
    private
 
-   public :: distribution_type, new_distribution
+   public :: distribution_type, new_distribution, least_share
 
    !> Names of the distributions
    character(len=10), parameter :: kinds(*) = [character(len=10) :: 'uniform', 'triangular', 'normal', 'lognormal']
@@ -16,6 +16,9 @@ module dondolo_distribution
    !> How they are called, for messages
    character(len=*), parameter :: help = 'must be ''uniform(low, high)'', ''triangular(low, mode, high)'', '// &
       & '''normal(mean, sd)'' or ''lognormal(theta, beta)'', the last two also with low, high where they are cut off'
+
+   !> Part of a distribution that must be left where it is cut off: less is a slip of the pen, and loses digits
+   real(wp), parameter :: least_share = 1.0e-6_wp
 
    !> A distribution
    type :: distribution_type
@@ -26,6 +29,8 @@ module dondolo_distribution
    contains
       !> The value that is not exceeded with a probability
       procedure :: quantile
+      !> Where the normal distribution behind it begins and ends
+      procedure, private :: ends
    end type distribution_type
 
 contains
@@ -41,6 +46,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(len=len(text)) :: plain
+      real(wp) :: ends(2)
       integer :: opening, closing, i
       logical :: ok
 
@@ -60,7 +66,13 @@ contains
          call take_numbers(plain(opening + 1:closing - 1), found%parameters, ok)
       end if
       if (ok) ok = are_right(found%kind, found%parameters)
-      if (ok) return
+      if (ok) then
+         ends = found%ends()
+         if (ends(2) - ends(1) >= least_share) return
+         call raise_input(error, property//' = '''//text//''': low and high leave '//rounded(ends(2) - ends(1))// &
+            & ' of the distribution between them, must leave '//to_text(least_share)//' at least')
+         return
+      end if
       call raise_input(error, property//' = '''//text//''': '//help)
       if (property == 'restitution_factor') error%message = error%message//'; or a published range: '// &
          & join(published_factors%name)
@@ -126,9 +138,7 @@ contains
                value = p(3) - sqrt((1.0_wp - probability)*(p(3) - p(1))*(p(3) - p(2)))
             end if
          case default
-            ends = [0.0_wp, 1.0_wp]
-            if (size(p) == 4 .and. self%kind == 'normal') ends = normal_cdf((p(3:4) - p(1))/p(2))
-            if (size(p) == 4 .and. self%kind == 'lognormal') ends = normal_cdf(log(p(3:4)/p(1))/p(2))
+            ends = self%ends()
             value = normal_quantile(ends(1) + (ends(2) - ends(1))*probability)
             if (self%kind == 'normal') value = p(1) + p(2)*value
             if (self%kind == 'lognormal') value = p(1)*exp(p(2)*value)
@@ -136,6 +146,19 @@ contains
          end select
       end associate
    end function quantile
+
+   !> Probabilities at which the normal distribution behind a distribution begins and ends: 0 and 1 unless it is cut off
+   pure function ends(self)
+      class(distribution_type), intent(in) :: self
+      real(wp) :: ends(2)
+
+      ends = [0.0_wp, 1.0_wp]
+      associate (p => self%parameters)
+         if (size(p) < 4) return
+         if (self%kind == 'normal') ends = normal_cdf((p(3:4) - p(1))/p(2))
+         if (self%kind == 'lognormal') ends = normal_cdf(log(p(3:4)/p(1))/p(2))
+      end associate
+   end function ends
 
    !> Distribution function of the standard normal distribution
    elemental real(wp) function normal_cdf(x)

@@ -170,7 +170,7 @@ contains
       if (.not. allocated(self%facade)) then
          call add_place(error, self%place())
       else if (self%facade%is_uncertain()) then
-         call add_place(error, self%file//': wall '''//trim(self%input%word('name'))//'''')
+         call add_place(error, self%file//': &uncertainty: variant '''//trim(self%input%word('name'))//'''')
       end if
       self%is_right = self%is_right .and. .not. allocated(error)
       self%has_weight = self%has_weight .or. member%weight > 0.0_wp
