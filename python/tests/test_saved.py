@@ -11,7 +11,7 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 import study
-from dondolo._storage import saved
+from dondolo._storage import saved, tables
 from dondolo.exchange.fragility_model import Limits
 
 import dondolo as dd
@@ -138,6 +138,27 @@ def test_every_result_is_read_back(results, tmp_path):
         # A copy of it is the same file.
         again.save(tmp_path / "again.npz")
         assert (tmp_path / "again.npz").read_bytes() == path.read_bytes(), name
+
+
+def test_every_table_can_be_written(results, tmp_path):
+    """A result that gives pandas a table writes it to a file as well, but for sets of records, whose is a catalogue.
+
+    A history whose motion was not kept has none.
+    """
+    pandas = pytest.importorskip("pandas")
+    path = tmp_path / "table.csv"
+    for name, result in results.items():
+        if not hasattr(result, "to_frame") or isinstance(result, dd.RecordSet) or getattr(result, "time", 0) is None:
+            continue
+        result.to_csv(path)
+        lines = path.read_text().splitlines()
+        assert lines[0].startswith("# dondolo "), name
+        assert sum(not line.startswith("#") for line in lines) > 1, name
+        if isinstance(result, tables.Tabular | dd.RiskUncertainty):
+            head = sum(line.startswith("#") for line in lines)
+            assert head > 1, name
+            read, frame = pandas.read_csv(path, skiprows=head), result.to_frame()
+            pandas.testing.assert_frame_equal(read, frame, check_dtype=False, rtol=1e-15, obj=name)
 
 
 def test_every_kind_of_result_is_tried(results):

@@ -10,6 +10,7 @@ import numpy as np
 
 from dondolo._base.arguments import as_flag, one_of
 from dondolo._base.files import whole_file
+from dondolo._base.shown import Shown
 from dondolo._fortran.library import constants
 from dondolo.errors import DondoloError
 
@@ -123,3 +124,45 @@ def choose(tables: Mapping[Any, Any], name: str) -> Table:
     one_of("table", name, tables)
     table: Table = tables[name]()
     return table
+
+
+class Tabular(Shown):
+    """A result with one table; its facts stand in the head of the file."""
+
+    def _table(self) -> Table:
+        raise NotImplementedError
+
+    def _comments(self) -> list[str]:
+        return lines_of(self._facts())
+
+    def to_frame(self) -> Any:
+        """The table as a pandas DataFrame.
+
+        Raises
+        ------
+        DondoloError
+            There is no pandas.
+        """
+        return frame(self._table())
+
+    def to_csv(self, path: str | os.PathLike[str], *, spreadsheet_safe: bool = False) -> None:
+        """Write the table; what was found stands in the head of the file.
+
+        Parameters
+        ----------
+        path : path
+            The file; its folder must exist.
+        spreadsheet_safe : bool
+            Put an apostrophe before names that a spreadsheet would take for formulas.
+
+        Raises
+        ------
+        DondoloError
+            The file cannot be written.
+        """
+        write_csv(path, self._table(), self._comments(), spreadsheet_safe=spreadsheet_safe)
+
+
+def lines_of(facts: Iterable[tuple[str, str]]) -> list[str]:
+    """Facts as lines for the head of a file."""
+    return [f"{what}: {text}" for what, text in facts]

@@ -45,7 +45,6 @@ motion records, Earthquake Engineering and Structural Dynamics 46, 2639-2663; Al
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
@@ -54,7 +53,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_levels, as_number, instance_of, shaped
-from dondolo._base.shown import Shown
 from dondolo._fortran.library import warn
 from dondolo._fortran.records import describe_measure, unit_of
 from dondolo._storage import tables
@@ -80,7 +78,7 @@ _REACH = 10.0
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class Cloud(Shown, Saved):
+class Cloud(tables.Tabular, Saved):
     """Points (IM, EDP) of records as they are, and what is fitted to them.
 
     Attributes
@@ -281,22 +279,8 @@ class Cloud(Shown, Saved):
             "collapsed": self.collapsed.astype(int),
         }
 
-    def to_frame(self) -> Any:
-        """The points as a pandas DataFrame."""
-        return tables.frame(self._table())
-
-    def to_csv(self, path: str | os.PathLike[str], *, spreadsheet_safe: bool = False) -> None:
-        """Write the points, with the fitted models in the head of the file.
-
-        With `spreadsheet_safe` an apostrophe stands before names that a spreadsheet would take for formulas.
-        """
-        comments = [repr(self.wall), *(f"{what}: {text}" for what, text in self._facts()[1:])]
-        tables.write_csv(
-            path,
-            self._table(),
-            [*comments, f"unit of intensity: {unit_of(self.im) or '1'}"],
-            spreadsheet_safe=spreadsheet_safe,
-        )
+    def _comments(self) -> list[str]:
+        return [repr(self.wall), *tables.lines_of(self._facts()[1:]), f"unit of intensity: {unit_of(self.im) or '1'}"]
 
     def _facts(self) -> list[tuple[str, str]]:
         line = self.regression

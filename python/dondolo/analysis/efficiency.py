@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray, as_count, as_measures
-from dondolo._base.shown import Shown
 from dondolo._fortran.library import constants
 from dondolo._fortran.records import blank_unit, describe_measure
 from dondolo._storage import tables
@@ -36,7 +35,7 @@ _LONGEST_SEARCH = 40
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class IntensityComparison(Shown, Saved):
+class IntensityComparison(tables.Tabular, Saved):
     """Fragility curves of one wall and one set of records for several intensity measures.
 
     Attributes
@@ -108,10 +107,6 @@ class IntensityComparison(Shown, Saved):
             "ratio_low": self.ratio_interval[:, 0],
             "ratio_high": self.ratio_interval[:, 1],
         }
-
-    def to_frame(self) -> Any:
-        """A row for each measure as a pandas DataFrame."""
-        return tables.frame(self._table())
 
     def __str__(self) -> str:
         lines = [

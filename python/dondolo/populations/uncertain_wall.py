@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_count, instance_of
-from dondolo._base.shown import Shown
 from dondolo._fortran.buildings import BUILDING_NAMES
 from dondolo._fortran.library import warn
 from dondolo._fortran.records import blank_unit
@@ -52,7 +51,7 @@ _SAFETY, _SATURATED = 2.0, 1e-2
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class UncertainWall(Shown, Saved):
+class UncertainWall(tables.Tabular, Saved):
     """A wall whose properties are not known for certain, and what that makes of its curve.
 
     Attributes
@@ -170,15 +169,8 @@ class UncertainWall(Shown, Saved):
 
         return draw_uncertain_wall(self, ax)
 
-    def to_frame(self) -> Any:
-        """A row for each source as a pandas DataFrame."""
-        return tables.frame(self._table())
-
-    def to_csv(self, path: Any, *, spreadsheet_safe: bool = False) -> None:
-        """Write a row for each source: its values, what it makes of the median, and its Sobol indices."""
-        comments = [f"unit of theta: {blank_unit(self.im).strip() or '1'}"]
-        comments += [f"{what}: {text}" for what, text in self._facts()]
-        tables.write_csv(path, self._table(), comments, spreadsheet_safe=spreadsheet_safe)
+    def _comments(self) -> list[str]:
+        return [f"unit of theta: {blank_unit(self.im).strip() or '1'}", *tables.lines_of(self._facts())]
 
     def _table(self) -> tables.Table:
         low, high = zip(*self.ends, strict=True)

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, increasing, instance_of
-from dondolo._base.shown import Shown
 from dondolo._fortran.library import warn
 from dondolo._fortran.records import blank_unit
 from dondolo._fortran.walls import WALL_PROPERTIES, describe_wall
@@ -35,7 +34,7 @@ _HEIGHTS = np.round(np.arange(0.40, 0.901, 0.02), 2)
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class HingeSearch(Shown, Saved):
+class HingeSearch(tables.Tabular, Saved):
     """Curves of a wall of two blocks for several heights of its hinge.
 
     Attributes
@@ -101,17 +100,14 @@ class HingeSearch(Shown, Saved):
 
         return draw_hinges(self, ax)
 
-    def to_frame(self) -> Any:
-        """A row for each height as a pandas DataFrame."""
-        return tables.frame(
-            {
-                "hinge": self.hinges,
-                "theta": self.thetas,
-                "beta": [curve.beta for curve in self.curves],
-                "se_ln_theta": [curve.se_ln_theta for curve in self.curves],
-                "trigger_g": self.triggers,
-            }
-        )
+    def _table(self) -> tables.Table:
+        return {
+            "hinge": self.hinges,
+            "theta": self.thetas,
+            "beta": [curve.beta for curve in self.curves],
+            "se_ln_theta": [curve.se_ln_theta for curve in self.curves],
+            "trigger_g": self.triggers,
+        }
 
     def _facts(self) -> list[tuple[str, str]]:
         return [

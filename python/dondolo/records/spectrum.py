@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
-from dondolo._base.shown import Shown
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 
@@ -17,7 +16,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class Spectrum(Shown, Saved):
+class Spectrum(tables.Tabular, Saved):
     """Elastic response spectrum of a record.
 
     Attributes
@@ -61,16 +60,13 @@ class Spectrum(Shown, Saved):
 
         return draw_spectrum(self, ax)
 
-    def to_frame(self) -> Any:
-        """The spectrum as a pandas DataFrame."""
-        return tables.frame(
-            {
-                "period [s]": self.periods,
-                "displacement [m]": self.displacement,
-                "pseudo_velocity [m/s]": self.pseudo_velocity,
-                "pseudo_acceleration [m/s2]": self.pseudo_acceleration,
-            }
-        )
+    def _table(self) -> tables.Table:
+        return {
+            "period [s]": self.periods,
+            "displacement [m]": self.displacement,
+            "pseudo_velocity [m/s]": self.pseudo_velocity,
+            "pseudo_acceleration [m/s2]": self.pseudo_acceleration,
+        }
 
     def __repr__(self) -> str:
         low, high = self.periods.min(), self.periods.max()

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_number, instance_of, tails
-from dondolo._base.shown import Shown
 from dondolo._fortran.records import blank_unit
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
@@ -38,7 +37,7 @@ _DENSITY = 7850.0
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class DesignComparison(Shown, Saved):
+class DesignComparison(tables.Tabular, Saved):
     """Fragility curves of several designs of a wall under the same records; the first design is the reference.
 
     Attributes
@@ -118,10 +117,6 @@ class DesignComparison(Shown, Saved):
         from dondolo.retrofit.plots import draw_designs
 
         return draw_designs(self, ax)
-
-    def to_frame(self) -> Any:
-        """A row for each design as a pandas DataFrame."""
-        return tables.frame(self._table())
 
     def _table(self) -> tables.Table:
         low, high = self.ratio_interval.T

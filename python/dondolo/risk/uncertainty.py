@@ -22,6 +22,7 @@ What an interval covers is told in docs/uncertainty.md: the choice of the record
 
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -123,6 +124,11 @@ class RiskUncertainty(Shown, Saved):
     def to_frame(self, *, confidence: float = 0.95) -> Any:
         """The same as a pandas DataFrame."""
         return tables.frame(self.table(confidence=confidence))
+
+    def to_csv(self, path: str | os.PathLike[str], *, confidence: float = 0.95) -> None:
+        """Write the same to a file, whose folder must exist."""
+        comments = [*tables.lines_of(self._facts()), f"confidence: {confidence:g}"]
+        tables.write_csv(path, self.table(confidence=confidence), comments)
 
     def plot(self, ax: Axes | None = None, *, confidence: float = 0.95) -> Axes:
         """Draw the distribution for the mean hazard and for each fractile, with the intervals.
