@@ -5,6 +5,7 @@ of the same host, which nothing else shows: peers/core.cpp. A turn waits for a c
 the core is shared at its end.
 """
 
+import math
 import os
 import subprocess
 import time
@@ -14,6 +15,7 @@ from programs import BUILD
 GAUGE = BUILD / "core"
 FREE = 0.85  # of the most additions that any core has done: a core that does fewer is shared
 WAIT = 3.0  # seconds that a turn waits for a core that is not
+STEADY = 1.1  # times the shortest multiplication: a longer one was interrupted, and makes a core look free
 MOST = 16  # cores that are tried
 TRIES = 3  # times that a turn is taken whose core is shared at its end
 
@@ -25,6 +27,7 @@ class Cores:
         """All that the system gives; it is not asked for one where it cannot be, or where there is no gauge."""
         self.own = os.sched_getaffinity(0) if hasattr(os, "sched_getaffinity") and GAUGE.is_file() else set()
         self.most = 0.0  # additions in the time of a multiplication
+        self.shortest = math.inf  # seconds of a multiplication
 
     def turn(self, take, count=1):
         """Take a turn on the cores that other programs leave most of.
@@ -62,7 +65,7 @@ class Cores:
         end = time.monotonic() + WAIT
         while True:
             found = self.gauges(self.own)
-            best = sorted(found, key=lambda core: additions(*found[core]), reverse=True)[:count]
+            best = sorted(found, key=lambda core: self.left(found[core]), reverse=True)[:count]
             chosen = {core: found[core] for core in best}
             if self.are_free(chosen) or time.monotonic() > end:
                 return chosen
@@ -70,12 +73,17 @@ class Cores:
     def gauges(self, cores):
         """What cores have for a program, as `turn` gives it."""
         found = {core: measured(core) for core in sorted(cores)[:MOST]}
-        self.most = max(self.most, *(additions(*each) for each in found.values()))
+        self.shortest = min(self.shortest, *(multiplication for _, multiplication in found.values()))
+        self.most = max(self.most, *map(self.left, found.values()))
         return found
+
+    def left(self, gauge):
+        """What other programs leave of a core, additions in the time of a multiplication; 0 if that is not known."""
+        return additions(*gauge) if gauge[1] <= STEADY * self.shortest else 0.0
 
     def are_free(self, found):
         """Whether other programs leave the cores of some gauges alone."""
-        return all(additions(*each) >= FREE * self.most for each in found.values())
+        return all(self.left(each) >= FREE * self.most for each in found.values())
 
 
 def measured(core):

@@ -138,10 +138,10 @@ def timed(several, records, levels, repeats):
 def costs(repeats):
     """Measure time against number of walls, number of levels, length and time step of the records."""
     records = dd.read_catalogue(CATALOGUE)
-    rows = []
+    rows, cores = [], Cores()
 
     def add(kind, size, walls_of, records_of, levels):
-        seconds = timed(walls_of, records_of, levels, repeats)
+        seconds, _ = cores.turn(partial(timed, walls_of, records_of, levels, repeats))
         rows.append(row(kind, size, len(walls_of) * len(records_of) * len(levels), seconds))
 
     for count in (1, 2, 4, 8):

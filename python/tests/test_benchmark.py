@@ -183,12 +183,17 @@ def test_report_of_the_executable(executable):
     assert "/" not in report.compiler
 
 
+def gauge(additions):
+    """What is measured of a core that does so many additions in the time of a multiplication."""
+    return 1.0 / additions, 1.0
+
+
 @pytest.fixture
 def two_cores(monkeypatch):
     """Two cores of which the additions are made up, one list a core, and where the process is moved to."""
     offered, moves = {0: [], 1: []}, []
     monkeypatch.setattr(cores, "GAUGE", Path(__file__))
-    monkeypatch.setattr(cores, "measured", lambda core: (1.0, offered[core].pop(0)))
+    monkeypatch.setattr(cores, "measured", lambda core: gauge(offered[core].pop(0)))
     monkeypatch.setattr(cores.os, "sched_getaffinity", lambda _: {0, 1}, raising=False)
     monkeypatch.setattr(cores.os, "sched_setaffinity", lambda _, where: moves.append(where), raising=False)
     return offered, moves
@@ -198,8 +203,8 @@ def test_a_turn_takes_the_core_that_is_left_alone(two_cores):
     offered, moves = two_cores
     own = cores.Cores()
     offered[0], offered[1] = [10.0, 9.5, 6.0], [6.0, 9.0, 9.2]
-    assert own.turn(lambda: moves[-1]) == ({0}, [(1.0, 10.0), (1.0, 9.5)])
-    assert own.turn(lambda: moves[-1]) == ({1}, [(1.0, 9.0), (1.0, 9.2)])
+    assert own.turn(lambda: moves[-1]) == ({0}, [gauge(10.0), gauge(9.5)])
+    assert own.turn(lambda: moves[-1]) == ({1}, [gauge(9.0), gauge(9.2)])
     assert moves == [{0}, {0, 1}, {1}, {0, 1}]
 
 
@@ -208,20 +213,30 @@ def test_a_turn_waits_for_a_core(two_cores, monkeypatch):
     own = cores.Cores()
     offered[0], offered[1] = [10.0, 10.0, 6.0, 9.0, 9.0], [6.0, 7.0, 6.0]
     own.turn(moves.copy)
-    assert own.turn(moves.copy)[1] == [(1.0, 9.0), (1.0, 9.0)]
+    assert own.turn(moves.copy)[1] == [gauge(9.0), gauge(9.0)]
     # Not for ever
     monkeypatch.setattr(cores, "WAIT", 0.0)
     offered[0], offered[1] = [6.0], [7.0, 9.0]
-    assert own.turn(lambda: moves[-1]) == ({1}, [(1.0, 7.0), (1.0, 9.0)])
+    assert own.turn(lambda: moves[-1]) == ({1}, [gauge(7.0), gauge(9.0)])
 
 
 def test_a_turn_is_taken_again_if_its_core_was_shared(two_cores):
     offered, _ = two_cores
     own, taken = cores.Cores(), iter(range(9))
     offered[0], offered[1] = [10.0, 6.0, 9.0, 9.0], [6.0, 6.0]
-    assert own.turn(lambda: next(taken)) == (1, [(1.0, 9.0), (1.0, 9.0)])
+    assert own.turn(lambda: next(taken)) == (1, [gauge(9.0), gauge(9.0)])
     offered[0], offered[1] = cores.TRIES * [10.0, 6.0], cores.TRIES * [6.0]
-    assert own.turn(lambda: next(taken)) == (1 + cores.TRIES, [(1.0, 10.0), (1.0, 6.0)])
+    assert own.turn(lambda: next(taken)) == (1 + cores.TRIES, [gauge(10.0), gauge(6.0)])
+
+
+def test_an_interrupted_gauge_does_not_make_a_core_free(two_cores, monkeypatch):
+    """A multiplication that takes twice as long leaves time for twice the additions."""
+    found = iter([gauge(10.0), gauge(6.0), gauge(10.0), (0.1, 2.0), gauge(9.0), gauge(9.1)])
+    monkeypatch.setattr(cores, "measured", lambda core: next(found))
+    own = cores.Cores()
+    own.turn(lambda: None)
+    assert own.turn(lambda: None)[1] == [gauge(9.0), gauge(9.1)]
+    assert own.most == 10.0
 
 
 def test_a_turn_of_threads_waits_for_all_cores(two_cores):
@@ -230,7 +245,7 @@ def test_a_turn_of_threads_waits_for_all_cores(two_cores):
     offered[0], offered[1] = [10.0, 10.0, 10.0], [6.0, 9.0, 9.0]
     found, gauges = own.turn(lambda: moves[-1], 2)
     assert found == {0, 1}
-    assert sorted(gauges) == [(1.0, 9.0), (1.0, 9.0), (1.0, 10.0), (1.0, 10.0)]
+    assert sorted(gauges, reverse=True) == [gauge(9.0), gauge(9.0), gauge(10.0), gauge(10.0)]
 
 
 def test_cores_without_a_gauge(two_cores, monkeypatch, tmp_path):
