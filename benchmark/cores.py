@@ -52,7 +52,8 @@ class Cores:
         try:
             for _ in range(TRIES):
                 chosen = self.choose(count)
-                os.sched_setaffinity(0, set(chosen) if count < len(self.own) else self.own)
+                # More cores than are tried: all of them
+                os.sched_setaffinity(0, set(chosen) if len(chosen) == count else self.own)
                 taken, after = take(), self.gauges(chosen)
                 if self.are_free(after):
                     break

@@ -248,6 +248,14 @@ def test_a_turn_of_threads_waits_for_all_cores(two_cores):
     assert sorted(gauges, reverse=True) == [gauge(9.0), gauge(9.0), gauge(10.0), gauge(10.0)]
 
 
+def test_a_turn_of_more_threads_than_cores_are_tried(two_cores, monkeypatch):
+    offered, moves = two_cores
+    monkeypatch.setattr(cores.os, "sched_getaffinity", lambda _: {0, 1, 2, 3})
+    monkeypatch.setattr(cores, "MOST", 2)
+    offered[0], offered[1] = [10.0, 10.0], [10.0, 10.0]
+    assert cores.Cores().turn(lambda: moves[-1], 3)[0] == {0, 1, 2, 3}
+
+
 def test_cores_without_a_gauge(two_cores, monkeypatch, tmp_path):
     monkeypatch.setattr(cores, "GAUGE", tmp_path / "core")
     assert cores.Cores().turn(lambda: "taken") == ("taken", [])

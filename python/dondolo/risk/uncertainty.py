@@ -127,8 +127,8 @@ class RiskUncertainty(Shown, Saved):
 
     def to_csv(self, path: str | os.PathLike[str], *, confidence: float = 0.95) -> None:
         """Write the same to a file, whose folder must exist."""
-        comments = [*tables.lines_of(self._facts()), f"confidence: {confidence:g}"]
-        tables.write_csv(path, self.table(confidence=confidence), comments)
+        table = self.table(confidence=confidence)
+        tables.write_csv(path, table, [*tables.lines_of(self._facts()), f"confidence: {confidence:g}"])
 
     def plot(self, ax: Axes | None = None, *, confidence: float = 0.95) -> Axes:
         """Draw the distribution for the mean hazard and for each fractile, with the intervals.
