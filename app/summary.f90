@@ -73,7 +73,7 @@ contains
          end if
       end select
       if (case%job%task /= 'typology') call print_restitution(case)
-      if (case%suite%has_vertical()) write (output_unit, '(a)') 'note: vertical ground motion is applied: the recorded '// &
+      if (case%suite%has_vertical) write (output_unit, '(a)') 'note: vertical ground motion is applied: the recorded '// &
          & 'components, scaled as their records'//trim(factor_note(case))
       on_floors = allocated(case%wall%building)
       if (allocated(case%facade)) on_floors = case%facade%gives(is_of_building)

@@ -50,6 +50,63 @@ def test_no_record_crosses_twice(few, replace_procedure):
     assert len(calls) == 1
 
 
+def test_walls_that_are_tried_alike_share_a_study(few, replace_procedure):
+    calls = []
+    new_study = _core.stripes.new_study
+    replace_procedure("stripes.new_study", lambda *given: calls.append(given) or new_study(*given))
+    one, two = dd.OneSidedWall(3.0, 0.25), dd.TwoBlockWall(3.0, 0.25)
+    first = dd.multiple_stripe(one, few, LEVELS, progress=False)
+    other = dd.multiple_stripe(two, few, LEVELS, progress=False)
+    assert len(calls) == 1
+    # Whatever else is asked for, results are those of records that were never used before.
+    ways = (
+        {"levels": [0.2, 0.7]},
+        {"im": "sa(0.5)"},
+        {"polarity": "both"},
+        {"solver": dd.Solver(engine="rk45")},
+        {"solver": dd.Solver(rtol=1e-9)},
+        {"estimate_error": True},
+        {"threads": 1},
+    )
+    for number, way in enumerate(ways, 2):
+        asked = {"levels": LEVELS, "progress": False} | way
+        fresh = [dd.Record(record.acceleration, record.dt, record.name) for record in few]
+        expected = dd.multiple_stripe(one, fresh, **asked)
+        assert np.array_equal(dd.multiple_stripe(one, few, **asked).edp, expected.edp)
+        assert len(calls) == 2 * number - 1
+    assert np.array_equal(dd.multiple_stripe(one, few, LEVELS, progress=False).edp, first.edp)
+    assert np.array_equal(dd.multiple_stripe(two, few, LEVELS, progress=False).edp, other.edp)
+
+
+def test_studies_that_are_not_kept(few, replace_procedure):
+    calls = []
+    new_study = _core.stripes.new_study
+    replace_procedure("stripes.new_study", lambda *given: calls.append(given) or new_study(*given))
+    wall, building = dd.OneSidedWall(3.0, 0.25), dd.Building(period=0.3, participation=1.3)
+    upstairs = dd.OneSidedWall(3.0, 0.25, building=building)
+    for _ in range(2):
+        # Records of each level, and motions of floors, which take much memory
+        dd.multiple_stripe(wall, {0.2: few[:1], 0.6: few}, progress=False)
+        dd.multiple_stripe(upstairs, few, LEVELS, progress=False)
+    assert len(calls) == 4
+
+
+def test_a_kept_study_is_freed_with_its_records(few):
+    records = [dd.Record(record.acceleration, record.dt, record.name) for record in few]
+    dd.multiple_stripe(dd.OneSidedWall(3.0, 0.25), records, LEVELS, progress=False)
+    suite = upload(tuple(records))
+    number, (_, study) = suite.number, suite.last_study
+    study = study.number
+    gc.disable()
+    try:
+        del records, suite, _
+        assert _core.records.measure_suite(number, b"pga", 1)[0] == 2
+    finally:
+        gc.enable()
+    walls = upload_walls((dd.OneSidedWall(3.0, 0.25),))
+    assert _core.stripes.plan(study, walls.number, 1)[-2] == 2
+
+
 def test_use_after_free(few):
     suite, walls = upload(tuple(few)).number, upload_walls((dd.OneSidedWall(3.0, 0.25),))
     handle, *_ = _core.records.new_suite(b"a", [2], [0.1], [1.0, 2.0], [0], [0.0], 1)

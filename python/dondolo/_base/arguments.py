@@ -27,9 +27,9 @@ def as_number(name: str, value: Any) -> float:
 
 def as_count(name: str, value: Any, least: int, most: int | None = None) -> int:
     """Turn what a user gives for a whole number into one."""
-    allowed = f"at least {least}" if most is None else f"between {least} and {most}"
     whole = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
     if not whole or value < least or (most is not None and value > most):
+        allowed = f"at least {least}" if most is None else f"between {least} and {most}"
         raise InputError(f"{name} = {value!r}: must be an integer, {allowed}")
     return int(value)
 

@@ -131,7 +131,7 @@ contains
       if (.not. allocated(error)) call find_suite(suite, records, error)
       if (.not. allocated(error)) call check_solver(solver, error)
       if (.not. allocated(error)) call check_limit(solver, people(1)%mechanism, error)
-      if (.not. allocated(error)) call check_engine(solver, people(1)%mechanism, error, records%has_vertical())
+      if (.not. allocated(error)) call check_engine(solver, people(1)%mechanism, error, records%has_vertical)
       do i = 1, k
          if (allocated(error)) exit
          call check_scale(records, record(i), scale(i), error)

@@ -140,14 +140,15 @@ contains
    end subroutine work_alone
 
    !> Contents of a parcel that another procedure has sent
-   subroutine take_parcel(handle, m, n, k, integers, reals, characters)
+   subroutine take_parcel(handle, m, n, k, integers, reals, text)
       !f2py threadsafe
       integer(c_intptr_t), intent(in) :: handle
       integer(c_int), intent(in) :: m, n, k
-      integer(c_int), intent(out) :: integers(m), characters(k)
+      ! Bytes, four in a number
+      integer(c_int), intent(out) :: integers(m), text((k + 3)/4)
       real(c_double), intent(out) :: reals(n)
 
-      call take(handle, integers, reals, characters)
+      call take(handle, integers, reals, text)
    end subroutine take_parcel
 
    !> The next series of a parcel whose other contents have been taken

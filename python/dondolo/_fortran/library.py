@@ -232,9 +232,10 @@ def as_text(name: str, value: Any) -> bytes:
 def receive(sent: NDArray[np.int64], stat: int, message: bytes) -> Parcel:
     """Take the parcel that a procedure has sent: its address and sizes."""
     check(stat, message)
-    integers, reals, characters = _core.library.take_parcel(*sent)
-    text = characters.astype(np.uint8).tobytes().decode("utf-8", "replace")
-    return Parcel(integers, reals, text.split("\n")[:-1], int(sent[0]))
+    address, *sizes = sent.tolist()
+    integers, reals, words = _core.library.take_parcel(address, *sizes)
+    text = words.tobytes()[: sizes[-1]].decode("utf-8", "replace")
+    return Parcel(integers, reals, text.split("\n")[:-1], address)
 
 
 def unpack_warning(data: dict[str, Any]) -> DondoloWarning:

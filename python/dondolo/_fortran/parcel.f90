@@ -131,35 +131,36 @@ contains
    end subroutine send
 
    !> Take what a parcel holds but its series, and free it if it has none
-   subroutine take(handle, integers, reals, characters)
+   subroutine take(handle, integers, reals, text)
       !> Its address, which is valid once, and for each series once more; 0: nothing was sent
       integer(c_intptr_t), intent(in) :: handle
       !> Its integers
       integer(c_int), intent(out) :: integers(:)
       !> Its reals
       real(c_double), intent(out) :: reals(:)
-      !> Codes of the characters of its lines (bytes), each line ended by new_line
-      integer(c_int), intent(out) :: characters(:)
+      !> The bytes of its lines, each line ended by new_line; the last number is filled up
+      integer(c_int), intent(out) :: text(:)
 
       type(parcel_type), pointer :: content
       type(c_ptr) :: address
-      integer :: i, k, at
+      character(len=:), allocatable :: characters
+      integer :: i, at
 
       if (handle == 0) return
       address = transfer(handle, address)
       call c_f_pointer(address, content)
       integers = content%integers
       reals = content%reals
+      allocate (character(len=size(text)*(storage_size(text)/storage_size('a'))) :: characters)
       at = 0
       do i = 1, content%lines%count
          associate (line => content%lines%line(i))
-            do k = 1, len(line%text)
-               characters(at + k) = ichar(line%text(k:k))
-            end do
+            characters(at + 1:at + len(line%text)) = line%text
             at = at + len(line%text) + 1
+            characters(at:at) = new_line('a')
          end associate
-         characters(at) = ichar(new_line('a'))
       end do
+      text = transfer(characters, text)
       if (content%given == 0) deallocate (content)
    end subroutine take
 

@@ -55,8 +55,13 @@ contains
          held%suite = suite
          call make_study(held%study, records, scaling, levels, polarity, as_solver(engine, settings), threads)
          held%study%floors => held%floors
-         content => held
-         call hold(content, handle)
+         call held%study%check_once(error)
+         if (allocated(error)) then
+            deallocate (held)
+         else
+            content => held
+            call hold(content, handle)
+         end if
       end if
       call report(error, stat, message)
    end subroutine new_study
@@ -111,7 +116,7 @@ contains
    end subroutine runs_of_records
 
    !> Check what stripes of walls would be, without running them. The parcel's integers are the histories of each wall in a
-   !> stripe in which every record runs; then of those of the last wall the record (from 1) and the polarity of each, and,
+   !> stripe in which every record runs; then of those of the last wall the record (from 0) and the polarity of each, and,
    !> unless all run at every level, stripe by stripe 1 where it runs, else 0. Its reals are their scales, stripe by stripe,
    !> its lines the warnings
    subroutine plan(study, walls, w, sent, stat, message)
@@ -156,9 +161,12 @@ contains
          call oddities%warn(warnings)
          call warn_of_records(chosen%suite, people(1)%gravity, warnings)
          call scales%warn(warnings)
-         parcel%integers = [histories, stripes%record, stripes%polarity]
+         parcel%integers = [histories, stripes%record - 1, stripes%polarity]
          if (allocated(chosen%factor)) call parcel%add([merge(1, 0, stripes%ran)])
-         parcel%reals = [stripes%scale]
+         allocate (parcel%reals(size(stripes%scale)))
+         do i = 1, size(stripes%scale, 2)
+            parcel%reals((i - 1)*size(stripes%scale, 1) + 1:i*size(stripes%scale, 1)) = stripes%scale(:, i)
+         end do
          call warning_objects(warnings, parcel%lines)
       end if
       call send(parcel, error, sent, stat, message)

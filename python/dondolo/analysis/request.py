@@ -92,6 +92,14 @@ class Outcome(NamedTuple):
     done: int
 
 
+@functools.lru_cache(maxsize=1)
+def _all_run(levels: int, histories: int) -> np.ndarray[Any, np.dtype[np.bool_]]:
+    """What stripes have for which of their histories run where all do."""
+    ran = np.ones((levels, histories), dtype=np.bool_)
+    ran.flags.writeable = False
+    return ran
+
+
 @dataclass(frozen=True)
 class Request:
     """Stripes of some walls, as asked for; it can be sent to another process.
@@ -118,14 +126,23 @@ class Request:
     def _study(self) -> Handle:
         """Records, levels and settings in Fortran."""
         suite = self._suite
-        words = [as_text(what, getattr(self, what)) for what in ("im", "polarity", "engine")]
+        im, polarity, engine = (as_text(what, getattr(self, what)) for what in ("im", "polarity", "engine"))
+        # Walls one after the other are tried alike. Motions of floors belong to a study, and would stay with it.
+        is_kept = self.rows is None and len(self.walls) == 1 and self.walls[0].building is None
+        key = (im, polarity, engine, self.threads, self.levels.tobytes(), self.settings.tobytes())
+        last = suite.last_study
+        if is_kept and last is not None and last[0] == key:
+            return last[1]
         if self.im:
             suite.measure(self.im, self.threads)
         number, stat, message = _core.stripes.new_study(
-            suite.number, words[0], self.levels, *words[1:], self.settings, self.threads
+            suite.number, im, self.levels, polarity, engine, self.settings, self.threads
         )
         check(stat, message)
-        study = Handle(number, suite)
+        # A suite keeps a study, which must not keep the suite: a ring would be freed late.
+        study = Handle(number, None if is_kept else suite)
+        if is_kept:
+            suite.last_study = key, study
         if self.rows is not None:
             check(*_core.stripes.choose_records(number, *self.rows))
         return study
@@ -165,9 +182,8 @@ class Request:
         # Histories of each wall; of the last, record and polarity of each, and which run at each level if not all do
         scale = parcel.reals.reshape(levels, -1)
         histories, rest = parcel.integers[:walls], parcel.integers[walls:].reshape(-1, scale.shape[1])
-        record, polarity = rest[0] - 1, rest[1]
-        ran = np.ones(scale.shape, dtype=np.bool_) if self.rows is None else rest[2:] == 1
-        return Plan(histories, record, polarity, scale, ran, unpack_warnings(parcel.lines))
+        ran = _all_run(*scale.shape) if self.rows is None else rest[2:] == 1
+        return Plan(histories, rest[0], rest[1], scale, ran, unpack_warnings(parcel.lines))
 
     def totals(self, histories: IntArray) -> list[int]:
         """Histories of each wall in all stripes."""

@@ -204,7 +204,7 @@ def _stripes(request: Request, plan: Plan, outcome: Outcome, complete: int) -> S
         levels=levels,
         scale=scale,
         ran=ran,
-        record_names=tuple(map(facts.names.__getitem__, plan.record.tolist())),
+        record_names=facts.names * (len(plan.record) // len(facts.names)),
         polarity=plan.polarity,
         engine=request.engine,
         rtol=rtol,

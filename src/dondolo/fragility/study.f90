@@ -53,7 +53,11 @@ module dondolo_study
       logical :: keeps_histories = .false.
       !> Number of threads; 0: all that OpenMP gives
       integer :: threads = 0
+      !> Have levels, polarity and solver been checked?
+      logical, private :: is_checked = .false.
    contains
+      !> Check levels, polarity and solver once, whatever the walls
+      procedure :: check_once
       !> Check that a wall can be tried
       procedure :: check
       !> Choose the records of each level
@@ -95,6 +99,31 @@ contains
       study%thresholds = [solver%edp_limit]
    end subroutine new_study
 
+   !> Check levels, polarity and solver once, whatever the walls; they must not change afterwards
+   subroutine check_once(self, error)
+      class(study_type), intent(inout) :: self
+      !> `variable = value: what is allowed`
+      type(error_type), allocatable, intent(out) :: error
+
+      call check_settings(self, error)
+      self%is_checked = .not. allocated(error)
+   end subroutine check_once
+
+   !> Check levels, polarity and solver
+   subroutine check_settings(study, error)
+      class(study_type), intent(in) :: study
+      !> `variable = value: what is allowed`
+      type(error_type), allocatable, intent(out) :: error
+
+      call check_levels(study%levels, error)
+      if (allocated(error)) return
+      if (.not. any(study%polarity == polarity_names)) then
+         call raise_input(error, 'polarity = '''//study%polarity//''': must be one of '//join(polarity_names))
+         return
+      end if
+      call check_solver(study%solver, error)
+   end subroutine check_settings
+
    !> Check that a wall can be tried: levels, polarity, whether the solver can follow it, and the motions of its floor
    subroutine check(self, wall, error)
       class(study_type), intent(in) :: self
@@ -102,16 +131,10 @@ contains
       !> `variable = value: what is allowed`
       type(error_type), allocatable, intent(out) :: error
 
-      call check_levels(self%levels, error)
-      if (allocated(error)) return
-      if (.not. any(self%polarity == polarity_names)) then
-         call raise_input(error, 'polarity = '''//self%polarity//''': must be one of '//join(polarity_names))
-         return
-      end if
-      call check_solver(self%solver, error)
+      if (.not. self%is_checked) call check_settings(self, error)
       if (.not. allocated(error)) call check_limit(self%solver, wall%mechanism, error)
       if (.not. allocated(error)) call check_engine(self%solver, wall%mechanism, error, &
-         & self%suite%has_vertical())
+         & self%suite%has_vertical)
       if (self%solver%certify .and. .not. allocated(error)) call check_certificates(wall, error)
       if (.not. allocated(error) .and. allocated(wall%building)) call check_floor(wall%building, self%suite, error)
    end subroutine check

@@ -96,7 +96,7 @@ contains
 
       variant = build_variant()
       since = watched()
-      if (solver%engine /= 'rk45') constants = new_lane_constants(mechanism, solver, suite%has_vertical())
+      if (solver%engine /= 'rk45') constants = new_lane_constants(mechanism, solver, suite%has_vertical)
       if (.not. constants%form%exists) rest = new_rest(mechanism)
       !$omp parallel num_threads(team_of(threads, size(queue%record))) default(none) private(own, number) &
       !$omp & shared(variant, constants, rest, mechanism, suite, solver, queue, work, since)

@@ -79,7 +79,7 @@ contains
       call check_interrupt(error)
       if (allocated(error) .or. .not. present(trace)) return
       ! Once more, row by row: the loop over lanes knows nothing of rows, nor does it pay for them.
-      if (solver%engine /= 'rk45') constants = new_lane_constants(mechanism, solver, suite%has_vertical())
+      if (solver%engine /= 'rk45') constants = new_lane_constants(mechanism, solver, suite%has_vertical)
       if (constants%form%exists) then
          call trace_variant(mechanism, constants, record, scale, trace)
          if (.not. allocated(trace%ties)) allocate (trace%ties(0))

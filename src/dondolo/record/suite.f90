@@ -33,6 +33,8 @@ module dondolo_suite
    type :: suite_type
       !> The accelerograms
       type(record_type), allocatable :: records(:)
+      !> Has any of them a vertical component?
+      logical :: has_vertical = .false.
       !> The same, joined
       type(record_set_type) :: set
       !> Their PGA [m/s2]
@@ -51,8 +53,6 @@ module dondolo_suite
       procedure :: measure
       !> Values of a measure
       procedure :: values
-      !> Whether a record has a vertical component
-      procedure :: has_vertical
    end type suite_type
 
 contains
@@ -70,6 +70,9 @@ contains
       team = 1
       if (present(threads)) team = threads
       call move_alloc(records, suite%records)
+      do i = 1, size(suite%records)
+         suite%has_vertical = suite%has_vertical .or. allocated(suite%records(i)%vertical)
+      end do
       call new_record_set(suite%set, suite%records, threads)
       suite%peaks = suite%records%pga()
       suite%falls = suite%records%largest_fall()
@@ -125,18 +128,6 @@ contains
          values = computed(self%records, im, threads)
       end if
    end function values
-
-   !> Whether a record has a vertical component
-   pure logical function has_vertical(self)
-      class(suite_type), intent(in) :: self
-
-      integer :: i
-
-      has_vertical = .false.
-      do i = 1, size(self%records)
-         has_vertical = has_vertical .or. allocated(self%records(i)%vertical)
-      end do
-   end function has_vertical
 
    !> Place of a measure among those that are kept; 0: it is not there
    integer function place_of(suite, im) result(place)

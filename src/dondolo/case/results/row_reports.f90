@@ -154,7 +154,7 @@ contains
    pure logical function tells_uplift(case)
       type(case_type), intent(in) :: case
 
-      tells_uplift = case%job%task == 'stripes' .and. case%suite%has_vertical()
+      tells_uplift = case%job%task == 'stripes' .and. case%suite%has_vertical
    end function tells_uplift
 
    !> How many values each property of the walls has at most

@@ -179,7 +179,7 @@ contains
          call move_alloc(stripes%certified, results%row%certified)
       end if
       call tally_ties(case%wall%mechanism, stripes%response, stripes%ran, results%row%tallies)
-      if (case%suite%has_vertical()) then
+      if (case%suite%has_vertical) then
          call find_lifts(stripes, case%suite%falls, case%wall%gravity, lifts)
          results%row%uplift = count(lifts, dim=1)
       end if

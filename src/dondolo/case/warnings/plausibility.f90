@@ -1,8 +1,7 @@
 !> Values of walls that no masonry has, or that do not go together: correct input, but most likely a slip.
 module dondolo_plausibility
    use dondolo_kinds, only : wp
-   use dondolo_lines, only : line_type
-   use dondolo_property, only : no_limit, property_type
+   use dondolo_property, only : property_type
    use dondolo_rigid_body, only : same
    use dondolo_wall, only : wall_type
    use dondolo_wall_properties, only : gravity_property, wall_properties
@@ -20,17 +19,23 @@ module dondolo_plausibility
       & together_codes(3) = [character(len=24) :: 'height_below_thickness', 'load_place_without_load', &
       & 'overlap_above_thickness']
 
-   !> What there is to say of the values of walls: of those that are less than usual (1), and more (2); and of walls that
-   !> are thicker than high (1), of the place of a load without a load (2), and of stones that overlap by more than the wall
-   !> is thick (3)
+   !> Walls of which there is something to say
+   type :: odd_walls_type
+      !> How many there are
+      integer :: number = 0
+      !> Name and value of the first of them
+      character(len=:), allocatable :: name
+      real(wp) :: value = 0.0_wp
+   end type odd_walls_type
+
+   !> What there is to say of the values of walls
    type :: wall_warning_type
       !> Walls looked at
       integer :: walls = 0
-      !> Walls outside the usual range of each property
-      integer :: number(size(together_codes), together) = 0
-      !> Name and value of the first of them
-      type(line_type) :: first(size(together_codes), together)
-      real(wp) :: value(size(together_codes), together) = 0.0_wp
+      !> Those with values of each property that are less than usual (1), and more (2); and behind the properties those that
+      !> are thicker than high (1), that have the place of a load without a load (2), and stones that overlap by more than
+      !> the wall is thick (3). Not allocated: there is nothing to say
+      type(odd_walls_type), allocatable :: odd(:, :)
    contains
       !> Look at a wall
       procedure :: look
@@ -52,10 +57,10 @@ contains
 
       self%walls = self%walls + 1
       do i = 1, size(wall_properties)
+         ! No overburden is no mistake: the least positive value
+         call wall%input%find_range(i, low, high)
+         if (.not. high > 0.0_wp) cycle
          associate (property => wall_properties(i))
-            if (.not. (property%usual_least > 0.0_wp .or. property%usual_most < no_limit)) cycle
-            ! No overburden is no mistake: the least positive value
-            call wall%input%find_range(i, low, high)
             call note(self, wall, i, [low < property%usual_least], low)
             call note(self, wall, i, [.false., high > property%usual_most], high)
          end associate
@@ -95,10 +100,13 @@ contains
 
       do k = 1, size(outside)
          if (.not. outside(k)) cycle
-         self%number(k, i) = self%number(k, i) + 1
-         if (self%number(k, i) > 1) cycle
-         self%first(k, i)%text = wall%name()
-         self%value(k, i) = value
+         if (.not. allocated(self%odd)) allocate (self%odd(size(together_codes), together))
+         associate (odd => self%odd(k, i))
+            odd%number = odd%number + 1
+            if (odd%number > 1) cycle
+            odd%name = wall%name()
+            odd%value = value
+         end associate
       end do
    end subroutine note
 
@@ -113,21 +121,22 @@ contains
       type(property_type) :: property
       integer :: i, k
 
+      if (.not. allocated(self%odd)) return
       do i = 1, together
          do k = 1, size(together_codes)
-            if (self%number(k, i) == 0) cycle
+            if (self%odd(k, i)%number == 0) cycle
             warning = warning_type(together_codes(k))
             if (i < together) warning%code = beyond_codes(k)
-            call warning%about('wall', self%first(k, i)%text)
+            call warning%about('wall', self%odd(k, i)%name)
             if (i < together) then
                property = gravity_property
                if (i < gravity) property = wall_properties(i)
                call warning%about('variable', trim(property%name))
                call warning%about('unit', trim(property%unit))
-               call warning%with('value', self%value(k, i))
+               call warning%with('value', self%odd(k, i)%value)
                call warning%with('limit', merge(property%usual_least, property%usual_most, k == 1))
             end if
-            call warning%with('walls_beyond', self%number(k, i))
+            call warning%with('walls_beyond', self%odd(k, i)%number)
             call warning%with('walls', self%walls)
             call warnings%add(warning)
          end do
