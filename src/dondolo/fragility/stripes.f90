@@ -81,7 +81,6 @@ contains
       !> What cannot be run: `variable = value: what is allowed`; or lack of memory
       type(error_type), allocatable, intent(out) :: error
 
-      real(wp), allocatable :: scales(:, :)
       integer :: i, j
 
       call study%check(wall, error)
@@ -93,10 +92,11 @@ contains
          call check_room(merge(bytes_of_three_runs, bytes_of_history, study%solver%estimate_error) &
             & *real(histories, wp)*real(levels, wp), error)
          if (allocated(error)) return
-         scales = study%scales(wall)
-         call study%check_scales(scales, error)
-         if (allocated(error)) return
-         stripes%scale = scales(stripes%record, :)
+         associate (scales => study%scales(wall))
+            call study%check_scales(scales, error)
+            if (allocated(error)) return
+            stripes%scale = scales(stripes%record, :)
+         end associate
          allocate (stripes%ran(histories, levels))
          do j = 1, levels
             do i = 1, histories

@@ -5,8 +5,8 @@
 module dondolo_wall_properties
    use dondolo_building, only : building_rows
    use dondolo_kinds, only : wp
-   use dondolo_property, only : blank, choices_length, find_property, is_integer, is_list, is_text, is_words, most_choices, &
-      & property_type
+   use dondolo_property, only : blank, choices_length, find_name, find_property, is_integer, is_list, is_text, is_words, &
+      & most_choices, property_type
    use dondolo_restitution, only : restitution_models
    use dondolo_settings, only : settings_type
    implicit none
@@ -228,6 +228,9 @@ module dondolo_wall_properties
    !> The same where pointers can point
    type(property_type), target, protected :: wall_properties(size(rows)) = rows
 
+   !> Their names, close together: they are looked for all the time
+   character(len=len(rows%name)), parameter :: names(size(rows)) = rows%name
+
    !> How many of them are of the wall itself: those that stand before the others
    integer, parameter :: own_properties = size(own_rows)
 
@@ -288,7 +291,7 @@ contains
 
       associate (of => self)
       end associate
-      find = find_property(wall_properties, name)
+      find = find_name(names, name)
    end function find
 
 end module dondolo_wall_properties

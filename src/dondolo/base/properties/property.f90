@@ -9,7 +9,7 @@ module dondolo_property
    implicit none
    private
 
-   public :: property_type, find_property, has_owner, number_of_choices, check_number, check_word
+   public :: property_type, find_name, find_property, has_owner, number_of_choices, check_number, check_word
    public :: column_name, default_text, describe_property
    public :: is_many, item_name, find_item, number_of_words, word_of
    public :: is_real, is_integer, is_text, is_logical, is_list, is_number_or_name, is_words
@@ -94,12 +94,21 @@ contains
       !> Name in lower case, not empty
       character(len=*), intent(in) :: name
 
-      do find_property = size(table), 1, -1
-         ! The first letter tells most names apart, many times quicker than the whole
-         if (table(find_property)%name(1:1) /= name(1:1)) cycle
-         if (table(find_property)%name == name) return
-      end do
+      find_property = find_name(table%name, name)
    end function find_property
+
+   !> Place of a name among those of a table, 0 if it is none of them
+   pure integer function find_name(names, name)
+      character(len=*), intent(in) :: names(:)
+      !> Name in lower case, not empty
+      character(len=*), intent(in) :: name
+
+      do find_name = size(names), 1, -1
+         ! The first letter tells most names apart, many times quicker than the whole
+         if (names(find_name)(1:1) /= name(1:1)) cycle
+         if (names(find_name) == name) return
+      end do
+   end function find_name
 
    !> Does a mechanism or a task have a property?
    pure logical function has_owner(property, owner)

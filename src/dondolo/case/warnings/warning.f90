@@ -123,7 +123,7 @@ contains
 
       type(warning_type), allocatable :: more(:)
 
-      if (.not. allocated(self%item)) allocate (self%item(8))
+      if (.not. allocated(self%item)) allocate (self%item(1))
       if (self%count == size(self%item)) then
          allocate (more(2*self%count))
          more(:self%count) = self%item
