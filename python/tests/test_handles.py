@@ -5,6 +5,7 @@ import os
 import pickle
 import sys
 import threading
+import warnings
 
 import numpy as np
 import pytest
@@ -54,8 +55,14 @@ def test_walls_that_are_tried_alike_share_a_study(few, replace_procedure):
     calls = []
     new_study = _core.stripes.new_study
     replace_procedure("stripes.new_study", lambda *given: calls.append(given) or new_study(*given))
+    plans, plan = [], _core.stripes.plan
+    replace_procedure("stripes.plan", lambda *given: plans.append(given) or plan(*given))
     one, two = dd.OneSidedWall(3.0, 0.25), dd.TwoBlockWall(3.0, 0.25)
     first = dd.multiple_stripe(one, few, LEVELS, progress=False)
+    second = dd.multiple_stripe(dd.OneSidedWall(4.0, 0.25), few, LEVELS, progress=False)
+    assert len(calls) == len(plans) == 1
+    assert second.scale.base is first.scale.base
+    assert not any(stripes.scale.base.flags.writeable for stripes in (first, second))
     other = dd.multiple_stripe(two, few, LEVELS, progress=False)
     assert len(calls) == 1
     # Whatever else is asked for, results are those of records that were never used before.
@@ -76,6 +83,42 @@ def test_walls_that_are_tried_alike_share_a_study(few, replace_procedure):
         assert len(calls) == 2 * number - 1
     assert np.array_equal(dd.multiple_stripe(one, few, LEVELS, progress=False).edp, first.edp)
     assert np.array_equal(dd.multiple_stripe(two, few, LEVELS, progress=False).edp, other.edp)
+
+
+def test_walls_that_share_a_plan_have_warnings_of_their_own(few, replace_procedure):
+    plans, plan = [], _core.stripes.plan
+    replace_procedure("stripes.plan", lambda *given: plans.append(given) or plan(*given))
+    levels = [0.2, 8.0]
+    walls = {
+        "usual": dd.OneSidedWall(3.0, 0.25, name="usual"),
+        "in cm": dd.OneSidedWall(300.0, 25.0, name="in cm"),
+        "on the moon": dd.OneSidedWall(3.0, 0.25, name="on the moon", gravity=1.62),
+        "two blocks": dd.TwoBlockWall(3.0, 0.25, name="two blocks"),
+    }
+    found = {}
+    for again in (False, True):
+        for name, wall in walls.items():
+            records = few if again else [dd.Record(one.acceleration, one.dt, one.name) for one in few]
+            with pytest.warns(dd.DondoloWarning) as caught:
+                stripes = dd.multiple_stripe(wall, records, levels, progress=False)
+            told = [str(one.message) for one in caught], stripes.scale.tolist(), stripes.collapsed.tolist()
+            assert found.setdefault(name, told) == told
+    # The first of them is planned for the second too, the others differ in gravity or sides.
+    assert len(plans) == len(walls) + len(walls) - 1
+    # Factors of this measure depend on the wall.
+    del plans[:]
+    for wall in (walls["usual"], dd.OneSidedWall(3.0, 0.5), walls["usual"]):
+        scaled = dd.multiple_stripe(wall, few, [1.0, 1.5], im="pga/a0", progress=False)
+        expected = wall.trigger_acceleration / np.array([record.peak_acceleration for record in few])
+        np.testing.assert_allclose(scaled.scale[0], expected, rtol=1e-12)
+    assert len(plans) == 3
+    # One that is raised is not the one that the next caller gets.
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for _ in range(2):
+            with pytest.raises(dd.DondoloWarning) as raised:
+                dd.multiple_stripe(walls["usual"], few, levels, progress=False)
+            assert len(raised.traceback) < 10
 
 
 def test_studies_that_are_not_kept(few, replace_procedure):

@@ -107,6 +107,9 @@ class Parcel(NamedTuple):
         return values
 
 
+_NOTHING = Parcel(np.empty(0, dtype=np.int32), np.empty(0), [], 0)
+
+
 @functools.cache
 def constants() -> Constants:
     """Ask Fortran for its version, defaults and the names of its statuses."""
@@ -233,6 +236,8 @@ def receive(sent: NDArray[np.int64], stat: int, message: bytes) -> Parcel:
     """Take the parcel that a procedure has sent: its address and sizes."""
     check(stat, message)
     address, *sizes = sent.tolist()
+    if not address:
+        return _NOTHING
     integers, reals, words = _core.library.take_parcel(address, *sizes)
     text = words.tobytes()[: sizes[-1]].decode("utf-8", "replace")
     return Parcel(integers, reals, text.split("\n")[:-1], address)

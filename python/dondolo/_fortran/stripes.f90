@@ -24,7 +24,7 @@ module stripes
    implicit none
    private
 
-   public :: new_study, choose_records, runs_of_records, plan, run_block
+   public :: new_study, choose_records, runs_of_records, plan, check_wall, run_block
 
 contains
 
@@ -115,10 +115,11 @@ contains
       call report(error, stat, message)
    end subroutine runs_of_records
 
-   !> Check what stripes of walls would be, without running them. The parcel's integers are the histories of each wall in a
-   !> stripe in which every record runs; then of those of the last wall the record (from 0) and the polarity of each, and,
-   !> unless all run at every level, stripe by stripe 1 where it runs, else 0. Its reals are their scales, stripe by stripe,
-   !> its lines the warnings
+   !> Check what stripes of walls would be, without running them. The parcel's integers are 1 if walls of the same gravity
+   !> and number of sides have the same plan, else 0, and how many warnings are of the walls alone; the histories of each
+   !> wall in a stripe in which every record runs; then of those of the last wall the record (from 0) and the polarity of
+   !> each, and, unless all run at every level, stripe by stripe 1 where it runs, else 0. Its reals are their scales, stripe
+   !> by stripe, its lines the warnings, those of the walls first
    subroutine plan(study, walls, w, sent, stat, message)
       integer(c_int64_t), intent(in) :: study, walls
       integer(c_int), intent(in) :: w
@@ -133,7 +134,7 @@ contains
       type(warnings_type) :: warnings
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
-      integer :: histories(w), i
+      integer :: histories(w), i, of_walls
       logical :: fresh
 
       call find_study(study, chosen, error)
@@ -159,9 +160,10 @@ contains
       end do
       if (.not. allocated(error)) then
          call oddities%warn(warnings)
+         of_walls = warnings%count
          call warn_of_records(chosen%suite, people(1)%gravity, warnings)
          call scales%warn(warnings)
-         parcel%integers = [histories, stripes%record - 1, stripes%polarity]
+         parcel%integers = [merge(0, 1, chosen%scaling%needs_wall()), of_walls, histories, stripes%record - 1, stripes%polarity]
          if (allocated(chosen%factor)) call parcel%add([merge(1, 0, stripes%ran)])
          allocate (parcel%reals(size(stripes%scale)))
          do i = 1, size(stripes%scale, 2)
@@ -171,6 +173,30 @@ contains
       end if
       call send(parcel, error, sent, stat, message)
    end subroutine plan
+
+   !> Check a wall whose plan is known from another wall; the parcel's lines are the warnings of the wall alone
+   subroutine check_wall(study, walls, sent, stat, message)
+      integer(c_int64_t), intent(in) :: study, walls
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(study_type), pointer :: chosen
+      type(wall_type), pointer :: people(:)
+      type(wall_warning_type) :: oddities
+      type(warnings_type) :: warnings
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+
+      call find_study(study, chosen, error)
+      if (.not. allocated(error)) call find_walls(walls, people, error)
+      if (.not. allocated(error)) call chosen%check(people(1), error)
+      if (.not. allocated(error)) then
+         call oddities%look(people(1))
+         call oddities%warn(warnings)
+         call warning_objects(warnings, parcel%lines)
+      end if
+      call send(parcel, error, sent, stat, message)
+   end subroutine check_wall
 
    !> Run `count` histories of walls `one` to `last`, which plan has checked, from number `first` of wall `one` on; they are
    !> numbered wall by wall and stripe by stripe. Counts of what was computed come in the order of work_names

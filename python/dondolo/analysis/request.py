@@ -100,6 +100,22 @@ def _all_run(levels: int, histories: int) -> np.ndarray[Any, np.dtype[np.bool_]]
     return ran
 
 
+class Study(Handle):
+    """Records, levels and settings in Fortran.
+
+    Attributes
+    ----------
+    shared : tuple or None
+        Gravity and sides of the walls that have the same plan, and the plan, without the warnings of a wall alone.
+    """
+
+    __slots__ = ("shared",)
+
+    def __init__(self, number: int, needs: Handle | None = None) -> None:
+        super().__init__(number, needs)
+        self.shared: tuple[tuple[float, bool], Plan] | None = None
+
+
 @dataclass(frozen=True)
 class Request:
     """Stripes of some walls, as asked for; it can be sent to another process.
@@ -123,7 +139,7 @@ class Request:
         return upload_records(self.records, self.threads)
 
     @functools.cached_property
-    def _study(self) -> Handle:
+    def _study(self) -> Study:
         """Records, levels and settings in Fortran."""
         suite = self._suite
         im, polarity, engine = (as_text(what, getattr(self, what)) for what in ("im", "polarity", "engine"))
@@ -132,7 +148,7 @@ class Request:
         key = (im, polarity, engine, self.threads, self.levels.tobytes(), self.settings.tobytes())
         last = suite.last_study
         if is_kept and last is not None and last[0] == key:
-            return last[1]
+            return last[1]  # type: ignore[no-any-return]
         if self.im:
             suite.measure(self.im, self.threads)
         number, stat, message = _core.stripes.new_study(
@@ -140,7 +156,7 @@ class Request:
         )
         check(stat, message)
         # A suite keeps a study, which must not keep the suite: a ring would be freed late.
-        study = Handle(number, None if is_kept else suite)
+        study = Study(number, None if is_kept else suite)
         if is_kept:
             suite.last_study = key, study
         if self.rows is not None:
@@ -177,13 +193,27 @@ class Request:
 
     def plan(self) -> Plan:
         """Check everything; nothing is run."""
+        study, people, wall = self._study, self._people, self.walls[0]
+        like, shared = (wall.gravity, wall.two_sided), study.shared
+        if len(self.walls) == 1 and shared is not None and shared[0] == like:
+            of_wall = unpack_warnings(receive(*_core.stripes.check_wall(study.number, people.number)).lines)
+            plan = shared[1]
+            # A warning of its own for each caller, who may raise it
+            return plan._replace(warnings=of_wall + [one.placed("") for one in plan.warnings])
         walls, levels = len(self.walls), len(self.levels)
-        parcel = receive(*_core.stripes.plan(self._study.number, self._people.number, walls))
+        parcel = receive(*_core.stripes.plan(study.number, people.number, walls))
+        # Results may share it, and nobody changes it.
+        parcel.integers.flags.writeable = parcel.reals.flags.writeable = False
         # Histories of each wall; of the last, record and polarity of each, and which run at each level if not all do
+        (is_shared, of_walls), integers = parcel.integers[:2].tolist(), parcel.integers[2:]
         scale = parcel.reals.reshape(levels, -1)
-        histories, rest = parcel.integers[:walls], parcel.integers[walls:].reshape(-1, scale.shape[1])
+        histories, rest = integers[:walls], integers[walls:].reshape(-1, scale.shape[1])
         ran = _all_run(*scale.shape) if self.rows is None else rest[2:] == 1
-        return Plan(histories, rest[0], rest[1], scale, ran, unpack_warnings(parcel.lines))
+        found = unpack_warnings(parcel.lines)
+        plan = Plan(histories, rest[0], rest[1], scale, ran, found)
+        if is_shared and walls == 1 and self.rows is None:
+            study.shared = like, plan._replace(warnings=[one.placed("") for one in found[of_walls:]])
+        return plan
 
     def totals(self, histories: IntArray) -> list[int]:
         """Histories of each wall in all stripes."""

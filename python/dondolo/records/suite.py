@@ -95,7 +95,7 @@ class Suite(Handle):
         self._members = tuple(map(weakref.ref, records))
         self._facts: Facts | None = None
         self._measured: set[str] = set()
-        self.last_study: tuple[tuple[Any, ...], Handle] | None = None
+        self.last_study: tuple[tuple[Any, ...], Any] | None = None
 
     def holds(self, records: tuple[Motion, ...]) -> bool:
         """Whether these are its records, in their order."""
