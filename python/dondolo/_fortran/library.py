@@ -107,6 +107,7 @@ class Parcel(NamedTuple):
         return values
 
 
+# What there is where nothing was sent
 _NOTHING = Parcel(np.empty(0, dtype=np.int32), np.empty(0), [], 0)
 
 
