@@ -56,7 +56,7 @@ contains
       real(wp), parameter :: places(7) = [0.0_wp, 0.1_wp, 0.35_wp, 0.6_wp, 0.8_wp, 0.95_wp, 0.999_wp]
       real(wp), parameter :: speeds(9) = [-3.0_wp, -1.1_wp, -0.7_wp, -0.23_wp, 0.0_wp, 0.12_wp, 0.5_wp, 0.9_wp, 1.7_wp]
       type(wall_type) :: wall
-      type(tail_type) :: closed, stepped
+      type(tail_type) :: closed, stepped, again
       real(wp) :: q, v
       integer :: i, j, k, m, beyond
 
@@ -71,12 +71,18 @@ contains
                      q = places(i)*limits(k)*mechanism%capacity
                      v = speeds(j)*mechanism%frequency_parameter()*mechanism%capacity
                      if (q == 0.0_wp .and. v <= 0.0_wp) cycle
-                     call free_motion(mechanism, limits(k)*mechanism%capacity, q, v, closed)
+                     call free_motion(mechanism, limits(k)*mechanism%capacity, 0.0_wp, q, v, closed)
                      call step_on(mechanism, limits(k)*mechanism%capacity, q, v, stepped)
                      call check(closed%collapsed .eqv. stepped%collapsed, 'same flag')
                      call check_close(closed%peak, stepped%peak, 1.0e-9_wp, 'peak')
                      call check_close(closed%delay, stepped%delay, 1.0e-8_wp, 'time of the peak')
                      if (q > mechanism%capacity .and. .not. closed%collapsed) beyond = beyond + 1
+                     ! A rotation that was reached before hides a lower peak, and nothing else.
+                     call free_motion(mechanism, limits(k)*mechanism%capacity, 0.999_wp*closed%peak, q, v, again)
+                     call check(again%peak == closed%peak .and. again%delay == closed%delay, 'a new peak')
+                     call free_motion(mechanism, limits(k)*mechanism%capacity, 1.001_wp*closed%peak, q, v, again)
+                     call check(again%collapsed .eqv. closed%collapsed, 'same flag whatever was reached before')
+                     call check(again%peak == merge(closed%peak, 0.0_wp, closed%collapsed), 'no new peak')
                   end do
                end do
             end do

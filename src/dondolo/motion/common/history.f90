@@ -184,7 +184,7 @@ contains
 
       type(tail_type) :: tail
 
-      call free_motion(mechanism, limit, q, v, tail)
+      call free_motion(mechanism, limit, self%peak, q, v, tail)
       call self%take_tail(tail, record)
    end subroutine add_free_motion
 

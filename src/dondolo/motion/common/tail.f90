@@ -23,23 +23,26 @@ module dondolo_tail
 
 contains
 
-   !> The largest rotation after the end of the record
-   pure subroutine free_motion(mechanism, limit, q, v, tail)
+   !> The largest rotation after the end of the record, if it exceeds what was reached before. Most do not: their times, which are
+   !> integrals, are not needed then
+   pure subroutine free_motion(mechanism, limit, reached, q, v, tail)
       class(mechanism_type), intent(in) :: mechanism
       !> Rotation that counts as collapse [rad]
       real(wp), intent(in) :: limit
+      !> Largest rotation so far [rad]
+      real(wp), intent(in) :: reached
       !> Rotation at the end of the record, less than the limit [rad]
       real(wp), intent(in) :: q
       !> Angular velocity, positive outwards [rad/s]
       real(wp), intent(in) :: v
       type(tail_type), intent(out) :: tail
 
-      real(wp) :: j, energy, rest_energy, turn
+      real(wp) :: j, energy, energy_left, rest_energy, turn
 
       j = inertia(mechanism, q)
       energy = 0.5_wp*j*v**2 + mechanism%potential(q)
       if (v > 0.0_wp .or. (.not. v < 0.0_wp .and. q > mechanism%capacity)) then
-         call rise(mechanism, limit, q, energy, tail)
+         call rise(mechanism, limit, reached, q, energy, tail)
       else if (q > mechanism%capacity .and. energy <= mechanism%potential(mechanism%capacity)) then
          ! Moving inwards beyond the capacity, too slow to come back over it: it turns and falls outwards.
          turn = turning_rotation(mechanism, energy, mechanism%capacity, q)
@@ -50,17 +53,18 @@ contains
       else
          ! It falls to q = 0, loses 1 - e^2 of its kinetic energy there, and rises once more.
          rest_energy = mechanism%potential(0.0_wp)
+         energy_left = rest_energy + mechanism%restitution**2*(energy - rest_energy)
+         if (.not. energy_left > mechanism%potential(min(reached, limit, mechanism%capacity))) return
          tail%delay = fall_time(mechanism, energy, q)
-         energy = rest_energy + mechanism%restitution**2*(energy - rest_energy)
-         if (energy > rest_energy) call rise(mechanism, limit, 0.0_wp, energy, tail)
+         call rise(mechanism, limit, reached, 0.0_wp, energy_left, tail)
       end if
    end subroutine free_motion
 
    !> Outward motion with a given energy: it reaches the limit or a peak
-   pure subroutine rise(mechanism, limit, q, energy, tail)
+   pure subroutine rise(mechanism, limit, reached, q, energy, tail)
       class(mechanism_type), intent(in) :: mechanism
-      !> Rotation that counts as collapse [rad]
-      real(wp), intent(in) :: limit
+      !> Rotation that counts as collapse, and the largest so far [rad]
+      real(wp), intent(in) :: limit, reached
       !> Where the motion begins [rad]
       real(wp), intent(in) :: q
       !> Energy [J]
@@ -78,7 +82,7 @@ contains
          ! The slowest place, the capacity, is an end of the integrals.
          if (q < top) tail%delay = tail%delay + time_between(mechanism, energy, top, q)
          if (limit > top) tail%delay = tail%delay + time_between(mechanism, energy, max(top, q), limit)
-      else
+      else if (energy > mechanism%potential(min(reached, top))) then
          tail%peak = turning_rotation(mechanism, energy, top, q)
          ! V at the turning point, not E: their difference is rounding, and would be taken for speed there.
          tail%delay = tail%delay + time_between(mechanism, mechanism%potential(tail%peak), tail%peak, q)
