@@ -10,8 +10,8 @@ module dondolo_lane_state
    public :: step_taken, record_over, event_possible, step_too_long
 
    !> Most lanes: so many that those with an event in the same step fill a vector, and so few that all stay in the caches of
-   !> the processor's core. No power of two, for arrays of such a size would share few places of the first
-   integer, parameter :: lane_width = 160
+   !> the processor's core. An odd number of cache lines of 64 bytes, for arrays of other sizes share places of the first
+   integer, parameter :: lane_width = 184
 
    !> Lanes in a vector of the widest kind. Loops run over whole ones, so that a lane's arithmetic does not depend on its place
    integer, parameter :: vector_width = 8
