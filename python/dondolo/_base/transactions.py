@@ -9,8 +9,6 @@ import errno
 import fcntl
 import os
 import re
-import secrets
-import socket
 import stat
 import time
 import zlib
@@ -58,7 +56,7 @@ class Written(NamedTuple):
 
 def new_run() -> str:
     """A name for a run that no other has: time (UTC) and 64 random bits."""
-    return f"{datetime.now(UTC):%Y%m%dT%H%M%SZ}-{secrets.token_hex(8)}"
+    return f"{datetime.now(UTC):%Y%m%dT%H%M%SZ}-{os.urandom(8).hex()}"
 
 
 def staged(path: Path, run: str) -> Path:
@@ -273,7 +271,7 @@ def _take(lock: Path) -> tuple[int, str]:
 def _sign(descriptor: int, run: str) -> None:
     """Say in a lock file who has it."""
     since = f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ}"
-    text = f"{_LOCK_MARK}\nrun {run}\npid {os.getpid()}\nhost {socket.gethostname()}\nsince {since}\n".encode()
+    text = f"{_LOCK_MARK}\nrun {run}\npid {os.getpid()}\nhost {os.uname().nodename}\nsince {since}\n".encode()
     os.pwrite(descriptor, text, 0)
     os.ftruncate(descriptor, len(text))
 

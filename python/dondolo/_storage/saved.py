@@ -28,7 +28,6 @@ import io
 import json
 import math
 import os
-import zipfile
 from collections.abc import Callable, Mapping
 from enum import Enum
 from inspect import signature
@@ -92,6 +91,8 @@ class Saved:
         DondoloError
             The file cannot be written.
         """
+        import zipfile
+
         target = as_file("path", path)
         if target.suffix != _SUFFIX:
             raise InputError(f"path = {os.fspath(path)!r}: must end in {_SUFFIX}")
@@ -164,6 +165,8 @@ def _member(place: int) -> str:
 
 def _unpack(data: bytes, source: Path) -> tuple[Any, str, dict[str, _Array]]:
     """The tree in an archive, the version that wrote it, and the arrays; the check sums of all are compared."""
+    import zipfile
+
     arrays: dict[str, _Array] = {}
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:

@@ -6,7 +6,6 @@ import math
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from statistics import NormalDist
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -432,6 +431,8 @@ class Fragility(Shown, Saved):
 
     def _quantile(self, level: float) -> float:
         """Quantile of Student's t for an interval."""
+        from statistics import NormalDist
+
         # The executable's; scipy.special, which has it too, takes longer to import than a figure to draw
         upper = tails(level)[1]
         self._need_errors()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import shutil
-import subprocess
 import tempfile
 from pathlib import Path
 
@@ -56,6 +55,8 @@ def _write_page(path: Path, html: str) -> None:
 
 def _print_by_browser(browser: str, page: Path, part: Path) -> None:
     """Print by Chromium, or by a browser that descends from it."""
+    import subprocess
+
     # Root may start it only without its sandbox; the page is our own.
     root = ["--no-sandbox"] if os.geteuid() == 0 else []
     quiet = ["gpu", "quic", "background-networking", "component-update", "sync", "extensions"]
