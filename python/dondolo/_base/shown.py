@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 from collections.abc import Sequence
 
 # Dispersions below this are rounding
@@ -31,5 +30,7 @@ class Shown:
 
 def html_of(title: str, facts: Sequence[tuple[str, str]]) -> str:
     """A small table for notebooks."""
+    import html
+
     rows = "".join(f"<tr><th>{html.escape(what)}</th><td>{html.escape(text)}</td></tr>" for what, text in facts)
     return f"<table><caption>{html.escape(title)}</caption>{rows}</table>"

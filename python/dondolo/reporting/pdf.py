@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import shutil
-import tempfile
 from pathlib import Path
 
 from dondolo._base.files import whole_file
@@ -33,6 +32,8 @@ def write_pdf(path: str | os.PathLike[str], html: str, mark: str) -> None:
     DondoloError
         If no program that prints is here, it fails, or the file cannot be written.
     """
+    import tempfile
+
     browser = next(filter(None, map(shutil.which, _BROWSERS)), None)
     with whole_file(path) as part, tempfile.TemporaryDirectory() as folder:
         page = Path(folder) / "report.html"
