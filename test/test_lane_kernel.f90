@@ -43,6 +43,8 @@ program test_lane_kernel
    call test_series()
    call suite('promises')
    call test_promises()
+   call suite('starts')
+   call test_starts()
    call finish()
 
 contains
@@ -110,8 +112,8 @@ contains
             left_out = sum(abs((a(3:) + b(3:)*lanes%u(j))*p(3:, 7)) + abs(b(3:)*lanes%slope(j)*p(3:, 6)))/72.0_wp
             h = lanes%step(j)
             do k = 2, 9
-               good = good .and. abs(lanes%series(j, k) - d(k)*h**k) <= (1.0e-10_wp*(terms(k) + abs(d(k))) &
-                  & + merge(left_out, 0.0_wp, k == 9))*h**k
+               good = good .and. abs(lanes%series(j, k) - d(k)*h**(k - 1)) <= (1.0e-10_wp*(terms(k) + abs(d(k))) &
+                  & + merge(left_out, 0.0_wp, k == 9))*h**(k - 1)
             end do
          end do
          call check(good, 'form '//to_text(i))
@@ -144,7 +146,7 @@ contains
                cycle
             end if
             taken = taken + 1
-            series = lanes%series(j, :)
+            series = h*lanes%series(j, :)
             y = [(value(before%y(j), before%v(j)*h, series, real(k, wp)/points), k=0, points)]
             if (any(y < 0.0_wp)) wrong(3) = wrong(3) + 1
             ! A new peak only at the end, where the motion goes on to rise
@@ -166,6 +168,45 @@ contains
       call check(wrong(5) == 0, 'wrong ends: '//to_text(wrong(5)))
    end subroutine test_promises
 
+   !> A step from rest, where the ground has just come to the trigger: if it is taken the motion rises all the way. It is where
+   !> the ground goes on, and where it goes back it is not; nor is that of a wall that falls to the ground
+   subroutine test_starts()
+      type(lanes_type) :: lanes
+      integer, parameter :: points = 200
+      real(wp) :: a(0:4), b(0:4), outward, y(0:points)
+      integer :: i, j, k, taken(2), wrong(3)
+
+      taken = 0
+      wrong = 0
+      do i = 1, ubound(forms, 1)
+         call fill(lanes, 0.02_wp)
+         lanes%y = 0.0_wp
+         lanes%v = 0.0_wp
+         lanes%v(3::3) = -across(random, 1.0e-8_wp, 1.0_wp)
+         a = derivatives(forms(i)%a, -1.0_wp)
+         b = derivatives(forms(i)%b, -1.0_wp)
+         do j = 1, lane_width
+            lanes%u(j) = -a(0)/b(0)
+            outward = sign(across(random, 1.0e-3_wp, 1.0e2_wp), b(0))
+            if (modulo(j, 3) == 1) lanes%slope(j) = outward
+            if (modulo(j, 3) == 2) lanes%slope(j) = -outward
+         end do
+         call step_lanes(lanes, lane_width, forms(i), samples, 1.0e-2_wp, 1.0e-2_wp)
+         taken = taken + [count(lanes%flag(1::3) < event_possible), size(lanes%flag(1::3))]
+         wrong(1) = wrong(1) + count(lanes%flag(2::3) < event_possible)
+         wrong(2) = wrong(2) + count(lanes%flag(3::3) < event_possible)
+         do j = 1, lane_width, 3
+            if (lanes%flag(j) >= event_possible) cycle
+            y = [(value(0.0_wp, 0.0_wp, lanes%step(j)*lanes%series(j, :), real(k, wp)/points), k=0, points)]
+            if (any(y(1:) <= y(:points - 1)) .or. .not. y(points) < y_limit) wrong(3) = wrong(3) + 1
+         end do
+      end do
+      call check(taken(1) > 0.95_wp*taken(2), 'starts that are taken: '//to_text(taken(1))//' of '//to_text(taken(2)))
+      call check(wrong(1) == 0, 'the ground goes back: '//to_text(wrong(1)))
+      call check(wrong(2) == 0, 'on the ground and falling: '//to_text(wrong(2)))
+      call check(wrong(3) == 0, 'starts that do not rise: '//to_text(wrong(3)))
+   end subroutine test_starts
+
    !> Lower the second half of the lanes so that their steps come next to y = 0, and put the peak of the first half next
    !> to that of the step
    subroutine graze(lanes, form)
@@ -176,7 +217,7 @@ contains
 
       call step_lanes(lanes, lane_width, form, samples, 0.0_wp, 0.0_wp)
       do j = 1, lane_width
-         series = lanes%series(j, :)
+         series = lanes%step(j)*lanes%series(j, :)
          y = [(value(lanes%y(j), lanes%v(j)*lanes%step(j), series, k/50.0_wp), k=0, 50)]
          off = between(random, -1.0_wp, 1.0_wp)*across(random, 1.0e-8_wp, 1.0e-1_wp)
          if (j > lane_width/2) lanes%y(j) = min(max(1.0e-9_wp, lanes%y(j) - minval(y) + off), 0.999_wp*y_limit)

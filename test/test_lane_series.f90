@@ -4,7 +4,7 @@ program test_lane_series
    use checks, only : check, finish, suite
    use dondolo_events, only : impact, limit_reached, no_event, turning
    use dondolo_kinds, only : wp
-   use dondolo_lane_series, only : find_first, find_impacts, rate, undecided, value
+   use dondolo_lane_series, only : find_first, find_simple, rate, undecided, value
    use dondolo_lane_state, only : lane_width
    use dondolo_normal_form, only : y_limit
    use dondolo_random, only : new_random, random_type
@@ -29,7 +29,7 @@ program test_lane_series
          call new_step(series, peak(i), last(i))
          d(i, :) = series
       end do
-      call find_impacts(lane_width, d, peak, last, x, y, v, event)
+      call find_simple(lane_width, d, peak, last, x, y, v, event)
       do i = 1, lane_width
          series = d(i, :)
          call see(series, peak(i), last(i), int(event(i)), x(i), 1)
@@ -40,7 +40,7 @@ program test_lane_series
       end do
    end do
    ! Motions of every kind were among them.
-   call check(all(found([no_event, impact], 1) > 1000), 'find_impacts decides')
+   call check(all(found([no_event, impact, turning], 1) > 1000), 'find_simple decides')
    call check(all(found(no_event:limit_reached, 2) > 100), 'find_first decides')
    call finish()
 

@@ -115,7 +115,7 @@ contains
 
       d(0) = lane%y(1)
       d(1) = lane%v(1)*lane%step(1)
-      d(2:) = lane%series(1, :)
+      d(2:) = lane%step(1)*lane%series(1, :)
       if (lane%y(1) == 0.0_wp .and. lane%v(1) == 0.0_wp) d(2) = max(0.0_wp, d(2))
       part = 1.0_wp
       if (lane%flag(1) == step_too_long) then

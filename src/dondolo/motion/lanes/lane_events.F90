@@ -5,7 +5,7 @@ module dondolo_lane_events
    use dondolo_kinds, only : wp
    use dondolo_lane_constants, only : lane_constants_type
    use dondolo_lane_grip, only : lane_grip_type
-   use dondolo_lane_series, only : allowed_part, find_first, find_first_level, find_impacts, rate, undecided, value
+   use dondolo_lane_series, only : allowed_part, find_first, find_first_level, find_simple, rate, undecided, value
    use dondolo_lane_state, only : lane_width, lanes_type, part_if_held, step_taken, step_too_long, whole_vectors
    use dondolo_step_limits, only : shortest_motion, smallest_step
    implicit none
@@ -52,7 +52,7 @@ contains
          i = found%lane(n)
          found%d(n, 0) = lanes%y(i)
          found%d(n, 1) = lanes%v(i)*lanes%step(i)
-         found%d(n, 2:) = lanes%series(i, :)
+         found%d(n, 2:) = lanes%series(i, :)*lanes%step(i)
          if (lanes%y(i) == 0.0_wp .and. lanes%v(i) == 0.0_wp) found%d(n, 2) = max(0.0_wp, found%d(n, 2))
          found%peak(n) = lanes%peak(i)
          found%last(n) = 1.0_wp
@@ -68,7 +68,7 @@ contains
             end associate
          end if
       end do
-      if (found%n > 0) call find_impacts(whole_vectors(found%n), found%d, found%peak, found%last, found%x, found%y, found%v, &
+      if (found%n > 0) call find_simple(whole_vectors(found%n), found%d, found%peak, found%last, found%x, found%y, found%v, &
          & found%event)
    end subroutine find_lane_events
 

@@ -9,16 +9,16 @@ module dondolo_lane_series
    implicit none
    private
 
-   public :: allowed_part, find_first, find_first_level, find_impacts, rate, undecided, value
+   public :: allowed_part, find_first, find_first_level, find_simple, rate, undecided, value
 
-   !> Not an event: the motion is not of a shape that find_impacts knows
+   !> Not an event: the motion is not of a shape that find_simple knows
    integer, parameter :: undecided = -1
 
    !> Part that is taken of what the tolerance allows by the last terms of a series
    real(wp), parameter :: safety = 0.9_wp
 
-   !> Relative change after which an iteration of second or third order has nothing left to gain
-   real(wp), parameter :: second_order = epsilon(1.0_wp)**0.5_wp, third_order = epsilon(1.0_wp)**0.35_wp
+   !> Relative change after which an iteration of third order has nothing left to gain
+   real(wp), parameter :: third_order = epsilon(1.0_wp)**0.35_wp
 
    !> Most steps of an iteration, or of the bisection that guards it
    integer, parameter :: most_iterations = 60
@@ -50,9 +50,9 @@ contains
       end do
    end function allowed_part
 
-   !> The first events of several steps of a simple shape, most of those that are looked at: a start; a fall; a rise below the
-   !> largest y so far, and a fall. Nothing branches here either
-   pure subroutine find_impacts(n, d, peak, last_part, x, y, v, event)
+   !> The first events of several steps of a simple shape, most of those that are looked at: a start; a fall; a rise and a
+   !> fall, to a new peak or below the largest y so far. Nothing branches here either
+   pure subroutine find_simple(n, d, peak, last_part, x, y, v, event)
       !> Steps, in whole vectors
       integer, intent(in) :: n
       !> The series of their motions
@@ -63,15 +63,16 @@ contains
       real(wp), intent(in) :: last_part(lane_width)
       !> Places of the events or ends, coordinates there, and their rates of change; of steps in whole vectors
       real(wp), intent(inout) :: x(lane_width), y(lane_width), v(lane_width)
-      !> No event, impact or undecided
+      !> No event, impact, turning or undecided
       integer(int64), intent(inout) :: event(lane_width)
 
       integer, parameter :: iterations = 3
-      integer(int64), parameter :: is_impact = impact, is_none = no_event, is_undecided = undecided
+      integer(int64), parameter :: is_impact = impact, is_turning = turning, is_none = no_event, is_undecided = undecided
       ! Motions of another shape give nonsense, which must not overflow.
       real(wp), parameter :: smallest = 1.0e-60_wp
       real(wp) :: last, z, zz, z4, y_end, v_end, bend_end, fastest, most_bent, least_third, root, slow, change, y_z, v_z, bend_z
-      real(wp) :: starts, rises, falls, is_found, is_simple
+      real(wp) :: starts, rises, falls, turns, is_found, is_simple, f, bent
+      logical :: to_turn, to_zero
       integer :: i, iteration
 
       !$omp simd
@@ -98,9 +99,14 @@ contains
             rises = min(d1, d0 + last*d1 - peak(i))
             falls = max(max(-fastest, min(min(least_third, -y_end), -rises)), min(min(-most_bent, -v_end), &
                & -min(rises, d1*d1 + 2.0_wp*(peak(i) - d0)*most_bent)))
-            ! Halley's method, from the zero of the parabola at the start
+            ! A rise and a fall that may reach beyond the peak
+            turns = min(min(min(-most_bent, -v_end), d1), -falls)
+            to_turn = turns > 0.0_wp
+            to_zero = y_end <= 0.0_wp
+            ! Halley's method: for the zero of y from that of the parabola at the start, for the turn from that of the secant of y'
             root = sqrt(max(0.0_wp, d1*d1 - 4.0_wp*d0*d2))
-            z = merge(2.0_wp*d0/max(root - d1, smallest), (d1 + root)/max(-2.0_wp*d2, smallest), d1 < 0.0_wp)
+            z = merge(last*d1, merge(2.0_wp*d0, d1 + root, d1 < 0.0_wp), to_turn) &
+               & /max(merge(d1 - v_end, merge(root - d1, -2.0_wp*d2, d1 < 0.0_wp), to_turn), smallest)
             z = merge(z, last, z > 0.0_wp .and. z < last)
             !GCC$ unroll 3
             do iteration = 1, iterations
@@ -110,27 +116,31 @@ contains
                v_z = (d1 + 2.0_wp*d2*z) + zz*(3.0_wp*d3 + 4.0_wp*d4*z) &
                   & + z4*((5.0_wp*d5 + 6.0_wp*d6*z) + zz*(7.0_wp*d7 + 8.0_wp*d8*z) + z4*(9.0_wp*d9))
                bend_z = (2.0_wp*d2 + 6.0_wp*d3*z) + zz*((12.0_wp*d4 + 20.0_wp*d5*z) + zz*(30.0_wp*d6))
-               slow = 1.0_wp/min(v_z, -smallest)
-               change = -y_z*slow
-               change = change*(1.0_wp - 0.5_wp*change*bend_z*slow)
+               f = merge(v_z, y_z, to_turn)
+               slow = 1.0_wp/min(merge(bend_z, v_z, to_turn), -smallest)
+               bent = merge(6.0_wp*d3 + 24.0_wp*d4*z, bend_z, to_turn)
+               change = -f*slow
+               change = change*(1.0_wp - 0.5_wp*change*bent*slow)
                z = min(max(z + change, 0.0_wp), last)
             end do
-            is_found = min(min(third_order*z - abs(change), z), -v_z)
+            is_found = min(third_order*z - abs(change), z)
             zz = z*z
             z4 = zz*zz
+            y_z = (d0 + z*d1) + zz*(d2 + z*d3) + z4*((d4 + z*d5) + zz*(d6 + z*d7) + z4*(d8 + z*d9))
             v_z = (d1 + 2.0_wp*d2*z) + zz*(3.0_wp*d3 + 4.0_wp*d4*z) &
                & + z4*((5.0_wp*d5 + 6.0_wp*d6*z) + zz*(7.0_wp*d7 + 8.0_wp*d8*z) + z4*(9.0_wp*d9))
-            is_simple = max(starts, min(falls, merge(is_found, falls, y_end <= 0.0_wp)))
-            x(i) = merge(z, last, y_end <= 0.0_wp)
-            y(i) = merge(0.0_wp, y_end, y_end <= 0.0_wp)
-            v(i) = merge(v_z, v_end, y_end <= 0.0_wp)
-            event(i) = merge(merge(is_impact, is_none, y_end <= 0.0_wp), is_undecided, is_simple > 0.0_wp)
+            turns = min(is_found, min(turns, min(y_z - peak(i), y_limit - y_z)))
+            falls = min(falls, merge(min(is_found, -v_z), falls, to_zero))
+            is_simple = max(starts, max(falls, turns))
+            x(i) = merge(z, last, to_zero .or. to_turn)
+            y(i) = merge(y_z, merge(0.0_wp, y_end, to_zero), to_turn)
+            v(i) = merge(v_z, v_end, to_zero .or. to_turn)
+            event(i) = merge(merge(is_turning, merge(is_impact, is_none, to_zero), to_turn), is_undecided, is_simple > 0.0_wp)
          end associate
       end do
-   end subroutine find_impacts
+   end subroutine find_simple
 
-   !> The first event of a step that find_impacts leaves undecided: at once where the motion rises and falls, else from its
-   !> Bernstein form
+   !> The first event of a step that find_simple leaves undecided: at once where the motion rises, else from its Bernstein form
    pure subroutine find_first(d, peak, x, event)
       !> The series of the motion
       real(wp), intent(in) :: d(0:9)
@@ -141,31 +151,11 @@ contains
       !> The event
       integer, intent(out) :: event
 
-      real(wp) :: y, v, most_bent, turn, highest, place, b(0:9)
+      real(wp) :: place, b(0:9)
 
       event = no_event
-      y = value(d, x)
-      v = rate(d, x)
-      ! y'' exceeds the larger of its ends by no more than its second derivative allows.
-      most_bent = max(2.0_wp*d(2), bend(d, x)) &
-         & + x**2*(3.0_wp*abs(d(4)) + x*16.0_wp*(abs(d(5)) + x*3.0_wp*abs(d(6))))
-      if (most_bent < 0.0_wp .and. d(1) > 0.0_wp .and. v < 0.0_wp) then
-         ! It rises and then falls.
-         turn = place_of_turn(d, x)
-         highest = value(d, turn)
-         if (highest < y_limit) then
-            if (highest > peak) then
-               event = turning
-               x = turn
-            else if (y <= 0.0_wp) then
-               event = impact
-               x = place_of_zero(d, x)
-            end if
-            return
-         end if
-      end if
-      if (rises_throughout(d, v, x)) then
-         if (y < y_limit) return
+      if (rises_throughout(d, rate(d, x), x)) then
+         if (value(d, x) < y_limit) return
          event = limit_reached
          x = place_of_level(d, y_limit, x)
          return
@@ -284,34 +274,6 @@ contains
       end do
       x = min(max(x, 0.0_wp), last)
    end function place_of_zero
-
-   !> Where a motion that rises and then falls turns: Newton's method, in a bracket
-   pure real(wp) function place_of_turn(d, last) result(x)
-      !> The series of the motion
-      real(wp), intent(in) :: d(0:9)
-      !> A place after it
-      real(wp), intent(in) :: last
-
-      real(wp) :: before, after, v, change
-      integer :: iteration
-
-      before = 0.0_wp
-      after = last
-      x = last*d(1)/(d(1) - rate(d, last))
-      do iteration = 1, most_iterations
-         v = rate(d, x)
-         if (v > 0.0_wp) then
-            before = x
-         else
-            after = x
-         end if
-         change = -v/bend(d, x)
-         x = x + change
-         if (abs(change) <= second_order*x) exit
-         if (.not. (x > before .and. x < after)) x = 0.5_wp*(before + after)
-      end do
-      x = min(max(x, 0.0_wp), last)
-   end function place_of_turn
 
    !> A series. Estrin's scheme here and below: half the waiting of Horner's
    pure real(wp) function value(d, x)

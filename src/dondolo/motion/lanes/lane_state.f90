@@ -44,7 +44,7 @@ module dondolo_lane_state
       !> Place of the next sample in the set of records, and of the record's last. As wide as the reals, so that a
       !> vector holds as many of them
       integer(int64) :: next(lane_width) = 1, last(lane_width) = 1
-      !> Length of the last step [s], and the step as a series: y + v step x + sum_k series(:, k) x^k, k = 2 to 9, with x the
+      !> Length of the last step [s], and the step as a series: y + step (v x + sum_k series(:, k) x^k), k = 2 to 9, with x the
       !> part of it that has passed
       real(wp) :: step(lane_width) = 0.0_wp, series(lane_width, 2:9) = 0.0_wp
       !> What became of the last step

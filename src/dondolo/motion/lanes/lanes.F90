@@ -61,10 +61,10 @@ contains
             if (is_filled(i)) cycle
             ! The last lane moves in, so that those at work stay side by side.
             call move(batch, batch%active, i)
-            ! What it leaves behind may be stepped as part of a vector, but gets nowhere: at y = 0 no step is taken. Else
-            ! it would run past the samples of its record.
+            ! What it leaves behind may be stepped as part of a vector, but gets nowhere: on the ground and falling, it takes
+            ! no step. Else it would run past the samples of its record.
             batch%lanes%y(batch%active) = 0.0_wp
-            batch%lanes%v(batch%active) = 0.0_wp
+            batch%lanes%v(batch%active) = -1.0_wp
             batch%active = batch%active - 1
          end do
       end do
