@@ -140,22 +140,32 @@ contains
       !> The range [m/s2]
       real(wp), intent(in) :: low, high
 
-      integer :: block
+      integer :: block, i
 
-      sample = first
-      do while (sample <= self%length(record))
-         block = self%first_block(record) + (sample - 1)/block_size + 1
+      associate (before => self%offset(record), n => self%length(record), block_1 => self%first_block(record) + 1)
+         sample = n + 1
+         if (first > n) return
+         ! What is left of the first block
+         block = block_1 + (first - 1)/block_size
          if (is_outside(self%lowest(block)) .or. is_outside(self%highest(block))) then
-            do sample = sample, min(((sample - 1)/block_size + 1)*block_size, self%length(record))
-               if (is_outside(self%samples(self%offset(record) + sample))) return
+            do i = first, min((block - block_1 + 1)*block_size, n)
+               if (.not. is_outside(self%samples(before + i))) cycle
+               sample = i
+               return
             end do
-         else if (.not. (is_outside(self%lowest_left(block)) .or. is_outside(self%highest_left(block)))) then
-            exit
-         else
-            sample = ((sample - 1)/block_size + 1)*block_size + 1
          end if
-      end do
-      sample = self%length(record) + 1
+         block = block + 1
+         if (block > block_1 + (n - 1)/block_size) return
+         if (.not. (is_outside(self%lowest_left(block)) .or. is_outside(self%highest_left(block)))) return
+         ! There is one: no search for it ends in vain.
+         do while (.not. (is_outside(self%lowest(block)) .or. is_outside(self%highest(block))))
+            block = block + 1
+         end do
+         sample = (block - block_1)*block_size + 1
+         do while (.not. is_outside(self%samples(before + sample)))
+            sample = sample + 1
+         end do
+      end associate
 
    contains
 
