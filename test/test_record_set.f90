@@ -29,6 +29,7 @@ program test_record_set
       call test_search()
    end do
    call test_single_sample()
+   call test_strong_motion()
    call finish()
 
 contains
@@ -105,5 +106,28 @@ contains
          end associate
       end do
    end function plain
+
+   !> Blocks of 64 samples from the first to the last with a sample of a tenth of the largest
+   subroutine test_strong_motion()
+      type(record_type) :: record
+      real(wp) :: a(500)
+
+      call suite('strong motion')
+      a = 0.099_wp
+      a(130) = -1.0_wp
+      record = accelerogram(a, 0.01_wp)
+      call new_record_set(set, [record])
+      call check(set%strong_blocks(1) == 1, 'one block')
+      a(64) = 0.1_wp
+      a(449) = -0.2_wp
+      a(500) = 0.0_wp
+      record = accelerogram(a, 0.01_wp)
+      call new_record_set(set, [record])
+      call check(set%strong_blocks(1) == 8, 'from the first to the last')
+      a = 0.0_wp
+      record = accelerogram(a, 0.01_wp)
+      call new_record_set(set, [record])
+      call check(set%strong_blocks(1) == 8, 'all of still ground')
+   end subroutine test_strong_motion
 
 end program test_record_set

@@ -57,7 +57,7 @@ contains
       integer :: i, k
 
       call queue%announce(merge(runs_of_estimate, 1, solver%estimate_error)*size(ensemble%record), progress)
-      call queue%fill(ensemble%record, ensemble%scale)
+      call queue%fill(ensemble%record, ensemble%scale, suite%by_duration)
       call run_queue(queue, mechanism, suite, solver, threads, ensemble%work)
       call move_alloc(queue%response, ensemble%response)
       if (.not. solver%estimate_error) return
@@ -68,7 +68,7 @@ contains
          do i = 1, size(scale)
             call other_run(k, solver, ensemble%scale(i), other_solver, scale(i))
          end do
-         call queue%fill(ensemble%record, scale)
+         call queue%fill(ensemble%record, scale, suite%by_duration)
          call run_queue(queue, mechanism, suite, other_solver, threads, ensemble%work)
       end do
       ensemble%response%edp_error = estimated_error(ensemble%response, stronger, queue%response, &

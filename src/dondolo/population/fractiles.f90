@@ -2,6 +2,7 @@
 !> share q of the weight.
 module dondolo_fractiles
    use dondolo_kinds, only : wp
+   use dondolo_order, only : find_order
    implicit none
    private
 
@@ -28,7 +29,7 @@ contains
       integer, allocatable :: order(:)
       integer :: k, low, high, middle
 
-      call sort(numbers, order)
+      call find_order(numbers, order)
       reached = weights(order)
       do k = 2, size(reached)
          reached(k) = reached(k - 1) + reached(k)
@@ -49,45 +50,5 @@ contains
          fractiles(k) = abs(numbers(order(low)))
       end do
    end subroutine weighted_fractiles
-
-   !> Order of numbers, from the smallest; equal ones stay in the order they stand in (merge sort from the bottom up)
-   pure subroutine sort(numbers, order)
-      !> The numbers
-      real(wp), intent(in) :: numbers(:)
-      !> Their places, from that of the smallest
-      integer, allocatable, intent(out) :: order(:)
-
-      integer, allocatable :: merged(:)
-      integer :: width, first, middle, last, i, j, k
-
-      order = [(i, i=1, size(numbers))]
-      allocate (merged(size(numbers)))
-      width = 1
-      do while (width < size(order))
-         do first = 1, size(order), 2*width
-            middle = min(first + width - 1, size(order))
-            last = min(first + 2*width - 1, size(order))
-            i = first
-            j = middle + 1
-            do k = first, last
-               if (j > last) then
-                  merged(k) = order(i)
-                  i = i + 1
-               else if (i > middle) then
-                  merged(k) = order(j)
-                  j = j + 1
-               else if (numbers(order(j)) < numbers(order(i))) then
-                  merged(k) = order(j)
-                  j = j + 1
-               else
-                  merged(k) = order(i)
-                  i = i + 1
-               end if
-            end do
-         end do
-         order = merged
-         width = 2*width
-      end do
-   end subroutine sort
 
 end module dondolo_fractiles

@@ -11,6 +11,9 @@ module dondolo_record_set
    !> Samples in a block
    integer, parameter :: block_size = 64
 
+   !> Part of the largest sample that strong motion reaches
+   real(wp), parameter :: strong = 0.1_wp
+
    !> Samples of all records
    type :: record_set_type
       !> Samples of all records one after another, with two zeros after each: the ground after the record [m/s2]
@@ -34,6 +37,8 @@ module dondolo_record_set
       procedure :: next_outside
       !> The next sample that may lie outside a range that varies with the vertical component
       procedure :: next_outside_of_both
+      !> How long the strong motion lasts
+      procedure :: strong_blocks
    end type record_set_type
 
 contains
@@ -101,6 +106,22 @@ contains
          end do
       end associate
    end subroutine add_record
+
+   !> Blocks from the first to the last of strong motion
+   pure integer function strong_blocks(self, record)
+      class(record_set_type), intent(in) :: self
+      !> Number of the record
+      integer, intent(in) :: record
+
+      real(wp) :: largest((self%length(record) - 1)/block_size + 1)
+
+      associate (first => self%first_block(record) + 1, last => self%first_block(record) + size(largest))
+         largest = max(-self%lowest(first:last), self%highest(first:last))
+      end associate
+      associate (is_strong => largest >= strong*maxval(largest))
+         strong_blocks = findloc(is_strong, .true., dim=1, back=.true.) - findloc(is_strong, .true., dim=1) + 1
+      end associate
+   end function strong_blocks
 
    !> Join the vertical components of records
    pure subroutine add_verticals(set, records)

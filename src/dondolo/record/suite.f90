@@ -8,6 +8,7 @@ module dondolo_suite
    use dondolo_ground_motion, only : peak_velocity
    use dondolo_intensity, only : measure_type
    use dondolo_kinds, only : wp
+   use dondolo_order, only : find_order
    use dondolo_record, only : record_type
    use dondolo_record_set, only : new_record_set, record_set_type
    use dondolo_threads, only : team_of
@@ -43,6 +44,8 @@ module dondolo_suite
       real(wp), allocatable :: velocities(:)
       !> Largest downward acceleration of the ground under each [m/s2]
       real(wp), allocatable :: falls(:)
+      !> The accelerograms by the length of their strong motion, the longest last: walls rock longest under it
+      integer, allocatable :: by_duration(:)
       !> Number of the cluster of each: histories of one cluster are no independent evidence
       integer, allocatable :: clusters(:)
       !> Measures that were asked for, and how many places are taken
@@ -74,6 +77,7 @@ contains
          suite%has_vertical = suite%has_vertical .or. allocated(suite%records(i)%vertical)
       end do
       call new_record_set(suite%set, suite%records, threads)
+      call find_order([(real(suite%set%strong_blocks(i), wp), i=1, size(suite%records))], suite%by_duration)
       suite%peaks = suite%records%pga()
       suite%falls = suite%records%largest_fall()
       allocate (suite%clusters(size(suite%records)), suite%velocities(size(suite%records)))

@@ -20,15 +20,17 @@ module dondolo_queue
       end subroutine progress_interface
    end interface
 
-   !> Histories, taken from the last to the first
+   !> Histories
    type :: queue_type
       !> Record of each history, and the factor on it, negative to reverse its polarity
       integer, allocatable :: record(:)
       real(wp), allocatable :: scale(:)
       !> Result of each history
       type(response_type), allocatable :: response(:)
-      !> Number of the next history; less than 1: none is left
-      integer, private :: number = 0
+      !> Their numbers, in the order from the last of which they are taken
+      integer, allocatable, private :: order(:)
+      !> Place of the next history in it; less than 1: none is left
+      integer, private :: place = 0
       !> Histories done, and all that make up the work, which may be more than those in the queue
       integer, private :: done = 0, total = 0
       !> Progress callback, if there is one
@@ -61,20 +63,39 @@ contains
    end subroutine announce
 
    !> Put histories in
-   subroutine fill(self, record, scale)
+   subroutine fill(self, record, scale, by_duration)
       !> The queue; empty
       class(queue_type), intent(inout) :: self
       !> Record of each history
       integer, intent(in) :: record(:)
       !> Factor on it
       real(wp), intent(in) :: scale(:)
+      !> All records, those last that take longest
+      integer, intent(in) :: by_duration(:)
+
+      integer :: place(size(by_duration)), i, before, number
 
       self%record = record
       self%scale = scale
-      if (allocated(self%response)) deallocate(self%response)
-      allocate(self%response(size(record)))
-      ! High levels take longest: they are last and go first, so that no thread is left alone with them at the end.
-      self%number = size(record)
+      if (allocated(self%response)) deallocate(self%response, self%order)
+      allocate(self%response(size(record)), self%order(size(record)))
+      ! Those that take longest go first, so that no lane and no thread is left alone with them at the end: record by record,
+      ! which keeps its samples in the caches, and high levels, which stand last, before low ones.
+      place = 0
+      do i = 1, size(record)
+         place(record(i)) = place(record(i)) + 1
+      end do
+      before = 0
+      do i = 1, size(by_duration)
+         number = place(by_duration(i))
+         place(by_duration(i)) = before
+         before = before + number
+      end do
+      do i = 1, size(record)
+         place(record(i)) = place(record(i)) + 1
+         self%order(place(record(i))) = i
+      end do
+      self%place = size(record)
    end subroutine fill
 
    !> Take the number of a history; 0 if none is left, or after Ctrl-C
@@ -82,13 +103,15 @@ contains
       class(queue_type), intent(inout) :: self
 
       integer(c_int) :: interrupted
+      integer :: place
 
       !$omp atomic capture
-      next = self%number
-      self%number = self%number - 1
+      place = self%place
+      self%place = self%place - 1
       !$omp end atomic
       call look_for_interrupt(interrupted)
-      if (next < 1 .or. interrupted == 1) next = 0
+      next = 0
+      if (place > 0 .and. interrupted == 0) next = self%order(place)
    end function next
 
    !> One more is done

@@ -150,7 +150,7 @@ contains
       records(2)%dt = record%dt
       allocate (records(2)%acceleration(intervals_after(record%dt) + 1), source=0.0_wp)
       call new_record_set(set, records)
-      call queue%fill([1], [scale])
+      call queue%fill([1], [scale], [1])
       batch%mechanism => mechanism
       batch%constants => constants
       batch%records => records

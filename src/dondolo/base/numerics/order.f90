@@ -1,0 +1,51 @@
+!> The order of numbers by their size.
+module dondolo_order
+   use dondolo_kinds, only : wp
+   implicit none
+   private
+
+   public :: find_order
+
+contains
+
+   !> Order of numbers, from the smallest; equal ones stay in the order they stand in (merge sort from the bottom up)
+   pure subroutine find_order(numbers, order)
+      !> The numbers
+      real(wp), intent(in) :: numbers(:)
+      !> Their places, from that of the smallest
+      integer, allocatable, intent(out) :: order(:)
+
+      integer, allocatable :: merged(:)
+      integer :: width, first, middle, last, i, j, k
+
+      order = [(i, i=1, size(numbers))]
+      allocate (merged(size(numbers)))
+      width = 1
+      do while (width < size(order))
+         do first = 1, size(order), 2*width
+            middle = min(first + width - 1, size(order))
+            last = min(first + 2*width - 1, size(order))
+            i = first
+            j = middle + 1
+            do k = first, last
+               if (j > last) then
+                  merged(k) = order(i)
+                  i = i + 1
+               else if (i > middle) then
+                  merged(k) = order(j)
+                  j = j + 1
+               else if (numbers(order(j)) < numbers(order(i))) then
+                  merged(k) = order(j)
+                  j = j + 1
+               else
+                  merged(k) = order(i)
+                  i = i + 1
+               end if
+            end do
+         end do
+         order = merged
+         width = 2*width
+      end do
+   end subroutine find_order
+
+end module dondolo_order
