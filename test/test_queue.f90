@@ -3,9 +3,11 @@ program test_queue
    use checks, only : check, finish, suite
    use dondolo_kinds, only : wp
    use dondolo_queue, only : queue_type
+   use dondolo_response, only : response_type
    implicit none
 
    type(queue_type) :: queue
+   type(response_type), allocatable :: taken(:)
    integer :: i
 
    call suite('order')
@@ -13,6 +15,7 @@ program test_queue
    call queue%fill([1, 2, 3, 1, 2, 3, 2], [(real(i, wp), i=1, 7)], [3, 1, 4, 2])
    call check(all([(queue%next(), i=1, 7)] == [7, 5, 2, 4, 1, 6, 3]), 'the longest first, and of a record the last')
    call check(all([(queue%next(), i=1, 3)] == 0), 'none is left')
+   call move_alloc(queue%response, taken)
    call queue%fill([2, 1], [1.0_wp, 1.0_wp], [1, 2])
    call check(all([(queue%next(), i=1, 3)] == [1, 2, 0]), 'filled again')
    call queue%fill([integer ::], [real(wp) ::], [1])

@@ -15,7 +15,7 @@ ASKED = {
     "src/dondolo/fragility/stripes.f90": r"src/dondolo/(fragility/(stripes|stripe_counts)|motion/common/queue)",
     "src/dondolo/fragility/certified.f90": r"src/dondolo/(fragility/certified|motion/certificate)",
     "src/dondolo/population/population.f90": r"src/dondolo/population/(population|roster|run_\w+|row_result)\.",
-    "src/dondolo/population/members.f90": r"src/dondolo/population/(members|fractiles)",
+    "src/dondolo/population/members.f90": r"src/dondolo/(population/(members|fractiles)|base/numerics/order)",
     "src/dondolo/population/population_counts.f90": r"src/dondolo/population/(population_(counts|sums)|typology)\.",
     "src/dondolo/population/population_errors.f90": r"src/dondolo/population/population_errors",
     "src/dondolo/case/tasks/unite_rows.f90": r"src/dondolo/(case/tasks/unite_rows|population/unions)",

@@ -77,7 +77,9 @@ contains
 
       self%record = record
       self%scale = scale
-      if (allocated(self%response)) deallocate(self%response, self%order)
+      ! The results of those before may have been taken away.
+      if (allocated(self%response)) deallocate(self%response)
+      if (allocated(self%order)) deallocate(self%order)
       allocate(self%response(size(record)), self%order(size(record)))
       ! Those that take longest go first, so that no lane and no thread is left alone with them at the end: record by record,
       ! which keeps its samples in the caches, and high levels, which stand last, before low ones.
