@@ -1,5 +1,6 @@
 """The example of a Fortran program that uses dondolo, compiled with the library of the build and run."""
 
+import csv
 import re
 import shutil
 import subprocess
@@ -9,16 +10,16 @@ import pytest
 import dondolo as dd
 
 
-def compiled(root, folder, source):
-    """A program, compiled with the library of the build."""
+def compiled(root, folder, *sources):
+    """A program, compiled with the library of the build; the main program is the last of its sources."""
     libraries = sorted((root / "build-python/src").glob("**/libdondolo*.a"))
     if not libraries or shutil.which("gfortran") is None:
         pytest.skip("needs gfortran and the build of ./run setup")
     modules = [f"-I{library}.p" for library in libraries]
-    program = folder / source.stem
+    program = folder / sources[-1].stem
     archives = ["-Wl,--start-group", *libraries, "-Wl,--end-group"]
     subprocess.run(
-        ["gfortran", "-fopenmp", *modules, source, *archives, "-llapack", "-lblas", "-o", program],
+        ["gfortran", "-fopenmp", *modules, *sources, *archives, "-llapack", "-lblas", "-o", program],
         check=True,
         cwd=folder,
     )
@@ -44,6 +45,28 @@ def test_program_of_the_page(root, records, tmp_path):
     said = subprocess.run([program, root / "data/records/synthetic44.csv"], capture_output=True, text=True, check=True)
     response = dd.simulate(dd.OneSidedWall(1.5, 0.25), records[6], 1.5, solver=dd.Solver(rtol=1e-9), history=False)
     assert said.stdout == f"EDP = {response.edp:6.3f}, collapse: F\n"
+
+
+@pytest.mark.slow
+def test_program_of_the_verification(root, tmp_path):
+    """The study of shortcuts, which ./run verification builds: with none of them it is the motion that dondolo computes."""
+    folder = root / "docs/verification/shortcuts"
+    names = ("straddling_step", "plain_motion", "shortcuts")
+    program = compiled(root, tmp_path, *(folder / f"{name}.f90" for name in names))
+    path = root / "data/cases/parapet.nml"
+    said = subprocess.run([program, path], capture_output=True, text=True, check=True)
+    edps = {}
+    for row in csv.DictReader(said.stdout.splitlines()):
+        edps.setdefault(row["shortcut"], []).append(float(row["edp"]))
+    case = dd.read_case(path)
+    exact = dd.multiple_stripe(case.population[0], case.records, case.levels, progress=False).edp.ravel()
+    # A history next to overturning amplifies the rounding of either.
+    none = edps.pop("none")
+    assert none == pytest.approx(exact, abs=1e-3)
+    # Under these accelerograms the wall is at rest before they end.
+    assert edps.pop("nothing after the record") == none
+    assert len(edps) == 9
+    assert all(len(several) == exact.size and several != none for several in edps.values())
 
 
 def test_the_manifest_uses_the_repository(root):

@@ -32,6 +32,7 @@ program shortcuts
    type(error_type), allocatable :: error
    type(response_type) :: response
    character(len=:), allocatable :: file
+   real(wp), allocatable :: scales(:, :)
    integer :: i, j, k, length
 
    call get_command_argument(1, length=length)
@@ -47,12 +48,13 @@ program shortcuts
       stop 1, quiet=.true.
    end if
    call case%make_study(study)
+   scales = study%scales(case%wall)
    write (output_unit, '(a)') 'shortcut,record,im_level,edp,collapsed'
    do k = 1, size(studied)
       do j = 1, size(case%stripes%levels)
          do i = 1, size(case%suite%records)
-            call simulate_plain(case%wall%mechanism, case%suite%records(i), &
-               & study%scale_to(case%wall, i, case%stripes%levels(j)), case%solver%solver, studied(k), response)
+            call simulate_plain(case%wall%mechanism, case%suite%records(i), scales(i, j), case%solver%solver, studied(k), &
+               & response)
             write (output_unit, '(*(a))') trim(studied(k)%name), ',', case%suite%records(i)%name, ',', &
                & to_text(case%stripes%levels(j)), ',', to_text(response%edp), ',', &
                & to_text(merge(1, 0, response%collapsed))
