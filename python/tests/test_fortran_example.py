@@ -49,7 +49,7 @@ def test_program_of_the_page(root, records, tmp_path):
 
 @pytest.mark.slow
 def test_program_of_the_verification(root, tmp_path):
-    """The study of shortcuts, which ./run verification builds: with none of them it is the motion that dondolo computes."""
+    """The study of shortcuts, which ./run verification builds: without any it is the motion that dondolo computes."""
     folder = root / "docs/verification/shortcuts"
     names = ("straddling_step", "plain_motion", "shortcuts")
     program = compiled(root, tmp_path, *(folder / f"{name}.f90" for name in names))
