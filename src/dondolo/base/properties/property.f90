@@ -94,7 +94,10 @@ contains
       !> Name in lower case, not empty
       character(len=*), intent(in) :: name
 
-      find_property = find_name(table%name, name)
+      ! Not by find_name: table%name is not contiguous, so each call would make a copy of all names.
+      do find_property = size(table), 1, -1
+         if (is_name(table(find_property)%name, name)) return
+      end do
    end function find_property
 
    !> Place of a name among those of a table, 0 if it is none of them
@@ -104,11 +107,19 @@ contains
       character(len=*), intent(in) :: name
 
       do find_name = size(names), 1, -1
-         ! The first letter tells most names apart, many times quicker than the whole
-         if (names(find_name)(1:1) /= name(1:1)) cycle
-         if (names(find_name) == name) return
+         if (is_name(names(find_name), name)) return
       end do
    end function find_name
+
+   !> Is an entry of a table this name? Comparing the first letter settles most cases, many times faster than the whole name.
+   pure logical function is_name(entry, name)
+      character(len=*), intent(in) :: entry
+      !> Name in lower case, not empty
+      character(len=*), intent(in) :: name
+
+      is_name = entry(1:1) == name(1:1)
+      if (is_name) is_name = entry == name
+   end function is_name
 
    !> Does a mechanism or a task have a property?
    pure logical function has_owner(property, owner)
