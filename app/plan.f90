@@ -105,8 +105,7 @@ contains
       if (store%done > 0) write (output_unit, '(a)') 'of these an earlier run has done '// &
          & to_text(store%work%histories)//', '//to_text(store%done)//' of '// &
          & to_text(case%survey%last - case%survey%first + 1)//' rows, in '//store%path
-      ! Without motion no record has one
-      if (scales%largest > 0.0_wp) write (output_unit, '(a)') 'largest scale factor: '//rounded(scales%largest)// &
+      write (output_unit, '(a)') 'largest scale factor: '//rounded(scales%largest)// &
          & ' (record '''//scales%record//''' at level '//to_text(scales%level)//')'
    end subroutine print_histories
 

@@ -236,7 +236,7 @@ def test_errors(wall, records):
     for scale in (0.0, -1.0, np.inf, np.nan):
         with pytest.raises(dd.InputError, match=r"scale = .*: must be positive"):
             dd.cloud(wall, records, scale=scale)
-    with pytest.raises(dd.InputError, match="'flat' is without motion"):
+    with pytest.raises(dd.InputError, match="record 'flat': has no motion"):
         dd.cloud(wall, [*records[:2], dd.Record(np.zeros(10), 0.01, "flat")])
     with pytest.raises(dd.InputError, match="wall: str is no wall"):
         dd.cloud("wall", records)

@@ -288,5 +288,5 @@ def test_wrong_comparisons(wall, few):
         dd.compare_intensities(wall, few, [["pga"]])
     with pytest.raises(dd.InputError, match="levels = 1: must be"):
         dd.compare_intensities(wall, few, ["pga"], n_levels=1)
-    with pytest.raises(dd.InputError, match="records: all are without motion"):
-        dd.compare_intensities(wall, dd.Record(np.zeros(10), 0.01), ["pga"])
+    with pytest.raises(dd.InputError, match="record 'flat': has no motion"):
+        dd.compare_intensities(wall, [*few, dd.Record(np.zeros(10), 0.01, "flat")], ["pga"])

@@ -4,6 +4,7 @@ module records
    use dondolo_boundary, only : check_room, report
    use dondolo_catalogue, only : read_catalogue, record_rows_type
    use dondolo_csv_row, only : cell_type
+   use dondolo_dead_channel, only : check_motion, check_vertical_motion
    use dondolo_energy_measures, only : times_of => significant_times
    use dondolo_error, only : error_type, raise_input
    use dondolo_ground_motion, only : velocity_of => ground_velocity
@@ -26,7 +27,7 @@ module records
    private
 
    public :: new_suite, measure_suite, check_record, join_vertical, describe_measure, intensities, spectrum, ground_velocity, &
-      & significant_times, read_records, read_number_table, catalogue_table, synthetic_record
+      & significant_times, check_motions, read_records, read_number_table, catalogue_table, synthetic_record
 
 contains
 
@@ -107,10 +108,30 @@ contains
 
       call check_room(error, samples=real(n, c_double) + real(m, c_double))
       if (.not. allocated(error)) call new_record(record, acceleration, dt, '', error)
+      if (.not. allocated(error)) call check_vertical_motion(vertical, error)
       if (.not. allocated(error)) call record%set_vertical(vertical, vertical_dt, factor, error)
       if (.not. allocated(error)) parcel%reals = [record%dt, record%acceleration, record%vertical]
       call send(parcel, error, sent, stat, message)
    end subroutine join_vertical
+
+   !> Check that the records of a suite are motions
+   subroutine check_motions(suite, stat, message)
+      integer(c_int64_t), intent(in) :: suite
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(suite_type), pointer :: records
+      type(error_type), allocatable :: error
+      integer :: i
+
+      call find_suite(suite, records, error)
+      if (.not. allocated(error)) then
+         do i = 1, size(records%records)
+            call check_motion(records%records(i), error)
+            if (allocated(error)) exit
+         end do
+      end if
+      call report(error, stat, message)
+   end subroutine check_motions
 
    !> Name as dondolo writes it, unit of the levels and words of an intensity measure: three lines of text; and the power of a
    !> record's scale that it grows by: an integer. With of_record = 1 those that records have of themselves, durations too;

@@ -139,6 +139,7 @@ contains
 
       call find_study(study, chosen, error)
       if (.not. allocated(error)) call find_walls(walls, people, error)
+      if (.not. allocated(error)) call chosen%check_motions(error)
       do i = 1, w
          if (allocated(error)) exit
          ! Of a wall, sides and gravity alone count in most plans: most walls of a population share one.

@@ -246,15 +246,13 @@ def _levels(wall: Wall, records: tuple[Record, ...], im: str, count: int, polari
 
     # The search begins where half of the records reach the trigger acceleration.
     _, plan = plan_at([SMALL_LEVEL])
-    moving = plan.scale[0] > 0.0
-    if not moving.any():
-        raise InputError("records: all are without motion")
+    histories = len(plan.record)
     power = describe_measure(im).power
-    peaks = (plan.scale[0] * pga[plan.record])[moving]
+    peaks = plan.scale[0] * pga[plan.record]
     start = SMALL_LEVEL * float(wall.trigger_acceleration / np.median(peaks)) ** power
     factor = 2.0 ** (0.5 * power)
     tried = {start: collapses_at(start)}
-    for step, last in ((1.0 / factor, 0), (factor, int(moving.sum()))):
+    for step, last in ((1.0 / factor, 0), (factor, histories)):
         level = start
         while (tried[level][0] > 0 if step < 1.0 else tried[level][0] < last) and len(tried) < _LONGEST_SEARCH:
             level *= step
@@ -266,5 +264,5 @@ def _levels(wall: Wall, records: tuple[Record, ...], im: str, count: int, polari
     if pilot.has_fit:
         return pilot.theta * np.exp(pilot.beta * reach)
     # Too steep a curve for the search: between the last level that nothing fails at and the first that all fails at
-    low, high = x[z == 0].max(initial=x[0]), x[z >= moving.sum()].min(initial=x[-1])
+    low, high = x[z == 0].max(initial=x[0]), x[z >= histories].min(initial=x[-1])
     return np.geomspace(low, high, count)

@@ -80,7 +80,8 @@ def multiple_stripe(
     Raises
     ------
     InputError
-        What cannot be run, with the sentence of the executable.
+        What cannot be run, with the sentence of the executable; a record without motion, which no factor brings to a
+        level.
     Interrupted
         Ctrl-C; its `partial` has the stripes that are complete; while histories are certified all stripes, with
         which `certify` goes on.
@@ -88,8 +89,8 @@ def multiple_stripe(
     Warns
     -----
     DondoloWarning
-        Walls or PGAs that look as if they were given in another unit, scale factors above 10, records without motion;
-        with estimated errors, histories in doubt.
+        Walls or PGAs that look as if they were given in another unit, scale factors above 10; with estimated errors,
+        histories in doubt.
 
     Notes
     -----
@@ -146,8 +147,6 @@ def _auto(request: Request, budget: int | None, progress: bool) -> Stripes:
     # Scales are powers of the level.
     peaks = np.array([request.records[i].peak_acceleration for i in trials[0].record])
     one, two = (float(np.median(plan.scale[0] * peaks)) for plan in trials)
-    if not one > 0.0:
-        raise InputError("levels = 'auto': half of the records at least are without motion")
     level: float | None = rounded(_TRIAL * (2.0 * wall.trigger_acceleration / one) ** (1.0 / np.log2(two / one)))
     parts: list[Stripes] = []
     pace = Pace(request.facts.samples)

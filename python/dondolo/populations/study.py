@@ -81,7 +81,7 @@ def typology(
     Warns
     -----
     DondoloWarning
-        Walls or PGAs that look as if they were given in another unit, scale factors above 10, records without motion,
+        Walls or PGAs that look as if they were given in another unit, scale factors above 10,
         walls without a fit, a fit that extrapolates.
     """
     people = population if isinstance(population, Population) else Population(population)  # type: ignore[arg-type]

@@ -10,7 +10,7 @@ import numpy as np
 from dondolo._base.arguments import FloatArray
 from dondolo.errors import InputError
 from dondolo.records.processing import SAME_STEP
-from dondolo.records.suite import Motion
+from dondolo.records.suite import Motion, check_motions
 
 # How the formats write a component that is vertical, also after a station: UP, U-D, UD1, ICC-UP, HNZ (SEED)
 _VERTICAL = re.compile(r"(.*[-_ .])?[-+]?(U|D|UP|DN|DWN|DOWN|UD\d?|DU|Z|V|VRT|VER\w*|[A-Z][HLGMN]Z)", re.IGNORECASE)
@@ -66,6 +66,8 @@ def check_components(first: Motion, second: Motion) -> None:
             raise InputError(
                 f"components '{first.name}' and '{second.name}': {key} = '{one}' and '{other}': must be the same"
             )
+    check_motions((first,))
+    check_motions((second,))
     for record in (first, second):
         component = record.metadata.get("component", "").strip()
         if _VERTICAL.fullmatch(component):

@@ -30,6 +30,7 @@ from dondolo._storage.saved import Saved
 from dondolo.errors import InputError
 from dondolo.records.record import Record
 from dondolo.records.record_set import RecordSet, plain_records
+from dondolo.records.suite import check_motions
 from dondolo.records.target import TargetSpectrum
 
 if TYPE_CHECKING:
@@ -183,10 +184,8 @@ def select_records(
     if not 0.0 <= share < np.inf:
         raise InputError(f"weight = {share:g}: must not be negative")
     generator = as_generator(seed)
+    check_motions(several)
     sa = RecordSet(several).spectra(target.periods, damping=target.damping)
-    if not sa.all():
-        still = several[int(np.argmin(sa.all(axis=1)))]
-        raise InputError(f"record '{still.name}': has no motion")
     drawn = _draw(target, places, share, generator)
     candidates = _Candidates(np.log(sa), _factors(np.log(sa), target, drawn, np.log(largest)))
     chosen = _nearest(candidates, drawn, largest)

@@ -170,6 +170,12 @@ def intensities(records: tuple[Motion, ...], im: str, gravity: float | None = No
     return np.asarray(values)
 
 
+def check_motions(records: tuple[Motion, ...]) -> None:
+    """Refuse records without motion, as analyses at levels do (dondolo_dead_channel)."""
+    suite = upload(records)
+    check(*_core.records.check_motions(suite.number))
+
+
 def spectral_displacements(record: Motion, periods: FloatArray, damping: float) -> FloatArray:
     """Largest displacements of oscillators relative to the ground [m]."""
     suite, place = place_of(record)

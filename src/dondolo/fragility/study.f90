@@ -4,6 +4,7 @@
 module dondolo_study
    use dondolo_catalogue, only : record_rows_type
    use dondolo_certificate, only : check_certificates
+   use dondolo_dead_channel, only : check_motion
    use dondolo_ensemble, only : check_engine
    use dondolo_error, only : error_type, raise_input
    use dondolo_floors, only : check_floor, floors_type
@@ -70,6 +71,8 @@ module dondolo_study
       procedure :: scales
       !> Check that no record is scaled beyond all measure
       procedure :: check_scales
+      !> Check that every record that runs is a motion
+      procedure :: check_motions
    end type study_type
 
 contains
@@ -132,6 +135,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       if (.not. self%is_checked) call check_settings(self, error)
+      if (.not. allocated(error)) call self%check_motions(error)
       if (.not. allocated(error)) call check_limit(self%solver, wall%mechanism, error)
       if (.not. allocated(error)) call check_engine(self%solver, wall%mechanism, error, &
          & self%suite%has_vertical)
@@ -241,6 +245,24 @@ contains
       if (.not. allocated(self%factor)) return
       where (.not. self%factor < 0.0_wp) scales = self%factor
    end function scales
+
+   !> Check that every record that runs is a motion: no factor brings one that is none to a level, and it is no survivor
+   subroutine check_motions(self, error)
+      class(study_type), intent(in) :: self
+      !> The first that is not
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i, j
+
+      do i = 1, size(self%suite%records)
+         if (self%suite%moves(i)) cycle
+         do j = 1, size(self%levels)
+            if (.not. self%runs(i, j)) cycle
+            call check_motion(self%suite%records(i), error)
+            return
+         end do
+      end do
+   end subroutine check_motions
 
    !> Check that no record is scaled beyond all measure
    subroutine check_scales(self, scales, error)

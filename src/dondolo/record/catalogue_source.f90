@@ -3,6 +3,7 @@
 !> What a row says is taken from the table row by row; the files are read from that alone, several at a time.
 module dondolo_catalogue_source
    use dondolo_csv_reader, only : csv_reader_type
+   use dondolo_dead_channel, only : check_vertical_motion
    use dondolo_error, only : add_place, error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_metadata, only : metadata_type
@@ -140,7 +141,8 @@ contains
          call read_component(source, source%path, source%vertical_channel, vertical, error)
       end if
       if (allocated(error)) return
-      call record%set_vertical(vertical%acceleration, vertical%dt, vertical_factor, error)
+      call check_vertical_motion(vertical%acceleration, error)
+      if (.not. allocated(error)) call record%set_vertical(vertical%acceleration, vertical%dt, vertical_factor, error)
       call add_place(error, source%place)
    end subroutine read_source
 

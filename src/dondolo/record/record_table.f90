@@ -1,5 +1,7 @@
 !> Records at a glance: a table with what they are, how strong, how long, and what looks odd about them.
 module dondolo_record_table
+   use dondolo_dead_channel, only : check_motion
+   use dondolo_error, only : error_type
    use dondolo_ground_motion, only : ground_velocity, peak_velocity
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
@@ -87,12 +89,14 @@ contains
       real(wp) :: velocity(size(record%acceleration)), peak
       real(wp) :: pga
       character(len=:), allocatable :: sentence
+      type(error_type), allocatable :: error
       integer :: n, run, longest, i
 
       problems = ''
       n = size(record%acceleration)
       pga = record%pga()
-      if (.not. pga > 0.0_wp) then
+      call check_motion(record, error)
+      if (allocated(error)) then
          problems = 'no motion'
          return
       end if

@@ -5,11 +5,12 @@
 !> others read.
 module dondolo_suite
    use dondolo_clusters, only : cluster_records
+   use dondolo_dead_channel, only : is_motion
    use dondolo_ground_motion, only : peak_velocity
    use dondolo_intensity, only : measure_type
    use dondolo_kinds, only : wp
    use dondolo_order, only : find_order
-   use dondolo_record, only : record_type
+   use dondolo_record, only : find_extremes, record_type
    use dondolo_record_set, only : new_record_set, record_set_type
    use dondolo_threads, only : team_of
    implicit none
@@ -40,6 +41,8 @@ module dondolo_suite
       type(record_set_type) :: set
       !> Their PGA [m/s2]
       real(wp), allocatable :: peaks(:)
+      !> Whether the ground moves (dondolo_dead_channel)
+      logical, allocatable :: moves(:)
       !> Their PGV [m/s]
       real(wp), allocatable :: velocities(:)
       !> Largest downward acceleration of the ground under each [m/s2]
@@ -68,6 +71,7 @@ contains
       !> Number of threads that join them, 0: all that OpenMP gives; one if absent
       integer, intent(in), optional :: threads
 
+      real(wp) :: lowest, highest
       integer :: team, i
 
       team = 1
@@ -78,9 +82,15 @@ contains
       end do
       call new_record_set(suite%set, suite%records, threads)
       call find_order([(real(suite%set%strong_blocks(i), wp), i=1, size(suite%records))], suite%by_duration)
-      suite%peaks = suite%records%pga()
+      associate (records => size(suite%records))
+         allocate (suite%peaks(records), suite%moves(records), suite%clusters(records), suite%velocities(records))
+      end associate
+      do i = 1, size(suite%records)
+         call find_extremes(suite%records(i)%acceleration, lowest, highest)
+         suite%peaks(i) = max(-lowest, highest)
+         suite%moves(i) = is_motion(lowest, highest)
+      end do
       suite%falls = suite%records%largest_fall()
-      allocate (suite%clusters(size(suite%records)), suite%velocities(size(suite%records)))
       !$omp parallel do schedule(dynamic) num_threads(team_of(team, size(suite%records))) default(none) shared(suite)
       do i = 1, size(suite%records)
          suite%velocities(i) = peak_velocity(suite%records(i))

@@ -4,6 +4,7 @@ module dondolo_read_case
    use dondolo_case, only : case_type
    use dondolo_catalogue, only : read_catalogue, record_rows_type
    use dondolo_check_group, only : read_check_group
+   use dondolo_dead_channel, only : check_motion
    use dondolo_ensemble, only : check_engine
    use dondolo_error, only : error_type, raise_input, status_missing
    use dondolo_history_group, only : find_record, read_history_group
@@ -395,7 +396,7 @@ contains
       type(case_type), intent(inout), target :: case
       !> Rows of the catalogue
       type(record_rows_type), intent(in) :: rows
-      !> A level that is not among the others, or has no record
+      !> A level that is not among the others, or has no record; a record that runs without motion
       type(error_type), allocatable, intent(out) :: error
 
       type(group_type) :: group
@@ -405,6 +406,10 @@ contains
       call case%make_study(study)
       call study%set_rows(rows, error)
       group = namelist%group('stripes')
+      if (.not. allocated(error)) then
+         call study%check_motions(error)
+         group = namelist%group('records')
+      end if
       call group%locate(error)
       if (.not. allocated(error)) call move_alloc(study%factor, case%factor)
    end subroutine choose_records
@@ -418,21 +423,22 @@ contains
 
       type(group_type) :: group
       type(study_type) :: study
+      type(error_type), allocatable :: problem
       real(wp) :: scale
 
       if (case%job%task == 'history') then
          group = namelist%group('history')
          associate (record => case%suite%records(case%history%record))
-            scale = abs(case%history_scale())
-            if (scale*record%pga() <= largest_acceleration .and. scale > 0.0_wp) return
-            if (allocated(case%history%im_level) .and. .not. scale > 0.0_wp) then
-               call group%refuse('im_level', 'record '''//record%name//''' has a '//case%stripes%scaling%name// &
-                  & ' of 0 and cannot be scaled to a level', error)
-            else
-               call raise_input(error, group%place()//': the scale '//brief(scale)//' makes record '''// &
-                  & record%name//''' exceed '//to_text(largest_acceleration)//' m/s2'// &
-                  & group%in_line(trim(merge('im_level', 'scale   ', allocated(case%history%im_level)))))
+            if (allocated(case%history%im_level)) call check_motion(record, problem)
+            if (allocated(problem)) then
+               call group%refuse('im_level', problem%message, error)
+               return
             end if
+            scale = abs(case%history_scale())
+            if (scale*record%pga() <= largest_acceleration) return
+            call raise_input(error, group%place()//': the scale '//brief(scale)//' makes record '''// &
+               & record%name//''' exceed '//to_text(largest_acceleration)//' m/s2'// &
+               & group%in_line(trim(merge('im_level', 'scale   ', allocated(case%history%im_level)))))
          end associate
          return
       end if
