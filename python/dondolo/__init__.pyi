@@ -29,6 +29,7 @@ from dondolo.checks.ntc import check_ntc as check_ntc
 from dondolo.curves.bootstrap import Bootstrap as Bootstrap
 from dondolo.curves.comparison import Comparison as Comparison
 from dondolo.curves.comparison import compare as compare
+from dondolo.curves.discrete import DiscreteFragility as DiscreteFragility
 from dondolo.curves.fitting import fit_fragility as fit_fragility
 from dondolo.curves.fragility import Fragility as Fragility
 from dondolo.curves.regression import Logistic as Logistic
@@ -42,7 +43,6 @@ from dondolo.exchange.cases import Case as Case
 from dondolo.exchange.cases import Results as Results
 from dondolo.exchange.cases import read_case as read_case
 from dondolo.exchange.cases import run_case as run_case
-from dondolo.exchange.fragility_model import DiscreteFragility as DiscreteFragility
 from dondolo.exchange.fragility_model import FragilityModel as FragilityModel
 from dondolo.exchange.fragility_model import read_nrml as read_nrml
 from dondolo.exchange.mean_functions import nrml_functions as nrml_functions

@@ -328,7 +328,8 @@ def test_probabilities():
     for levels, p, sentence in (
         ([0.1], [0.1], "levels: must be at least two"),
         ([0.2, 0.1], [0.1, 0.2], "levels = 0.2, 0.1: must increase strictly"),
-        ([0.0, 0.1], [0.1, 0.2], "levels = 0: must be positive"),
+        ([-0.1, 0.1], [0.1, 0.2], "levels = -0.1: must not be negative"),
+        ([0.0, 0.1], [0.1, 0.2], "probability = 0.1 at the level 0: must be 0"),
         ([0.1, 0.2], [0.1], "2 levels, 1 probabilities"),
         ([0.1, 0.2], [0.1, 1.2], "probability = 1.2: must lie between 0 and 1"),
         ([0.1, 0.2], [0.1, np.nan], "probability = nan"),
@@ -416,9 +417,10 @@ def test_round_trip(path, tmp_path):
 
 
 def test_models_of_others(path, tmp_path):
-    """Also such as write_nrml would refuse: these curves cross."""
+    """Also such as write_nrml would refuse, with a warning: these curves cross."""
     path.write_text(FOREIGN)
-    model = dd.read_nrml(path)
+    with pytest.warns(dd.DondoloWarning, match=r"'LS2' is more probable than 'LS1' above 5\.06: the curves cross"):
+        model = dd.read_nrml(path)
     assert list(model.functions) == ["RC", "UNM/C_LR/GOV2"]
     assert model.description == "Fragility model"
     np.testing.assert_array_equal(model.functions["RC"]["LS2"].probability, [0.001, 0.02, 0.25, 0.72])
@@ -429,7 +431,8 @@ def test_models_of_others(path, tmp_path):
     assert curve.theta == pytest.approx(0.15**2 / np.sqrt(0.39**2 + 0.15**2), rel=1e-14)
     assert curve.beta == pytest.approx(np.sqrt(np.log(1.0 + (0.39 / 0.15) ** 2)), rel=1e-14)
     model.write(tmp_path / "again.xml")
-    same(model, dd.read_nrml(tmp_path / "again.xml"))
+    with pytest.warns(dd.DondoloWarning, match="the curves cross"):
+        same(model, dd.read_nrml(tmp_path / "again.xml"))
     with pytest.raises(dd.InputError, match="exists, and is no fragility model of dondolo"):
         model.write(path)
 
@@ -437,7 +440,7 @@ def test_models_of_others(path, tmp_path):
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
-        ("<nrml", "<nrm", "is no XML"),
+        ("<nrml", "<nrm", "is not XML"),
         ("nrml/0.5", "nrml/0.4", "is NRML 0.4: must be 0.5, into which 'oq upgrade_nrml' turns it"),
         ("http://openquake.org", "http://example.org", "is no NRML"),
         ("fragilityModel", "vulnerabilityModel", "must have one fragilityModel, there are 0"),

@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 import study
 from dondolo._storage import saved, tables
-from dondolo.exchange.fragility_model import Limits
+from dondolo.curves.limited import Limits, limited
 
 import dondolo as dd
 
@@ -91,6 +91,8 @@ def results(stripes, few, wall):
             asset_category="buildings",
             loss_category="structural",
         ),
+        "limited": limited(dd.Fragility.of_parameters(0.5, 0.4, im="pga"), Limits(0.1, 0.1, 2.0)),
+        "discrete with a limit": dd.DiscreteFragility([0.0, 0.2, 0.4], [0.0, 0.25, 0.75], no_damage_limit=0.05),
         "code check": dd.check_ntc(dd.OneSidedWall(3.0, 0.25), dd.Site(ag=0.2, f0=2.5, tc_star=0.35, soil="B")),
         "typology": people,
         "one mechanism": one,

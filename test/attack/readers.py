@@ -33,7 +33,7 @@ SANITIZERS = {
     "OMP_NUM_THREADS": "1",
 }
 FORTRAN = ("case", "walls", "catalogue", "numbers", "records", "store")
-PYTHON = ("results", "archive", "hazard")
+PYTHON = ("results", "archive", "hazard", "openquake", "nrml")
 EXECUTABLE = ("study", "merge")
 
 

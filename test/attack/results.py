@@ -19,6 +19,8 @@ import dondolo as dd
 
 # Address space of the process: what is more than any small file needs [bytes]
 LARGEST = 6_000_000_000
+# Intensities at which curves are evaluated
+GRID = np.append(0.0, np.geomspace(1e-3, 100.0, 200))
 
 
 def samples(folder: Path) -> None:
@@ -41,6 +43,12 @@ def samples(folder: Path) -> None:
 def unsound(value: Any) -> str:
     """What cannot be in a result: arrays of Python objects, a repr that fails, flags that are none."""
     repr(value)
+    if isinstance(value, dd.FragilityModel):
+        for curves in value.functions.values():
+            for state, curve in curves.items():
+                p = curve(GRID)
+                if not (np.all((p >= 0.0) & (p <= 1.0)) and np.all(np.diff(p) >= -1e-12)):
+                    return f"{state}: is not a curve of probabilities"
     if dataclasses.is_dataclass(value):
         for field in dataclasses.fields(value):
             inner = getattr(value, field.name)
@@ -79,6 +87,10 @@ def answer(family: str, path: str) -> str:
             results = [dd.load(path)]
         elif family == "hazard":
             results = [dd.HazardCurve.from_csv(path)]
+        elif family == "openquake":
+            results = [dd.HazardCurve.from_openquake(path)]
+        elif family == "nrml":
+            results = [dd.read_nrml(path)]
         elif family == "set":
             return f"read {digest(dd.read_results(path))}"
         else:

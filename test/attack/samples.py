@@ -91,6 +91,36 @@ _NUMBERS = [
     "# hazard\nsa(0.5),poe,investigation_time\n0.1,0.5,50\n0.3,0.1,50\n0.6,0.02,50\n",
 ]
 
+# Hazard curves as the OpenQuake engine exports them, and fragility models for it
+_OPENQUAKE = [
+    "#,,,,\"generated_by='OpenQuake engine 3.20.0', kind='mean', investigation_time=50.0, imt='PGA'\"\n"
+    "lon,lat,depth,poe-0.0500000,poe-0.1000000,poe-0.2000000\n13.4,42.35,0.0,9.0E-01,4.0E-01,5.0E-02\n",
+    '# mean, investigation_time=50.0, imt="PGV"\ncustom_site_id,lon,lat,depth,poe-5.0,poe-10.0,poe-20.0,poe-40.0\n'
+    "a1,13.40000,42.35000,0.00000,1.0,3.1E-01,8.0E-02,0.0\n",
+]
+_NRML = [
+    f"""<?xml version="1.0" encoding="utf-8"?>
+<nrml xmlns="http://openquake.org/xmlns/nrml/0.5">
+  <fragilityModel id="walls" assetCategory="buildings" lossCategory="structural">
+    <description>rocking walls</description>
+    <limitStates>damage collapse</limitStates>
+    <fragilityFunction id="lognormal" format="continuous" shape="logncdf">
+      <imls imt="{imt}" noDamageLimit="0.05" minIML="0.05" maxIML="3"/>
+      <!-- theta = 0.3, beta = 0.4 -->
+      <params ls="damage" mean="0.3249861" stddev="0.1354063"/>
+      <params ls="collapse" mean="0.65" stddev="0.27"/>
+    </fragilityFunction>
+    <fragilityFunction id="levels" format="discrete">
+      <imls imt="SA(0.5)" noDamageLimit="0.02">0.1 0.2 0.4 0.8</imls>
+      <poes ls="damage">0.0 0.25 0.6 0.9</poes>
+      <poes ls="collapse">0.0 0.0 0.3 0.75</poes>
+    </fragilityFunction>
+  </fragilityModel>
+</nrml>
+"""
+    for imt in ("PGA", "PGV")
+]
+
 
 def readers_samples(programs: Programs, folder: Path) -> dict[str, list[bytes]]:
     """Valid files of each family of Fortran readers; the inputs of cases are written to `folder`."""
@@ -109,6 +139,8 @@ def readers_samples(programs: Programs, folder: Path) -> dict[str, list[bytes]]:
     made["walls"] = [(folder / "walls.csv").read_bytes(), *(text.encode() for text in _WALLS)]
     made["walls"].append((ROOT / "data/walls/population.csv").read_bytes())
     made["numbers"] = [text.encode() for text in _NUMBERS]
+    made["openquake"] = [text.encode() for text in _OPENQUAKE]
+    made["nrml"] = [text.encode() for text in _NRML]
     made["store"] = [checkpoint(programs, folder, more) for more in ("", "   histories = .true.\n")]
     (folder / "samples").mkdir(exist_ok=True)
     subprocess.run([programs.readers, "samples", folder / "samples"], check=True)

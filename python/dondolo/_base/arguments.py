@@ -58,14 +58,15 @@ def as_array(name: str, values: ArrayLike) -> FloatArray:
     return array
 
 
-def increasing(name: str, values: ArrayLike) -> FloatArray:
-    """Turn what a user gives for levels of a curve into positive numbers that increase: a copy that nobody changes."""
+def increasing(name: str, values: ArrayLike, *, from_zero: bool = False) -> FloatArray:
+    """Convert levels of a curve to positive numbers that increase, the first may be 0: a copy that is read-only."""
     levels = as_array(name, values).copy()
+    allowed = "not negative" if from_zero else "positive"
     if len(levels) < 2:
-        raise InputError(f"{name}: must be at least two, positive and increasing")
-    wrong = ~((levels > 0.0) & (levels < np.inf))
+        raise InputError(f"{name}: must be at least two, {allowed} and increasing")
+    wrong = ~(((levels >= 0.0) if from_zero else (levels > 0.0)) & (levels < np.inf))
     if wrong.any():
-        raise InputError(f"{name} = {levels[wrong][0]:g}: must be positive")
+        raise InputError(f"{name} = {levels[wrong][0]:g}: must {'not be negative' if from_zero else 'be positive'}")
     falls = levels[1:] <= levels[:-1]
     if falls.any():
         i = int(np.argmax(falls))

@@ -33,7 +33,7 @@ from enum import Enum
 from inspect import signature
 from pathlib import Path
 from types import NoneType, UnionType
-from typing import Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
+from typing import TYPE_CHECKING, Any, Literal, TypeVar, Union, get_args, get_origin, get_type_hints
 
 import numpy as np
 
@@ -41,11 +41,16 @@ from dondolo._base.files import as_file, check_replaced, whole_file
 from dondolo._fortran.library import constants
 from dondolo.errors import DondoloWarning, InputError, MissingFileError
 
+if TYPE_CHECKING:
+    from zipfile import ZipInfo
+
 _VERSION = 1
 _CONTENT = "dondolo.json"
 # What every file has in its first bytes: the first member is not compressed
 _MARK = '{"format": "dondolo result"'
 _SUFFIX = ".npz"
+# The first bytes of a file, which have the mark
+_HEAD = 500
 
 _Array = np.ndarray[Any, Any]
 _T = TypeVar("_T")
@@ -139,22 +144,34 @@ def load(path: str | os.PathLike[str]) -> Any:
     """
     source = as_file("path", path)
     try:
-        data = source.read_bytes()
+        with source.open("rb") as file:
+            # A device has no end.
+            data = file.read(_HEAD)
+            is_saved = _MARK.encode() in data
+            data += file.read() if is_saved else b""
     except FileNotFoundError as error:
         raise MissingFileError(f"{source}: cannot be read: {error.strerror}") from error
     except OSError as error:
         raise InputError(f"{source}: cannot be read: {error.strerror}") from error
-    if _MARK.encode() not in data[:500]:
+    except MemoryError as error:
+        raise InputError(f"{source}: cannot be read: it does not fit in memory") from error
+    if not is_saved:
         raise InputError(f"{source}: is no result saved by dondolo")
     result, origin, arrays = _unpack(data, source)
     try:
         loaded = _decode(result, arrays)
+        if not isinstance(loaded, Saved):
+            raise InputError(f"its content must be a result, not {type(loaded).__name__}")
         # Arrays of shapes that do not belong together, and impossible numbers, are found here, not where the result is
         # shown first.
         with np.errstate(over="raise", invalid="raise"):
             repr(loaded)
-    except (ArithmeticError, AttributeError, InputError, LookupError, TypeError, ValueError) as error:
-        raise InputError(f"{source}: was saved by dondolo {origin}: {error}") from error
+    except RecursionError as error:
+        raise InputError(f"{source}: was saved by dondolo {origin}: its content is nested too deeply") from error
+    # Content that is wrong raises any kind of error in the constructors of results.
+    except Exception as error:
+        sentence = " ".join(str(error).split())
+        raise InputError(f"{source}: was saved by dondolo {origin}: {sentence}") from error
     return loaded
 
 
@@ -170,13 +187,14 @@ def _unpack(data: bytes, source: Path) -> tuple[Any, str, dict[str, _Array]]:
     arrays: dict[str, _Array] = {}
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            _check_sizes(archive.infolist(), len(data))
             content = json.loads(archive.read(_CONTENT))
             for name in archive.namelist():
                 if name != _CONTENT:
-                    array = np.lib.format.read_array(io.BytesIO(archive.read(name)), allow_pickle=False)
-                    array.flags.writeable = False
-                    arrays[name] = array
+                    arrays[name] = _array(archive.read(name))
         result, version, origin = content["result"], int(content["format_version"]), str(content["dondolo"])
+    except InputError as error:
+        raise InputError(f"{source}: is damaged: {error}") from None
     # Bytes that are wrong raise a dozen kinds of errors in zipfile and its decoders.
     except Exception as error:
         raise InputError(f"{source}: is damaged: not a whole archive of a result") from error
@@ -186,6 +204,44 @@ def _unpack(data: bytes, source: Path) -> tuple[Any, str, dict[str, _Array]]:
             f" this is {constants().version}, which reads formats up to {_VERSION}"
         )
     return result, origin, arrays
+
+
+def _check_sizes(members: list[ZipInfo], size: int) -> None:
+    """Refuse members that are larger than the file can hold, before any of them is read.
+
+    `Saved.save` compresses nothing, so that together they are smaller than the file; those of a bomb, which are
+    compressed or overlap, are larger.
+    """
+    for member in members:
+        if member.compress_type != 0 or member.file_size != member.compress_size:
+            raise InputError(f"member '{member.filename}' is compressed, which no saved result is")
+    whole = sum(member.file_size for member in members)
+    if whole > size:
+        raise InputError(f"its members have {whole} bytes, more than the {size} of the file")
+
+
+def _array(data: bytes) -> _Array:
+    """An array from the bytes of its member; its header is compared with them before memory is reserved."""
+    file = io.BytesIO(data)
+    version = np.lib.format.read_magic(file)
+    read_header = {
+        (1, 0): np.lib.format.read_array_header_1_0,
+        (2, 0): np.lib.format.read_array_header_2_0,
+    }.get(version)
+    if read_header is None:
+        raise InputError(f"an array has the unknown version {version[0]}.{version[1]}")
+    shape, _, dtype = read_header(file)
+    count = math.prod(shape)
+    if (
+        dtype.hasobject
+        or any(length < 0 for length in shape)
+        or max(dtype.itemsize, 1) * count != len(data) - file.tell()
+    ):
+        raise InputError(f"an array of shape {shape} and type {dtype} does not have {len(data) - file.tell()} bytes")
+    file.seek(0)
+    array: _Array = np.lib.format.read_array(file, allow_pickle=False)
+    array.flags.writeable = False
+    return array
 
 
 def _encode(value: Any, where: str, arrays: list[_Array], places: dict[int, str]) -> Any:

@@ -8,6 +8,7 @@ import numpy as np
 
 from dondolo._base.arguments import tails
 from dondolo._fortran.records import blank_unit
+from dondolo.curves.discrete import DiscreteFragility
 from dondolo.curves.fragility import Fragility
 from dondolo.figures import curves, style
 
@@ -73,6 +74,23 @@ def draw_fragility(
     if fragility.wall is not None and label is None:
         style.title(ax, fragility.wall.name)
     style.legend(ax, loc="upper left" if label is None else "lower right")
+    return ax
+
+
+def draw_discrete(curve: DiscreteFragility, ax: Axes | None, label: str | None, color: str, linestyle: str) -> Axes:
+    """Draw the straight lines of a curve with a mark at each level, and the level part above the last."""
+    ax = style.axes(ax)
+    right = 1.05 * float(curve.levels[-1])
+    # Just above a limit the curve jumps.
+    x = np.unique(np.concatenate([curves.grid(right), *((one, np.nextafter(one, np.inf)) for one in curve._corners)]))
+    ax.plot(x, curve(x), color=color, linestyle=linestyle, label=label)
+    ax.plot(curve.levels, curve(curve.levels), color=color, linestyle="none", marker="o", markersize=3)
+    ax.set_xlim(0.0, right)
+    ax.set_ylim(-0.02, 1.02)
+    ax.set_xlabel(style.im_label(curve.im))
+    ax.set_ylabel("probability")
+    if label is not None:
+        style.legend(ax, loc="lower right")
     return ax
 
 

@@ -11,92 +11,33 @@ import os
 import re
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any, NamedTuple
+from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, increasing
 from dondolo._base.files import as_file, check_replaced, read_text
 from dondolo._base.shown import Shown
-from dondolo._fortran.library import constants
-from dondolo._fortran.records import blank_unit, describe_measure
+from dondolo._fortran.library import constants, warn
 from dondolo._storage import tables
-from dondolo._storage.saved import Saved, part_of_results
+from dondolo._storage.saved import Saved
+from dondolo.curves.discrete import DiscreteFragility
 from dondolo.curves.fragility import Fragility
-from dondolo.errors import InputError
-from dondolo.risk.openquake import im_of, imt_of, over, times
+from dondolo.curves.limited import Limits, limited
+from dondolo.errors import DondoloWarning, InputError
+from dondolo.exchange.state_order import disorder_at_levels, disorder_of_lognormals
+from dondolo.risk.openquake import as_written, im_of, imt_of, over, times
 
 NAMESPACE = "http://openquake.org/xmlns/nrml/0.5"
 #: What stands in the second line of every file of dondolo
 MARK = "<!-- dondolo "
 _LIMITS = ("noDamageLimit", "minIML", "maxIML")
+# More than the format has, which is four
+_DEEPEST = 100
 _PARAMETERS = re.compile(r"\s*theta = (\S+), beta = (\S+)\s*")
 
 
-@dataclass(frozen=True, eq=False, init=False, repr=False)
-class DiscreteFragility(Shown, Saved):
-    """A fragility curve as probabilities at levels, such as the mean of a typology.
-
-    Parameters
-    ----------
-    levels : array_like, shape (levels,)
-        Levels of intensity, positive and increasing; at least two.
-    probability : array_like, shape (levels,)
-        Of reaching the state, between 0 and 1, not decreasing.
-    im : str
-        Intensity measure.
-
-    Examples
-    --------
-    >>> import dondolo as dd
-    >>> curve = dd.DiscreteFragility([0.1, 0.2, 0.4], [0.0, 0.25, 0.75])
-    """
-
-    levels: FloatArray
-    probability: FloatArray
-    im: str
-
-    def __init__(self, levels: ArrayLike, probability: ArrayLike, *, im: str = "pga") -> None:
-        x = increasing("levels", levels)
-        p = as_array("probability", probability).copy()
-        if len(x) != len(p):
-            raise InputError(f"{len(x)} levels, {len(p)} probabilities: must be as many")
-        if not np.all((p >= 0.0) & (p <= 1.0)):
-            raise InputError(f"probability = {p[~((p >= 0.0) & (p <= 1.0))][0]:g}: must lie between 0 and 1")
-        if np.any(np.diff(p) < 0.0):
-            i = int(np.argmax(np.diff(p) < 0.0))
-            raise InputError(f"probability = {p[i]:g}, {p[i + 1]:g}: must not decrease with the level")
-        p.flags.writeable = False
-        for what, value in (("levels", x), ("probability", p), ("im", describe_measure(im).name)):
-            object.__setattr__(self, what, value)
-
-    def _facts(self) -> list[tuple[str, str]]:
-        unit = blank_unit(self.im)
-        ends = f"{self.levels[0]:.4g} to {self.levels[-1]:.4g}{unit}"
-        chances = f"{self.probability[0]:.4g} to {self.probability[-1]:.4g}"
-        return [("levels", f"{len(self.levels)} of {self.im}, {ends}"), ("probability", chances)]
-
-
 Curve = Fragility | DiscreteFragility
-
-
-@part_of_results
-class Limits(NamedTuple):
-    """Where a function counts, in the unit of its levels; None: not given.
-
-    Attributes
-    ----------
-    no_damage_limit : float or None
-        Intensity up to which there is no damage.
-    min_iml, max_iml : float or None
-        Range of a continuous function, constant beyond; None for a discrete one.
-    """
-
-    no_damage_limit: float | None = None
-    min_iml: float | None = None
-    max_iml: float | None = None
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -106,7 +47,8 @@ class FragilityModel(Shown, Saved):
     Attributes
     ----------
     functions : dict of dict
-        Taxonomy -> limit state -> `Fragility` (continuous) or `DiscreteFragility`, as `write_nrml` takes them.
+        Taxonomy -> limit state -> `Fragility` (continuous) or `DiscreteFragility`, as `write_nrml` takes them; the
+        limits of the function are applied to its curves.
     limits : dict
         Taxonomy -> (no_damage_limit, min_iml, max_iml) in the unit of the curves' levels; None where not given.
     id, description, asset_category, loss_category : str
@@ -118,6 +60,15 @@ class FragilityModel(Shown, Saved):
     description: str
     asset_category: str
     loss_category: str
+
+    def __post_init__(self) -> None:
+        # One place for models that are read, made and loaded
+        functions = {
+            taxonomy: {state: _with_limits(curve, self.limits[taxonomy]) for state, curve in curves.items()}
+            for taxonomy, curves in self.functions.items()
+        }
+        object.__setattr__(self, "functions", functions)
+        super().__post_init__()
 
     def write(self, path: str | os.PathLike[str]) -> None:
         """Write the model, NRML 0.5; the file appears whole or not at all.
@@ -152,6 +103,15 @@ class FragilityModel(Shown, Saved):
         return [("id", self.id), ("functions", str(len(self.functions))), ("limit states", states)]
 
 
+def _with_limits(curve: Curve, limits: Limits) -> Curve:
+    """A curve with the limits of its function."""
+    if isinstance(curve, Fragility):
+        return limited(curve, limits)
+    if curve.no_damage_limit == limits.no_damage_limit:
+        return curve
+    return DiscreteFragility(curve.levels, curve.probability, im=curve.im, no_damage_limit=limits.no_damage_limit)
+
+
 def _append(model: ElementTree.Element, taxonomy: str, curves: dict[str, Curve], limits: Limits) -> None:
     """Add a function."""
     first = next(iter(curves.values()))
@@ -175,8 +135,9 @@ def _append(model: ElementTree.Element, taxonomy: str, curves: dict[str, Curve],
 
 def _moments(theta: float, beta: float) -> tuple[float, float]:
     """Mean and standard deviation of the lognormal distribution with a median and a dispersion."""
-    mean = float(theta * np.exp(0.5 * beta**2))
-    return mean, float(mean * np.sqrt(np.expm1(beta**2)))
+    with np.errstate(over="ignore", invalid="ignore"):
+        mean = float(theta * np.exp(0.5 * beta * beta))
+        return mean, float(mean * np.sqrt(np.expm1(beta * beta)))
 
 
 def read_nrml(path: str | os.PathLike[str]) -> FragilityModel:
@@ -191,12 +152,19 @@ def read_nrml(path: str | os.PathLike[str]) -> FragilityModel:
     -------
     FragilityModel
         Continuous functions as `Fragility` without standard errors, discrete ones as `DiscreteFragility`. A model of
-        dondolo gives the curves that were written, equal to the bit.
+        dondolo gives the parameters and probabilities that were written, equal to the bit. The limits of a function
+        are applied to its curves: the probability is 0 up to noDamageLimit, and constant below minIML and above maxIML.
 
     Raises
     ------
     InputError
-        The file cannot be read, is no such model, or has a measure that dondolo does not know.
+        The file cannot be read, is no such model, or has a measure that dondolo does not know; limits are in the wrong
+        order; a more severe limit state is more probable throughout.
+
+    Warns
+    -----
+    DondoloWarning
+        Limit states cross; noDamageLimit is not below the levels of a discrete function.
 
     Examples
     --------
@@ -209,17 +177,47 @@ def read_nrml(path: str | os.PathLike[str]) -> FragilityModel:
     source = as_file("path", path)
     text = read_text(source)
     try:
-        parser = ElementTree.XMLParser(target=ElementTree.TreeBuilder(insert_comments=True))
-        root = ElementTree.fromstring(text, parser)
-    except (ElementTree.ParseError, ValueError) as error:
-        raise InputError(f"{source}: is no XML: {error}") from None
-    try:
-        return _model(root)
+        model, notes = _model(_parsed(text))
     except InputError as error:
         raise InputError(f"{source}: {error}") from None
+    warn(one.placed(f"{source}: ") for one in notes)
+    return model
 
 
-def _model(root: ElementTree.Element) -> FragilityModel:
+class _Tree(ElementTree.TreeBuilder):
+    """Builder of a tree that keeps comments, and refuses what only serves to exhaust a reader."""
+
+    def __init__(self) -> None:
+        super().__init__(insert_comments=True)
+        self._depth = 0
+
+    def start(self, tag: Any, attrs: Any) -> Any:
+        self._depth += 1
+        if self._depth > _DEEPEST:
+            raise InputError(f"is nested more than {_DEEPEST} elements deep")
+        return super().start(tag, attrs)
+
+    def end(self, tag: Any) -> Any:
+        self._depth -= 1
+        return super().end(tag)
+
+    def doctype(self, name: str, public: str | None, system: str | None) -> None:
+        """Refuse entities, which may refer to other files, and expand to any length."""
+        raise InputError("has a document type declaration (DOCTYPE), which NRML has not")
+
+
+def _parsed(text: str) -> ElementTree.Element:
+    """The tree of a file."""
+    try:
+        return ElementTree.fromstring(text, ElementTree.XMLParser(target=_Tree()))
+    except (ElementTree.ParseError, ValueError) as error:
+        if isinstance(error, InputError):
+            raise
+        raise InputError(f"is not XML: {error}") from None
+
+
+def _model(root: ElementTree.Element) -> tuple[FragilityModel, list[DondoloWarning]]:
+    """The model, and what is doubtful about it."""
     version = re.fullmatch(r"\{http://openquake\.org/xmlns/nrml/([\d.]+)\}nrml", str(root.tag))
     if not version:
         raise InputError("is no NRML: must begin with the element nrml of OpenQuake")
@@ -234,17 +232,21 @@ def _model(root: ElementTree.Element) -> FragilityModel:
         raise InputError("limitStates: must be names, each once")
     functions: dict[str, dict[str, Curve]] = {}
     limits: dict[str, Limits] = {}
+    notes: list[DondoloWarning] = []
     for function in _children(model, "fragilityFunction"):
         taxonomy = _attribute(function, "id")
         if taxonomy in functions:
             raise InputError(f"fragilityFunction '{taxonomy}': is a duplicate")
         try:
             functions[taxonomy], limits[taxonomy] = _function(function, states)
+            doubt = _doubt(functions[taxonomy], limits[taxonomy])
         except InputError as error:
             raise InputError(f"fragilityFunction '{taxonomy}': {error}") from None
+        if doubt is not None:
+            notes.append(doubt.placed(f"fragilityFunction '{taxonomy}': "))
     if not functions:
         raise InputError("must have a fragilityFunction")
-    return FragilityModel(
+    made = FragilityModel(
         functions=functions,
         limits=limits,
         id=_attribute(model, "id"),
@@ -252,6 +254,43 @@ def _model(root: ElementTree.Element) -> FragilityModel:
         asset_category=_attribute(model, "assetCategory"),
         loss_category=_attribute(model, "lossCategory"),
     )
+    return made, notes
+
+
+def _doubt(curves: dict[str, Curve], limits: Limits) -> DondoloWarning | None:
+    """A doubt about a function that `write_nrml` would refuse to write.
+
+    Raises
+    ------
+    InputError
+        The limits are in the wrong order, or a more severe state is more probable throughout.
+    """
+    none, low, high = limits
+    lognormals = {state: curve for state, curve in curves.items() if isinstance(curve, Fragility)}
+    levels = {state: curve for state, curve in curves.items() if isinstance(curve, DiscreteFragility)}
+    if lognormals and low is not None and high is not None:
+        if not low < high:
+            raise InputError(f"minIML = {low:g}, maxIML = {high:g}: must increase")
+        if none is not None and none >= high:
+            raise InputError(f"noDamageLimit = {none:g}: must be below maxIML = {high:g}")
+        found = disorder_of_lognormals(lognormals, max(low, none or 0.0), high)
+    else:
+        found = disorder_at_levels(levels)
+    if found is not None:
+        if found.where == "throughout":
+            raise InputError(f"{found}: limit states must be in the order from the lightest to the heaviest")
+        numbers = {"level": found.level}
+        return DondoloWarning(f"{found}: the curves cross", "limit_states_cross", {"state": found.heavier}, numbers)
+    for state, curve in levels.items():
+        if none is not None and none >= curve.levels[0] and np.interp(none, curve.levels, curve.probability) > 0.0:
+            first = float(curve.levels[0])
+            sentence = (
+                f"noDamageLimit = {none:g} is not below the lowest level, {first:g}: the probabilities of '{state}' up"
+                " to it are taken for 0"
+            )
+            numbers = {"no_damage_limit": none, "first_level": first}
+            return DondoloWarning(sentence, "levels_below_no_damage_limit", {"state": state}, numbers)
+    return None
 
 
 def _function(function: ElementTree.Element, states: list[str]) -> tuple[dict[str, Curve], Limits]:
@@ -279,10 +318,15 @@ def _function(function: ElementTree.Element, states: list[str]) -> tuple[dict[st
         return {
             state: _lognormal(row, told.get(id(row)), im, unit) for state, row in zip(names, rows, strict=True)
         }, limits
-    levels = [over(_checked("imls", word), unit) for word in (imls.text or "").split()]
+    levels = [over(_checked("imls", word), unit) for word in _content(imls).split()]
+    beyond = [level for level in levels if not (limits.min_iml or 0.0) <= level <= (limits.max_iml or np.inf)]
+    if beyond:
+        raise InputError(
+            f"imls = {beyond[0]:g}: must not be beyond minIML and maxIML, which are of continuous functions"
+        )
     curves: dict[str, Curve] = {}
     for state, row in zip(names, rows, strict=True):
-        chances = [float(_checked("poes", word)) for word in (row.text or "").split()]
+        chances = [float(_checked("poes", word)) for word in _content(row).split()]
         try:
             curves[state] = DiscreteFragility(levels, chances, im=im)
         except InputError as error:
@@ -308,7 +352,7 @@ def _lognormal(row: ElementTree.Element, comment: str | None, im: str, unit: int
         if _moments(theta, beta) == (mean, deviation):
             return Fragility.of_parameters(theta, beta, im=im)
     ratio = deviation / mean
-    return Fragility.of_parameters(mean / float(np.hypot(1.0, ratio)), float(np.sqrt(np.log1p(ratio**2))), im=im)
+    return Fragility.of_parameters(mean / float(np.hypot(1.0, ratio)), float(np.sqrt(np.log1p(ratio * ratio))), im=im)
 
 
 def _children(element: ElementTree.Element, name: str) -> list[ElementTree.Element]:
@@ -320,7 +364,12 @@ def _text(element: ElementTree.Element, name: str) -> str:
     found = element.find(f"{{{NAMESPACE}}}{name}")
     if found is None:
         raise InputError(f"must have {name}")
-    return "".join(found.itertext())
+    return _content(found)
+
+
+def _content(element: ElementTree.Element) -> str:
+    """Text of an element without that of comments in it."""
+    return " ".join([element.text or "", *(inner.tail or "" for inner in element)])
 
 
 def _attribute(element: ElementTree.Element, name: str) -> str:
@@ -331,11 +380,11 @@ def _attribute(element: ElementTree.Element, name: str) -> str:
 
 
 def _checked(name: str, word: str) -> str:
-    """A text that is a finite number, not negative."""
+    """A string that is a finite number, not negative."""
     try:
-        value: Any = float(word)
+        value = as_written(word)
     except ValueError:
         value = np.nan
-    if not 0.0 <= value < np.inf:
+    if not value >= 0.0:
         raise InputError(f"{name} = '{word}': must be a number, not negative")
     return word

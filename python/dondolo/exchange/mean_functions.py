@@ -9,8 +9,8 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray, instance_of
 from dondolo._fortran.records import blank_unit
+from dondolo.curves.discrete import DiscreteFragility
 from dondolo.errors import silent
-from dondolo.exchange.fragility_model import DiscreteFragility
 from dondolo.populations.curve import PopulationCurve
 from dondolo.populations.typology import Typology
 

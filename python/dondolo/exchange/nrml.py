@@ -28,8 +28,8 @@ Continuous
     weak shaking is frequent: of the risk under a hazard x^-k the share Phi(k beta - 6) is cut off.
 Discrete
     Probabilities at levels, straight lines in between, constant above the last level. Without noDamageLimit OpenQuake
-    draws a line from 0 at no intensity to the first level. `nrml_functions` writes the mean curves of a population so,
-    at levels that reach far enough down and stand close enough.
+    draws a line from 0 at no intensity to the first level, which may be 0. `nrml_functions` writes the mean curves of a
+    population so, at levels that reach far enough down and are close enough.
 States
     A state contains the next, so its probability is never the smaller one. Lognormal curves of different dispersion
     cross somewhere; between minIML and maxIML they must not. A range that is not given ends where two curves cross,
@@ -56,10 +56,13 @@ import numpy as np
 
 from dondolo._base.arguments import as_number, one_of
 from dondolo._base.files import check_replaced
+from dondolo.curves.discrete import DiscreteFragility
 from dondolo.curves.fragility import Fragility
+from dondolo.curves.limited import LimitedFragility, Limits
 from dondolo.errors import DondoloError, InputError
-from dondolo.exchange.fragility_model import MARK, Curve, DiscreteFragility, FragilityModel, Limits
+from dondolo.exchange.fragility_model import MARK, Curve, FragilityModel
 from dondolo.exchange.mean_functions import in_order, straight_lines
+from dondolo.exchange.state_order import crossing, disorder_at_levels, disorder_of_lognormals
 from dondolo.risk.openquake import imt_of
 
 #: Losses that a model is for
@@ -71,8 +74,6 @@ _TAXONOMY = re.compile(r"[!$-&(-~]{1,100}")
 _REACH_DOWN, _REACH_UP = 6.0, 3.0
 # Where curves cross at such a probability, or at its complement, the range may end there
 _RARE = 1e-3
-# Of a difference of probits
-_ROUNDING = 1e-9
 
 
 def write_nrml(
@@ -97,7 +98,7 @@ def write_nrml(
         Taxonomy -> limit state -> curve. Each taxonomy has the same limit states, from the lightest to the heaviest;
         its curves are all `Fragility`, written as continuous, or all `DiscreteFragility` of the same levels, written as
         discrete. Taxonomies may differ in that, and in the intensity measure. `nrml_functions` makes those of a
-        population.
+        population. Curves of `read_nrml` keep their limits unless others are given.
     id : str
         Name of the model: letters, digits, - and _, at most 100.
     description : str
@@ -141,16 +142,23 @@ def write_nrml(
     for taxonomy, given in functions.items():
         _check_curves(taxonomy, given)
         curves = dict(given)
-        if isinstance(given[states[0]], Fragility) and min_iml is None and max_iml is None:
+        own = _own_limits(taxonomy, curves)
+        none, low, high = (
+            mine if value is None else float(value) for mine, value in zip(own, limits.values(), strict=True)
+        )
+        if isinstance(given[states[0]], Fragility) and low is None and high is None:
             curves = _uncut(curves)  # type: ignore[arg-type]
         try:
             imt_of(curves[states[0]].im)
         except InputError as error:
             raise InputError(f"taxonomy '{taxonomy}': {error}") from None
         if isinstance(curves[states[0]], Fragility):
-            found = _continuous(taxonomy, curves, no_damage_limit, min_iml, max_iml)  # type: ignore[arg-type]
+            found = _continuous(taxonomy, curves, none, low, high)  # type: ignore[arg-type]
+            if none is None and own != Limits():
+                # Constant below min_iml, as the curve has it
+                found = found._replace(no_damage_limit=None)
         else:
-            found = _discrete(taxonomy, curves, no_damage_limit)  # type: ignore[arg-type]
+            found = _discrete(taxonomy, curves, none)  # type: ignore[arg-type]
         of_functions[taxonomy] = found
         written[taxonomy] = curves
     FragilityModel(
@@ -215,6 +223,21 @@ def _check_curves(taxonomy: str, curves: Mapping[str, Curve]) -> None:
             )
 
 
+def _own_limits(taxonomy: str, curves: Mapping[str, Curve]) -> Limits:
+    """Limits that the curves themselves have."""
+    found = {
+        curve.limits
+        if isinstance(curve, LimitedFragility)
+        else Limits(curve.no_damage_limit)
+        if isinstance(curve, DiscreteFragility)
+        else Limits()
+        for curve in curves.values()
+    }
+    if len(found) > 1:
+        raise InputError(f"taxonomy '{taxonomy}': its curves must have the same limits")
+    return found.pop()
+
+
 def _continuous(
     taxonomy: str,
     curves: Mapping[str, Fragility],
@@ -249,7 +272,7 @@ def _unseen_crossings(curves: list[Fragility]) -> list[tuple[float, bool]]:
     """Where states that follow each other cross at a probability that nobody sees, and whether below what is seen."""
     found = []
     for lighter, heavier in pairwise(curves):
-        cross = _crossing(lighter, heavier)
+        cross = crossing(lighter, heavier)
         # The heavier curve is the higher one below the crossing if it is the flatter, above if it is the steeper.
         if lighter.beta < heavier.beta and lighter(cross) <= _RARE:
             found.append((cross, True))
@@ -276,47 +299,35 @@ def _uncut(functions: dict[str, Fragility]) -> dict[str, Curve]:
     }
 
 
-def _crossing(first: Fragility, second: Fragility) -> float:
-    """Intensity at which two curves cross: probits are straight lines of ln x. 0 for curves that are parallel."""
-    if first.beta == second.beta:
-        return 0.0
-    rise = 1.0 / first.beta - 1.0 / second.beta
-    # Nearly parallel curves cross so far away that it is nowhere.
-    with np.errstate(over="ignore"):
-        return float(np.exp((np.log(first.theta) / first.beta - np.log(second.theta) / second.beta) / rise))
-
-
 def _check_order(taxonomy: str, curves: Mapping[str, Fragility], low: float, high: float) -> None:
-    """Do no curves cross within a range? The difference of their probits is a straight line: its ends tell."""
-    ends = np.log([low, high])
-    for lighter, heavier in pairwise(curves):
-        first, second = curves[lighter], curves[heavier]
-        gap = (ends - np.log(first.theta)) / first.beta - (ends - np.log(second.theta)) / second.beta
-        if (gap >= -_ROUNDING).all():
-            continue
-        who = f"taxonomy '{taxonomy}': '{heavier}' is more probable than '{lighter}'"
-        if (gap <= _ROUNDING).all():
-            raise InputError(f"{who}: limit states must be given from the lightest to the heaviest")
-        side, end = ("below", "min_iml") if gap[0] < 0.0 else ("above", "max_iml")
+    """Check that no curves cross within a range."""
+    found = disorder_of_lognormals(curves, low, high)
+    if found is None:
+        return
+    if found.where == "throughout":
         raise InputError(
-            f"{who} {side} {_crossing(first, second):.4g}, where the curves cross: choose {end} to leave that out of"
-            f" {low:.4g} to {high:.4g}, or write them as DiscreteFragility"
+            f"taxonomy '{taxonomy}': {found}: limit states must be given from the lightest to the heaviest"
         )
+    end = {"below": "min_iml", "above": "max_iml"}[found.where]
+    raise InputError(
+        f"taxonomy '{taxonomy}': {found}, where the curves cross: choose {end} to leave that out of"
+        f" {low:.4g} to {high:.4g}, or write them as DiscreteFragility"
+    )
 
 
 def _discrete(taxonomy: str, curves: Mapping[str, DiscreteFragility], no_damage_limit: float | None) -> Limits:
     """Limits of a function of probabilities at levels, checked."""
     names = list(curves)
     levels = curves[names[0]].levels
-    for lighter, heavier in pairwise(names):
-        if not np.array_equal(curves[heavier].levels, levels):
+    for name in names:
+        if not np.array_equal(curves[name].levels, levels):
             raise InputError(f"taxonomy '{taxonomy}': its curves must have the same levels")
-        wrong = curves[heavier].probability > curves[lighter].probability
-        if wrong.any():
-            raise InputError(
-                f"taxonomy '{taxonomy}': '{heavier}' is more probable than '{lighter}' at {levels[wrong][0]:g}: limit"
-                " states must be given from the lightest to the heaviest, and their curves must not cross"
-            )
+    found = disorder_at_levels(curves)
+    if found is not None:
+        raise InputError(
+            f"taxonomy '{taxonomy}': {found}: limit states must be given from the lightest to the heaviest, and their"
+            " curves must not cross"
+        )
     if no_damage_limit is not None and no_damage_limit >= levels[0]:
         raise InputError(
             f"taxonomy '{taxonomy}': no_damage_limit = {no_damage_limit:g}: must be below the lowest level,"

@@ -49,7 +49,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeGuard
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -59,12 +59,21 @@ from dondolo._base.shown import Shown
 from dondolo._fortran.library import warn
 from dondolo._fortran.records import blank_unit
 from dondolo._storage.saved import Saved
+from dondolo.curves.discrete import DiscreteFragility
 from dondolo.curves.fragility import Fragility
+from dondolo.curves.limited import LimitedFragility
 from dondolo.curves.mean_curve import MeanCurve
 from dondolo.errors import DondoloError, DondoloWarning, InputError
 from dondolo.figures.style import Panels
 from dondolo.risk.hazard import HazardCurve
-from dondolo.risk.integrals import integrals, integrand, lognormal_integrals, of_function, of_lognormal
+from dondolo.risk.integrals import (
+    integrals,
+    integrand,
+    lognormal_integrals,
+    of_function,
+    of_lognormal,
+    with_corners,
+)
 from dondolo.risk.walls import WallFrequencies, wall_frequencies
 
 if TYPE_CHECKING:
@@ -290,14 +299,16 @@ class Risk(Shown, Saved):
         cuts = np.unique(np.concatenate([x, levels[(levels > x[0]) & (levels < x[-1])]]))
         if len(cuts) == 1:
             return np.zeros(len(x) - 1)
-        if isinstance(self.fragility, Fragility):
+        if _is_lognormal(self.fragility):
             curve = self.fragility
             parts = curve.saturation * lognormal_integrals(
                 np.asarray(curve.theta), np.asarray(curve.beta), self.hazard, np.log(cuts)
             )
         else:
             curve_at = functools.partial(probability, self.fragility)
-            parts, _ = integrals(lambda u: integrand(curve_at, self.hazard, u), np.log(cuts))
+            fine = with_corners(np.log(cuts), _corners(self.fragility))
+            of_fine, _ = integrals(lambda u: integrand(curve_at, self.hazard, u), fine)
+            parts = np.add.reduceat(of_fine, np.searchsorted(fine, np.log(cuts[:-1])))
         return np.diff(np.append(0.0, np.cumsum(parts))[np.searchsorted(cuts, x)])
 
     def plot_deaggregation(self, ax: Axes | None = None, *, bins: int = 20) -> Axes:
@@ -388,9 +399,10 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
 
     Parameters
     ----------
-    fragility : Fragility, PopulationCurve or callable
-        A fitted curve, that of a population, or a function from intensities (an array) to probabilities that do not
-        fall with the intensity, which is taken for the curve of one wall (`Risk.probability_bounds`).
+    fragility : Fragility, DiscreteFragility, PopulationCurve or callable
+        A fitted curve, one of a fragility model, that of a population, or a function from intensities (an array) to
+        probabilities that do not fall with the intensity; the last, as a discrete one, is taken for the curve of one
+        wall (`Risk.probability_bounds`).
     hazard : HazardCurve
         Of the same intensity measure.
 
@@ -431,12 +443,13 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
         raise InputError(f"im = '{im}' of the fragility and '{hazard.im}' of the hazard: must be the same")
     if isinstance(fragility, Fragility):
         fragility._need_fit()
-        one, most = of_lognormal(np.asarray(fragility.theta), np.asarray(fragility.beta), hazard), fragility.saturation
+    most = _end(fragility)
+    if _is_lognormal(fragility):
+        one = of_lognormal(np.asarray(fragility.theta), np.asarray(fragility.beta), hazard)
         inside, below, above, error = (most * float(part) for part in one)
     else:
-        one = of_function(functools.partial(probability, fragility), hazard)
+        one = of_function(functools.partial(probability, fragility), hazard, corners=_corners(fragility))
         inside, below, above, error = map(float, one)
-        most = fragility.saturation if isinstance(fragility, MeanCurve) else 1.0
     if np.isinf(inside):
         raise DondoloError(
             "the mean annual frequency is not finite, or hardly: towards an intensity of 0 the probability falls"
@@ -458,6 +471,23 @@ def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
         numbers = {"first_level": float(first), "last_level": float(last), "lower_bound": low, "upper_bound": high}
         warn([DondoloWarning(sentence, "hazard_too_short", {"im": hazard.im}, numbers)])
     return risk
+
+
+def _is_lognormal(fragility: Curve) -> TypeGuard[Fragility]:
+    """Whether a curve is a lognormal without limits, of which integrals have a closed form."""
+    return isinstance(fragility, Fragility) and not isinstance(fragility, LimitedFragility)
+
+
+def _corners(fragility: Curve) -> tuple[float, ...]:
+    """Levels at which a curve has a jump or a kink, if it knows them."""
+    return fragility._corners if isinstance(fragility, (LimitedFragility, DiscreteFragility)) else ()
+
+
+def _end(fragility: Curve) -> float:
+    """Probability that a curve tends to."""
+    if isinstance(fragility, (LimitedFragility, DiscreteFragility)):
+        return float(fragility(np.inf))
+    return fragility.saturation if isinstance(fragility, (Fragility, MeanCurve)) else 1.0
 
 
 def probability(fragility: Curve, x: FloatArray) -> FloatArray:

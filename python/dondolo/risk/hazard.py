@@ -265,6 +265,8 @@ class HazardCurve(Shown, Saved):
         Levels of SA and PGA are in g, as here; those of PGV are in cm/s there and in m/s here.
         """
         several = [paths] if isinstance(paths, (str, os.PathLike)) else paths
+        if not isinstance(several, Iterable):
+            raise InputError(f"paths = {paths!r}: must be the path of a file, or a sequence of them")
         files = [os.fspath(as_file("paths", one)) for one in several]
         im, levels, mean, fractiles, notes = read_curves(files, site)
         source = [*map(described, files), *map(str, notes)]

@@ -90,19 +90,22 @@ def of_lognormal(theta: FloatArray, beta: FloatArray, hazard: HazardCurve) -> Co
 
 
 def of_function(
-    probability: Probability, hazard: HazardCurve, ends: tuple[float, float] = (-_FAR, _FAR)
+    probability: Probability,
+    hazard: HazardCurve,
+    ends: tuple[float, float] = (-_FAR, _FAR),
+    corners: tuple[float, ...] = (),
 ) -> Contributions:
     """What intensities contribute where the probability is a function; an endless power law may give inf.
 
-    The ends are those, in ln x, below which the probability does not count, and above which it stays. Raises
-    DondoloError where the function is too rough.
+    The ends are those, in ln x, below which the probability does not count, and above which it stays; the corners are
+    levels at which it has a jump or a kink. Raises DondoloError where the function is too rough.
     """
 
     def parts_of(cuts: FloatArray) -> tuple[FloatArray, FloatArray]:
         return integrals(lambda u: integrand(probability, hazard, u), cuts)
 
     def steps(low: float, high: float) -> FloatArray:
-        return np.linspace(low, high, math.ceil((high - low) / _STEP) + 1)
+        return with_corners(np.linspace(low, high, math.ceil((high - low) / _STEP) + 1), corners)
 
     def converged(parts: FloatArray, beside: FloatArray | float = 0.0) -> FloatArray:
         whole = beside + parts.sum(axis=-1)
@@ -114,13 +117,20 @@ def of_function(
         # What is still above: between the probability there and 1
         p, h = probability(np.exp([top]))[..., 0], float(hazard(np.exp(top)))
         return Contributions(converged(parts) + p * h, 0.0 * p, 0.0 * p, error + (1.0 - p) * h)
-    cuts = np.log(hazard.levels)
+    cuts = with_corners(np.log(hazard.levels), corners)
     parts, error = parts_of(cuts)
     inside = parts.sum(axis=-1)
     # Far enough for its lowest step to tell whether there is an end
     below, _ = parts_of(steps(min(low, cuts[0]) - 10.0 * _STEP, cuts[0]))
     above = probability(hazard.levels[-1:])[..., 0] * hazard.annual_frequency[-1]
     return Contributions(inside, converged(below, inside), above, error)
+
+
+def with_corners(cuts: FloatArray, corners: tuple[float, ...]) -> FloatArray:
+    """Cuts in ln x, and between them those of levels at which a curve has a jump or a kink."""
+    with np.errstate(divide="ignore"):
+        inner = np.log(corners)
+    return np.union1d(cuts, inner[(inner > cuts[0]) & (inner < cuts[-1])]) if len(corners) else cuts
 
 
 def integrand(probability: Probability, hazard: HazardCurve, u: FloatArray) -> FloatArray:

@@ -17,7 +17,7 @@ import csv
 import os
 import re
 from collections.abc import Mapping, Sequence
-from decimal import Decimal, InvalidOperation
+from decimal import Decimal
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -35,6 +35,7 @@ Site = int | tuple[float, float]
 # OpenQuake's names, and its unit in that of dondolo
 _MEASURES = {"pga": ("PGA", 1), "pgv": ("PGV", 100)}
 _LEVEL = "poe-"
+_DECIMAL = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?", re.ASCII)
 # How far from a site of a file its coordinates may be given [degrees]
 _NEAR = 1e-3
 
@@ -82,7 +83,17 @@ def times(value: float, unit: int) -> str:
 
 def over(text: str, unit: int) -> float:
     """A number in the unit of dondolo, from its text in OpenQuake's."""
-    return float(text) if unit == 1 else float(Decimal(text.strip()) / unit)
+    value = as_written(text)
+    # Decimal fails for exponents beyond its own.
+    return value if unit == 1 or value == 0.0 else float(Decimal(text.strip()) / unit)
+
+
+def as_written(text: str) -> float:
+    """A finite number as files have it, not as Python's literals may be; ValueError for any other string."""
+    value = float(text) if _DECIMAL.fullmatch(text.strip()) else np.nan
+    if not np.isfinite(value):
+        raise ValueError("must be a number")
+    return value
 
 
 def read_curves(
@@ -104,7 +115,10 @@ def read_curves(
         if not np.array_equal(other.sites, first.sites):
             raise InputError(f"{other.path}: has other sites than {first.path}")
     row = _row(first, site)
-    im, unit = im_of(first.imt)
+    try:
+        im, unit = im_of(first.imt)
+    except InputError as error:
+        raise InputError(f"{first.path}: {error}") from None
     levels = np.array([over(level, unit) for level in first.levels])
     quantiles = {one.kind: one for one in files if one.kind.startswith("quantile-") and len(files) > 1}
     means = [one for one in files if one not in quantiles.values()]
@@ -121,7 +135,8 @@ def read_curves(
         left = ", ".join(f"{level:g}" for level in levels[~kept])
         text = f"{first.path}: site {row}: levels with a probability of 0 or 1 are left out: {left}"
         notes.append(DondoloWarning(text, "note"))
-    frequency = -np.log1p(-poe[:, kept]) / first.time
+    with np.errstate(over="ignore"):
+        frequency = -np.log1p(-poe[:, kept]) / first.time
     shares = [_share(one) for one in quantiles.values()]
     return im, levels[kept], frequency[0], dict(zip(shares, frequency[1:], strict=True)), notes
 
@@ -157,7 +172,10 @@ def _read(path: str) -> _File:
     """A file of curves, checked."""
     lines = [line for line in read_text(path).splitlines() if line.strip()]
     comments = [line for line in lines if line.startswith("#")]
-    rows = list(csv.reader(line for line in lines if not line.startswith("#")))
+    try:
+        rows = list(csv.reader(line for line in lines if not line.startswith("#")))
+    except csv.Error as error:
+        raise InputError(f"{path}: is not a CSV table: {error}") from None
     if len(rows) < 2:
         raise InputError(f"{path}: must have a line of titles and one of each site")
     titles = [title.strip() for title in rows[0]]
@@ -203,9 +221,8 @@ def _told(about: str, what: str) -> str:
 
 def _number(path: str, what: str, text: str) -> float:
     try:
-        Decimal(text.strip())
-        return float(text)
-    except (InvalidOperation, ValueError):
+        return as_written(text)
+    except ValueError:
         raise InputError(f"{path}: {what} = {text!r}: must be a number") from None
 
 
