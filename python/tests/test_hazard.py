@@ -1,6 +1,7 @@
 """Hazard curves: fractiles, the smooth line through the levels, and the files of OpenQuake."""
 
 import dataclasses
+import warnings
 import zlib
 
 import numpy as np
@@ -246,3 +247,35 @@ def test_openquake_round_trip(hazard, tmp_path):
         velocity.to_openquake(tmp_path, site=(0.0, 0.0), investigation_time=0.0)
     with pytest.raises(dd.DondoloError, match="is no folder"):
         velocity.to_openquake(tmp_path / "none", site=(0.0, 0.0))
+
+
+OPENQUAKE = """#,,,,"generated_by='OpenQuake engine 3.20.0', kind='mean', investigation_time=50.0, imt='PGV'"
+lon,lat,depth,poe-3.0,poe-9.0
+11.1,44.4,0.0,0.6,0.2
+"""
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "message"),
+    [
+        ("imt='PGV'", "imt='MMI'", "imt = 'MMI': must be PGA, PGV or SA"),
+        ("poe-9.0", "poe-9_0.0", "level = '9_0.0': must be a number"),
+        ("poe-9.0", "poe-1e-99999999999999999999", "levels = 0.03, 0: must increase|levels = 0: must be positive"),
+        ("0.6,0.2", "0.6,nan", "poe-9.0 = 'nan': must be a number"),
+        ("time=50.0", "time=1e-320", "annual_frequency = inf: must be positive"),
+        ("11.1", "9" * 200_000, "is not a CSV table: field larger than field limit"),
+    ],
+)
+def test_files_of_openquake_that_are_refused(tmp_path, old, new, message):
+    """In one sentence that names the file."""
+    path = tmp_path / "hazard_curve-mean-PGV.csv"
+    path.write_text(OPENQUAKE)
+    assert dd.HazardCurve.from_openquake(path).levels == pytest.approx([0.03, 0.09])
+    path.write_text(OPENQUAKE.replace(old, new))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", RuntimeWarning)
+        with pytest.raises(dd.InputError, match=rf"PGV\.csv: .*({message})") as error:
+            dd.HazardCurve.from_openquake(path)
+    assert "\n" not in str(error.value)
+    with pytest.raises(dd.InputError, match="paths = 5: must be the path of a file, or a sequence of them"):
+        dd.HazardCurve.from_openquake(5)
