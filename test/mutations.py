@@ -1,11 +1,12 @@
-"""Mutation checks of the statistics: python test/mutations.py [WORD]...
+"""Mutation checks of the statistics: python test/mutations.py [--quick] [WORD]...
 
 Each edit makes one formula wrong, and the test named with it must then fail. Formulas of the Python package are edited
 in a copy of the installed package. Of a Fortran source a copy is edited, compiled against the modules of the build and
-linked before its library. Given words, check only the edits that contain all of them.
+linked before its library. Given words, check only the edits that contain all of them; with --quick, only the first of
+each file.
 
 Prints one line for each edit. Fails if an edit survives, if its text does not occur exactly once, or if a test fails
-without any edit.
+without any edit; the last line gives the reason.
 """
 
 import importlib.util
@@ -23,6 +24,10 @@ TESTS = ROOT / "python" / "tests"
 
 # Time limit of one test run [s]; ample for a busy machine
 LONGEST = 1800
+
+
+class CompilerError(Exception):
+    """A Fortran test that does not compile or link; the message is the compiler's."""
 
 
 class Edit(NamedTuple):
@@ -367,14 +372,19 @@ def run_program(test: str, sources: list[Path], folder: Path) -> int | None:
     """0 if a Fortran test passes with some sources instead of the library's, 1 if it fails, None if it is endless."""
     build = ROOT / "build-python" / "src"
     modules = [f"-I{path}" for path in build.rglob("*.p") if any(path.glob("*.mod"))]
-    libraries = [build / "libdondolo.a", *build.rglob("libdondolo_*.a"), "-llapack", "-lblas"]
+    # The archives need each other: the library calls the lanes, and the lanes its core.
+    libraries = ["-Wl,--start-group", *build.rglob("libdondolo*.a"), "-Wl,--end-group", "-llapack", "-lblas"]
     program = folder / "program"
     flags = ["-O1", "-fopenmp", "-fimplicit-none", *modules, "-J", folder, "-o", program]
-    subprocess.run(
+    compiled = subprocess.run(
         ["gfortran", *flags, ROOT / "test/checks.f90", *sources, ROOT / "test" / test, *libraries],
-        stderr=subprocess.DEVNULL,
-        check=True,
+        capture_output=True,
+        text=True,
+        check=False,
     )
+    if compiled.returncode != 0:
+        lines = [line.strip() for line in compiled.stderr.splitlines()]
+        raise CompilerError(next((line for line in lines if "rror:" in line or "undefined" in line), lines[-1]))
     try:
         done = subprocess.run(program, cwd=ROOT, capture_output=True, timeout=LONGEST, check=False)
     except subprocess.TimeoutExpired:
@@ -410,9 +420,12 @@ def run_tests(tests: list[str], folder: Path) -> int | None:
 
 
 def check(edit: Edit, package: Path) -> str:
-    """Apply an edit to a copy and run its test: 'caught', 'survived', 'endless', or 'broken' if pytest cannot run."""
+    """Apply an edit to a copy and run its test: 'caught', 'survived', 'endless', or 'broken' if it cannot be run."""
     if is_fortran(edit):
-        status = check_fortran(edit)
+        try:
+            status = check_fortran(edit)
+        except CompilerError as error:
+            return f"broken ({error})"
     else:
         with tempfile.TemporaryDirectory() as name:
             place = copy_of(package, Path(name)) / places(edit, package)[0]
@@ -421,31 +434,46 @@ def check(edit: Edit, package: Path) -> str:
     return {0: "survived", 1: "caught", None: "endless"}.get(status, "broken")
 
 
+def fails_unedited(edits: list[Edit], package: Path) -> str:
+    """The first test of some edits that fails without any edit, and why; empty if all pass."""
+    tests = sorted({edit.test for edit in edits if not is_fortran(edit)})
+    with tempfile.TemporaryDirectory() as name:
+        copy_of(package, Path(name))
+        if tests and run_tests(tests, Path(name)) != 0:
+            return f"one of {', '.join(tests)} fails"
+        for test in sorted({edit.test for edit in edits if is_fortran(edit)}):
+            try:
+                if run_program(test, [], Path(name)) != 0:
+                    return f"{test} fails"
+            except CompilerError as error:
+                return f"{test} cannot be built: {error}"
+    return ""
+
+
 def main() -> int:
     """Check the list, the tests without an edit, and then every edit."""
+    words = [word for word in sys.argv[1:] if word != "--quick"]
     package = Path(importlib.util.find_spec("dondolo").origin).parent
     wrong = stale(package)
     if wrong:
         print(*wrong, sep="\n")
         return 1
-    chosen = [edit for edit in EDITS if all(word in " ".join(edit) for word in sys.argv[1:])]
+    chosen = [edit for edit in EDITS if all(word in " ".join(edit) for word in words)]
+    if "--quick" in sys.argv[1:]:
+        chosen = list({places(edit, package)[0]: edit for edit in reversed(chosen)}.values())
     if not chosen:
-        print(f"no edit contains {' and '.join(map(repr, sys.argv[1:]))}")
+        print(f"mutations: no edit contains {' and '.join(map(repr, words))}")
         return 1
-    tests = sorted({edit.test for edit in chosen if not is_fortran(edit)})
-    programs = sorted({edit.test for edit in chosen if is_fortran(edit)})
-    with tempfile.TemporaryDirectory() as name:
-        copy_of(package, Path(name))
-        failed = tests and run_tests(tests, Path(name)) != 0
-        if failed or any(run_program(test, [], Path(name)) != 0 for test in programs):
-            print("the tests fail without any edit")
-            return 1
-    caught = 0
+    if why := fails_unedited(chosen, package):
+        print(f"mutations: without any edit {why}")
+        return 1
+    outcomes = []
     with ThreadPoolExecutor(os.cpu_count()) as workers:
         for edit, outcome in zip(chosen, workers.map(lambda edit: check(edit, package), chosen), strict=True):
-            caught += outcome == "caught"
+            outcomes.append(outcome)
             print(f"{outcome:<9} {places(edit, package)[0]}: {edit.error} ({edit.test})", flush=True)
-    print(f"{len(chosen)} edits, {caught} caught")
+    caught = outcomes.count("caught")
+    print(f"mutations: {len(chosen)} edits, {caught} caught")
     return 0 if caught == len(chosen) else 1
 
 
