@@ -1,13 +1,16 @@
 #!/usr/bin/env bash
-# The quick start from a wheel in a Debian without compiler or LAPACK: bash packaging/bare_debian.sh SUITE WHEEL
+# The quick start from a wheel in a Debian without compiler or LAPACK: bash packaging/bare_debian.sh SUITE FOLDER
+# The folder may hold wheels of several Pythons, as that of a release does; pip takes the one that fits.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 . test/debian.sh
 
 skip_without_debian
-suite=$1 wheel=$2
+suite=$1 folder=$2
 make_debian "$suite" "$suite-python" ca-certificates,python3,python3-venv
 copy_debian "$suite-python"
-cp "$wheel" packaging/quick_start.sh "$root/root/"
-printf '== quick start from %s in a Debian %s without compiler\n' "${wheel##*/}" "$suite" >&2
-in_debian "cd /root && bash quick_start.sh ${wheel##*/}"
+mkdir "$root/root/wheels"
+cp "$folder"/*.whl "$root/root/wheels/"
+cp packaging/quick_start.sh "$root/root/"
+printf '== quick start from the wheels of %s in a Debian %s without compiler\n' "$folder" "$suite" >&2
+in_debian "cd /root && bash quick_start.sh wheels"

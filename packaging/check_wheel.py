@@ -24,7 +24,8 @@ def problems(wheel: Path) -> list[str]:
         for path in (ROOT / "data").glob("**/*")
         if path.is_file() and path.suffix != ".py"
     ]
-    wanted = [*sources, *examples, ".data/scripts/dondolo", ".dist-info/licenses/LICENSE"]
+    licences = ["LICENSE", *(f"packaging/licenses/{path.name}" for path in (ROOT / "packaging/licenses").iterdir())]
+    wanted = [*sources, *examples, ".data/scripts/dondolo", *(f".dist-info/licenses/{name}" for name in licences)]
     found += [f"lacks {end}" for end in wanted if not any(name.endswith(end) for name in names)]
     for pattern in (r"dondolo/_fortran/_core\..*\.so", r"dondolo\.libs/libgfortran.*", r"dondolo\.libs/libgomp.*"):
         if not any(re.fullmatch(pattern, name) for name in names):

@@ -24,5 +24,9 @@ old_libraries() {
    cp -L "$base/lib/$machine/ld-linux-x86-64.so.2" "$folder"
    printf 'GROUP ( libc.so.6 libc_nonshared.a AS_NEEDED ( libpthread.so.0 libdl.so.2 ld-linux-x86-64.so.2 ) )\n' >"$folder/libc.so"
    printf 'GROUP ( libm.so.6 AS_NEEDED ( libmvec.so.1 ) )\n' >"$folder/libm.so"
+   # Which vector functions gfortran may call is read from finclude: the header is that of the old libmvec, which lacks erfc
+   # and others. Where -B names such a folder, gfortran looks for its own modules there too.
+   mkdir "$folder/finclude"
+   cp "$(gfortran -print-file-name=finclude)"/* "$base/usr/include/finclude/$machine/math-vector-fortran.h" "$folder/finclude"
    export CC="gcc -B$folder -isystem $base/usr/include/$machine -isystem $base/usr/include" FC="gfortran -B$folder"
 }

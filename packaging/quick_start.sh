@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# What the README promises of an installation by pip, in an empty folder: bash quick_start.sh WHEEL
-# Runs inside the Debian of bare_debian.sh, with the wheel beside it.
+# What the README promises of an installation by pip, in an empty folder: bash quick_start.sh FOLDER
+# Runs inside the Debian of bare_debian.sh, with the wheels in the folder.
 set -euo pipefail
 
 ! command -v gfortran cc gcc ld
 python3 -m venv /root/venv
-/root/venv/bin/pip install --quiet --disable-pip-version-check "/root/$1"
+/root/venv/bin/pip install --quiet --disable-pip-version-check --find-links "/root/$1" dondolo
 export PATH=/root/venv/bin:$PATH
 mkdir /root/empty
 cd /root/empty

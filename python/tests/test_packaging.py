@@ -1,0 +1,147 @@
+"""Installation and the verbs of ./run: editable wheels, licences, and a small form for each verb."""
+
+import base64
+import hashlib
+import importlib.util
+import re
+import subprocess
+import sys
+import tomllib
+import zipfile
+
+import pytest
+
+
+@pytest.fixture(scope="session")
+def backend(root):
+    """The build backend."""
+    pytest.importorskip("mesonpy")
+    spec = importlib.util.spec_from_file_location("backend", root / "packaging/backend.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+@pytest.fixture
+def wheel(tmp_path):
+    """A wheel with a package, an extension module, a program and a data file."""
+    members = {
+        "dondolo/__init__.py": b"pass\n",
+        "dondolo/_fortran/_core.cpython-311-x86_64-linux-gnu.so": b"new",
+        "dondolo-1.data/scripts/dondolo": b"program",
+        "dondolo-1.data/data/share/dondolo/records/synthetic44.csv": b"file\n",
+        "dondolo-1.dist-info/METADATA": b"Name: dondolo\nVersion: 1\n",
+    }
+    path = tmp_path / "dondolo-1-cp311-cp311-linux_x86_64.whl"
+    with zipfile.ZipFile(path, "w") as file:
+        for name, content in members.items():
+            info = zipfile.ZipInfo(name)
+            info.external_attr = (0o755 if "scripts" in name else 0o644) << 16
+            file.writestr(info, content)
+        lines = "".join(f"{name},sha256=0,{len(content)}\n" for name, content in members.items())
+        file.writestr("dondolo-1.dist-info/RECORD", f"{lines}dondolo-1.dist-info/RECORD,,\n")
+    return path
+
+
+def test_an_editable_wheel_has_all_but_the_package(backend, wheel, tmp_path):
+    """The program and the data, the path of the sources, and the extension module beside the sources."""
+    sources = tmp_path / "sources"
+    core = sources / "dondolo/_fortran/_core.cpython-311-x86_64-linux-gnu.so"
+    core.parent.mkdir(parents=True)
+    core.write_bytes(b"old")
+    loaded = core.open("rb")
+    editable = tmp_path / "editable.whl"
+    backend.make_editable(wheel, editable, sources)
+    assert core.read_bytes() == b"new"
+    # A process that has it open keeps the old one.
+    assert loaded.read() == b"old"
+    loaded.close()
+    with zipfile.ZipFile(editable) as file:
+        names = file.namelist()
+        assert set(names) == {
+            "dondolo_editable.pth",
+            "dondolo-1.data/scripts/dondolo",
+            "dondolo-1.data/data/share/dondolo/records/synthetic44.csv",
+            "dondolo-1.dist-info/METADATA",
+            "dondolo-1.dist-info/RECORD",
+        }
+        path = file.read("dondolo_editable.pth")
+        assert path.decode().strip() == str(sources)
+        assert file.getinfo("dondolo-1.data/scripts/dondolo").external_attr >> 16 & 0o111
+        record = file.read("dondolo-1.dist-info/RECORD").decode().splitlines()
+    assert {line.split(",")[0] for line in record} == set(names)
+    digest = base64.urlsafe_b64encode(hashlib.sha256(path).digest()).rstrip(b"=").decode()
+    assert f"dondolo_editable.pth,sha256={digest},{len(path)}" in record
+
+
+def test_an_editable_build_keeps_its_folder(backend, wheel, tmp_path, monkeypatch):
+    """It is built where the next one finds it, not in the folder that fpm empties, or where the user says."""
+    monkeypatch.setattr(backend, "SOURCES", tmp_path / "sources")
+    (tmp_path / "sources/dondolo/_fortran").mkdir(parents=True)
+    asked = []
+
+    def build(folder, settings, metadata):
+        asked.append(settings["build-dir"])
+        (backend.Path(folder) / wheel.name).write_bytes(wheel.read_bytes())
+        return wheel.name
+
+    monkeypatch.setattr(backend, "build_wheel", build)
+    made = tmp_path / "made"
+    made.mkdir()
+    assert backend.build_editable(str(made)) == wheel.name
+    assert backend.build_editable(str(made), {"build-dir": "mine"}) == wheel.name
+    assert (made / wheel.name).is_file()
+    assert asked == [f"build-editable/{sys.implementation.cache_tag}", "mine"]
+
+
+def test_the_licences_of_bundled_libraries_go_along(root):
+    """pyproject.toml names their texts, and README.txt every text."""
+    patterns = tomllib.loads((root / "pyproject.toml").read_text())["project"]["license-files"]
+    found = {path.name for pattern in patterns for path in root.glob(pattern)}
+    texts = {
+        "GPL-3.0.txt": "Version 3, 29 June 2007",
+        "GCC-exception-3.1.txt": "GCC RUNTIME LIBRARY EXCEPTION",
+        "LGPL-2.1.txt": "Version 2.1, February 1999",
+        "LAPACK.txt": "The University of Tennessee",
+    }
+    assert found == {"LICENSE", "README.txt", *texts}
+    overview = (root / "packaging/licenses/README.txt").read_text()
+    for name, words in texts.items():
+        assert words in (root / "packaging/licenses" / name).read_text()
+        assert name in overview
+
+
+def verbs(root):
+    """Verbs that ./run help lists."""
+    text = subprocess.run([root / "run", "help"], capture_output=True, text=True, check=True).stdout
+    return set(re.findall(r"^  (\w+)", text, re.M))
+
+
+def test_every_verb_has_a_small_form(root):
+    """./run verbs and the weekly workflow leave none out, so that none stops working unnoticed."""
+    # What CI runs besides, and the verbs that run others
+    elsewhere = {"setup", "build", "demo", "test", "fresh", "verbs", "help"}
+    script = (root / "test/verbs.sh").read_text()
+    small = set(re.findall(r"^   '(\w+)[^']*'$", script, re.M))
+    assert verbs(root) - elsewhere == small - {"build"}
+    weekly = set(re.findall(r"^          - (\w+)", (root / ".github/workflows/verbs.yml").read_text(), re.M))
+    assert verbs(root) - elsewhere <= weekly
+
+
+def test_an_unknown_verb_is_refused(root):
+    """In one line, by ./run verbs too, before anything runs."""
+    run = subprocess.run(["bash", root / "test/verbs.sh", "wheels"], capture_output=True, text=True, check=False)
+    assert run.returncode == 2
+    assert run.stderr.startswith("verbs: there is no small form of 'wheels'; there are: stress attack")
+
+
+def test_a_step_shows_its_output_only_if_it_fails(root):
+    """The command of a step that fails is named in the last line, after what it printed."""
+
+    def step(command):
+        script = f". {root}/packaging/steps.sh; step 'doing this' bash -c '{command}'"
+        return subprocess.run(["bash", "-c", script], capture_output=True, text=True, check=False)
+
+    passed, failed = step("echo much"), step("echo why; exit 3")
+    assert (passed.returncode, passed.stdout, passed.stderr) == (0, "", "doing this\n")
+    assert (failed.returncode, failed.stderr) == (3, "doing this\nwhy\nfailed: doing this\n")
