@@ -1,5 +1,7 @@
 """Do the intervals of fragility curves contain the truth as often as they say? Writes docs/uncertainty.md.
 
+With --quick only a few draws are made, and the page is out/quick/uncertainty.md.
+
 A population of synthetic records of many scenarios stands for the earthquakes that there could be. The curve of all of
 them is the truth; curves of a few records, drawn with replacement, are what a study gets. Histories are run once.
 """
@@ -7,6 +9,7 @@ them is the truth; curves of a few records, drawn with replacement, are what a s
 from __future__ import annotations
 
 import os
+import sys
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -19,13 +22,15 @@ from scipy.special import ndtr, ndtri, stdtrit
 
 import dondolo as dd
 
-PAGE = Path(__file__).with_name("uncertainty.md")
-RECORDS, SEED = 600, 11
+QUICK = "--quick" in sys.argv[1:]
+FOLDER = Path(__file__).parent
+PAGE = (FOLDER.parent / "out/quick" if QUICK else FOLDER) / "uncertainty.md"
+RECORDS, SEED = 60 if QUICK else 600, 11
 # Studies by their number of records: with 44, shares to a third of a per cent
-DRAWS = {44: 4000, 22: 1000, 11: 1000}
+DRAWS = dict.fromkeys((44, 22, 11), 10) if QUICK else {44: 4000, 22: 1000, 11: 1000}
 # Of the frequencies, and of the studentized bootstrap
-FREQUENCIES, RESAMPLES = 1000, 2000
-SIZES, LEVELS = tuple(DRAWS), (8, 12, 20)
+FREQUENCIES, RESAMPLES = (5, 50) if QUICK else (1000, 2000)
+SIZES, LEVELS = tuple(DRAWS), (8,) if QUICK else (8, 12, 20)
 # Hazard curves: a power law, and one that bends down
 HAZARDS = {
     "power law": dd.HazardCurve.power_law(1e-4, 2.5),
@@ -36,7 +41,7 @@ HAZARDS = {
 WALLS = {"one_sided": dd.OneSidedWall(1.5, 0.25), "two_block": dd.TwoBlockWall(3.0, 0.25)}
 CONFIDENCE = 0.95
 # Of the comparison of chosen levels with equally spaced ones
-STRIPES = (4, 6, 8, 12)
+STRIPES = (4,) if QUICK else (4, 6, 8, 12)
 CHOSEN_WALLS = {
     "one_sided": dd.OneSidedWall(1.5, 0.25),
     "free_standing": dd.FreeStandingWall(2.0, 0.4),
@@ -358,6 +363,7 @@ def write_page(rows: list[list[str]], tests: list[list[str]], risks: list[list[s
         *recorded(),
         *chosen(),
     ]
+    PAGE.parent.mkdir(parents=True, exist_ok=True)
     PAGE.write_text("\n".join(parts), encoding="utf-8")
 
 

@@ -1,4 +1,4 @@
-"""Draw the figures of the README and of docs into docs/figures.
+"""Draw the figures of the README and of docs into docs/figures, or into a folder: python figures.py [FOLDER].
 
 The accelerograms are the embedded synthetic ones. One figure compares them with recorded ones, and is drawn only if
 these are available in the folder DONDOLO_RECORDS.
@@ -21,7 +21,7 @@ import dondolo as dd
 
 root = Path(__file__).resolve().parents[1]
 records = dd.read_catalogue(root / "data/records/synthetic44.csv")
-figures = root / "docs/figures"
+figures = Path(sys.argv[1]) if len(sys.argv) > 1 else root / "docs/figures"
 
 # The model of the synthetic records, as implemented in the tests
 sys.path.insert(0, str(root / "python/tests"))
@@ -30,6 +30,7 @@ from sabetta_pugliese import Model, mean_frequency  # noqa: E402
 
 def main() -> None:
     """Draw all figures."""
+    figures.mkdir(parents=True, exist_ok=True)
     quick_start()
     intensities()
     mechanisms()

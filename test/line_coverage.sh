@@ -35,4 +35,5 @@ if [ $# -eq 0 ] || [ ${#modules[@]} -gt 0 ]; then
    COVERAGE_FILE=$work/python "$python" -m coverage json --quiet -o "$work/python.json"
 fi
 "$python" test/line_coverage.py "$work"
+[ $failed = 0 ] || echo 'coverage: some tests have failed'
 exit $failed

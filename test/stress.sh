@@ -96,4 +96,5 @@ if command -v valgrind >/dev/null; then
 else
    echo 'valgrind: not installed, skipped'
 fi
+[ $status = 0 ] || echo "stress.sh: some stages have FAILED"
 exit $status

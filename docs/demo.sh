@@ -1,0 +1,34 @@
+#!/usr/bin/env bash
+# Ready cases on the synthetic accelerograms, their figures and a report: bash docs/demo.sh DONDOLO PYTHON
+# The first prints what a run of the executable prints, the others their medians.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+dondolo=$1 python=$2
+cases=(parapet two_block population historic_centre history)
+
+printf '\n$ dondolo data/cases/%s.nml\n' "${cases[0]}"
+"$dondolo" "data/cases/${cases[0]}.nml" 2>&1
+for case in "${cases[@]:1}"; do
+   printf '\n$ dondolo --quiet data/cases/%s.nml\n' "$case"
+   "$dondolo" --quiet "data/cases/$case.nml" 2>/dev/null
+   "$python" docs/demo.py "out/$case"
+done
+
+printf '\ndrawing the figures, and writing the report of the historic centre\n'
+# Side by side
+"$python" -W ignore -m dondolo report out/historic_centre >/dev/null &
+report=$!
+trap 'kill "$report" 2>/dev/null || true' EXIT
+"$python" -W ignore -m dondolo plot "${cases[@]/#/out/}" >/dev/null
+wait "$report"
+trap - EXIT
+cat <<TEXT
+$(find out -name '*.png' -newer "out/${cases[0]}_run.json" | wc -l) figures are in $PWD/out.
+
+Next:
+  1. Open out/historic_centre_report.html in a browser: curves, tables, inputs and checks of 240 walls.
+  2. Copy data/cases/parapet.nml, put in your wall, and run it: $dondolo --check my_wall.nml, then without --check.
+     docs/tutorial/first_wall.md explains each line (in italiano: docs/tutorial/prima_parete.md).
+  3. Use your own accelerograms: $dondolo catalogue FOLDER lists what it can read of them, and docs/ground_motions.md
+     tells which to choose. The ones here are synthetic, and serve for examples only.
+TEXT

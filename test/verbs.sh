@@ -1,0 +1,113 @@
+#!/usr/bin/env bash
+# Each verb of ./run in its smallest form: bash test/verbs.sh [VERB...]
+# Prints one line for each that has ended: what became of it, its minutes and those of processors, and for one that failed its
+# last line. Fails if any fails, or if the sources are not as they were. Two verbs run at once, but those that build by fpm,
+# which share its folder, run one after the other. What they print and write is in out/verbs and out/quick.
+set -uo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
+
+# Verbs and their smallest forms, long ones first
+by_fpm=(
+   'stress 100'
+   'attack 5'
+   'reference --quick'
+   'coverage decimals'
+   'verification --quick'
+   'synthetic44 out/quick/records'
+)
+others=(
+   'oldest --quick'
+   'wheel python3'
+   'benchmark --quick'
+   'mutations --quick'
+   'docs'
+   'city --quick'
+   'figures out/quick/figures'
+   'intervals --quick'
+   'build gpu'
+)
+wanted=("$@")
+logs=out/verbs
+line='%-32s %-8s %7s %7s  %s\n'
+
+name_of() { [ "$1" = 'build gpu' ] && echo gpu || echo "${1%% *}"; }
+
+is_wanted() {
+   local word
+   [ ${#wanted[@]} -gt 0 ] || return 0
+   for word in "${wanted[@]}"; do [ "$word" = "$(name_of "$1")" ] && return 0; done
+   return 1
+}
+
+# Why a verb cannot run here, if it cannot
+obstacle() {
+   case $1 in
+      'build gpu')
+         compgen -G '/usr/bin/*accel-nvptx-none-gcc*' >/dev/null || { command -v apt-get >/dev/null && [ "$(id -u)" = 0 ]; } ||
+            echo "needs gcc-offload-nvptx" ;;
+      oldest*)
+         command -v python3.11 python3.12 >/dev/null || echo "needs Python 3.11 or 3.12" ;;
+   esac
+}
+
+# What changed of the sources: git knows
+sources() { git status --porcelain 2>/dev/null; git diff HEAD 2>/dev/null | cksum; }
+
+# try FORM: run a verb and print its line
+try() {
+   local form=$1 log why status=0 outcome=passed time
+   is_wanted "$form" || return 0
+   log=$logs/$(name_of "$form").log
+   why=$(obstacle "$form")
+   if [ -n "$why" ]; then
+      # shellcheck disable=SC2059
+      printf "$line" "$form" skipped - - "$why"
+      return
+   fi
+   TIMEFORMAT='%R %U %S'
+   # shellcheck disable=SC2086
+   time=$({ time DONDOLO_DIST=out/quick/dist ./run $form >"$log" 2>&1; } 2>&1) || status=$?
+   if [ "$form" = 'synthetic44 out/quick/records' ] && ! diff -rq data/records/synthetic44 out/quick/records/synthetic44 >>"$log"; then
+      status=1
+   fi
+   if [ $status != 0 ]; then
+      outcome=FAILED
+      why=$(grep -v '^[[:space:]]*$' "$log" | tail -n 1)
+      touch "$logs/failed"
+   fi
+   # shellcheck disable=SC2059,SC2086
+   printf "$line" "$form" "$outcome" $(awk '{ printf "%.1f %.1f", $1 / 60, ($2 + $3) / 60 }' <<<"$time") "$why"
+}
+
+for word in "${wanted[@]}"; do
+   known=
+   for form in "${by_fpm[@]}" "${others[@]}"; do [ "$word" = "$(name_of "$form")" ] && known=1; done
+   if [ -z "$known" ]; then
+      echo "verbs: there is no small form of '$word'; there are: $(for form in "${by_fpm[@]}" "${others[@]}"; do name_of "$form"; done |
+         tr '\n' ' ')" >&2
+      exit 2
+   fi
+done
+
+mkdir -p "$logs"
+rm -rf "$logs"/* out/quick
+began=$SECONDS
+before=$(sources)
+# shellcheck disable=SC2059
+printf "$line" verb outcome minutes 'of CPU' ''
+(for form in "${others[@]}"; do try "$form"; done) &
+other=$!
+trap 'kill "$other" 2>/dev/null || true' EXIT
+for form in "${by_fpm[@]}"; do try "$form"; done
+wait "$other"
+trap - EXIT
+if [ "$(sources)" != "$before" ]; then
+   echo "the sources have changed:"
+   diff <(echo "$before") <(sources)
+   touch "$logs/failed"
+fi
+awk -v s=$((SECONDS - began)) 'BEGIN { printf "verbs: %.1f minutes; what each printed is in out/verbs\n", s / 60 }'
+if [ -e "$logs/failed" ]; then
+   echo "verbs: some have failed"
+   exit 1
+fi
