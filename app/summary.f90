@@ -10,10 +10,10 @@ module dondolo_summary
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_plan_wall, only : print_wall
-   use dondolo_restitution, only : published_factors
    use dondolo_name_column, only : name_width
    use dondolo_results, only : results_type, row_counts_type
    use dondolo_source_rows, only : make_model_sentence, make_source_sentence
+   use dondolo_tested_restitution, only : make_restitution_sentence
    use dondolo_text, only : counted, left, right, rounded, to_text
    use dondolo_tie_rows, only : make_tie_sentence
    use dondolo_typology, only : whole_population
@@ -93,16 +93,14 @@ contains
       end do
    end subroutine print_summary
 
-   !> Print what the restitution of a wall of two blocks assumes: no other choice moves its curve as much
+   !> Print what the restitution of a wall of two blocks assumes
    subroutine print_restitution(case)
       type(case_type), intent(in) :: case
 
-      associate (input => case%wall%input, tests => published_factors(1))
-         if (case%wall%mechanism_name() /= 'two_block' .or. input%word('restitution') == 'constant') return
-         write (output_unit, '(a)') 'note: restitution is '//to_text(input%number('restitution_factor'))//' times that of '// &
-            & 'the model; tests on two-block walls gave '//to_text(tests%low)//' to '//to_text(tests%high)// &
-            & ' times it, and &uncertainty says what that makes of theta'
-      end associate
+      character(len=:), allocatable :: line
+
+      call make_restitution_sentence(case%wall, line)
+      if (len(line) > 0) write (output_unit, '(a)') 'note: restitution is '//line
    end subroutine print_restitution
 
    !> Print what the medians of the variants of a wall are owed to

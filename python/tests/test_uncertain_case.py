@@ -188,6 +188,21 @@ def test_levels_without_medians(executable, root, tmp_path):
             lambda text: text.replace("'two_block'", "'one_sided'").replace(", hinge = 0.6", ""),
             "restitution_factor = 'graziotti_2016': is of tests of mechanism = 'two_block'",
         ),
+        (
+            "restitution_factor = 'elgawady_2010'",
+            None,
+            "restitution_factor = 'elgawady_2010': is of tests of mechanism = 'free_standing'",
+        ),
+        (
+            "restitution_factor = 'Graziotti_2016'",
+            lambda text: text.replace("hinge = 0.6 /", "hinge = 0.55, restitution = 'impulse' /"),
+            "is a ratio to restitution = 'sorrentino', must be a range or distribution for 'impulse'; the same speeds",
+        ),
+        (
+            "restitution_factor = 'graziotti_2016', overburden = 'uniform(3e3, 6e3)'",
+            lambda text: text.replace("hinge = 0.6 /", "hinge = 0.55, overburden_inertia = 1 /"),
+            "for 'impulse', the model of a wall that lifts the mass of its overburden",
+        ),
         ("restitution_factor = 'nobody'", None, "or a published range: 'graziotti_2016', 'elgawady_2010'"),
         ("hinge = 'normal(nan, 0.1)'", None, "hinge = 'normal(nan, 0.1)': must be"),
         ("", lambda text: text.replace("seed = 3, ", "seed = 3"), "a property must have a distribution"),

@@ -3,6 +3,7 @@
 import dataclasses
 import itertools
 import pickle
+import re
 
 import numpy as np
 import pytest
@@ -287,10 +288,82 @@ def test_texts_of_cases_are_refused_with_what_to_write(given, told):
         dd.uncertain_wall(dd.TwoBlockWall(3.0, 0.25), [], [0.5], sources={"hinge": given})
 
 
-def test_a_published_range_is_of_its_mechanism():
-    wall = dd.OneSidedWall(1.5, 0.25)
-    with pytest.raises(dd.InputError, match="'graziotti_2016': is of tests of two_block walls"):
-        dd.uncertain_wall(wall, [], [0.5], sources={"restitution_factor": "graziotti_2016"})
+@pytest.mark.parametrize(
+    ("wall", "name", "message"),
+    [
+        (dd.OneSidedWall(1.5, 0.25), "graziotti_2016", "is of tests of mechanism = 'two_block'"),
+        # Of a block that bounces off a transverse wall equation (2) is no ratio to Housner's value, and (4) is none.
+        (dd.OneSidedWall(1.5, 0.25), "elgawady_2010", "is of tests of mechanism = 'free_standing'"),
+        (dd.TwoBlockWall(2.7, 0.24), "elgawady_2010", "is of tests of mechanism = 'free_standing'"),
+        (
+            dd.TwoBlockWall(2.7, 0.24, restitution="impulse"),
+            "graziotti_2016",
+            r"is a ratio to restitution = 'sorrentino', must be .* for 'impulse'; the same speeds are uniform\(",
+        ),
+        (
+            dd.TwoBlockWall(2.7, 0.24, restitution="constant", restitution_value=0.8),
+            "graziotti_2016",
+            "is a ratio to restitution = 'sorrentino', must be a range or distribution for 'constant'$",
+        ),
+        # The default of a wall that lifts a mass is 'impulse'.
+        (
+            dd.TwoBlockWall(2.7, 0.24, overburden=6e3, overburden_inertia=0.5),
+            "graziotti_2016",
+            "for 'impulse', the model of a wall that lifts the mass of its overburden",
+        ),
+        (
+            dd.FreeStandingWall(2.0, 0.3, restitution="constant", restitution_value=0.8),
+            "elgawady_2010",
+            "is a ratio to restitution = 'impulse', must be a range or distribution for 'constant'",
+        ),
+    ],
+)
+def test_a_published_range_is_of_its_model(wall, name, message):
+    with pytest.raises(dd.InputError, match=message):
+        dd.uncertain_wall(wall, [], [0.5], sources={"restitution_factor": name}, count=8)
+
+
+def test_an_uncertain_load_changes_the_model():
+    """The wall as given lifts nothing, all its variants do."""
+    wall = dd.TwoBlockWall(2.7, 0.24, overburden_inertia=1.0)
+    sources = {"restitution_factor": "graziotti_2016", "overburden": dd.Uniform(4e3, 8e3)}
+    with pytest.raises(dd.InputError, match="for 'impulse', the model of a wall that lifts"):
+        dd.uncertain_wall(wall, [], [0.5], sources=sources, count=16)
+
+
+def test_the_rescaled_range_gives_the_same_speeds():
+    """Of the range that is named in place of the refused one."""
+    wall = dd.TwoBlockWall(2.7, 0.24, hinge=0.62, restitution="impulse")
+    with pytest.raises(dd.InputError) as caught:
+        dd.uncertain_wall(wall, [], [0.5], sources={"restitution_factor": "graziotti_2016"}, count=8)
+    low, high = map(float, re.search(r"uniform\((\S+), (\S+)\)", str(caught.value)).groups())
+    for factor, measured in ((low, 0.84), (high, 0.90)):
+        speeds = [
+            dd.TwoBlockWall(2.7, 0.24, hinge=0.62, restitution=model, restitution_factor=by).restitution_coefficient
+            for model, by in (("impulse", factor), ("sorrentino", measured))
+        ]
+        assert speeds[0] == pytest.approx(speeds[1], rel=1e-3)
+    # A ratio to impulse is larger: with 0.84 to 0.90 of it the wall would seem too strong.
+    assert low > 0.90
+
+
+def test_free_standing_blocks_have_a_range(motions):
+    wall = dd.FreeStandingWall(2.0, 0.3)
+    sources = {"restitution_factor": "elgawady_2010"}
+    found = dd.uncertain_wall(wall, motions, [0.2, 0.4, 0.8, 1.6], sources=sources, count=8, progress=False)
+    assert found.values[0, 1] == pytest.approx(0.95)
+
+
+def test_stripes_name_the_range_of_their_model(motions):
+    def said(**more):
+        stripes = dd.multiple_stripe(dd.TwoBlockWall(2.7, 0.24, **more), motions, [0.5, 1.0], progress=False)
+        return dict(stripes._facts()).get("restitution", "")
+
+    assert said().startswith("1 times that of the model; tests on two-block walls gave 0.84 to 0.9 times it")
+    assert "times that of 'sorrentino', which for this wall is" in said(restitution="impulse")
+    lifted = said(overburden=6e3, overburden_inertia=1.0)
+    assert lifted.endswith("which has no mass of an overburden: they do not apply to this wall")
+    assert said(restitution="constant", restitution_value=0.8) == ""
 
 
 def test_too_small_a_sample_is_refused_before_it_runs():

@@ -3,13 +3,16 @@ module uncertainty
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_boundary, only : check_room, report
    use dondolo_error, only : error_type
+   use dondolo_handles, only : find_walls
    use dondolo_parcel, only : parcel_type, send
    use dondolo_restitution, only : published_factors
    use dondolo_sensitivity, only : new_sensitivity, sensitivity_type, smallest => smallest_sample
+   use dondolo_tested_restitution, only : check_published, make_restitution_sentence
+   use dondolo_wall, only : wall_type
    implicit none
    private
 
-   public :: sensitivity, published, smallest_sample
+   public :: sensitivity, published, smallest_sample, check_factor, restitution_sentence
 
 contains
 
@@ -46,7 +49,7 @@ contains
       samples = smallest(int(quantities))
    end subroutine smallest_sample
 
-   !> Published ranges of the factor on restitution: their limits as reals; name, mechanism (blank: any) and source as lines
+   !> Published ranges of the factor on restitution: their limits as reals; name and source as lines
    subroutine published(sent, stat, message)
       integer(c_int64_t), intent(out) :: sent(4)
       integer(c_int), intent(out) :: stat
@@ -58,10 +61,42 @@ contains
       do i = 1, size(published_factors)
          call parcel%add([published_factors(i)%low, published_factors(i)%high])
          call parcel%lines%add(trim(published_factors(i)%name))
-         call parcel%lines%add(trim(published_factors(i)%mechanism))
          call parcel%lines%add(trim(published_factors(i)%source))
       end do
       call send(parcel, error, sent, stat, message)
    end subroutine published
+
+   !> Check that a published range was measured against the restitution of a wall
+   subroutine check_factor(walls, name, stat, message)
+      integer(c_int64_t), intent(in) :: walls
+      character(len=*), intent(in) :: name
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(wall_type), pointer :: people(:)
+      type(error_type), allocatable :: error
+
+      call find_walls(walls, people, error)
+      if (.not. allocated(error)) call check_published(name, people(1), error)
+      call report(error, stat, message)
+   end subroutine check_factor
+
+   !> What the restitution of a wall assumes beside tests, as a line, empty where there are none
+   subroutine restitution_sentence(walls, sent, stat, message)
+      integer(c_int64_t), intent(in) :: walls
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(wall_type), pointer :: people(:)
+      character(len=:), allocatable :: line
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+
+      call find_walls(walls, people, error)
+      if (.not. allocated(error)) then
+         call make_restitution_sentence(people(1), line)
+         call parcel%lines%add(line)
+      end if
+      call send(parcel, error, sent, stat, message)
+   end subroutine restitution_sentence
 
 end module uncertainty

@@ -9,6 +9,7 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray
 from dondolo._fortran import _core
+from dondolo._fortran.handles import Handle
 from dondolo._fortran.library import check, receive
 from dondolo.errors import DondoloError
 
@@ -24,11 +25,10 @@ class Sensitivity(NamedTuple):
 
 
 class PublishedFactor(NamedTuple):
-    """A range of restitution_factor from tests, of a mechanism, or of any."""
+    """A range of restitution_factor from tests."""
 
     low: float
     high: float
-    mechanism: str
     source: str
 
 
@@ -54,6 +54,18 @@ def published_factors() -> dict[str, PublishedFactor]:
     limits = parcel.reals.reshape(-1, 2).tolist()
     lines = parcel.lines
     return {
-        name: PublishedFactor(low, high, mechanism, source)
-        for name, mechanism, source, (low, high) in zip(lines[::3], lines[1::3], lines[2::3], limits, strict=True)
+        name: PublishedFactor(low, high, source)
+        for name, source, (low, high) in zip(lines[::2], lines[1::2], limits, strict=True)
     }
+
+
+def check_factor(wall: Handle, name: str) -> None:
+    """Refuse a published range that was not measured against the restitution of a wall."""
+    stat, message = _core.uncertainty.check_factor(wall.number, name.encode())
+    check(stat, message)
+
+
+def restitution_sentence(wall: Handle) -> str:
+    """What the restitution of a wall assumes beside tests; empty where there are none."""
+    (line,) = receive(*_core.uncertainty.restitution_sentence(wall.number)).lines
+    return line

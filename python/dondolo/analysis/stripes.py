@@ -16,7 +16,7 @@ from dondolo._base.shown import Shown
 from dondolo._fortran.curves import CurveData, warnings_of_curve
 from dondolo._fortran.library import warn
 from dondolo._fortran.records import levels_in_words, unit_of
-from dondolo._fortran.uncertainty import published_factors
+from dondolo._fortran.uncertainty import restitution_sentence
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.stripe_sets import cut, join, span
@@ -489,9 +489,7 @@ class Stripes(Shown, Saved):
         if self.status is not None:
             sure, again, unknown = np.bincount(self.status[self.status > 0], minlength=4)[1:4]
             facts.append(("certified", f"{sure} in double, {again} in quadruple precision, {unknown} not computable"))
-        if self.wall.mechanism == "two_block" and self.wall.restitution != "constant":
-            tests = published_factors()["graziotti_2016"]
-            # No other choice moves the curve of such a wall as much
-            text = f"{self.wall.restitution_factor:g} times that of the model (tests: {tests.low:g} to {tests.high:g})"
-            facts.insert(1, ("restitution", text))
+        restitution = restitution_sentence(upload((self.wall,)))
+        if restitution:
+            facts.insert(1, ("restitution", restitution))
         return facts

@@ -14,7 +14,7 @@ from dondolo._base.arguments import FloatArray, as_count, instance_of
 from dondolo._fortran.buildings import BUILDING_NAMES
 from dondolo._fortran.library import warn
 from dondolo._fortran.records import blank_unit
-from dondolo._fortran.uncertainty import published_factors, sensitivity, smallest_sample
+from dondolo._fortran.uncertainty import check_factor, published_factors, sensitivity, smallest_sample
 from dondolo._fortran.walls import WALL_LISTS, WALL_NUMBERS
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
@@ -33,7 +33,7 @@ from dondolo.records.record_set import lasting
 from dondolo.walls.distributions import Distribution, Uniform, no_distribution
 from dondolo.walls.population import Population
 from dondolo.walls.sampling import draw, in_words, make_walls
-from dondolo.walls.wall import Wall
+from dondolo.walls.wall import Wall, upload
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -237,8 +237,9 @@ def uncertain_wall(
     sources : mapping of str to distribution
         Numbers of the wall (restitution_factor, hinge, hinge_depth, density, thickness ...) and their distributions,
         such as `Uniform`, `Triangular` or `Normal`. For restitution_factor the name of a published range:
-        'graziotti_2016', 0.84 to 0.90 for walls of two blocks, or 'elgawady_2010', 0.90 to 1.0 for blocks on a base
-        of concrete or stone; both stand for uniform distributions.
+        'graziotti_2016', 0.84 to 0.90 times equation (4) for walls of two blocks with the model 'sorrentino', or
+        'elgawady_2010', 0.90 to 1.0 times Housner's value for free-standing blocks on a base of concrete or stone;
+        both are uniform distributions, and refused for other models.
     count : int
         Walls of the sample, at most 10 000, and at least 2 + 6 k + k (k - 1) for k sources.
     seed : int
@@ -287,6 +288,8 @@ def uncertain_wall(
         [[float(known[what].ppf(np.array([q]))[0]) for q in (_ENDS[0], _MIDDLE, _ENDS[1])] for what in known]
     )
     people = _variants(wall, known, draw(n, seed, known, {}), values)
+    if isinstance(sources["restitution_factor"] if "restitution_factor" in sources else None, str):
+        check_factor(upload((people[n + 1],)), str(sources["restitution_factor"]))
     several = lasting(records)
     found = typology(
         people,
@@ -333,11 +336,6 @@ def _distributions(wall: Wall, sources: Any) -> dict[str, Distribution]:
                 names = ", ".join(map(repr, published))
                 error = no_distribution(what, given)
                 raise InputError(f"{error}; names are for restitution_factor, {names}")
-            if published[given].mechanism not in ("", wall.mechanism):
-                raise InputError(
-                    f"{what} = {given!r}: is of tests of {published[given].mechanism} walls, must be a distribution or "
-                    f"another range for {wall.mechanism}"
-                )
             found[what] = Uniform(published[given].low, published[given].high)
         elif isinstance(given, Distribution):
             found[what] = given

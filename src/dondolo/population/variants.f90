@@ -36,6 +36,8 @@ module dondolo_variants
       procedure :: weight
       !> Make a variant of it
       procedure :: vary
+      !> Row with all properties at their medians
+      procedure :: row_of_medians
       !> Row with one property at one of its ends
       procedure :: row_of_end
    end type stated_wall_type
@@ -103,6 +105,13 @@ contains
 
       weight = merge(0.0_wp, 1.0_wp, self%is_uncertain() .and. row > self%samples)
    end function weight
+
+   !> Row with all properties at their medians
+   pure integer function row_of_medians(self) result(row)
+      class(stated_wall_type), intent(in) :: self
+
+      row = self%samples + 2
+   end function row_of_medians
 
    !> Row with one property at one of its ends
    pure integer function row_of_end(self, source, end)

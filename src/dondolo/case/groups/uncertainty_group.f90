@@ -5,12 +5,13 @@ module dondolo_uncertainty_group
    use dondolo_kinds, only : wp
    use dondolo_namelist_group, only : group_type
    use dondolo_property, only : is_integer, is_text, name_length, property_type
-   use dondolo_restitution, only : check_published
    use dondolo_sensitivity, only : smallest_sample
    use dondolo_settings, only : group_settings_type, new_settings
    use dondolo_settings_group, only : read_settings
+   use dondolo_tested_restitution, only : check_published
    use dondolo_text, only : to_text
    use dondolo_variants, only : sample_variants, stated_wall_type
+   use dondolo_wall, only : new_wall, wall_input_type, wall_type
    implicit none
    private
 
@@ -24,7 +25,7 @@ module dondolo_uncertainty_group
       & property_type('seed', is_integer, default=1.0_wp, smallest=1.0_wp, largest=1.0e6_wp, &
       &   meaning='seed of the random numbers; the same seed gives the same walls'), &
       & property_type('restitution_factor', is_text, optional=.true., example='graziotti_2016', meaning='distribution of '// &
-      &   'it, or a published range: ''graziotti_2016'' (two-block), ''elgawady_2010'' (on concrete)'), &
+      &   'it, or a published range: ''graziotti_2016'' (two_block, model ''sorrentino''), ''elgawady_2010'' (free_standing)'), &
       & property_type('hinge', is_text, optional=.true., example='triangular(0.5, 0.6, 0.75)', meaning='distribution of it'), &
       & property_type('hinge_depth', is_text, optional=.true., example='lognormal(0.01, 0.4)', &
       &   meaning='distribution of it, m'), &
@@ -66,9 +67,6 @@ contains
          associate (name => uncertainty_properties(i)%name)
             if (.not. settings%has(trim(name))) cycle
             call new_distribution(one, trim(name), settings%word(trim(name)), error)
-            if (.not. allocated(error) .and. name == 'restitution_factor' .and. wall%has('mechanism')) then
-               call check_published(settings%word(trim(name)), wall%word('mechanism'), error)
-            end if
             call problems%take(error)
             sources = [character(len=name_length) :: sources, name]
             distributions = [distributions, one]
@@ -83,7 +81,34 @@ contains
             & to_text(size(sources))//' properties')
          if (.not. allocated(error)) call sample_variants(wall, sources, distributions, samples, nint(settings%number('seed')))
       end associate
+      if (.not. allocated(error) .and. settings%has('restitution_factor')) then
+         call check_factor(settings%word('restitution_factor'), wall, error)
+      end if
       call group%locate(error)
    end subroutine read_uncertainty_group
+
+   !> Check that a published range is of the wall with all properties at their medians: an uncertain load whose mass it
+   !> lifts changes the model
+   subroutine check_factor(text, wall, error)
+      !> What is given for the factor
+      character(len=*), intent(in) :: text
+      !> The wall with its variants
+      type(stated_wall_type), intent(in) :: wall
+      !> It is not
+      type(error_type), allocatable, intent(out) :: error
+
+      type(wall_input_type) :: input
+      type(wall_type) :: medians
+
+      input = wall%wall_input_type
+      call wall%vary(wall%row_of_medians(), input)
+      call new_wall(medians, input, error)
+      if (allocated(error)) then
+         ! The variant is refused where all are made, with its name.
+         deallocate (error)
+         return
+      end if
+      call check_published(text, medians, error)
+   end subroutine check_factor
 
 end module dondolo_uncertainty_group

@@ -1,0 +1,133 @@
+!> Published ranges of restitution_factor: a range is a ratio to the model that it was measured against, and to no other.
+!>
+!> Of two blocks that model is equation (4), 'sorrentino'. The same measured speeds are a larger ratio to the smaller speeds
+!> of 'impulse': the range is then rescaled by the two coefficients of the wall. A load whose mass the wall lifts has no
+!> place in equation (4), and no tests.
+module dondolo_tested_restitution
+   use dondolo_error, only : error_type, raise_input
+   use dondolo_kinds, only : wp
+   use dondolo_property, only : choices_length
+   use dondolo_restitution, only : published_factors
+   use dondolo_text, only : lower, rounded, to_text
+   use dondolo_two_block, only : overburden_type, two_block_impulse, two_block_sorrentino, two_block_type
+   use dondolo_wall, only : wall_type
+   implicit none
+   private
+
+   public :: check_published, make_restitution_sentence, tested_range
+
+contains
+
+   !> Name of the model whose speed ratio a wall has: 'default' is another one for each mechanism
+   pure character(len=choices_length) function model_of(wall) result(model)
+      type(wall_type), intent(in) :: wall
+
+      model = wall%input%word('restitution')
+      if (model /= 'default') return
+      model = 'sorrentino'
+      if (wall%input%word('mechanism') == 'free_standing') model = 'impulse'
+      select type (mechanism => wall%mechanism)
+      type is (two_block_type)
+         if (mechanism%overburden%lifted > 0.0_wp) model = 'impulse'
+      end select
+   end function model_of
+
+   !> Limits of a published range as a ratio to the model of a wall
+   pure subroutine tested_range(wall, number, low, high, is_known)
+      type(wall_type), intent(in) :: wall
+      !> Number of the range in published_factors
+      integer, intent(in) :: number
+      !> Smallest and largest factor on the model of the wall
+      real(wp), intent(out) :: low, high
+      !> Do the tests say anything of this wall and this model?
+      logical, intent(out) :: is_known
+
+      character(len=choices_length) :: model
+      real(wp) :: impulse
+
+      associate (tests => published_factors(number))
+         low = tests%low
+         high = tests%high
+         model = model_of(wall)
+         is_known = wall%input%word('mechanism') == tests%mechanism .and. model == tests%model
+         if (is_known .or. model /= 'impulse') return
+         select type (mechanism => wall%mechanism)
+         type is (two_block_type)
+            impulse = two_block_impulse(mechanism%lower, mechanism%upper, overburden_type())
+            is_known = tests%mechanism == 'two_block' .and. impulse > 0.0_wp .and. .not. mechanism%overburden%lifted > 0.0_wp
+            if (.not. is_known) return
+            low = low*two_block_sorrentino(mechanism%lower, mechanism%upper)/impulse
+            high = high*two_block_sorrentino(mechanism%lower, mechanism%upper)/impulse
+         end select
+      end associate
+   end subroutine tested_range
+
+   !> Check that a published range, if a text names one, was measured against the model of a wall
+   subroutine check_published(text, wall, error)
+      !> Name of a range, or anything else
+      character(len=*), intent(in) :: text
+      !> The wall, of uncertain properties with all of them at their medians
+      type(wall_type), intent(in) :: wall
+      !> The range is of another mechanism, or a ratio to another model
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=choices_length) :: model
+      real(wp) :: low, high
+      integer :: i
+      logical :: is_known
+
+      i = findloc(published_factors%name == lower(adjustl(text)), .true., dim=1)
+      if (i == 0) return
+      model = model_of(wall)
+      associate (tests => published_factors(i))
+         if (wall%input%word('mechanism') /= tests%mechanism) then
+            call raise_input(error, 'restitution_factor = '''//trim(text)//''': is of tests of mechanism = '''// &
+               & trim(tests%mechanism)//''', must be a range or distribution for '''//wall%mechanism_name()//'''')
+         else if (model /= tests%model) then
+            call tested_range(wall, i, low, high, is_known)
+            call raise_input(error, 'restitution_factor = '''//trim(text)//''': is a ratio to restitution = '''// &
+               & trim(tests%model)//''', must be a range or distribution for '''//trim(model)//'''')
+            if (is_known) then
+               error%message = error%message//'; the same speeds are uniform('//rounded(low)//', '//rounded(high)// &
+                  & ') for this wall'
+            else if (model == 'impulse') then
+               error%message = error%message//', the model of a wall that lifts the mass of its overburden'
+            end if
+         end if
+      end associate
+   end subroutine check_published
+
+   !> The restitution of a wall of two blocks beside the tests: no other choice moves its curve as much
+   subroutine make_restitution_sentence(wall, line)
+      type(wall_type), intent(in) :: wall
+      !> The sentence without its subject; empty for other mechanisms and for a constant speed ratio
+      character(len=:), allocatable, intent(out) :: line
+
+      character(len=choices_length) :: model
+      real(wp) :: low, high
+      integer :: i
+      logical :: is_known
+
+      line = ''
+      model = model_of(wall)
+      i = findloc(published_factors%mechanism == wall%mechanism_name(), .true., dim=1)
+      if (wall%mechanism_name() /= 'two_block' .or. model == 'constant') return
+      line = to_text(wall%input%number('restitution_factor'))//' times that of the model'
+      associate (tests => published_factors(i))
+         call tested_range(wall, i, low, high, is_known)
+         if (model == tests%model) then
+            line = line//'; tests on two-block walls gave '//to_text(tests%low)//' to '//to_text(tests%high)// &
+               & ' times it, and &uncertainty says what that makes of theta'
+            return
+         end if
+         line = line//' '''//trim(model)//'''; tests on two-block walls gave '//to_text(tests%low)//' to '// &
+            & to_text(tests%high)//' times that of '''//trim(tests%model)//''', '
+         if (is_known) then
+            line = line//'which for this wall is '//rounded(low)//' to '//rounded(high)//' times that of '''//trim(model)//''''
+         else
+            line = line//'which has no mass of an overburden: they do not apply to this wall'
+         end if
+      end associate
+   end subroutine make_restitution_sentence
+
+end module dondolo_tested_restitution
