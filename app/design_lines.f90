@@ -20,7 +20,7 @@ contains
       character(len=:), allocatable :: line
       integer :: i
 
-      write (output_unit, '(a)') '', 'designs against '''//designs(1)%name//''', with 95 % intervals from paired records:'
+      write (output_unit, '(a)') 'designs against '''//designs(1)%name//''', with 95 % intervals from paired records:'
       do i = 2, min(size(designs), shown_rows)
          call make_design_sentence(designs(i), designs(1), line)
          write (output_unit, '(a)') '   '//line

@@ -18,16 +18,22 @@ module dondolo_fit_lines
 contains
 
    !> Print a curve, or why there is none
-   subroutine print_fit(case, curve)
+   subroutine print_fit(case, curve, saturation)
       type(case_type), intent(in) :: case
       type(fragility_type), intent(in) :: curve
+      !> Probability that the mechanisms can occur; absent: 1
+      real(wp), intent(in), optional :: saturation
 
+      real(wp) :: share
+
+      share = 1.0_wp
+      if (present(saturation)) share = saturation
       if (curve%has_fit()) then
          write (output_unit, '(a)') 'theta = '//rounded(curve%theta)//case%stripes%scaling%unit_after_blank()// &
             & ', beta = '//rounded(curve%beta)//', status '//trim(curve%status)
          call print_errors(curve)
          write (output_unit, '(a)') case%stripes%scaling%name//' at a probability of 16, 50, 84 %: '// &
-            & trim(fractiles(case, curve, 1.0_wp))
+            & trim(fractiles(case, curve, share))
       else
          write (output_unit, '(a)') 'no fragility curve, status '//trim(curve%status)
       end if

@@ -17,7 +17,7 @@ module dondolo_summary
    use dondolo_text, only : counted, left, right, rounded, to_text
    use dondolo_tie_rows, only : make_tie_sentence
    use dondolo_typology, only : whole_population
-   use dondolo_union_lines, only : print_unions, print_verdict_rows
+   use dondolo_union_lines, only : print_facade, print_unions, print_verdict_rows
    use dondolo_wall_properties, only : is_of_building
    implicit none
    private
@@ -57,9 +57,14 @@ contains
       case ('typology')
          if (allocated(results%typologies)) then
             call print_curves(case, results)
-            call print_typology(case, results)
-            if (results%unions%count() > 0) call print_unions(case, results)
-            if (allocated(results%designs)) call print_designs(results%designs)
+            if (allocated(results%designs)) then
+               call print_designs(results%designs)
+            else if (case%survey%walls == 1) then
+               call print_facade(case, results)
+            else
+               call print_typology(case, results)
+               if (results%unions%count() > 0) call print_unions(case, results)
+            end if
             if (allocated(case%check)) then
                write (output_unit, '(a)') ''
                call print_verdicts(results%verdicts, case%check)
@@ -284,15 +289,18 @@ contains
 
       character(len=12) :: theta
       character(len=10) :: beta
+      character(len=6) :: heading
       integer :: width, longest, i, more
 
+      heading = 'wall'
+      if (allocated(results%designs)) heading = 'design'
       longest = 0
       do i = 1, size(results%shown)
          longest = max(longest, len(results%shown(i)%name))
       end do
       width = name_width(longest)
       theta = 'theta'//case%stripes%scaling%unit_after_blank()
-      write (output_unit, '(a, a15, 2a10, 2x, a)') left('wall', width), 'mechanism', trim(theta), 'beta', 'status'
+      write (output_unit, '(a, a15, 2a10, 2x, a)') left(trim(heading), width), 'mechanism', trim(theta), 'beta', 'status'
       do i = 1, size(results%shown)
          theta = '-'
          beta = '-'

@@ -15,7 +15,7 @@ module dondolo_union_lines
    implicit none
    private
 
-   public :: print_unions, print_verdict_rows
+   public :: print_facade, print_unions, print_verdict_rows
 
 contains
 
@@ -30,13 +30,7 @@ contains
 
       state = size(case%stripes%thresholds)
       walls = size(results%unions%wall)
-      write (output_unit, '(a)') ''
-      if (walls == 1 .and. case%survey%walls == 1) then
-         call results%unions%get(1, results%population, union)
-         call print_one(case, union, state)
-         return
-      end if
-      write (output_unit, '(a)') 'in series, counted in the same histories and by the product of independent mechanisms:'
+      write (output_unit, '(a)') '', 'in series, counted in the same histories and by the product of independent mechanisms:'
       do i = 1, results%unions%count()
          if (i <= shown_rows .or. i > walls) then
             call results%unions%get(i, results%population, union)
@@ -47,8 +41,55 @@ contains
       end do
    end subroutine print_unions
 
-   !> Print the one facade of a population
-   subroutine print_one(case, union, state)
+   !> Print the curve of the one facade or wall of a case: how often any of its mechanisms collapses in the same histories
+   subroutine print_facade(case, results)
+      type(case_type), intent(in) :: case
+      !> Results of one wall
+      type(results_type), intent(in) :: results
+
+      type(union_type) :: union
+      integer :: k, state
+
+      state = size(case%stripes%thresholds)
+      if (results%unions%count() > 0) then
+         call results%unions%get(1, results%population, union)
+      else
+         call take_row(case, results, union)
+      end if
+      call print_stripes_of(case, union, state)
+      do k = 1, state
+         if (k < state) write (output_unit, '(a)', advance='no') 'EDP '//rounded(case%stripes%thresholds(k))//': '
+         if (k == state .and. state > 1) write (output_unit, '(a)', advance='no') 'collapse: '
+         call print_fit(case, union%curve(k), union%saturation)
+      end do
+      if (results%unions%count() > 0) write (output_unit, '(a)') 'taken as independent of each other the mechanisms '// &
+         & 'would give '//trim(parameters(case, union%product(state), union%saturation))
+   end subroutine print_facade
+
+   !> The one mechanism of a facade as the union of itself
+   subroutine take_row(case, results, union)
+      type(case_type), intent(in) :: case
+      !> Results of one wall with one mechanism
+      type(results_type), intent(in) :: results
+      type(union_type), intent(out) :: union
+
+      integer :: k
+
+      associate (population => results%population)
+         union%name = results%shown(1)%name
+         union%rows = 1
+         union%saturation = population%p_occ(1)
+         union%curve = population%curve(:, 1)
+         union%histories = real(population%histories(:, 1), wp)
+         allocate (union%fraction(size(case%stripes%levels), size(union%curve)))
+         do k = 1, size(union%curve)
+            union%fraction(:, k) = union%saturation*real(population%reached(:, k, 1), wp)/union%histories
+         end do
+      end associate
+   end subroutine take_row
+
+   !> Print how often a facade or a wall collapses at each level
+   subroutine print_stripes_of(case, union, state)
       type(case_type), intent(in) :: case
       type(union_type), intent(in) :: union
       !> Number of the damage state
@@ -56,28 +97,21 @@ contains
 
       character(len=:), allocatable :: head
       character(len=120) :: line
-      integer :: j, k
+      integer :: j
 
-      write (output_unit, '(a)') ''''//union%name//''', '//counted(union%rows(2) - union%rows(1) + 1, 'mechanism')// &
-         & ' in series: a history counts if one of them collapses in it; independent: 1 - product (1 - P)'
+      if (union%rows(2) > union%rows(1)) write (output_unit, '(a)') ''''//union%name//''', '// &
+         & counted(union%rows(2) - union%rows(1) + 1, 'mechanism')//' in series: a history counts if one of them collapses in it'
       call make_head(case, head)
-      write (output_unit, '(a, a12, a10, a13)') head, 'collapses', 'fraction', 'independent'
+      write (output_unit, '(a, a12, a10)') head, 'collapses', 'fraction'
       do j = 1, size(case%stripes%levels)
          associate (fraction => union%fraction(j, state))
-            write (line, '(a, a12, f10.3, f13.3, 2x, a)') right(rounded(case%stripes%levels(j)), len(head)), &
-               & rounded(fraction*union%histories(j))//'/'//to_text(nint(union%histories(j))), fraction, &
-               & union%independent(j, state), bar(fraction)
+            write (line, '(a, a12, f10.3, 2x, a)') right(rounded(case%stripes%levels(j)), len(head)), &
+               & rounded(fraction*union%histories(j))//'/'//to_text(nint(union%histories(j))), fraction, bar(fraction)
             write (output_unit, '(a)') trim(line)
          end associate
       end do
       write (output_unit, '(a)') ''
-      do k = 1, state
-         if (k < state) write (output_unit, '(a)', advance='no') 'EDP '//rounded(case%stripes%thresholds(k))//': '
-         if (k == state .and. state > 1) write (output_unit, '(a)', advance='no') 'collapse: '
-         call print_fit(case, union%curve(k))
-      end do
-      write (output_unit, '(a)') 'taken as independent: '//trim(parameters(case, union%product(state), union%saturation))
-   end subroutine print_one
+   end subroutine print_stripes_of
 
    !> Print a wall or a mean in one line
    subroutine print_line(case, union, state)

@@ -114,7 +114,7 @@ def _parser() -> argparse.ArgumentParser:
         help="write the curves of a run for OpenQuake",
         description="Write the fragility curves of a run, read from its CSV files, as a fragility model of OpenQuake, "
         "NRML 0.5: of a population the mean curves, one function a group and mechanism, with its damage states; of a "
-        "wall its curve. If a mean curve had to be raised, a message on stderr reports it.",
+        "wall, a facade and each design its curve. If a mean curve had to be raised, a message on stderr reports it.",
     )
     nrml.add_argument("prefix", help="prefix of the result files, for example out/population", metavar="PREFIX")
     nrml.add_argument("-o", "--output", help="path of the model, PREFIX_fragility.xml by default", metavar="FILE")
@@ -226,22 +226,36 @@ def _plot_run(prefix: str, kind: str, animate: bool) -> None:
         if results.edp_thresholds:
             how: dict[str, Any] = {"edp_thresholds": results.edp_thresholds, "states": results.states}
             save("damage_states", lambda: stripes.plot_damage_states(**how))
-    if results.typology is not None:
-        people = results.typology
-        save("typology", people.plot)
-        if (uncertain := results.uncertain) is not None:
-            save("uncertainty", lambda: uncertain.plot()[0])
-        if (designs := results.designs) is not None:
-            save("designs", lambda: designs.plot()[0])
-        if len(people.groups) > 1:
-            save("combination", people.plot_combination)
+    if results.designs is not None:
+        _plot_designs(results.designs, results.population, save)
+    elif results.typology is not None:
+        _plot_walls(results, results.typology, save)
+
+
+def _plot_designs(
+    designs: dd.DesignComparison, walls: dd.Population, save: Callable[[str, Callable[[], Any]], None]
+) -> None:
+    """Draw designs beside each other, and each of them: they are alternatives, and have no curve in common."""
+    save("designs", lambda: designs.plot()[0])
+    for number, wall in enumerate(walls, 1):
+        save(f"design_{number}", wall.plot)
+
+
+def _plot_walls(results: dd.StoredResults, people: dd.Typology, save: Callable[[str, Callable[[], Any]], None]) -> None:
+    """Draw the curves of a population, or of one facade."""
+    save("typology", people.plot)
+    if (uncertain := results.uncertain) is not None:
+        save("uncertainty", lambda: uncertain.plot()[0])
+    is_facade = bool(people.facade) and people.knows_unions
+    if len(people.groups) > 1 and not is_facade:
+        save("combination", people.plot_combination)
         for of in people.groups:
-            if of.mechanism != "all" and not of.group and len(people.groups) > 1:
+            if of.mechanism != "all" and not of.group:
                 save(f"typology_{of.mechanism}", people[of.mechanism].plot)
-        if any(of.group for of in people.groups):
-            save("groups", people.plot_groups)
-        if len(people.edp_thresholds) > 1:
-            save("damage_states", people.plot_damage_states)
+    if any(of.group for of in people.groups) and not is_facade:
+        save("groups", people.plot_groups)
+    if len(people.edp_thresholds) > 1:
+        save("damage_states", people.plot_damage_states)
 
 
 def _film(path: str, motion: dd.Response) -> None:

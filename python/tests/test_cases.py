@@ -18,9 +18,9 @@ CASES = {
     "tied_facade": ["walls", "histories", "stripes", "fragility"],
     "history": ["history"],
     "population": ["walls", "stripes", "fragility", "typology"],
-    "designs": ["walls", "stripes", "fragility", "typology"],
-    "facade_hinges": ["walls", "stripes", "fragility", "typology"],
-    "facades": ["walls", "stripes", "fragility", "typology"],
+    "designs": ["walls", "stripes", "fragility", "ties"],
+    "facade_hinges": ["walls", "stripes", "fragility", "typology", "unions"],
+    "facades": ["walls", "stripes", "fragility", "typology", "unions"],
 }
 
 

@@ -2,6 +2,7 @@
 
 import csv
 import html
+import re
 
 import matplotlib
 
@@ -191,7 +192,79 @@ def test_the_executable_compares(root, run, tmp_path):
     assert f"<dd>{found.ratio[2]:.3g} times</dd>" in page.replace("\N{NO-BREAK SPACE}", " ")
     verified = sum(check.verified["linear", "SLV"] for check in results.checks)
     assert f"linear, SLV: {verified} of 4" in page
+    # Alternatives have no mean: on the console, among the files, in the report, in functions and figures.
+    assert results.typology.are_alternatives
+    assert not (tmp_path / "out_typology.csv").exists()
+    for word in ("population", "mean fraction", "mean curve"):
+        assert word not in summary.stdout
+    text = re.sub(r"data:image[^\"]*|<style>.*?</style>|<pre>.*?</pre>", "", page, flags=re.DOTALL)
+    for word in ("Typological", "typological", "ractile", "hole population", "eighted", "share of the walls"):
+        assert word not in text, word
+    for wall in walls:
+        assert f"{wall.name}: at rest (dashed)" in text
+        assert f"Calculation sheet of {wall.name}." in text
+    with pytest.raises(dd.InputError, match="alternatives with no curve in common"):
+        results.typology["all"]
+    with pytest.raises(dd.InputError, match="alternatives"):
+        results.typology.plot()
+    functions, _ = dd.nrml_functions(results.typology)
+    assert [one["collapse"].theta for one in functions.values()] == [curve.theta for curve in found.curves]
+    dd.write_workbook(tmp_path / "out", tmp_path / "out.xlsx")
+    openpyxl = pytest.importorskip("openpyxl")
+    assert "typology" not in openpyxl.load_workbook(tmp_path / "out.xlsx").sheetnames
+    # Written and read again they are still alternatives.
+    results.typology.write_results(tmp_path / "again")
+    again = dd.read_results(tmp_path / "again")
+    assert again.typology.are_alternatives
+    assert [curve.theta for curve in again.typology.curves] == [curve.theta for curve in results.typology.curves]
+    results.typology.save(tmp_path / "alternatives.npz")
+    assert dd.load(tmp_path / "alternatives.npz").are_alternatives
     case.write_text(case.read_text().replace("walls/designs.csv", "walls/facades.csv"))
     refused = run("--check", case)
     assert refused.returncode != 0
     assert "designs = .true. needs two designs at least, each a wall of one row" in refused.stderr
+
+
+def test_a_case_of_designs_in_python(root, run, tmp_path):
+    """`run_case` has the comparison and the checks of the executable, and nothing over the designs."""
+    case = tmp_path / "case.nml"
+    text = (root / "data/cases/designs.nml").read_text().replace("'../", f"'{root}/data/")
+    case.write_text(text.replace("out/designs'", f"{tmp_path}/out'"))
+    assert run(case).returncode == 0
+    mine, theirs = dd.run_case(case, progress=False), dd.read_results(tmp_path / "out")
+    assert mine.case.designs
+    np.testing.assert_allclose(mine.designs.ratio_interval, theirs.designs.ratio_interval, rtol=1e-8)
+    assert [check.rows for check in mine.checks] == [check.rows for check in theirs.checks]
+    assert [check.rows for check in mine.designs.checks] == [check.rows for check in theirs.checks]
+    assert mine.typology.are_alternatives
+    assert "population" not in repr(mine.typology)
+    dd.report(mine, tmp_path / "report.html")
+    assert "Designs beside the first" in html.unescape((tmp_path / "report.html").read_text())
+
+
+def test_damage_states_and_hazard_of_designs(root, run, tmp_path):
+    """Each design in each state; the annual frequency of each."""
+    (tmp_path / "walls.csv").write_text(
+        "name,mechanism,height,thickness\nas found,one_sided,1.5,0.25\nthicker,one_sided,1.5,0.32\n"
+    )
+    (tmp_path / "case.nml").write_text(
+        "&job task = 'typology', output = 'out' /\n&population file = 'walls.csv', designs = .true. /\n"
+        f"&records catalogue = '{root / 'data/records/synthetic44.csv'}' /\n"
+        "&stripes levels = 0.2, 0.4, 0.6, 0.8, 1.0, 1.4, edp_thresholds = 0.4 /\n"
+    )
+    done = run("case.nml")
+    assert done.returncode == 0, done.stderr
+    results = dd.read_results(tmp_path / "out")
+    assert results.typology.at(0.4).are_alternatives
+    assert results.typology.at(0.4).curves[0].theta < results.typology.curves[0].theta
+    hazard = dd.HazardCurve([0.02, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6], [0.05, 0.02, 0.008, 0.003, 0.0009, 0.0002, 3e-5])
+    dd.report(results, tmp_path / "report.html", hazard=hazard)
+    page = html.unescape((tmp_path / "report.html").read_text())
+    assert "Damage state EDP ≥ 0.4: parameters of each design" in page
+    assert "Deaggregation of the frequency of collapse, as found" in page
+    assert "thicker, collapse" in page
+    functions, _ = dd.nrml_functions(results.typology)
+    assert {name: list(states) for name, states in functions.items()} == {
+        "as_found": ["edp_0p4", "collapse"],
+        "thicker": ["edp_0p4", "collapse"],
+    }

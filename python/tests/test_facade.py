@@ -1,6 +1,8 @@
 """Facades: the walls above their hinges, and their union of the same histories."""
 
 import csv
+import dataclasses
+import html
 import itertools
 import re
 import subprocess
@@ -180,7 +182,18 @@ def test_population_of_facades(run, root, tmp_path, records):
     for name in ("a", "b"):
         first = next(row for row in table if row["wall"] == name)
         assert float(first["theta"]) == pytest.approx(result.unions[name].theta, rel=1e-9)
+    mean = result.group_unions[""]
+    assert list(result.group_unions) == [""]
     means = [float(row["fraction"]) for row in table if not row["wall"]]
+    assert mean.saturation * mean.collapses / mean.histories == pytest.approx(means, rel=1e-12)
+    first = next(row for row in table if not row["wall"])
+    assert (mean.theta, mean.beta) == pytest.approx((float(first["theta"]), float(first["beta"])), rel=1e-9)
+    # Over records and walls, as the mean of independent mechanisms, whose walls scatter alike
+    assert mean.errors == "clustered"
+    assert mean.se_ln_theta == pytest.approx(result["all"].fit.se_ln_theta, rel=0.35)
+    stored = dd.read_results(tmp_path / "out").typology
+    assert stored.group_unions[""].theta == pytest.approx(mean.theta, rel=1e-9)
+    assert not stored.group_unions[""].has_errors
     fractions = {name: curve.saturation * curve.collapses / curve.histories for name, curve in result.unions.items()}
     alone = result.combined["c"].collapses / result.combined["c"].histories
     assert means == pytest.approx((2 * fractions["a"] + fractions["b"] + alone) / 4.0, rel=1e-9)
@@ -195,11 +208,15 @@ def test_unions_of_files(ran, tmp_path):
     stored.plot_union()
     stored.save(tmp_path / "stored.npz")
     assert dd.load(tmp_path / "stored.npz").at(0.3).unions["front"].theta == stored.at(0.3).unions["front"].theta
-    dd.report(stored, tmp_path / "report.html")
-    assert "Facade front: its walls above each hinge" in (tmp_path / "report.html").read_text()
+    # Files that Python writes have them too: no route shows the product in their place.
     stored.write_results(tmp_path / "written")
+    again = dd.read_results(tmp_path / "written").typology
+    for threshold in (0.3, 1.0):
+        union, other = (one.at(threshold).unions["front"] for one in (stored, again))
+        assert (other.theta, other.beta) == pytest.approx((union.theta, union.beta), rel=1e-12)
+        assert other.covariance == pytest.approx(union.covariance, rel=1e-9)
     with pytest.raises(dd.InputError, match="read back from files without"):
-        dd.read_results(tmp_path / "written").typology.unions  # noqa: B018
+        dataclasses.replace(stored, kept_unions=None).unions  # noqa: B018
 
 
 def test_saved(tmp_path, few):
@@ -242,13 +259,88 @@ def test_wrong_case(run, root, tmp_path, old, new, message):
     assert len(done.stderr.splitlines()) == 1
 
 
-def test_report(ran, tmp_path):
-    result = dd.run_case(ran[0] / "case.nml", progress=False).typology
+def words_of(path):
+    """The words of a report, without its figures."""
+    page = re.sub(r"data:image[^\"]*|<style>.*?</style>|<pre>.*?</pre>", "", path.read_text(), flags=re.DOTALL)
+    return html.unescape(re.sub(r"<[^>]+>", " ", page)).replace("\N{NO-BREAK SPACE}", " ")
+
+
+@pytest.mark.parametrize("route", ["files", "case", "typology"])
+def test_report(ran, tmp_path, route):
+    """Whatever a report is made of: the union is its number, the product a footnote, and nothing is of a population."""
+    case = dd.run_case(ran[0] / "case.nml", progress=False)
+    source = {"files": dd.read_results(ran[0] / "out"), "case": case, "typology": case.typology}[route]
+    dd.report(source, tmp_path / "report.html")
+    words = words_of(tmp_path / "report.html")
+    union, product = case.typology.unions["front"], case.typology.combined["front"]
+    assert f"{union.theta:.3g}" != f"{product.theta:.3g}"
+    # Behind the title in the list of contents, and that of the chapter
+    cards = words.split("Summary")[2].partition("Fragility curves")[0]
+    assert f"{union.theta:.3g} g" in cards
+    assert f"{product.theta:.3g} g" not in cards
+    assert words.count(f"{product.theta:.3g} g") == 1
+    assert "Footnote. Taken as independent of each other the mechanisms would give" in words
+    for word in ("opulation", "share of the walls", "ractile", "ypological", "weighted"):
+        assert word not in words, word
+    assert "front at 4 m: at rest (dashed)" in words
+
+
+def test_console(ran):
+    """The stripes are those of the union, and nothing is of a population."""
+    _, printed = ran
+    union = dd.read_results(ran[0] / "out").typology.unions["front"]
+    assert f"collapse: theta = {union.theta:.4g} g" in printed
+    for word in ("population", "mean fraction", "mean curve"):
+        assert word not in printed
+    assert len(re.findall("independent of each other the mechanisms would give theta", printed)) == 1
+
+
+def test_nrml_and_figures(ran, executable, root, tmp_path):
+    """Of two states the functions of the union; of collapse alone its lognormal; the first figure draws the union."""
+    found = dd.read_results(ran[0] / "out").typology
+    functions, _ = dd.nrml_functions(found)
+    assert list(functions) == ["front"]
+    dd.write_nrml(tmp_path / "front.xml", functions)
+    for threshold, state in ((0.3, "edp_0p3"), (1.0, "collapse")):
+        curve = functions["front"][state]
+        union = found.at(threshold).unions["front"]
+        assert np.interp(union.theta, curve.levels, curve.probability) == pytest.approx(0.5, abs=0.01)
+    for curve in (found.plot(), found.plot_damage_states()):
+        texts = [text.get_text() for text in curve.get_legend().get_texts()]
+        assert any(f"θ = {found.unions['front'].theta:.3g} g" in text for text in texts)
+    text = (ran[0] / "case.nml").read_text().replace(", edp_thresholds = 0.3", "").replace(", histories = .true.", "")
+    (tmp_path / "case.nml").write_text(text)
+    subprocess.run([executable, "case.nml"], cwd=tmp_path, capture_output=True, check=True)
+    found = dd.read_results(tmp_path / "out").typology
+    functions, _ = dd.nrml_functions(found)
+    assert functions == {"front": {"collapse": found.unions["front"]}}
+    assert functions["front"]["collapse"].theta == found.unions["front"].theta
+
+
+def test_one_wall_with_two_mechanisms(few, tmp_path):
+    """One wall that overturns or folds, neither for certain: its number is the union too, times what can occur."""
+    walls = dd.OneSidedWall(3.0, 0.25, name="b"), dd.TwoBlockWall(3.0, 0.25, name="b")
+    people = dd.Population(walls, p_occ=[0.8, 0.5])
+    result = dd.typology(people, few, [0.2, 0.4, 0.6, 0.8, 1.2, 1.6], progress=False)
+    assert result.facade == "b"
+    assert result.unions["b"].saturation == pytest.approx(0.9)
     dd.report(result, tmp_path / "report.html")
-    text = (tmp_path / "report.html").read_text()
-    assert "Facade front: its walls above each hinge" in text
-    assert "Facades and walls with several mechanisms, collapse in the same histories." in text
-    assert f"{result.unions['front'].theta:.4g}"[:5] in text
+    words = words_of(tmp_path / "report.html")
+    assert "if one can occur (90 %)" in words
+    assert "opulation" not in words
+    functions, _ = dd.nrml_functions(result)
+    assert functions["b"]["collapse"].probability[-1] == pytest.approx(0.9, abs=0.005)
+
+
+def test_hazard(ran, tmp_path):
+    """The annual frequency of the report is that of the union."""
+    found = dd.read_results(ran[0] / "out")
+    hazard = dd.HazardCurve([0.02, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6], [0.05, 0.02, 0.008, 0.003, 0.0009, 0.0002, 3e-5])
+    dd.report(found, tmp_path / "report.html", hazard=hazard)
+    words = words_of(tmp_path / "report.html")
+    risk = dd.mean_annual_frequency(found.typology.unions["front"], hazard)
+    assert "lost a year" not in words
+    assert f"It is {risk.bounds[0]:.3g} a year" in words
 
 
 def test_check_says_leaves(run, root, tmp_path):

@@ -52,7 +52,7 @@ contains
          scale = 1
          if (case%job%task == 'history') scale = case%history_scale()
          parcel%integers = [size(members), size(case%stripes%levels), size(case%suite%records), &
-            & size(case%stripes%thresholds), case%job%threads, case%history%record, 0, 0, 0]
+            & size(case%stripes%thresholds), case%job%threads, case%history%record, 0, 0, 0, merge(1, 0, case%designs)]
          parcel%reals = [case%solver%solver%rtol, case%solver%solver%atol, case%solver%solver%edp_limit, &
             & count([case%solver%solver%estimate_error, case%solver%solver%certify])*1.0_c_double, scale, case%stripes%levels, &
             & case%stripes%thresholds]
@@ -76,7 +76,7 @@ contains
    !> Add the check of a case
    subroutine pack_check(case, parcel)
       type(case_type), intent(in) :: case
-      !> The last three of its integers are set, reals and two lines added
+      !> Its integers 7 to 9 are set, reals and two lines added
       type(parcel_type), intent(inout) :: parcel
 
       if (.not. allocated(case%check)) then

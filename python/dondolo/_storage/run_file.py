@@ -16,6 +16,9 @@ from dondolo.errors import DondoloWarning, InputError
 
 FORMAT = "dondolo run 2"
 
+# What is known of a record, if its header or the catalogue states it
+RECORD_FACTS = ("date", "magnitude", "station", "component")
+
 
 @dataclass(frozen=True)
 class HistoryResult:
@@ -61,7 +64,8 @@ class RunFile:
     inputs : tuple of mapping
         Files of the case: role, path, bytes, crc32.
     records : tuple of mapping
-        Records of the case: name, event (label of its cluster, '' for none), checksum of its samples.
+        Records of the case: name, event (label of its cluster, '' for none), checksum of its samples, and what is known
+        of date, magnitude, station and component.
     work : mapping
         Counts of what was computed, by name; empty for a time history.
     history : HistoryResult or None
@@ -159,6 +163,7 @@ def read_run_file(path: str) -> RunFile:
             tuple(_all(content, "inputs", dict)),
             tuple(
                 {key: _member(one, key, str) for key in ("name", "event", "checksum")}
+                | {key: _member(one, key, str) for key in RECORD_FACTS if key in one}
                 for one in _all(content, "records", dict)
             ),
             {name: _member(work, name, int) for name in work},

@@ -44,7 +44,7 @@ def draw_fragility(
             color=style.BLACK if label is None else color,
             elinewidth=0.8,
             capsize=2,
-            label=f"fractions, {100.0 * confidence:.4g} % intervals" if label is None else None,
+            label=_of_bars(confidence) if label is None else None,
             zorder=3,
         )
     grid = curves.grid(x if len(x) else fragility.theta * np.exp(3.0 * fragility.beta))
@@ -52,7 +52,7 @@ def draw_fragility(
     if fragility.has_fit:
         if fragility.has_errors:
             band = np.asarray(fragility.interval(grid, confidence=confidence))
-            text = f"{100.0 * confidence:.4g} % band" if label is None else None
+            text = _of_band(fragility, confidence) if label is None else None
             ax.fill_between(grid, band[0], band[1], color=color, alpha=0.2, linewidth=0.0, label=text)
         unit = blank_unit(fragility.im)
         text = label or f"θ = {fragility.theta:.3g}{unit}, β = {fragility.beta:.3g}"
@@ -71,6 +71,8 @@ def draw_fragility(
     ax.set_ylim(-0.02, 1.02)
     ax.set_xlabel(style.im_label(fragility.im))
     ax.set_ylabel("probability of collapse")
+    if label is not None:
+        _explain(ax, fragility, confidence)
     if fragility.wall is not None and label is None:
         style.title(ax, fragility.wall.name)
     style.legend(ax, loc="upper left" if label is None else "lower right")
@@ -92,6 +94,28 @@ def draw_discrete(curve: DiscreteFragility, ax: Axes | None, label: str | None, 
     if label is not None:
         style.legend(ax, loc="lower right")
     return ax
+
+
+def _of_bars(confidence: float) -> str:
+    """What the bars are: another statistic than the band."""
+    return f"fractions; bars: {100.0 * confidence:.4g} % of one stripe, exact binomial"
+
+
+def _of_band(fragility: Fragility, confidence: float) -> str:
+    """What the band is, by the standard errors of the curve."""
+    kinds = " and ".join(part.kind for part in fragility.parts) or "records"
+    how = f"clustered by {kinds}" if fragility.errors == "clustered" else "histories independent"
+    return f"band: {100.0 * confidence:.4g} % of the curve, {how}"
+
+
+def _explain(ax: Axes, fragility: Fragility, confidence: float) -> None:
+    """Where several curves share the axes, say once what bars and bands are."""
+    known = ax.get_legend_handles_labels()[1]
+    texts = [_of_bars(confidence)] if len(fragility.levels) else []
+    texts += [_of_band(fragility, confidence)] if fragility.has_errors else []
+    for text in texts:
+        if text not in known:
+            ax.plot([], [], linestyle="none", label=text)
 
 
 def parameters(fit: Fragility) -> str:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from contextlib import nullcontext
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -21,10 +22,12 @@ from dondolo.analysis.stripes import States, Stripes
 from dondolo.checks.ntc import CodeCheck, check_dynamic, check_ntc
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import silent
+from dondolo.exchange.case_checks import complete_checks, kinematic_checks
 from dondolo.populations.study import typology
 from dondolo.populations.typology import Typology
 from dondolo.records.codes import Site
 from dondolo.records.record import Record, record_from
+from dondolo.retrofit.designs import DesignComparison, compare_designs
 from dondolo.walls.mechanisms import wall_from
 from dondolo.walls.population import Population
 
@@ -59,6 +62,8 @@ class Case(Shown):
         Hazard of a check by NTC 2018.
     confidence, behaviour : float
         Factors of that check.
+    designs : bool
+        Whether the walls are designs of one wall, each to be compared with the first.
     """
 
     task: str
@@ -83,6 +88,7 @@ class Case(Shown):
     site: Site | None = None
     confidence: float = 1.35
     behaviour: float = 2.0
+    designs: bool = False
 
     def _facts(self) -> list[tuple[str, str]]:
         facts = [
@@ -126,8 +132,21 @@ class Case(Shown):
             if self.states == "ordinal":
                 curves = [*stripes.fit_damage_states(self.edp_thresholds, states="ordinal")]
             return Results(case=self, stripes=stripes, fragility=curves[-1], check=self._check(how))
+        checks = kinematic_checks(
+            self.population.walls, self.site, confidence=self.confidence, behaviour=self.behaviour
+        )
+        compared = None
+        if self.designs:
+            walls = {wall.name: wall for wall in self.population.walls}
+            compared = compare_designs(walls, self.records, self.levels, **ensemble)
+            compared = replace(compared, checks=complete_checks(checks))
         ensemble["edp_thresholds"] = self.edp_thresholds
-        return Results(case=self, typology=typology(self.population, self.records, self.levels, **ensemble))
+        # What is said of a mean over designs is of nothing, and the rest of it is said.
+        with silent() if self.designs else nullcontext():
+            found = typology(self.population, self.records, self.levels, **ensemble)
+        if self.designs:
+            found = found._as_alternatives()
+        return Results(case=self, typology=found, designs=compared, checks=checks)
 
     def _check(self, solver: Solver) -> CodeCheck | None:
         """The check of the wall, its histories by one stripe more."""
@@ -151,9 +170,13 @@ class Results(Shown):
     stripes, fragility : Stripes, Fragility or None
         Of the task 'stripes'.
     typology : Typology or None
-        Of the task 'typology'.
+        Of the task 'typology'; of designs their curves alone, with nothing over them (`Typology.are_alternatives`).
     check : CodeCheck or None
         Of a case with a group &check.
+    designs : DesignComparison or None
+        Of a case with ``designs = .true.``.
+    checks : tuple of CodeCheck or None
+        The kinematic check of each row of a population with a group &check, None where it has none; else empty.
     """
 
     case: Case
@@ -162,9 +185,11 @@ class Results(Shown):
     fragility: Fragility | None = None
     typology: Typology | None = None
     check: CodeCheck | None = None
+    designs: DesignComparison | None = None
+    checks: tuple[CodeCheck | None, ...] = ()
 
     def _facts(self) -> list[tuple[str, str]]:
-        names = ("response", "stripes", "fragility", "typology", "check")
+        names = ("response", "stripes", "fragility", "typology", "designs", "check")
         made = [(name, repr(found)) for name in names if (found := getattr(self, name)) is not None]
         return [("case", self.case.title or self.case.output), *made]
 
@@ -188,11 +213,12 @@ def read_case(path: str | os.PathLike[str]) -> Case:
     """
     parcel = receive(*_core.cases.read_case(as_path(path)))
     walls, levels, records, thresholds, threads, record = (int(value) for value in parcel.integers[:6])
+    are_designs = bool(parcel.integers[9])
     rtol, atol, edp_limit, second_runs, scale = (float(value) for value in parcel.reals[:5])
     task, title, output, im, polarity, engine, states, soil, topography = parcel.lines[:9]
     counts = parcel.integers[6:9]
     hazard = 5 + levels + thresholds
-    places = [hazard + (int(counts.sum()) + 2 if counts.any() else 0), 9, 9]
+    places = [hazard + (int(counts.sum()) + 2 if counts.any() else 0), 10, 9]
     check: dict[str, Any] = {}
     if counts.any():
         *values, (confidence, behaviour) = np.split(parcel.reals[hazard : places[0]], np.cumsum(counts))
@@ -225,6 +251,7 @@ def read_case(path: str | os.PathLike[str]) -> Case:
         threads=threads,
         record_index=record - 1,
         scale=scale,
+        designs=are_designs,
         **check,
     )
 

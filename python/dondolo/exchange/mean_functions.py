@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import re
 from collections.abc import Callable
 
@@ -10,7 +11,10 @@ import numpy as np
 from dondolo._base.arguments import FloatArray, instance_of
 from dondolo._fortran.records import blank_unit
 from dondolo.curves.discrete import DiscreteFragility
+from dondolo.curves.fragility import Fragility
+from dondolo.curves.members import Members
 from dondolo.errors import silent
+from dondolo.exchange.fragility_model import Curve
 from dondolo.populations.curve import PopulationCurve
 from dondolo.populations.typology import Typology
 
@@ -28,8 +32,12 @@ _TOLD = 1e-4
 Curves = Callable[[FloatArray], FloatArray]
 
 
-def nrml_functions(typology: Typology) -> tuple[dict[str, dict[str, DiscreteFragility]], list[str]]:
+def nrml_functions(typology: Typology) -> tuple[dict[str, dict[str, Curve]], list[str]]:
     """Fragility functions of a population for `write_nrml`, one a group and mechanism, with its damage states.
+
+    Of one facade, or one wall with several mechanisms, there is one function by its name: the curve of the same
+    histories, `Typology.unions`. Designs have one function each by their names. Where collapse is the only state these
+    are the lognormals themselves.
 
     They are the mean curves, `Typology.mean`, which the report integrates too, and not the lognormals fitted to them:
     those tend to 1 in OpenQuake, also where some walls cannot collapse, and cross.
@@ -42,7 +50,8 @@ def nrml_functions(typology: Typology) -> tuple[dict[str, dict[str, DiscreteFrag
     Returns
     -------
     functions : dict of dict
-        Taxonomy (group/mechanism, 'population' for the whole) -> damage state ('edp_0p4' for 0.4, 'collapse') -> curve.
+        Taxonomy (group/mechanism, 'population' for the whole; the name of a facade or a design) ->
+        damage state ('edp_0p4' for 0.4, 'collapse') -> curve.
     sentences : list of str
         Where curves were raised, and by how much; names that had to be changed.
 
@@ -77,20 +86,18 @@ def nrml_functions(typology: Typology) -> tuple[dict[str, dict[str, DiscreteFrag
     with silent():
         # What has no fit takes part with its fractions.
         states = {_state_name(edp): typology.at(edp) for edp in damages} | {"collapse": typology}
-    functions: dict[str, dict[str, DiscreteFragility]] = {}
+    functions: dict[str, dict[str, Curve]] = {}
     sentences = []
-    for curve in typology.groups:
-        plain = taxonomy_of(f"{curve.group or 'population'}/{curve.mechanism}")
-        names = (plain if k == 1 else f"{plain[:96]}_{k}" for k in range(1, len(typology.groups) + 1))
+    parts = _parts(typology, list(states.values()))
+    for text, kind, whose, means in parts:
+        plain = taxonomy_of(text)
+        names = (plain if k == 1 else f"{plain[:96]}_{k}" for k in range(1, len(parts) + 1))
         name = next(name for name in names if name not in functions)
         if name != plain:
-            sentences.append(f"'{name}': is that of the group {curve.group!r}; '{plain}' is another group's")
-
-        of_states = [state[curve.mechanism, curve.group] for state in states.values()]
-
-        def means(x: FloatArray, curves: list[PopulationCurve] = of_states) -> FloatArray:
-            return np.array([one.mean(x) for one in curves])
-
+            sentences.append(f"'{name}': is that of the {kind} {whose!r}; '{plain}' is another {kind}'s")
+        if isinstance(means, Fragility):
+            functions[name] = {"collapse": means}
+            continue
         levels, raw = straight_lines(means, typology.levels)
         ordered = in_order(raw)
         rising = np.maximum.accumulate(ordered, axis=1)
@@ -109,6 +116,44 @@ def nrml_functions(typology: Typology) -> tuple[dict[str, dict[str, DiscreteFrag
                         f"'{name}', '{state}': raised by up to {lift[most]:.2g}, at {levels[most]:.3g}{unit}, {reason}"
                     )
     return functions, sentences
+
+
+def _parts(typology: Typology, states: list[Typology]) -> list[tuple[str, str, str, Curves | Fragility]]:
+    """What has a function: text of its taxonomy, kind, name, and its probabilities in each state (states, levels)."""
+    if typology.are_alternatives:
+        rows = [(wall.name, [state.curves[row] for state in states]) for row, wall in enumerate(typology.walls)]
+        return [(name, "design", name, _single(typology, curves)) for name, curves in rows]
+    if typology.facade and typology.knows_unions:
+        name = typology.facade
+        return [(name, "facade", name, _single(typology, [state.unions[name] for state in states]))]
+
+    def means(x: FloatArray, curves: list[PopulationCurve]) -> FloatArray:
+        return np.array([one.mean(x) for one in curves])
+
+    return [
+        (
+            f"{one.group or 'population'}/{one.mechanism}",
+            "group",
+            one.group,
+            functools.partial(means, curves=[state[one.mechanism, one.group] for state in states]),
+        )
+        for one in typology.groups
+    ]
+
+
+def _single(typology: Typology, curves: list[Fragility]) -> Curves | Fragility:
+    """The curves of one wall: a lognormal that tends to 1; functions with damage states, which may cross."""
+    if len(curves) == 1 and curves[0].has_fit and curves[0].saturation == 1.0:
+        return curves[0]
+    share = np.array([one.saturation if one.has_fit else 1.0 for one in curves])
+    fractions = np.array([one.saturation * one.collapses / one.histories for one in curves])
+    number = np.arange(len(curves))
+    members = Members(typology.levels, curves, fractions.T, np.ones(len(curves)), share, number)
+
+    def probabilities(x: FloatArray) -> FloatArray:
+        return share[:, None] * members.rows_at(number, x)
+
+    return probabilities
 
 
 def taxonomy_of(text: str) -> str:

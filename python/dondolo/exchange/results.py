@@ -25,8 +25,8 @@ from dondolo.analysis.work import Work
 from dondolo.checks.ntc import CodeCheck
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloWarning, InputError, MissingFileError
+from dondolo.exchange.case_checks import checks_of_run, stored_check
 from dondolo.exchange.result_file import MixedError, ResultFile
-from dondolo.exchange.stored_checks import kinematic_checks, stored_check
 from dondolo.exchange.stored_designs import stored_designs
 from dondolo.exchange.stored_errors import kept_errors
 from dondolo.exchange.stored_ties import stored_ties
@@ -45,7 +45,7 @@ from dondolo.walls.wall import Wall
 # How often results are read again that another run replaces meanwhile
 _TRIES = 20
 # What only some populations have
-_UNIONS, _TIES = "_unions.csv", "_ties.csv"
+_UNIONS, _TIES, _DESIGNS = "_unions.csv", "_ties.csv", "_designs.csv"
 # Columns of _walls.csv and the numbers of a wall
 _COLUMNS = {row.column: row.name for row in WALL_PROPERTIES if row.column}
 _WALL_COLUMNS = {column: name for column, name in _COLUMNS.items() if name not in WALL_TEXTS and name not in WALL_LISTS}
@@ -65,7 +65,7 @@ class StoredResults(Shown):
     stripes, fragility : Stripes, Fragility or None
         Task 'stripes'.
     typology : Typology or None
-        Task 'typology'.
+        Task 'typology'; of designs their curves alone, with nothing over them (`Typology.are_alternatives`).
     uncertain : UncertainWall or None
         Of a case with a group &uncertainty: its typology, and what that owes to each source. Its `numbers` and `rest`
         are NaN, since the files do not have them.
@@ -91,8 +91,7 @@ class StoredResults(Shown):
     @cached_property
     def checks(self) -> tuple[CodeCheck | None, ...]:
         """The kinematic check of each row of a population with a group &check, None where it has none; else empty."""
-        is_checked = self.typology is not None and "check" in self.run.settings
-        return kinematic_checks(self.population.walls, self.run) if is_checked else ()
+        return () if self.typology is None else checks_of_run(self.population.walls, self.run)
 
     def _facts(self) -> list[tuple[str, str]]:
         names = ("response", "stripes", "fragility", "typology", "designs", "check")
@@ -192,6 +191,9 @@ def _read(prefix: str, run: RunFile) -> StoredResults:
             stored = replace(stored, fragility=curves[-1])
         else:
             stored = replace(stored, typology=_typology(table, population, work, run.warnings))
+    are_designs = bool(run.setting("population", "designs", False))
+    if stored.typology is not None and are_designs:
+        stored = replace(stored, typology=stored.typology._as_alternatives())
     if stored.typology is not None:
         stored = replace(stored, typology=_with_tables(stored.typology, prefix, run))
     if stored.typology is not None and "uncertainty" in run.settings:
@@ -199,8 +201,8 @@ def _read(prefix: str, run: RunFile) -> StoredResults:
         with sources.reading():
             stored = replace(stored, uncertain=_uncertain(sources, stored.typology))
         sources.check(run)
-    if stored.typology is not None and run.setting("population", "designs", False):
-        beside = ResultFile(prefix + "_designs.csv", run)
+    if stored.typology is not None and are_designs and any(file.name == _DESIGNS for file in run.files):
+        beside = ResultFile(prefix + _DESIGNS, run)
         with beside.reading():
             stored = replace(stored, designs=stored_designs(stored.typology, beside, run))
         beside.check(run)
@@ -380,14 +382,17 @@ def _uncertain(table: ResultFile, typology: Typology) -> UncertainWall:
 
 def _with_tables(typology: Typology, prefix: str, run: RunFile) -> Typology:
     """A typology with what its tables know besides counts: standard errors, unions of mechanisms, ties."""
-    curves, groups = (ResultFile(f"{prefix}_{name}.csv", run) for name in ("fragility", "typology"))
     names = {file.name for file in run.files}
+    curves = ResultFile(f"{prefix}_fragility.csv", run)
+    groups = None if typology.are_alternatives else ResultFile(f"{prefix}_typology.csv", run)
     unions, ties = (ResultFile(prefix + name, run) if name in names else None for name in (_UNIONS, _TIES))
     kept = kept_errors(typology, curves, groups)
+    of_walls, of_groups = (None, None) if unions is None else kept_unions(typology, unions)
     typology = replace(
         kept.put_into(typology, -1),
         kept_errors=kept,
-        kept_unions=None if unions is None else kept_unions(typology, unions),
+        kept_unions=of_walls,
+        kept_group_unions=of_groups,
         ties=stored_ties(typology, ties),
     )
     for table in (curves, groups, unions, ties):

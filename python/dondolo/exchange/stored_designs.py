@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from dondolo._storage.run_file import RunFile
-from dondolo.checks.ntc import CodeCheck
 from dondolo.curves.comparison import Comparison
 from dondolo.curves.fragility import Fragility
+from dondolo.exchange.case_checks import checks_of_run, complete_checks
 from dondolo.exchange.result_file import ResultFile
-from dondolo.exchange.stored_checks import kinematic_checks
 from dondolo.populations.typology import Typology
 from dondolo.retrofit.designs import DesignComparison
 
@@ -48,7 +47,7 @@ def stored_designs(typology: Typology, table: ResultFile, run: RunFile) -> Desig
         steel=table.numbers("steel_kg_m"),
         alpha_0=table.numbers("alpha_0_g"),
         confidence=run.confidence,
-        checks=_checks(typology, run),
+        checks=complete_checks(checks_of_run(typology.walls, run)),
     )
 
 
@@ -69,11 +68,3 @@ def _against(curve: Fragility, first: Fragility, table: ResultFile, row: int) ->
         curves_p_value=np.nan,
         degrees_of_freedom=min(curve.degrees_of_freedom, first.degrees_of_freedom),
     )
-
-
-def _checks(typology: Typology, run: RunFile) -> tuple[CodeCheck, ...]:
-    """The kinematic check of each design; none where one of them cannot be checked."""
-    if "check" not in run.settings:
-        return ()
-    checks = kinematic_checks(typology.walls, run)
-    return tuple(one for one in checks if one is not None) if None not in checks else ()

@@ -15,7 +15,7 @@ from dondolo.populations.errors import KeptErrors
 from dondolo.populations.typology import Typology
 
 
-def kept_errors(typology: Typology, curves: ResultFile, groups: ResultFile) -> KeptErrors:
+def kept_errors(typology: Typology, curves: ResultFile, groups: ResultFile | None) -> KeptErrors:
     """Standard errors of all curves of a typology in all its damage states.
 
     Parameters
@@ -23,7 +23,8 @@ def kept_errors(typology: Typology, curves: ResultFile, groups: ResultFile) -> K
     typology : Typology
         Without them.
     curves, groups : ResultFile
-        ``_fragility.csv``, of each row all states; ``_typology.csv``, of each state all curves, of these all levels.
+        ``_fragility.csv``, of each row all states; ``_typology.csv``, of each state all curves, of these all levels,
+        None for designs.
 
     Returns
     -------
@@ -39,6 +40,8 @@ def kept_errors(typology: Typology, curves: ResultFile, groups: ResultFile) -> K
     with curves.reading():
         _check_rows(curves, rows * states, "one for each wall and damage state")
         of_rows = [[errors_of_row(curves, row * states + k) for row in range(rows)] for k in range(states)]
+    if groups is None:
+        return KeptErrors.of(of_rows)
     with groups.reading():
         _check_rows(groups, several * states * levels, "one for each curve, damage state and level")
         of_groups = [[errors_of_row(groups, (k * several + i) * levels) for i in range(several)] for k in range(states)]

@@ -2,29 +2,36 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
+from dondolo.curves.clusters import no_errors
 from dondolo.curves.fitting import fit, with_errors
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.series import in_series
 from dondolo.exchange.result_file import ResultFile
 from dondolo.exchange.stored_errors import errors_of_row
+from dondolo.populations.curve import Group
 from dondolo.populations.typology import Typology
+from dondolo.populations.unions import grouped, mean_curve
+
+Curves = tuple[dict[str, Fragility], ...]
 
 
-def kept_unions(typology: Typology, table: ResultFile) -> tuple[dict[str, Fragility], ...]:
-    """Curve of each facade or wall with several mechanisms, in each damage state.
+def kept_unions(typology: Typology, table: ResultFile) -> tuple[Curves, Curves]:
+    """Curve of each facade or wall with several mechanisms, and of each mean over walls, in each damage state.
 
     Parameters
     ----------
     typology : Typology
         Without them.
     table : ResultFile
-        ``_unions.csv``: of each facade or wall all damage states, of these all levels.
+        ``_unions.csv``: of each facade or wall, and then of each mean, all damage states, of these all levels.
 
     Returns
     -------
-    tuple of dict of str to Fragility
+    unions, group_unions : tuple of dict of str to Fragility
 
     Raises
     ------
@@ -33,15 +40,33 @@ def kept_unions(typology: Typology, table: ResultFile) -> tuple[dict[str, Fragil
     """
     people = typology.population
     names = [name for name in dict.fromkeys(people.wholes) if people.wholes.count(name) > 1]
+    groups = grouped(typology)
     states, levels = len(typology.edp_thresholds), len(typology.levels)
     with table.reading():
         found = table.texts("wall")
         if [name for name in dict.fromkeys(found) if name] != names or len(found) % (states * levels):
             raise ValueError("wall: must be those of several mechanisms, in the order of the population")
+        means = table.texts("group")[len(names) * states * levels :: states * levels]
+        if means != [one.group for one in groups]:
+            raise ValueError("group: must be those of walls with several mechanisms, in the order of the population")
         return tuple(
             {name: _union(typology, table, (i * states + k) * levels) for i, name in enumerate(names)}
             for k in range(states)
+        ), tuple(
+            {
+                one.group: _mean(typology, table, one, ((len(names) + i) * states + k) * levels)
+                for i, one in enumerate(groups)
+            }
+            for k in range(states)
         )
+
+
+def _mean(typology: Typology, table: ResultFile, group: Group, first: int) -> Fragility:
+    """A mean over walls, fitted again; its standard errors are not stored."""
+    fraction = np.array([table.number("fraction", row) for row in range(first, first + len(typology.levels))])
+    curve = mean_curve(typology, group, fraction)
+    curve = replace(curve, edp_threshold=table.number("edp_threshold", first))
+    return with_errors(curve, no_errors("given", 0)) if curve.has_fit else curve
 
 
 def _union(typology: Typology, table: ResultFile, first: int) -> Fragility:

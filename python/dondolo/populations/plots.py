@@ -87,13 +87,14 @@ def draw_union(typology: Typology, name: str, ax: Axes | None) -> Axes:
         ax.plot(grid, one(grid), label=f"{people[row].name}, {style.mechanism_name(people[row].mechanism)}", **look)
     union, product = typology.unions[name], typology.combined[name]
     for curve, word, color, width in (
-        (product, "independent", style.GREY, 1.6),
+        (product, "independent", style.GREY, 1.2),
         (union, "same histories", style.RED, 2.4),
     ):
         if curve.has_fit:
             ax.plot(grid, curve(grid), color=color, linewidth=width, label=f"{word}: {parameters(curve)}")
     fractions = union.saturation * union.collapses / union.histories
-    ax.plot(union.levels, fractions, color=style.RED, linestyle="none", marker="o", markersize=4, label="fractions")
+    looks: dict[str, Any] = {"color": style.RED, "linestyle": "none", "marker": "o", "markersize": 4}
+    ax.plot(union.levels, fractions, **looks, label="fractions of the same histories")
     return curves.finish(ax, typology.im, grid, name)
 
 
@@ -128,6 +129,8 @@ def draw_damage_states(
     thresholds = chosen.tolist()
     ax = curves.axes(ax, len(thresholds) + 1)
     grid = curves.grid(typology.levels)
+    if typology.facade and typology.knows_unions and mechanism == "all":
+        return _draw_union_states(typology, ax, grid, thresholds)
     states: list[PopulationCurve] = []
     for threshold, look, marks in curves.state_looks(thresholds):
         state = typology.at(threshold)[mechanism, group]
@@ -137,6 +140,17 @@ def draw_damage_states(
     _explain_fitted(ax, states)
     title = typology[mechanism, group]._title()
     return curves.finish(ax, typology.im, grid, title, "probability to reach the state")
+
+
+def _draw_union_states(typology: Typology, ax: Axes, grid: FloatArray, thresholds: list[float]) -> Axes:
+    """Draw the curve of one facade in each damage state, in the same histories."""
+    name = typology.facade
+    for threshold, look, marks in curves.state_looks(thresholds):
+        union = typology.at(threshold).unions[name]
+        text = style.label(f"EDP ≥ {threshold:g}: {parameters(union)}")
+        ax.plot(union.levels, union.saturation * union.collapses / union.histories, **marks)
+        ax.plot(grid, union(grid) if union.has_fit else np.full(len(grid), np.nan), **look, label=text)
+    return curves.finish(ax, typology.im, grid, name, "probability to reach the state")
 
 
 def _band(ax: Axes, grid: FloatArray, fractiles: FloatArray, color: str) -> None:

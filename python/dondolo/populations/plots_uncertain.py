@@ -61,7 +61,8 @@ def _draw_tornado(found: UncertainWall, ax: Any) -> None:
     middle = found.at_medians
     bars = [
         (
-            f"{name}\n{low:.4g} to {high:.4g} {_UNITS[name]}".rstrip(),
+            # Another statistic than the interval of the records below
+            f"{name}\n{low:.4g} to {high:.4g} {_UNITS[name]}".rstrip() + ", 5 to 95 %",
             tuple(curve.theta for curve in ends),
             f"{100.0 * share:.0f} %" if np.isfinite(share) else "no index",
         )

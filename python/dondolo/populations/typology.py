@@ -24,6 +24,7 @@ from dondolo._storage.saved import Saved
 from dondolo.analysis.stripe_tables import stripes_table
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import Fragility
+from dondolo.curves.plots import parameters
 from dondolo.curves.table import errors_table, fragility_table
 from dondolo.errors import DondoloWarning, InputError
 from dondolo.populations.curve import Group, IntArray, PopulationCurve, flat_population
@@ -37,7 +38,9 @@ from dondolo.walls.wall import Wall
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-_Table = Literal["typology", "fragility", "stripes", "walls", "ties"]
+_Table = Literal["typology", "fragility", "stripes", "walls", "unions", "ties"]
+# What is said of the curve of a population, which alternatives do not have
+_OF_POPULATION = ("population_without_fit", "population_extrapolated")
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -67,7 +70,8 @@ class Typology(Shown, Saved):
         one that may not occur, the lognormal fitted to the combined fractions.
     groups : tuple of Group
         The curves: those of the whole population, then those of each group, in the order they appear in; for each
-        mechanism, and the last for all, if there are several or one that may not occur.
+        mechanism, and the last for all, if there are several or one that may not occur. Empty for the designs of a
+        case, which are alternatives: there is no mean over them.
     work : Work
         What was computed for all walls, and what was not.
     flags : Flags
@@ -77,8 +81,8 @@ class Typology(Shown, Saved):
         What was warned of: by the run, and of the curves of this state.
     kept_errors : KeptErrors
         The standard errors of results that were read back, in place of the flags; None for results of a run.
-    kept_unions : tuple of dict of str to Fragility
-        Of results that were read back, `unions` in each damage state; None if the files have none.
+    kept_unions, kept_group_unions : tuple of dict of str to Fragility
+        Of results that were read back, `unions` and `group_unions` in each damage state; None if the files have none.
     ties : tuple of TieCounts
         What the histories do to the ties of each row: how many make each `yielded` and `broken`, and its mean and
         largest plastic elongation; None where that is not known.
@@ -98,6 +102,7 @@ class Typology(Shown, Saved):
     warnings: tuple[DondoloWarning, ...] = ()
     kept_errors: KeptErrors | None = None
     kept_unions: tuple[dict[str, Fragility], ...] | None = None
+    kept_group_unions: tuple[dict[str, Fragility], ...] | None = None
     ties: tuple[TieCounts, ...] | None = None
     _states: dict[float, Typology] = field(default_factory=dict)
 
@@ -131,6 +136,24 @@ class Typology(Shown, Saved):
         histories = self.histories.T.astype(np.float64)
         return tuple(own.broken / runs[:, None] for own, runs in zip(self.ties, histories, strict=True))
 
+    @property
+    def facade(self) -> str:
+        """Name of the one facade, or wall with several mechanisms, that these results are of; '' if they are of more.
+
+        Its curve is that of `unions`; `combined` and ``typology["all"]`` take its mechanisms as independent.
+        """
+        return self.population.wholes[0] if len(self.combined) == 1 < len(self.walls) else ""
+
+    @property
+    def are_alternatives(self) -> bool:
+        """Whether the walls are designs of one wall, of which one will be built: nothing is a mean over them."""
+        return not self.groups
+
+    def _as_alternatives(self) -> Typology:
+        """The same walls as designs of one wall."""
+        said = tuple(one for one in self.warnings if one.code not in _OF_POPULATION)
+        return dataclasses.replace(self, groups=(), warnings=said, _states={})
+
     @functools.cached_property
     def _flat(self) -> tuple[FlatPopulation, tuple[FloatArray, IntArray]]:
         """The population with its collapses, and the curves of its rows, as Fortran takes them."""
@@ -158,6 +181,11 @@ class Typology(Shown, Saved):
         if not (isinstance(several, tuple) and [type(word) for word in several] == [str, str]):
             raise InputError(f"typology[{key!r}]: must be a mechanism, or a mechanism and a group")
         mechanism, group = several
+        if self.are_alternatives:
+            raise InputError(
+                f"typology[{key!r}]: the walls are designs of one wall, alternatives with no curve in common; those of"
+                " each are in curves"
+            )
         known = {one.group: None for one in self.groups}
         one_of("group", group, known)
         of_group = {one.mechanism: one for one in self.groups if one.group == group}
@@ -205,13 +233,20 @@ class Typology(Shown, Saved):
             from dondolo.populations.combination import combine_rows
 
             state = combine_rows(self.population, self.im, self.levels, threshold, counts, self.histories, self.work)
+            state = state._as_alternatives() if self.are_alternatives else state
             if self.flags is not None:
                 flags = self.flags.at(int(place[0]))
                 state = with_clustered_errors(dataclasses.replace(state, flags=flags), flags)
             elif self.kept_errors is not None:
                 state = self.kept_errors.put_into(state, int(place[0]))
-                kept = self.kept_unions
-                state = dataclasses.replace(state, kept_unions=None if kept is None else (kept[int(place[0])],))
+                kept = {
+                    name: None if several is None else (several[int(place[0])],)
+                    for name, several in (
+                        ("kept_unions", self.kept_unions),
+                        ("kept_group_unions", self.kept_group_unions),
+                    )
+                }
+                state = dataclasses.replace(state, **kept)  # type: ignore[arg-type]
             self._states[value] = dataclasses.replace(state, ties=self.ties)
             warn(warning.placed(f"damage state {value:g}: ") for warning in state.warnings)
         return self._states[value]
@@ -227,11 +262,34 @@ class Typology(Shown, Saved):
         Raises
         ------
         InputError
-            The results were read back from files without them, those of `write_results`.
+            The results were read back from files without them.
         """
         from dondolo.populations.unions import unions_of
 
         return unions_of(self) if self.kept_unions is None else self.kept_unions[-1]
+
+    @functools.cached_property
+    def group_unions(self) -> dict[str, Fragility]:
+        """Curve of the population ('') and of each group with a wall of several mechanisms, in the same histories.
+
+        The lognormal fitted to the weighted mean of `unions` and of the fractions of walls with one mechanism;
+        ``typology["all"].fit`` is the same with the mechanisms of each wall as independent. Empty if no wall has
+        several mechanisms, or if there is one wall only, which `unions` has. Standard errors are over records and
+        walls; results that were read back have none.
+
+        Raises
+        ------
+        InputError
+            The results were read back from files without them.
+        """
+        from dondolo.populations.unions import group_unions_of
+
+        return group_unions_of(self) if self.kept_group_unions is None else self.kept_group_unions[-1]
+
+    @property
+    def knows_unions(self) -> bool:
+        """Are `unions` known? Not of results that were read back from files without them."""
+        return self.flags is not None or self.kept_unions is not None
 
     def plot_union(self, ax: Axes | None = None, *, name: str | None = None) -> Axes:
         """Draw the mechanisms of a facade or of a wall, their product, and the union of the same histories.
@@ -262,7 +320,7 @@ class Typology(Shown, Saved):
         return draw_union(self, str(chosen), ax)
 
     def plot(self, ax: Axes | None = None) -> Axes:
-        """Draw the curve of the whole population: ``typology["all"].plot()``.
+        """Draw the curve of the whole population, ``typology["all"].plot()``, or of one facade, `plot_union`.
 
         Parameters
         ----------
@@ -273,8 +331,13 @@ class Typology(Shown, Saved):
         -------
         Axes
             Probability of collapse against intensity.
+
+        Raises
+        ------
+        InputError
+            The walls are designs of one wall.
         """
-        return self["all"].plot(ax)
+        return self.plot_union(ax) if self.facade and self.knows_unions else self["all"].plot(ax)
 
     def plot_combination(self, ax: Axes | None = None, *, group: str = "") -> Axes:
         """Draw the mean curve of each mechanism, and that of all together with its fractiles.
@@ -337,7 +400,7 @@ class Typology(Shown, Saved):
         mechanism: str = "all",
         group: str = "",
     ) -> Axes:
-        """Draw the mean curve of each damage state, collapse the boldest.
+        """Draw the mean curve of each damage state, or the curve of one facade, collapse the boldest.
 
         A thin line beside a mean curve is the lognormal with the parameters of the legend.
 
@@ -365,14 +428,18 @@ class Typology(Shown, Saved):
         return draw_damage_states(self, ax, edp_thresholds, mechanism, group)
 
     def _tables(self) -> dict[_Table, Any]:
-        found: dict[_Table, Any] = {
-            "typology": lambda: typology_table(self),
+        found: dict[_Table, Any] = {} if self.are_alternatives else {"typology": lambda: typology_table(self)}
+        found |= {
             "fragility": self._curves_table,
             "stripes": lambda: stripes_table(
                 self.walls, self.im, self.levels, self.edp_thresholds, self.exceedances, self.histories
             ),
             "walls": lambda: self.population._table(),
         }
+        if len(self.combined) < len(self.walls) and self.knows_unions:
+            from dondolo.populations.unions import unions_table
+
+            found["unions"] = lambda: unions_table(self)
         ties = self.ties
         if ties is not None and any(own.broken.size for own in ties):
             found["ties"] = lambda: tie_table(self.walls, self.im, self.levels, ties, self.histories)
@@ -384,15 +451,16 @@ class Typology(Shown, Saved):
         return fragility_table(walls, [curve for row in zip(*states, strict=True) for curve in row])
 
     def to_frame(self, table: _Table = "typology") -> Any:
-        """One of the tables 'typology', 'fragility', 'stripes', 'walls' and 'ties' as a pandas DataFrame."""
+        """One of the tables 'typology', 'fragility', 'stripes', 'walls', 'unions' and 'ties' as a pandas DataFrame."""
         return tables.frame(tables.choose(self._tables(), table))
 
     def to_csv(
         self, path: str | os.PathLike[str], table: _Table = "typology", *, spreadsheet_safe: bool = False
     ) -> None:
-        """Write one of the tables 'typology', 'fragility', 'stripes', 'walls' and 'ties' as the executable does.
+        """Write one of the tables 'typology', 'fragility', 'stripes', 'walls', 'unions' and 'ties' like the executable.
 
-        There is one of ties if any wall has ties.
+        There is one of unions if any wall has several mechanisms, one of ties if any has ties, and none of 'typology'
+        for designs.
 
         With `spreadsheet_safe` an apostrophe stands before names that a spreadsheet would take for formulas.
         """
@@ -413,6 +481,7 @@ class Typology(Shown, Saved):
         """What a file has of it: all but what follows from the rest."""
         names = ("population", "im", "levels", "edp_thresholds", "exceedances", "histories", "groups", "work", "flags")
         stored = {name: getattr(self, name) for name in (*names, "warnings", "kept_errors", "kept_unions", "ties")}
+        stored["kept_group_unions"] = self.kept_group_unions
         return stored | {"rows": packed(self.curves), "walls": packed_walls(self.population, self.combined)}
 
     @classmethod
@@ -470,19 +539,29 @@ class Typology(Shown, Saved):
     def _run_file(self, gravity: float) -> RunFile:
         stripes = {"im": self.im, "levels": self.levels.tolist(), "edp_thresholds": self.edp_thresholds.tolist()}
         solver = {"edp_limit": float(self.edp_thresholds[-1]), "gravity": gravity}
-        settings = {"job": {"task": "typology"}, "stripes": stripes, "solver": solver}
+        settings: dict[str, Any] = {"job": {"task": "typology"}, "stripes": stripes, "solver": solver}
+        if self.are_alternatives:
+            settings["population"] = {"designs": True}
         version, work = constants().version, self.work._asdict()
         return RunFile(version, settings=settings, work=work, warnings=self.warnings)
 
     def _facts(self) -> list[tuple[str, str]]:
         fitted = sum(curve.has_fit for curve in self.combined.values())
-        whole = self["all"]
         facts = [
             ("walls", f"{len(self.combined)}, {fitted} of them with a curve"),
             ("levels", levels_in_words(self.levels, self.im)),
         ]
         if len(self.edp_thresholds) > 1:
             facts.append(("damage states", " ".join(f"{edp:g}" for edp in self.edp_thresholds)))
+        if self.are_alternatives:
+            facts[0] = ("designs", f"{len(self.walls)}, {fitted} of them with a curve")
+            return [*facts, *((name, parameters(one)) for name, one in self.combined.items()), ("work", str(self.work))]
+        if self.facade and self.knows_unions:
+            facts[0] = ("facade", f"{self.facade}, {len(self.walls)} mechanisms, counted in the same histories")
+            facts += self.unions[self.facade]._facts()
+            facts.append(("taken as independent", parameters(self.combined[self.facade])))
+            return [*facts, ("work", str(self.work))]
+        whole = self["all"]
         facts += whole.fit._facts()
         if whole.fitted > 0.0:
             text = f"{shown_dispersion(whole.beta_walls):.3g} between walls, {whole.beta_records:.3g} between records"

@@ -288,8 +288,8 @@ def uncertain_wall(
         [[float(known[what].ppf(np.array([q]))[0]) for q in (_ENDS[0], _MIDDLE, _ENDS[1])] for what in known]
     )
     people = _variants(wall, known, draw(n, seed, known, {}), values)
-    if isinstance(sources["restitution_factor"] if "restitution_factor" in sources else None, str):
-        check_factor(upload((people[n + 1],)), str(sources["restitution_factor"]))
+    if isinstance(name := sources.get("restitution_factor"), str):
+        check_factor(upload((people[n + 1],)), name)
     several = lasting(records)
     found = typology(
         people,

@@ -62,12 +62,26 @@ _DYNAMIC = {
 }
 
 
+# Walls that are named where they do not pass a check
+_NAMED = 4
 # Kinematic checks of the walls of a population: method and limit state
 _KINEMATIC = (("linear", "SLD"), ("linear", "SLV"), ("nonlinear", "SLV"), ("nonlinear", "SLC"))
 
 
-def code_checks(checks: Sequence[CodeCheck | None], curves: Sequence[Fragility]) -> dict[str, Any]:
-    """What the kinematic checks say of each wall of a population, and its probability of collapse at the site."""
+def code_checks(
+    checks: Sequence[CodeCheck | None], curves: Sequence[Fragility], *, facade: Fragility | None, with_sheets: bool
+) -> dict[str, Any]:
+    """What the kinematic checks say of each wall of a population, and its probability of collapse at the site.
+
+    Parameters
+    ----------
+    checks, curves
+        Of each row.
+    facade : Fragility or None
+        Curve of the one facade that the rows are mechanisms of.
+    with_sheets : bool
+        Whether each row has its calculation sheet, as designs and the mechanisms of a facade have.
+    """
     made = [(check, curve) for check, curve in zip(checks, curves, strict=True) if check is not None]
     columns: dict[Piece, Sequence[Piece]] = {"wall": [check.wall.name for check, _ in made]}
     for key in _KINEMATIC:
@@ -79,7 +93,40 @@ def code_checks(checks: Sequence[CodeCheck | None], curves: Sequence[Fragility])
         ]
     held = [(", ".join(key), whole(sum(check.verified[key] for check, _ in made)), len(made)) for key in _KINEMATIC]
     site = ", ".join(f"{name} {text}" for name, text in made[0][0].site._facts()) if made else ""
-    return {"checks": Table.of(columns), "held": held, "site": site, "left_out": len(checks) - len(made)}
+    together: Piece | None = None
+    if made and facade is not None and facade.has_fit and facade.im == "pga":
+        # Far below the levels a curve that is fitted on its own may be less than that of a mechanism, which bounds it.
+        pga = made[0][0].pga
+        together = probability(max(float(facade(pga)), *(float(one(pga)) for one in curves if one.has_fit)))
+    return {
+        "checks": Table.of(columns),
+        "held": held,
+        "site": site,
+        "left_out": len(checks) - len(made),
+        "together": together,
+        "sheets": [(check.wall.name, _sheet(check.rows)) for check, _ in made] if with_sheets else [],
+    }
+
+
+def failed(checks: Sequence[CodeCheck | None]) -> list[str]:
+    """The checks that walls do not pass, a sentence each."""
+    made = [check for check in checks if check is not None]
+    sentences = []
+    for key in dict.fromkeys(key for check in made for key in check.verified):
+        missed = [check for check in made if not check.verified.get(key, True)]
+        if not missed:
+            continue
+        ratios = [check.value(*key, "ratio") for check in missed if key[0] != "dynamic"]
+        word = "capacity / demand" if len(missed) == 1 else "least capacity / demand"
+        least = f", {word} {min(ratios):.3g}" if ratios else ""
+        what = f"{' '.join(key)}{least}"
+        if len(made) == 1:
+            sentences.append(what)
+        elif len(missed) <= _NAMED:
+            sentences.append(f"{what}: {', '.join(check.wall.name for check in missed)}")
+        else:
+            sentences.append(f"{what}: {len(missed)} of {len(made)} walls")
+    return sentences
 
 
 def _site(check: CodeCheck, state: str) -> float:

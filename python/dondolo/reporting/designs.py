@@ -1,4 +1,4 @@
-"""Facts of a report on designs of a wall."""
+"""Facts of a report on designs of a wall: alternatives, each beside the first, and nothing over them."""
 
 from __future__ import annotations
 
@@ -7,9 +7,25 @@ from typing import Any
 
 import numpy as np
 
-from dondolo.reporting.content import BETA, THETA, Piece, Symbol, Table, figure, level, level_unit
-from dondolo.reporting.numerals import number, parameter, percent
+from dondolo.curves.fragility import Fragility
+from dondolo.populations.typology import Typology
+from dondolo.reporting.content import (
+    BETA,
+    THETA,
+    Piece,
+    Symbol,
+    Table,
+    figure,
+    level,
+    level_head,
+    level_unit,
+    state_name,
+)
+from dondolo.reporting.numerals import number, parameter, percent, probability
 from dondolo.retrofit.designs import DesignComparison
+
+# Designs of a table of levels: what fits across a page
+_ACROSS = 6
 
 # Designs whose main numbers stand at the beginning
 _CARDS = 8
@@ -54,3 +70,51 @@ def designs(found: DesignComparison) -> dict[str, Any]:
         "table": Table.of(columns),
         "has_checks": bool(found.checks) and found.im == "pga",
     }
+
+
+def numbers(people: Typology) -> dict[str, Any]:
+    """Parameters and intervals of each design in each damage state, and its fractions at the levels."""
+    limit = float(people.edp_thresholds[-1])
+    states = {state_name(float(edp), limit): people.at(float(edp)) for edp in people.edp_thresholds[::-1]}
+    return {
+        "curves": [(state, _curves_table(one)) for state, one in states.items()],
+        "levels": [(state, table) for state, one in states.items() for table in _levels_tables(one)],
+    }
+
+
+def _curves_table(people: Typology) -> Table:
+    """Parameters with their 95 % intervals."""
+    curves = people.curves
+    ends = [curve.parameter_interval() if curve.has_errors else None for curve in curves]
+
+    def interval(name: str, place: int) -> list[Piece]:
+        return [parameter(np.nan if one is None else one[name][place]) for one in ends]
+
+    columns: dict[Piece, Sequence[Piece]] = {
+        "design": [wall.name for wall in people.walls],
+        (THETA, f" [{level_unit(people.im)}]"): [parameter(curve.theta) for curve in curves],
+        (THETA, " from"): interval("theta", 0),
+        (THETA, " to"): interval("theta", 1),
+        BETA: [parameter(curve.beta) for curve in curves],
+        (BETA, " from"): interval("beta", 0),
+        (BETA, " to"): interval("beta", 1),
+        "standard errors": [_errors(curve) for curve in curves],
+        "status": [curve.status for curve in curves],
+    }
+    return Table.of(columns, ("standard errors", "status"))
+
+
+def _errors(curve: Fragility) -> str:
+    return curve._kind() if curve.has_fit else ""
+
+
+def _levels_tables(people: Typology) -> list[Table]:
+    """The fraction of the histories of each design that reach a state at each level."""
+    fractions = people.collapses / people.histories
+    tables = []
+    for first in range(0, len(people.walls), _ACROSS):
+        columns: dict[Piece, Sequence[Piece]] = {level_head(people.im): [number(x) for x in people.levels]}
+        for place in range(first, min(first + _ACROSS, len(people.walls))):
+            columns[people.walls[place].name] = [probability(p) for p in fractions[:, place]]
+        tables.append(Table.of(columns))
+    return tables

@@ -10,7 +10,7 @@ import numpy as np
 
 from dondolo._fortran.library import build_variant, constants
 from dondolo._fortran.walls import WALL_EXTRAS, WALL_PROPERTIES
-from dondolo._storage.run_file import RunFile
+from dondolo._storage.run_file import RECORD_FACTS, RunFile
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import Stripes
 from dondolo.figures.style import mechanism_name
@@ -47,6 +47,8 @@ _COLUMNS = {
 }
 # Units that make numbers of a usual size of what is given in others, and what these are times
 _SHOWN = {"m2/m": ("cm2/m", 1e4), "Pa": ("MPa", 1e-6)}
+# Designs, or mechanisms of a facade, that are drawn one by one and have their calculation sheets
+DRAWN = 24
 # Columns of a table of further properties: what fits across a page
 _ACROSS = 8
 
@@ -112,18 +114,26 @@ def walls(run: Run) -> dict[str, Any]:
                 "The wall at rest and at half of its capacity, with what it carries and what holds it, drawn to scale."
             )
             drawing = figure(people.walls[0].plot, alt)
-        return {"facts": _wall_facts(run), "tables": [], "drawing": drawing}
+        return {"facts": _wall_facts(run), "tables": [], "drawing": drawing, "drawings": []}
     further = _further_properties(people.walls)
     part = "" if len(further) == 1 else ", part {} of " + str(len(further))
+    facts, drawings = people._facts(), []
+    if run.is_alike and len(people) <= DRAWN:
+        alt = "{}, at rest and at half of its capacity, with what it carries and what holds it, drawn to scale."
+        drawings = [(wall.name, figure(wall.plot, alt.format(wall.name))) for wall in people.walls]
+    if run.designs is not None:
+        facts = [("designs", str(len(people)))]
+    elif run.is_alike:
+        facts = [("facade", people.wholes[0]), ("mechanisms", str(len(people)))]
     tables = [
-        ("Walls and mechanisms with their main properties.", _main_properties(people)),
+        ("Walls and mechanisms with their main properties.", _main_properties(people, run.is_alike)),
         *(
             (f"Further properties of the walls that have them{part.format(number)}.", table)
             for number, table in enumerate(further, 1)
         ),
         ("Statics of the walls, and their curves of collapse.", _statics(run)),
     ]
-    return {"facts": [*people._facts(), *people._ranges()], "tables": tables, "drawing": None}
+    return {"facts": [*facts, *people._ranges()], "tables": tables, "drawing": None, "drawings": drawings}
 
 
 def _wall_facts(run: Run) -> Facts:
@@ -149,17 +159,17 @@ def _wall_facts(run: Run) -> Facts:
     return pairs
 
 
-def _main_properties(people: Population) -> Table:
-    """What every wall of a population has, and the loads of its top."""
+def _main_properties(people: Population, is_alike: bool) -> Table:
+    """What every wall of a population has, and the loads of its top; designs and hinges of a facade have no weights."""
     walls = people.walls
     columns: dict[Piece, Sequence[Piece]] = {"wall": [wall.name for wall in walls]}
     if any(people.groups):
         columns["group"] = list(people.groups)
-    columns |= {
-        "mechanism": [mechanism_name(wall.mechanism) for wall in walls],
-        "weight": [number(weight) for weight in people.weights],
-        Symbol("p", "occ"): [number(p) for p in people.p_occ],
-    }
+    columns["mechanism"] = [mechanism_name(wall.mechanism) for wall in walls]
+    if not is_alike:
+        columns["weight"] = [number(weight) for weight in people.weights]
+    if not is_alike or np.any(people.p_occ < 1.0):
+        columns[Symbol("p", "occ")] = [number(p) for p in people.p_occ]
     columns |= {head: [number(getattr(wall, what)) for wall in walls] for what, head in _SIZES.items()}
     for what, head in _COLUMNS.items():
         values = [getattr(wall, what, None) for wall in walls]
@@ -255,9 +265,22 @@ def records(run: Run) -> dict[str, Any]:
     found["is_motion"] = isinstance(results, Response)
     if isinstance(results, Stripes):
         found |= {"histories": _histories_table(results), "levels": len(results.levels)}
-    elif run.records and not found["is_motion"]:
+    if run.records and not found["is_motion"]:
         found["records"] = _records_table(run.records)
+    elif run.file is not None and run.file.records:
+        found["records"] = _stored_records_table(run.file.records)
+    elif isinstance(results, Stripes) and any(results.events):
+        named = zip(results.record_names, results.events, strict=False)
+        found["records"] = _stored_records_table([{"name": name, "event": event} for name, event in named])
     return found
+
+
+def _stored_records_table(stored: Sequence[Mapping[str, str]]) -> Table:
+    """Records of result files, which have their names and headers, and not their samples."""
+    known = [key for key in ("event", *RECORD_FACTS) if any(one.get(key) for one in stored)]
+    columns: dict[Piece, Sequence[Piece]] = {"record": [one["name"] for one in stored]}
+    columns |= {key: [one.get(key, "") for one in stored] for key in known}
+    return Table.of(columns, known)
 
 
 def _histories_table(stripes: Stripes) -> Table:
@@ -275,7 +298,7 @@ def _histories_table(stripes: Stripes) -> Table:
 
 def _records_table(records: Sequence[Record]) -> Table:
     """Records that are at hand."""
-    known = [key for key in ("event", "date", "station", "component") if any(key in one.metadata for one in records)]
+    known = [key for key in ("event", *RECORD_FACTS) if any(one.metadata.get(key) for one in records)]
     columns: dict[Piece, Sequence[Piece]] = {"record": [one.name for one in records]}
     columns |= {key: [one.metadata.get(key, "") for one in records] for key in known}
     columns |= {

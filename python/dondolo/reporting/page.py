@@ -24,8 +24,8 @@ from dondolo.figures import style
 from dondolo.figures.style import mechanism_name
 from dondolo.populations.typology import Typology
 from dondolo.populations.uncertain_wall import UncertainWall
-from dondolo.reporting import designs, inputs, typology, uncertain, wall
-from dondolo.reporting.code_check import code_check, code_checks
+from dondolo.reporting import designs, facade, inputs, typology, uncertain, wall
+from dondolo.reporting.code_check import code_check, code_checks, failed
 from dondolo.reporting.content import BETA, THETA, Symbol, date_in_words
 from dondolo.reporting.numerals import NONE, whole
 from dondolo.reporting.pdf import write_pdf
@@ -149,7 +149,20 @@ def _environment() -> Environment:
 def _chapters(run: Run, hazard: HazardCurve | None) -> list[Chapter]:
     """All chapters of a page."""
     results = run.results
-    if isinstance(results, Typology):
+    if run.designs is not None and isinstance(results, Typology):
+        summary = designs.summary(run.designs)
+        chapters = [
+            Chapter("designs", "Designs", "designs", designs.designs(run.designs)),
+            Chapter("numbers", "Parameters of each design", "designs_numbers", designs.numbers(results)),
+        ]
+    elif run.facade and isinstance(results, Typology):
+        summary = facade.summary(results)
+        chapters = [
+            Chapter("curves", "Fragility curves", "facade_curves", facade.curves(results)),
+            Chapter("numbers", "Parameters and levels", "facade_numbers", facade.numbers(results)),
+            Chapter("uncertainty", "Uncertainty of the curve", "wall_uncertainty", facade.uncertainty(results)),
+        ]
+    elif isinstance(results, Typology):
         summary = typology.summary(results)
         words = typology.WALLS if run.uncertain is None else typology.VARIANTS
         chapters = [
@@ -166,9 +179,6 @@ def _chapters(run: Run, hazard: HazardCurve | None) -> list[Chapter]:
             summary = uncertain.summary(run.uncertain)
             model = Chapter("model", "Uncertainty of the model", "model_uncertainty", uncertain.model(run.uncertain))
             chapters.insert(0, model)
-        if run.designs is not None:
-            summary = designs.summary(run.designs)
-            chapters.insert(0, Chapter("designs", "Designs", "designs", designs.designs(run.designs)))
     elif isinstance(results, Stripes):
         assert run.curve is not None
         summary = wall.summary(results, run.curve)
@@ -193,17 +203,21 @@ def _chapters(run: Run, hazard: HazardCurve | None) -> list[Chapter]:
     if run.check is not None:
         chapters.append(Chapter("code_check", "Check by NTC 2018", "code_check", code_check(run.check, run.curve)))
     if run.checks and isinstance(results, Typology):
-        chapters.append(
-            Chapter("code_checks", "Checks by NTC 2018", "code_checks", code_checks(run.checks, results.curves))
+        facts = code_checks(
+            run.checks,
+            results.curves,
+            facade=results.unions[run.facade] if run.facade else None,
+            with_sheets=run.is_alike and len(run.checks) <= inputs.DRAWN,
         )
+        chapters.append(Chapter("code_checks", "Checks by NTC 2018", "code_checks", facts))
     found = [str(one) for one in run.warnings]
     if hazard is not None:
-        facts, short = risk_facts(results, run.curve, hazard)
+        facts, short = risk_facts(run, hazard)
         chapters.append(Chapter("risk", "Annual frequency of collapse", "risk", facts))
         found += short
     measure = style.im_label(getattr(results, "im", "pga"))
     return [
-        Chapter("summary", "Summary", "summary", {"warnings": found, **summary}),
+        Chapter("summary", "Summary", "summary", {"warnings": found, "failed": _failed(run), **summary}),
         *chapters,
         Chapter("inputs", "What was run", "inputs", inputs.inputs(run)),
         Chapter("walls", _title_of_walls(run), "walls", inputs.walls(run)),
@@ -214,19 +228,29 @@ def _chapters(run: Run, hazard: HazardCurve | None) -> list[Chapter]:
             "Limits of the models",
             "limits",
             {
-                "is_population": isinstance(results, Typology),
+                "is_population": isinstance(results, Typology) and not run.is_alike,
+                "has_mechanisms": isinstance(results, Typology) and len(results.combined) < len(results.walls),
                 "is_uncertain": run.uncertain is not None,
                 "is_shaken": inputs.has_vertical(run),
                 "on_ground": inputs.on_ground(run),
             },
         ),
-        Chapter("symbols", "Symbols and terms", "symbols", {"measure": measure}),
+        Chapter("symbols", "Symbols and terms", "symbols", {"measure": measure, "is_alike": run.is_alike}),
         Chapter("software", "Software", "facts", inputs.software(run)),
     ]
 
 
+def _failed(run: Run) -> list[str]:
+    """The checks by a building code that the walls do not pass."""
+    return failed(run.checks if run.check is None else (run.check,))
+
+
 def _title_of_walls(run: Run) -> str:
     """Title of the chapter on the walls."""
+    if run.designs is not None:
+        return "The designs"
+    if run.facade:
+        return "The facade and its mechanisms"
     if run.uncertain is not None:
         return "The wall and its variants"
     return "Walls" if len(run.population) > 1 else "The wall"
@@ -241,6 +265,10 @@ def _lead(run: Run) -> str:
         wall, names = everything[many], ", ".join(run.uncertain.sources).replace("_", " ")
         parts.append(f"{wall.name}: {mechanism_name(wall.mechanism)}, its {names} uncertain")
         parts.append(f"{many} variants, and {len(everything) - many} beside them")
+    elif run.designs is not None and isinstance(results, Typology):
+        parts.append(f"{len(results.walls)} designs of one wall")
+    elif run.facade and isinstance(results, Typology):
+        parts.append(f"{run.facade}: {len(results.walls)} mechanisms in series, under the same records")
     elif isinstance(results, Typology):
         rows, walls = len(results.walls), len(results.combined)
         counted = results["all"].n_walls

@@ -12,6 +12,7 @@ from dondolo.errors import DondoloError, DondoloWarning
 from dondolo.populations.typology import Typology
 from dondolo.reporting.content import Piece, Table, figure, level_unit, state_name
 from dondolo.reporting.numerals import number, percent
+from dondolo.reporting.run import Run
 from dondolo.reporting.typology import combined
 from dondolo.risk.frequency import Risk, between
 from dondolo.risk.hazard import HazardCurve
@@ -20,21 +21,40 @@ from dondolo.risk.uncertainty import RiskUncertainty
 _YEARS = 50.0
 
 
-def risk_facts(results: Any, curve: Any, hazard: HazardCurve) -> tuple[dict[str, Any], list[str]]:
+def _cases(run: Run) -> tuple[list[tuple[str, Any]], int, str]:
+    """Names and curves of which the frequency is taken, which of them is drawn, and whose that one is."""
+    results = run.results
+    if run.designs is not None:
+        return (
+            [
+                (f"{name}, collapse", curve)
+                for name, curve in zip(run.designs.names, run.designs.curves, strict=True)
+                if curve.has_fit
+            ],
+            0,
+            f", {run.designs.names[0]}",
+        )
+    if not isinstance(results, Typology):
+        return [("collapse", run.curve)], 0, ""
+    limit = float(results.edp_thresholds[-1])
+    last = len(results.edp_thresholds) - 1
+    if run.facade:
+        states = [results.at(float(edp)).unions[run.facade] for edp in results.edp_thresholds]
+        names = [state_name(float(edp), limit) for edp in results.edp_thresholds]
+        return [(name, curve) for name, curve in zip(names, states, strict=True)], last, ""
+    cases: list[tuple[str, Any]] = [
+        (f"whole population, {state_name(edp, limit)}", results.at(float(edp))["all"]) for edp in results.edp_thresholds
+    ]
+    cases += [(f"{one.group}, collapse", results["all", one.group]) for one in combined(results) if one.group]
+    return cases, last, ", whole population"
+
+
+def risk_facts(run: Run, hazard: HazardCurve) -> tuple[dict[str, Any], list[str]]:
     """How often a wall collapses at the site, and what to warn of; for populations, a wall drawn by weight."""
     from dondolo.risk.frequency import mean_annual_frequency
 
-    population = isinstance(results, Typology)
-    if population:
-        limit = float(results.edp_thresholds[-1])
-        cases = [
-            (f"whole population, {state_name(edp, limit)}", results.at(float(edp))["all"])
-            for edp in results.edp_thresholds
-        ]
-        cases += [(f"{one.group}, collapse", results["all", one.group]) for one in combined(results) if one.group]
-        main = len(results.edp_thresholds) - 1
-    else:
-        cases, main = [("collapse", curve)], 0
+    cases, main, whose = _cases(run)
+    population = isinstance(run.results, Typology) and not run.is_alike
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", DondoloWarning)
         risks = [mean_annual_frequency(fragility, hazard) for _, fragility in cases]
@@ -71,6 +91,7 @@ def risk_facts(results: Any, curve: Any, hazard: HazardCurve) -> tuple[dict[str,
     frequency = between(low, high, "a year", 3)
     facts = {
         "population": population,
+        "whose": whose,
         "years": f"{_YEARS:g}",
         "frequency": frequency,
         "levels": [] if hazard.endless else [f"{level:g}{blank_unit(hazard.im)}" for level in hazard.levels[[0, -1]]],

@@ -114,6 +114,17 @@ class Run:
     checks: tuple[CodeCheck | None, ...] = ()
     designs: DesignComparison | None = None
 
+    @property
+    def facade(self) -> str:
+        """Name of the one facade, or wall with several mechanisms, that the results are of; '' for all else."""
+        is_one = isinstance(self.results, Typology) and self.results.knows_unions and self.designs is None
+        return self.results.facade if is_one else ""  # type: ignore[union-attr]
+
+    @property
+    def is_alike(self) -> bool:
+        """Are the walls designs of one wall, or the mechanisms of one facade?"""
+        return self.designs is not None or bool(self.facade)
+
 
 def run_of(results: Any) -> Run:
     """Gather what the objects hold."""
@@ -130,7 +141,7 @@ def run_of(results: Any) -> Run:
         return run
     if isinstance(results, Typology):
         walls = len(results.combined)
-        title = f"Fragility of {walls} walls" if walls > 1 else f"Fragility of {results.walls[0].name}"
+        title = f"Fragility of {walls} walls" if walls > 1 else f"Fragility of {results.population.wholes[0]}"
         found = list(results.warnings)
         return Run(results, results.population, title, warnings=found, scales=LargeScales.among(found))
     if isinstance(results, Stripes):
@@ -160,6 +171,7 @@ def _of_case(results: Results) -> Run:
     case = results.case
     run = run_of(results.typology or results.stripes or results.response)
     run.title, run.population, run.check = case.title or run.title, case.population, results.check
+    run.designs, run.checks = results.designs, results.checks
     run.records = case.records if case.task != "history" else (case.records[case.record_index],)
     run.settings = [
         ("task", case.task),

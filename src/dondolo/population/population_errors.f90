@@ -95,9 +95,9 @@ contains
             end associate
          end do
       end do
-      ! Groups whose walls have no weight have no curves.
+      ! Groups whose walls have no weight have no curves, and alternatives have none at all.
       self%first(population%groups%count + 1) = size(typologies, 1) + 1
-      do group = population%groups%count, 1, -1
+      do group = population%groups%count, 0, -1
          if (self%first(group) == 0) self%first(group) = self%first(group + 1)
       end do
    end subroutine begin

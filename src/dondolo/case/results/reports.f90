@@ -60,6 +60,7 @@ contains
       case default
          names = [character(len=15) :: '_walls.csv', '_stripes.csv', '_fragility.csv', '_typology.csv', &
             & run_suffix]
+         if (case%designs) names = pack(names, names /= '_typology.csv')
          if (case%job%histories) names = [character(len=15) :: '_walls.csv', '_histories.csv', names(2:)]
          if (case%survey%lengths(find_property(wall_properties, 'tie_height')) > 0) then
             names = [names(:size(names) - 1), [character(len=15) :: '_ties.csv', run_suffix]]

@@ -58,8 +58,8 @@ module dondolo_results
       type(store_type), allocatable :: stores(:)
       !> Their counts and curves; none if only some of the rows were run
       type(population_counts_type) :: population
-      !> Curves of the population for each EDP threshold (curves, thresholds): task 'typology'; none if only some of its
-      !> rows were run
+      !> Curves of the population for each EDP threshold (curves, thresholds): task 'typology'; of size 0 for designs, which
+      !> are alternatives; not allocated if only some of the rows were run
       type(typology_type), allocatable :: typologies(:, :)
       !> Of the same histories: walls with several mechanisms, and behind them the means over the population and its groups:
       !> task 'typology'

@@ -10,6 +10,7 @@ module dondolo_run_file
    use dondolo_clusters, only : cluster_label
    use dondolo_json, only : json_type
    use dondolo_kinds, only : wp
+   use dondolo_metadata, only : metadata_type
    use dondolo_paths, only : beside
    use dondolo_result_files, only : result_files_type
    use dondolo_results, only : results_type
@@ -25,6 +26,9 @@ module dondolo_run_file
 
    !> What a shape counts
    character(len=*), parameter :: shape_names(*) = [character(len=7) :: 'walls', 'levels', 'states', 'records']
+
+   !> What is said of a record besides its event: which earthquake a report is of, and where it was felt
+   character(len=*), parameter :: shown_metadata(*) = [character(len=9) :: 'date', 'magnitude', 'station', 'component']
 
    !> Name and version of the format, the first member of the file
    character(len=*), parameter :: format = 'dondolo run 2'
@@ -120,7 +124,7 @@ contains
       type(json_type), intent(inout) :: json
 
       character(len=:), allocatable :: label
-      integer :: i
+      integer :: i, k
 
       call json%open_array('records')
       do i = 1, size(case%suite%records)
@@ -129,6 +133,9 @@ contains
             call json%open_object()
             call json%put('name', record%name)
             call json%put('event', label)
+            do k = 1, size(shown_metadata)
+               call put_metadata(record%metadata, trim(shown_metadata(k)), json)
+            end do
             if (allocated(record%vertical)) then
                call json%put('checksum', crc32_of_reals([record%acceleration, record%dt, record%vertical]))
             else
@@ -146,6 +153,19 @@ contains
       call json%put('fewest_clusters', fewest_clusters)
       call json%close_object()
    end subroutine put_records
+
+   !> Put what the header of a record says under a key, if it says anything
+   subroutine put_metadata(metadata, key, json)
+      type(metadata_type), intent(in) :: metadata
+      !> Key of the metadata, and name in the file
+      character(len=*), intent(in) :: key
+      type(json_type), intent(inout) :: json
+
+      character(len=:), allocatable :: value
+
+      value = metadata%get(key)
+      if (len(value) > 0) call json%put(key, value)
+   end subroutine put_metadata
 
    !> Numbers of walls (rows of the population), levels, damage states and records of a run
    pure function shape_of(case) result(shape)

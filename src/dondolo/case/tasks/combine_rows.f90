@@ -42,7 +42,9 @@ contains
       if (.not. allocated(error)) call gather(results, study%share(), error)
       if (.not. allocated(error)) call results%population%fit(error)
       if (allocated(error)) return
-      do k = 1, states
+      ! Designs are alternatives: nothing is a mean over them.
+      if (case%designs) allocate (results%typologies(0, states))
+      do k = 1, merge(0, states, case%designs)
          call combine_population(typologies, results%population, k, error)
          if (allocated(error)) return
          if (k == 1) allocate (results%typologies(size(typologies), states))

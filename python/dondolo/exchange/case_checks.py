@@ -1,4 +1,4 @@
-"""Checks by a building code of the walls in result files."""
+"""Checks by a building code of the walls of a case, run here or read back from result files."""
 
 from __future__ import annotations
 
@@ -21,19 +21,33 @@ def site_of(run: RunFile) -> Site:
     return Site(*(values if len(values) > 1 else values[0] for values in hazard), **words)
 
 
-def kinematic_checks(walls: Iterable[Wall], run: RunFile) -> tuple[CodeCheck | None, ...]:
-    """The kinematic check of each wall, made again to the numbers of ``_checks.csv``; None where that says why not."""
-    site, given = site_of(run), run.settings["check"]
+def checks_of_run(walls: Iterable[Wall], run: RunFile) -> tuple[CodeCheck | None, ...]:
+    """The kinematic check of each wall, made again to the numbers of ``_checks.csv``; empty without a group &check."""
+    if "check" not in run.settings:
+        return ()
+    given = run.settings["check"]
     factors = {name: float(given[name]) for name in ("confidence", "behaviour") if name in given}
+    return kinematic_checks(walls, site_of(run), **factors)
+
+
+def kinematic_checks(walls: Iterable[Wall], site: Site | None, **factors: float) -> tuple[CodeCheck | None, ...]:
+    """The kinematic check of each wall of a population, None for one that has none; empty without a site."""
     checks: list[CodeCheck | None] = []
-    for wall in walls:
+    for wall in () if site is None else walls:
+        assert site is not None
         try:
-            # The file of the run has its warnings.
+            # The run has said what the walls look like.
             with silent():
                 checks.append(check_ntc(wall, site, **factors))
         except InputError:
             checks.append(None)
     return tuple(checks)
+
+
+def complete_checks(checks: Iterable[CodeCheck | None]) -> tuple[CodeCheck, ...]:
+    """The checks of designs; none where one of them cannot be checked."""
+    found = tuple(checks)
+    return tuple(one for one in found if one is not None) if None not in found else ()
 
 
 def stored_check(table: ResultFile, run: RunFile, wall: Wall) -> CodeCheck:
