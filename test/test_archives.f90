@@ -231,7 +231,7 @@ contains
 
       call suite('cosmos errors')
       call check_bad(cosmos(cosmos_type(count='14')), ': line 51: value 14 of 14 = ''''')
-      call check_bad(cosmos(cosmos_type(count='12')), ': line 51: text after value 12 of 12')
+      call check_bad(cosmos(cosmos_type(count='10')), ': line 51: text after value 10 of 10')
       call check_bad(cosmos(cosmos_type(count='8')), ': line 51: after the 8 values that the header states')
       call check_bad(cosmos(cosmos_type(count='99', ending='')), 'value 14 of 99')
       call check_bad(cosmos(cosmos_type(ending='')), ': line 52: after the 13 values that the header states')
@@ -304,7 +304,7 @@ contains
 
       call suite('csmip errors')
       call check_bad(csmip('UP', '14', old, format, 10.0_wp), ': line 48: value 14 of 14 = ''''')
-      call check_bad(csmip('UP', '12', old, format, 1.0_wp, cut=.false.), ': line 48: text after value 12 of 12')
+      call check_bad(csmip('UP', '10', old, format, 1.0_wp, cut=.false.), ': line 48: text after value 10 of 10')
       call check_bad(csmip('UP', '8', old, format, 1.0_wp, cut=.false.), &
          & ': line 48: after the 8 values that the header states')
       call check_bad(csmip('UP', '17', old, format, 10.0_wp), ': line 48: value 14 of 17')
@@ -436,20 +436,20 @@ contains
       call check_bad(smc('3 VELOCITY', 13, 1), ': line 1: ''3 VELOCITY'': must be an ACCELEROGRAM')
       call check_bad(smc('5 RESPONSE SPECTRA', 13, 1), ': must be an ACCELEROGRAM')
       call check_bad(smc(title, 14, 2), ': line 31: value 14 of 14 = ''''')
-      call check_bad(smc(title, 12, 2), ': line 31: text after value 12 of 12')
+      call check_bad(smc(title, 10, 2), ': line 31: text after value 10 of 10')
       call check_bad(smc(title, 8, 2), ': line 31: text after the 8 values that the header states')
       call check_bad(smc(title, 17, 2), ': line 31: value 14 of 17')
       call check_bad(smc(title, -32768, 2), ': line 14: number of values = '''': must be a positive integer')
       call check_bad(replaced(content, '|remark'//lf, ''), &
          & ': line 13: number of comments = ''2'': 1 lines begin with |')
       call check_bad(replaced(content, '  0.2000000E+03', '  0.1700000E+39'), &
-         & ': line 18: values per second = '''': must be positive')
+         & ': line 18: values per second = '''': the samples are unevenly spaced')
       call check_bad(replaced(content, ' -0.1234600E+04', ' -0.1334600E+04'), ': line 24: peak value -1334.6')
       call check_bad(replaced(content, ' 9.9900E+1', '1.7000E+38'), &
          & ': line 30: value 4 of 13 is missing: 1.7e38 is the mark for no value')
       call check_bad(replaced(content, '-1.2345E+3', '**********'), ': line 30: value 2 of 13 = ''**********''')
       call check_bad(content(:len(content) - 15), ': line 31: value 13 of 13')
-      call check_bad(content(:len(content) - 4), ': line 31: the last value is cut off')
+      call check_bad(content(:len(content) - 4), ': line 31: the file is cut off')
       call check_bad(content(:1000), ': line ')
       call check_bad(content//'1.0'//lf, ': line 32: text after the 13 values')
    end subroutine test_smc_errors

@@ -9,6 +9,8 @@ program test_formats
    use dondolo_lines, only : lines_type
    use dondolo_limits, only : longest_case
    use dondolo_metadata, only : metadata_type
+   use dondolo_numbers, only : parse_printed
+   use dondolo_reading_notes, only : list_reading_notes
    use dondolo_record, only : new_record, record_type
    use dondolo_record_format, only : read_fixed
    use dondolo_record_reader, only : read_record, read_records
@@ -38,6 +40,10 @@ program test_formats
    call test_cwa()
    call test_asa()
    call test_eqsig()
+   call test_cut()
+   call test_touching()
+   call test_step()
+   call test_notes()
    call test_catalogue()
    call test_table()
    call test_samples()
@@ -354,8 +360,13 @@ contains
       call check_refused(replaced(smtk_content(), 'Accelaration', 'Velocity'), &
          & 'line 9: ''Velocity time series in m/s/s'': must be Acceleration')
       call check_refused(replaced(smtk_content(), ': 7', ': 8'), 'line 11: value 8 of 8')
-      call check_refused(replaced(smtk_content(), ': 7', ': 5'), 'line 11: more values than the 5')
-      call check_refused(replaced(smtk_content(), ': 7', ': 6'), 'line 11: text after value 6 of 6')
+      call check_refused(replaced(smtk_content(), ': 7', ': 4'), 'line 11: more values than the 4')
+      call check_refused(replaced(smtk_content(), ': 7', ': 2'), 'line 10: text after value 2 of 2')
+      call read_content(replaced(smtk_content(), ': 7', ': 6'), record)
+      call check(size(record%acceleration) == 6, 'the six values that are stated')
+      call check_metadata(record, 'reading', '1 sample beyond the 6 that the file states ignored')
+      call read_content(replaced(smtk_content(), ': 7', ': 5'), record)
+      call check_metadata(record, 'reading', '2 samples beyond the 5 that the file states ignored')
       call check_refused(replaced(smtk_content(), '1.5000000E+00'//lf, '1.6'//lf), 'line 8: peak value 1.6: ')
       call check_refused(replaced(smtk_content(), 'in m/s/s', 'in m/s'), 'units = ''m/s'': must be one of')
    end subroutine test_smtk
@@ -385,7 +396,10 @@ contains
       call check_refused(replaced(knet_content('5'), '100Hz', '0Hz'), 'line 11: Sampling Freq(Hz) = ''0Hz'': must be')
       call check_refused(replaced(knet_content('5'), '0.07', '0.08'), &
          & 'the file ends after 7 values: the header states 8')
-      call check_refused(replaced(knet_content('5'), '0.07', '0.06'), 'more values than the 6')
+      call check_refused(replaced(knet_content('5'), '0.07', '0.04'), 'more values than the 4')
+      call read_content(replaced(replaced(knet_content('5'), '0.07', '0.05'), '0.712', ''), record)
+      call check(size(record%acceleration) == 5, 'the five counts that are stated')
+      call check_metadata(record, 'reading', '2 samples beyond the 5 that the file states ignored')
       call check_refused(replaced(knet_content('5'), '0.07', '1e6'), 'line 12: Duration Time(s) = 1000000: the file is')
       call check_refused(replaced(knet_content('5'), '0.712', '0.731'), &
          & 'line 15: peak value 0.731: the largest value is')
@@ -443,21 +457,43 @@ contains
       call check_metadata(records(2), 'magnitude', '5.30')
       call check_metadata(records(2), 'latitude', '16.8')
       call check_metadata(records(2), 'longitude', '-99.8')
-      call check_metadata(records(2), 'samples', '')
+      call check_metadata(records(2), 'reading', '')
       call check_metadata(records(2), 'TIPO DE SUELO', 'ARENA LIMO')
       call write_file(scratch//'/content.dat', asa_content('6'))
       call read_records(scratch//'/content.dat', records, error)
       call check_ok(error, 'one more than stated')
-      call check_metadata(records(2), 'samples', '7, of which the header states 6')
-      call check_refused(asa_content('5'), '7 rows of values: the header states 5')
+      call check(size(records(2)%acceleration) == 6, 'the stated number is read')
+      call check_metadata(records(2), 'reading', '1 sample beyond the 6 that the file states ignored')
+      call write_file(scratch//'/content.dat', asa_content('5'))
+      call read_records(scratch//'/content.dat', records, error)
+      call check_ok(error, 'two more than stated')
+      call check_metadata(records(1), 'reading', '2 samples beyond the 5 that the file states ignored')
+      call check_refused(asa_content('4'), '7 rows of values: the header states 4')
       call check_refused(asa_content('8'), '7 rows of values: the header states 8')
       call check_refused(asa_content(''), '7 rows of values: the header states 0')
       call check_refused(replaced(asa_content('7'), '/0.01/0.01', '/0.01/'), 'INTERVALO DE MUESTREO, C1-C6 (s)')
+      call check_refused(with_line('VEL. DE MUESTREO, C1-C6 (muestras/s)   : /200/200'), &
+         & '= 0.01: the header states a rate of 200 samples per second')
+      call check_refused(with_line('DURACION DEL REGISTRO (s), C1-C6       : /0.35/0.35'), &
+         & 'duration 0.35 s: count and time step make 0.07 s')
+      call write_file(scratch//'/content.dat', replaced(with_line( &
+         & 'VEL. DE MUESTREO, C1-C6 (muestras/s)   : /100/100'), '/0.01/0.01', ''))
+      call read_records(scratch//'/content.dat', records, error)
+      call check_ok(error, 'a rate in place of an interval')
+      if (.not. allocated(error)) call check_values(records(1), gal, 'by its rate')
       call check_refused(replaced(asa_content('7'), ': Gal (cm/s/s)', ':'), 'does not state its units')
       call check_refused(replaced(asa_content('7'), 'CANALES                      : 2', 'CANALES: 13'), &
          & 'must be at most 12')
       call check_refused(replaced(asa_content('7'), 'DATOS DE ACELERACION', 'DATOS'), 'no line DATOS DE ACELERACION')
    end subroutine test_asa
+
+   !> An ASA file with one more line in its header
+   function with_line(line) result(content)
+      character(len=*), intent(in) :: line
+      character(len=:), allocatable :: content
+
+      content = replaced(asa_content('7'), 'FECHA DEL', line//cr//lf//'FECHA DEL')
+   end function with_line
 
    !> eqsig files
    subroutine test_eqsig()
@@ -474,8 +510,144 @@ contains
       call check_metadata(record, 'format', 'eqsig')
       call check_refused(eqsig_content('7'), 'the file does not state its units')
       call check_refused(eqsig_content('8'), 'the file ends after 7 values: the header states 8')
-      call check_refused(eqsig_content('6'), 'more values than the 6')
+      call check_refused(eqsig_content('4'), 'more values than the 4')
+      call write_file(file, eqsig_content('6'))
+      call read_record(file, record, error, units='m/s2')
+      call check_ok(error, 'one value more than stated')
+      call check(size(record%acceleration) == 6, 'the stated number is read')
+      call check_metadata(record, 'reading', '1 sample beyond the 6 that the file states ignored')
    end subroutine test_eqsig
+
+   !> Files that are cut off inside their last number
+   subroutine test_cut()
+      character(len=*), parameter :: cut = 'is printed shorter than the others'
+      character(len=:), allocatable :: content
+
+      call suite('cut files')
+      ! -1.2500000E-01 becomes -1.2500000E-0, ten times as large, and so on
+      content = without_end(peer_content('Valley, 1/2/1990, Hall, 67', ''))
+      call check_refused(content(:len(content) - 1), 'line 6: the file is cut off: its last value, ''-1.2500000E-0'', '//cut)
+      content = without_end(smtk_content())
+      call check_refused(content(:len(content) - 1), cut)
+      content = without_end(dyna_content('STREAM: HNE'))
+      call check_refused(content(:len(content) - 3), 'line 22: the file is cut off: its last value, ''-.125'', '//cut)
+      content = without_end(eqsig_content('7'))
+      call check_refused(content(:len(content) - 1), cut)
+      content = without_end(cwa_content())
+      call check_refused(content(:len(content) - 2), cut)
+      content = without_end(asa_content('7'))
+      call check_refused(content(:len(content) - 2), cut)
+   end subroutine test_cut
+
+   !> A content without line ends and blanks at its end
+   function without_end(content) result(text)
+      character(len=*), intent(in) :: content
+      character(len=:), allocatable :: text
+
+      text = content(:verify(content, ' '//cr//lf, back=.true.))
+   end function without_end
+
+   !> Columns that touch, and exponents without their letter
+   subroutine test_touching()
+      type(record_type) :: record
+      character(len=:), allocatable :: top, content
+      real(wp) :: value
+      logical :: ok
+
+      call suite('touching columns')
+      top = 'PEER NGA STRONG MOTION DATABASE RECORD'//lf//'Ridge, 3/4/1991, Mill, 12'//lf// &
+         & 'ACCELERATION TIME SERIES IN UNITS OF G'//lf
+      content = top//'NPTS= 7, DT= .0100 SEC'//lf//' .00000E+00 .12500E+00-.25000E+00 .50000E+00'//lf// &
+         & '-.15000E+01 .75000E+00-.12500E+00'//lf
+      call read_content(content, record)
+      call check_values(record, 9.80665_wp, 'seven values in columns of 11')
+      call check_refused(replaced(content, '.75000E+00-.1', '.75000E+00x.1'), 'must be a number')
+      call read_content(top//'NPTS= 4, DT= .0100 SEC'//lf//'  .5000000E+00  .2500000-113 -.3000000-250  .1250000E+00'//lf, &
+         & record)
+      call check_close(record%acceleration(1), 0.5_wp*9.80665_wp, 1.0e-12_wp, 'a value beside small ones')
+      call check(abs(record%acceleration(2)) < 1.0e-100_wp .and. record%acceleration(2) > 0.0_wp, 'a small value')
+      call check(abs(record%acceleration(3)) < 1.0e-200_wp .and. record%acceleration(3) < 0.0_wp, 'a smaller one')
+      call parse_printed(' 0.25-103 ', value, ok)
+      call check(ok .and. abs(value - 0.25e-103_wp) < 1.0e-117_wp, 'exponent of three digits')
+      call parse_printed('-1.5+002', value, ok)
+      call check(ok .and. abs(value + 150.0_wp) < 1.0e-12_wp, 'positive exponent')
+      call parse_printed('2031-104', value, ok)
+      call check(.not. ok, 'no point')
+      call parse_printed('1.5-10', value, ok)
+      call check(.not. ok, 'two digits')
+      call parse_printed('1.5E-01-104', value, ok)
+      call check(.not. ok, 'two exponents')
+   end subroutine test_touching
+
+   !> Steps that follow from printed times
+   subroutine test_step()
+      use, intrinsic :: iso_fortran_env, only : real32
+      type(record_type) :: record
+      type(error_type), allocatable :: error
+      character(len=*), parameter :: file = scratch//'/times.txt'
+      character(len=:), allocatable :: content
+      character(len=60) :: line
+      real(real32) :: time
+      integer :: i
+
+      call suite('steps of printed times')
+      content = ''
+      time = 0.0_real32
+      do i = 0, 400
+         write (line, '(f0.18, a, f0.4)') real(real(0.005_wp*i, real32), wp), ' ', sin(0.1_wp*i)
+         content = content//trim(line)//lf
+      end do
+      call write_file(file, content)
+      call read_record(file, record, error, units='m/s2')
+      call check_ok(error, 'single precision')
+      call check_close(record%dt, 0.005_wp, 0.0_wp, 'the decimal of times in single precision')
+      content = ''
+      do i = 0, 3000
+         write (line, '(f0.18, a, f0.4)') real(time, wp), ' ', sin(0.1_wp*i)
+         content = content//trim(line)//lf
+         time = time + 0.01_real32
+      end do
+      call write_file(file, content)
+      call read_record(file, record, error, units='m/s2')
+      call check_ok(error, 'sums in single precision')
+      call check_close(record%dt, 0.01_wp, 0.0_wp, 'the decimal of times that were added up')
+      content = ''
+      do i = 0, 900
+         write (line, '(f0.6, a, f0.4)') i/256.0_wp, ' ', sin(0.1_wp*i)
+         content = content//trim(line)//lf
+      end do
+      call write_file(file, content)
+      call read_record(file, record, error, units='m/s2')
+      call check_ok(error, 'a step of many digits')
+      call check_close(record%dt, 1.0_wp/256.0_wp, 1.0e-9_wp, 'a step of many digits stays')
+      call read_record(file, record, error, units='m/s2', dt=1.0_wp/256.0_wp)
+      call check_ok(error, 'given as well')
+      call check_close(record%dt, 1.0_wp/256.0_wp, 0.0_wp, 'the given step within the rounding')
+      call read_record(file, record, error, units='m/s2', dt=0.0041_wp)
+      call check_error(error, 'times.txt: dt = 0.0041: the times in the file are 0.00390625 s apart', 'another step')
+   end subroutine test_step
+
+   !> What is reported of how records were read
+   subroutine test_notes()
+      type(record_type) :: records(4)
+      type(lines_type) :: notes
+
+      call suite('notes')
+      records(1)%name = 'a'
+      records(2)%name = 'b'//achar(27)
+      records(3)%name = 'c'
+      records(4)%name = 'd'
+      call list_reading_notes(records, notes)
+      call check(notes%count == 0, 'nothing to report')
+      call records(2)%metadata%append('reading', 'one')
+      call records(3)%metadata%append('reading', 'one')
+      call records(4)%metadata%append('reading', 'one')
+      call records(4)%metadata%append('reading', 'two')
+      call list_reading_notes(records, notes)
+      call check(notes%count == 2, 'two kinds')
+      call check_text(notes%line(1)%text, 'record ''b\x1b'': one (2 of 4 records)', 'of two records')
+      call check_text(notes%line(2)%text, 'record ''d'': one; two', 'of one')
+   end subroutine test_notes
 
    !> Channels and formats in a catalogue
    subroutine test_catalogue()
@@ -603,7 +775,9 @@ contains
          if (allocated(error)) cycle
          call check_close(record%dt, dt, 1.0e-6_wp, 'dt of '//file//' '//channel)
          call check_close(record%pga(), pga, 1.0e-3_wp, 'PGA of '//file//' '//channel)
-         call check(size(record%acceleration) == nint(npts), 'number of samples of '//file//' '//channel)
+         ! The manifest counts the rows of the file from Mexico, one more than its header states
+         call check(size(record%acceleration) == nint(npts) - merge(1, 0, index(file, 'asa_mexico') > 0), &
+            & 'number of samples of '//file//' '//channel)
          call check(len(record%metadata%get('format')) > 0, 'format of '//file)
          if (index(file, 'multi_column') == 0 .and. index(file, 'Rot') == 0) then
             call check(len(record%metadata%get('date')) >= 10, 'date of '//file)

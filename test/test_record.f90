@@ -721,7 +721,7 @@ contains
          & ': units = ''furlongs'': must be one of')
       call check_bad_stated(top//quantity//'NPTS=  6, DT=  .01 SEC'//lf//values, &
          & ': line 6: the file ends after 5 values: the header states 6')
-      call check_bad_stated(top//quantity//'NPTS=  4, DT=  .01 SEC'//lf//values, ': line 6: more values than the 4')
+      call check_bad_stated(top//quantity//'NPTS=  2, DT=  .01 SEC'//lf//values, ': line 6: more values than the 2')
       call check_bad_stated(top//quantity//'NPTS=  5, DT=  0.0 SEC'//lf//values, ': line 4: ')
       call check_bad_stated(top//quantity//'NPTS=  5, DT=  -.01 SEC'//lf//values, ': line 4: ')
       call check_bad_stated(top//quantity//'NPTS=  5, DT= ****** SEC'//lf//values, ': line 4: ')
@@ -767,7 +767,7 @@ contains
       call check_bad_stated(dyna(step, 'NDATA: many', units, peak, kind)//values, ': line 4: NDATA = ''many''')
       call check_bad_stated(dyna(step, 'NDATA: 6', units, peak, kind)//values, &
          & ': line 13: the file ends after 5 values: the header states 6')
-      call check_bad_stated(dyna(step, 'NDATA: 4', units, peak, kind)//values, ': line 13: more values than the 4')
+      call check_bad_stated(dyna(step, 'NDATA: 2', units, peak, kind)//values, ': line 13: more values than the 2')
       call check_bad_stated(dyna(step, count, units, 'PGA_CM/S^2: 0.26', kind)//values, &
          & ': line 6: peak value 0.26: the largest value is 0.25')
       call check_bad_stated(dyna(step, count, 'UNITS: cm/s', peak, kind)//values, &
@@ -819,9 +819,13 @@ contains
       call check_close(record%acceleration(3), 0.03_wp, 1.0e-15_wp, 'gal')
       call read_record(two, record, error, dt=0.01005_wp, units='mm/s2')
       call check_ok(error, 'dt that agrees')
-      call check_close(record%dt, 0.01_wp, 1.0e-14_wp, 'the file''s dt is used')
-      call read_record(two, record, error, dt=0.0102_wp, units='mm/s2')
-      call check_error(error, two//': dt = 0.0102: the file states 0.01', 'dt that disagrees')
+      call check_close(record%dt, 0.01005_wp, 0.0_wp, 'the given dt is used within the rounding of the times')
+      call read_record(two, record, error, dt=0.02_wp, units='mm/s2')
+      call check_error(error, two//': dt = 0.02: the times in the file are 0.01 s apart', 'dt that disagrees')
+      call write_file('fine.txt', '0.000000 1'//lf//'0.010000 2'//lf//'0.020000 3'//lf)
+      call read_record(scratch//'/fine.txt', record, error, dt=0.01005_wp, units='mm/s2')
+      call check_ok(error, 'dt that nearly agrees with times of many digits')
+      call check_close(record%dt, 0.01_wp, 0.0_wp, 'the file''s dt is used')
       call read_record(scratch//'/peer.txt', record, error, units='G')
       call check_ok(error, 'units that agree')
       call read_record(scratch//'/peer.txt', record, error, units='m/s2')

@@ -11,8 +11,10 @@ module records
    use dondolo_handles, only : find_suite, hold
    use dondolo_intensity, only : measure_type, new_measure
    use dondolo_kinds, only : wp
+   use dondolo_lines, only : lines_type
    use dondolo_number_table, only : read_table => read_number_table
    use dondolo_parcel, only : parcel_type, send
+   use dondolo_reading_notes, only : list_reading_notes
    use dondolo_record, only : new_record, record_type
    use dondolo_record_parcel, only : pack_records, set_records
    use dondolo_record_reader, only : read_all => read_records, read_record
@@ -289,6 +291,8 @@ contains
       character(len=:), allocatable :: note
       real(c_double), allocatable :: step, factor
       type(record_rows_type) :: rows
+      type(lines_type) :: notes
+      integer :: i
 
       ! A step or a factor that is not allocated is an argument that is not present
       if (dt_given == 1) step = dt
@@ -303,6 +307,7 @@ contains
          call read_all(path, records, error, step, units, layout)
       end select
       if (.not. allocated(error)) then
+         call list_reading_notes(records, notes)
          call parcel%add([size(records)])
          if (rows%have_levels) then
             call parcel%add(rows%record)
@@ -311,6 +316,9 @@ contains
          call pack_records(records, parcel, error)
       end if
       call parcel%add_note(note)
+      do i = 1, notes%count
+         call parcel%lines%add(notes%line(i)%text)
+      end do
       call send(parcel, error, sent, stat, message)
    end subroutine read_records
 

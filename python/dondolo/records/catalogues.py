@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 #: What stands in the second line of catalogues that sets of records were written to
 _MARK = "# records written by dondolo"
 # Metadata that a file of columns states otherwise
-_STATED = ("format", "quantity", "units", "dt", "channel")
+_STATED = ("format", "quantity", "units", "dt", "channel", "reading")
 
 #: Metadata that stand in a catalogue, for its readers.
 _KEYS = ("event", "date", "station", "component", "magnitude")

@@ -309,7 +309,9 @@ def _records_table(records: Sequence[Record]) -> Table:
     }
     if any(one.processing for one in records):
         columns["processing"] = ["; ".join(one.processing) for one in records]
-    return Table.of(columns, (*known, "processing"))
+    if any("reading" in one.metadata for one in records):
+        columns["reading"] = [one.metadata.get("reading", "") for one in records]
+    return Table.of(columns, (*known, "processing", "reading"))
 
 
 def checks(run: Run) -> dict[str, Any]:

@@ -51,7 +51,7 @@ contains
          end if
          stated = ''
          if (allocated(channel%units)) stated = channel%units
-         call choose_step(channel%dt, step, error, dt)
+         call choose_step(channel%dt, channel%dt_doubt, step, error, dt)
          if (.not. allocated(error) .and. step > largest_step) call raise_input(error, 'time step '//to_text(step)// &
             & ' s: must be at most '//to_text(largest_step)//' s for an accelerogram')
          if (.not. allocated(error)) call choose_units(stated, factor, error, units)
@@ -132,9 +132,11 @@ contains
    end subroutine find_channel
 
    !> Take the time step from the file or from the caller
-   subroutine choose_step(stated, step, error, given)
+   subroutine choose_step(stated, doubt, step, error, given)
       !> Time step that the file states [s], 0 if none
       real(wp), intent(in) :: stated
+      !> By how much it may be off where it follows from the print of times, 0 otherwise [s]
+      real(wp), intent(in) :: doubt
       !> Time step [s]
       real(wp), intent(out) :: step
       !> There is none, or two that differ
@@ -152,12 +154,15 @@ contains
          call raise_input(error, 'dt = '//to_text(given)//': must be positive')
          return
       end if
-      if (stated > 0.0_wp) then
-         if (abs(given - stated) > step_tolerance*stated) then
-            call raise_input(error, 'dt = '//to_text(given)//': the file states '//to_text(stated))
-         end if
-      else
+      ! Within the rounding of the times the given step is the better one
+      if (.not. stated > 0.0_wp .or. abs(given - stated) <= doubt) then
          step = given
+      else if (abs(given - stated) <= step_tolerance*stated) then
+         return
+      else if (doubt > 0.0_wp) then
+         call raise_input(error, 'dt = '//to_text(given)//': the times in the file are '//to_text(stated)//' s apart')
+      else
+         call raise_input(error, 'dt = '//to_text(given)//': the file states '//to_text(stated))
       end if
    end subroutine choose_step
 

@@ -1,7 +1,7 @@
 !> What the header of an accelerogram file says: keys and values, as texts, in the file's order.
 !>
 !> Keys that mean the same in every format are written alike: event, date, station, network, component, magnitude,
-!> latitude, longitude, processing, format, quantity, units. All others keep the name that the file gives them.
+!> latitude, longitude, processing, reading, format, quantity, units. All others keep the name that the file gives them.
 module dondolo_metadata
    use dondolo_text, only : blanks, lower, stripped
    implicit none
@@ -10,9 +10,9 @@ module dondolo_metadata
    public :: entry_type, metadata_type
 
    !> Keys that mean the same in every format
-   character(len=*), parameter :: common(12) = [character(len=10) :: 'event', 'date', 'station', 'network', &
-      & 'component', 'magnitude', 'latitude', 'longitude', 'processing', 'format', 'quantity', &
-      & 'units']
+   character(len=*), parameter :: common(13) = [character(len=10) :: 'event', 'date', 'station', 'network', &
+      & 'component', 'magnitude', 'latitude', 'longitude', 'processing', 'reading', 'format', &
+      & 'quantity', 'units']
 
    !> A key and its value
    type :: entry_type
@@ -29,6 +29,8 @@ module dondolo_metadata
    contains
       !> Set the value of a key
       procedure :: set
+      !> Add a sentence to the value of a key
+      procedure :: append
       !> Value of a key
       procedure :: get
       !> Set all entries of another list
@@ -68,6 +70,22 @@ contains
       end if
       self%entries(i)%value = stripped(value)
    end subroutine set
+
+   !> Add a sentence to the value of a key, after a semicolon
+   pure subroutine append(self, key, sentence)
+      class(metadata_type), intent(inout) :: self
+      !> Key
+      character(len=*), intent(in) :: key
+      !> Sentence without a full stop; an empty one adds nothing
+      character(len=*), intent(in) :: sentence
+
+      character(len=:), allocatable :: before
+
+      if (len_trim(sentence) == 0) return
+      before = self%get(key)
+      if (len(before) > 0) before = before//'; '
+      call self%set(key, before//sentence)
+   end subroutine append
 
    !> Length of the value of a key
    pure integer function value_length(self, key)

@@ -2,15 +2,19 @@
 module dondolo_record_format
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
+   use dondolo_last_number, only : find_cut
    use dondolo_metadata, only : metadata_type
-   use dondolo_numbers, only : parse_real, take_real
+   use dondolo_numbers, only : parse_printed, parse_real, take_real
    use dondolo_plain, only : shown
-   use dondolo_text, only : brief, to_text
+   use dondolo_text, only : blanks, brief, to_text
    use dondolo_text_file, only : is_blank, text_file_type
    implicit none
    private
 
-   public :: samples_type, channel_type, read_block, read_fixed, raise_at, check_duration
+   public :: samples_type, channel_type, read_block, read_fixed, raise_at, check_duration, describe_extra, most_extra
+
+   !> Samples beyond those that a file states which are ignored: some programs count steps, or write both ends
+   integer, parameter :: most_extra = 2
 
    !> One channel of a file, before units are converted
    type :: channel_type
@@ -20,6 +24,8 @@ module dondolo_record_format
       real(wp), allocatable :: values(:)
       !> Time step [s], 0 if the file does not state it
       real(wp) :: dt = 0.0_wp
+      !> By how much it may be off where it follows from the print of times; 0 where the file states it [s]
+      real(wp) :: dt_doubt = 0.0_wp
       !> Units, not allocated or empty if the file does not state them
       character(len=:), allocatable :: units
       !> The number that the file gives as largest value, of either sign, as it is printed; not allocated or empty
@@ -45,21 +51,26 @@ module dondolo_record_format
 
 contains
 
-   !> Read numbers separated by blanks, tabs and line ends, from a line to the end of the file
-   subroutine read_block(text, first_line, count, values, error)
+   !> Read numbers separated by blanks, tabs and line ends, from a line to the end of the file; where they touch, they must
+   !> stand in columns of equal width
+   subroutine read_block(text, first_line, count, values, error, note)
       type(text_file_type), intent(in) :: text
       !> Line of the first number
       integer, intent(in) :: first_line
-      !> How many there must be
+      !> How many there must be; up to `most_extra` more are ignored
       integer, intent(in) :: count
       !> The numbers
       real(wp), allocatable, intent(out) :: values(:)
-      !> A text that is no number, or another count
+      !> A text that is no number, another count, or a last number that is cut off
       type(error_type), allocatable, intent(out) :: error
+      !> What to report, empty if there is nothing
+      character(len=:), allocatable, intent(out) :: note
 
-      integer :: line, at, first, finish, last, found
-      logical :: ok
+      integer :: line, at, first, finish, last, found, width, per_line
+      real(wp) :: value
+      logical :: ok, is_cut
 
+      note = ''
       ! A header may state any count; the text bounds how many numbers there can be
       allocate (values(max(0, min(count, len(text%text)))))
       found = 0
@@ -70,30 +81,91 @@ contains
             call text%skip_blanks(at, last)
             if (at > last) exit
             found = found + 1
-            if (found > count) then
-               call raise_at(error, text, line, 'more values than the '//to_text(count)//' that the header states')
-               return
-            end if
             first = at
-            call take_real(text%text, at, last, values(found), ok)
+            call take_real(text%text, at, last, value, ok)
             if (ok .and. at <= last) ok = is_blank(text%text(at:at))
             if (.not. ok) then
                call text%next_word((first), last, first, finish)
+               call parse_printed(text%text(first:finish), value, ok)
+               at = finish + 1
+            end if
+            if (.not. ok) then
+               call find_columns(text, first_line, count, width, per_line)
+               if (width > 0) then
+                  call read_fixed(text, first_line, count, width, per_line, values, error)
+                  return
+               end if
                call raise_at(error, text, line, 'value '//to_text(found)//' = '''// &
                   & shown(text%text(first:finish))//''': must be a number')
                return
             end if
+            if (found <= count) then
+               values(found) = value
+            else if (found > count + most_extra) then
+               call raise_at(error, text, line, 'more values than the '//to_text(count)//' that the header states')
+               return
+            end if
          end do
       end do
-      if (found == count) return
-      call raise_at(error, text, text%lines(), 'the file ends after '//to_text(found)//' values: the header states '// &
-         & to_text(count))
+      if (found < count) then
+         call raise_at(error, text, text%lines(), 'the file ends after '//to_text(found)//' values: the header states '// &
+            & to_text(count))
+         return
+      end if
+      call describe_extra(found - count, count, note)
+      if (found == count) call check_whole(text, first_line, 0, error)
    end subroutine read_block
+
+   !> Find the columns of a block in which numbers touch: lines of equal length, of which all but the last are full
+   pure subroutine find_columns(text, first_line, count, width, per_line)
+      type(text_file_type), intent(in) :: text
+      !> Line of the first number; the block ends the file
+      integer, intent(in) :: first_line
+      !> How many numbers there must be
+      integer, intent(in) :: count
+      !> Characters of a column, 0 if there are no such columns
+      integer, intent(out) :: width
+      !> Columns of a line
+      integer, intent(out) :: per_line
+
+      integer :: line, rows, length
+
+      width = 0
+      rows = text%lines() - first_line + 1
+      length = len_trim(text%line(first_line))
+      do line = first_line + 1, text%lines() - 1
+         if (len_trim(text%line(line)) /= length) return
+      end do
+      ! The numbers of a line follow from those of all lines
+      do per_line = max(1, count/rows), length
+         if ((count - 1)/per_line + 1 /= rows) cycle
+         if (modulo(length, per_line) > 0) cycle
+         width = length/per_line
+         if (are_numbers(text%line(first_line), width)) return
+      end do
+      width = 0
+   end subroutine find_columns
+
+   !> Are all columns of a line numbers?
+   pure logical function are_numbers(line, width) result(are)
+      !> The line
+      character(len=*), intent(in) :: line
+      !> Characters of a column
+      integer, intent(in) :: width
+
+      real(wp) :: value
+      integer :: at
+
+      are = .true.
+      do at = 1, len_trim(line), width
+         if (are) call parse_printed(line(at:min(at + width - 1, len(line))), value, are)
+      end do
+   end function are_numbers
 
    !> Read numbers that stand in columns of equal width, where they may touch
    !>
    !> Every line but the last is full; blanks at the end of a line may be missing.
-   subroutine read_fixed(text, first_line, count, width, per_line, values, error)
+   subroutine read_fixed(text, first_line, count, width, per_line, values, error, note, next_line)
       type(text_file_type), intent(in) :: text
       !> Line of the first number; the block ends (count - 1)/per_line lines later
       integer, intent(in) :: first_line
@@ -105,17 +177,25 @@ contains
       integer, intent(in) :: per_line
       !> The numbers
       real(wp), allocatable, intent(out) :: values(:)
-      !> A text that is no number, text after the last column, or a file that ends before
+      !> A text that is no number, text after the last column, a file that ends before, or within its last number
       type(error_type), allocatable, intent(out) :: error
+      !> What to report, empty if there is nothing. Only with it may up to `most_extra` numbers follow, which are ignored
+      character(len=:), allocatable, intent(out), optional :: note
+      !> Line after the block
+      integer, intent(out), optional :: next_line
 
-      integer :: line, at, finish, column, found
+      integer :: line, at, finish, column, found, extra
       logical :: ok
 
+      if (present(note)) note = ''
+      if (present(next_line)) next_line = first_line
       ! A header may state any count; the text bounds how many numbers there can be
       allocate (values(max(0, min(count, len(text%text)))))
       found = 0
+      at = 0
       do line = first_line, text%lines()
-         if (found >= count) return
+         if (found >= count) exit
+         if (present(next_line)) next_line = line + 1
          at = text%first(line)
          do column = 1, min(per_line, count - found)
             finish = min(at + width - 1, text%last(line))
@@ -123,7 +203,7 @@ contains
             if (finish < at) then
                ok = .false.
             else
-               call parse_real(text%text(at:finish), values(found), ok)
+               call parse_printed(text%text(at:finish), values(found), ok)
             end if
             if (.not. ok) then
                call raise_at(error, text, line, 'value '//to_text(found)//' of '//to_text(count)//' = '''// &
@@ -133,15 +213,79 @@ contains
             end if
             at = finish + 1
          end do
-         if (verify(text%text(at:text%last(line)), ' '//achar(9)) == 0) cycle
-         call raise_at(error, text, line, 'text after value '//to_text(found)//' of '//to_text(count)//': '''// &
-            & shown(text%text(at:text%last(line)))//'''')
+         extra = 0
+         ok = verify(text%text(at:text%last(line)), blanks) == 0
+         if (ok .and. found < count) cycle
+         if (present(note) .and. found == count) then
+            if (.not. ok) call count_extra(text%text(at:text%last(line)), width, extra)
+            ok = ok .or. extra > 0
+            ! The next line may begin with them
+            if (extra == 0 .and. modulo(count, per_line) == 0 .and. line < text%lines()) then
+               call count_extra(text%line(line + 1), width, extra)
+               if (present(next_line) .and. extra > 0) next_line = line + 2
+            end if
+            call describe_extra(extra, count, note)
+         end if
+         if (.not. ok) then
+            call raise_at(error, text, line, 'text after value '//to_text(found)//' of '//to_text(count)// &
+               & ': '''//shown(text%text(at:text%last(line)))//'''')
+         else if (extra == 0 .and. line == text%lines()) then
+            call check_whole(text, first_line, width, error)
+         end if
          return
       end do
       if (found == count) return
       call raise_at(error, text, text%lines(), 'the file ends after '//to_text(found)//' values: the header states '// &
          & to_text(count))
    end subroutine read_fixed
+
+   !> Count the numbers of a text in columns of equal width
+   pure subroutine count_extra(text, width, extra)
+      character(len=*), intent(in) :: text
+      !> Characters of a column
+      integer, intent(in) :: width
+      !> How many there are, 0 if more than `most_extra` or something else than numbers
+      integer, intent(out) :: extra
+
+      extra = (len_trim(text) - 1)/width + 1
+      if (len_trim(text) == 0 .or. extra > most_extra) extra = 0
+      if (extra == 0) return
+      if (.not. are_numbers(text, width)) extra = 0
+   end subroutine count_extra
+
+   !> Describe samples beyond those that a file states
+   pure subroutine describe_extra(extra, count, note)
+      !> How many there are
+      integer, intent(in) :: extra
+      !> How many the file states
+      integer, intent(in) :: count
+      !> What to report; empty if there are none
+      character(len=:), allocatable, intent(out) :: note
+
+      note = ''
+      if (extra < 1) return
+      note = to_text(extra)//' sample'
+      if (extra > 1) note = note//'s'
+      note = note//' beyond the '//to_text(count)//' that the file states ignored'
+   end subroutine describe_extra
+
+   !> The last number of a file must be printed like the others: a file that is cut inside it is not whole
+   subroutine check_whole(text, first_line, width, error)
+      type(text_file_type), intent(in) :: text
+      !> Line of the first number; the last one ends the file
+      integer, intent(in) :: first_line
+      !> Characters of a column, 0 where blanks separate numbers
+      integer, intent(in) :: width
+      !> It is printed shorter
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: begin
+      logical :: is_cut
+
+      call find_cut(text, first_line, text%lines(), is_cut, begin, width, .true.)
+      if (is_cut) call raise_at(error, text, text%lines(), 'the file is cut off: its last value, '''// &
+         & shown(text%text(begin:text%last(text%lines())))//''', is printed shorter than the others')
+   end subroutine check_whole
 
    !> The duration that a header states must be that of the values
    subroutine check_duration(text, line, stated, channel, error)

@@ -92,15 +92,18 @@ contains
       type(error_type), allocatable :: error
       integer :: n, run, longest, i
 
-      problems = ''
+      problems = record%metadata%get('reading')
       n = size(record%acceleration)
       pga = record%pga()
       call check_motion(record, error)
       if (allocated(error)) then
-         problems = 'no motion'
+         call append('no motion')
          return
       end if
-      if (pga_limit(pga/gravity) > 0.0_wp) call describe_pga(pga/gravity, pga_limit(pga/gravity), problems)
+      if (pga_limit(pga/gravity) > 0.0_wp) then
+         call describe_pga(pga/gravity, pga_limit(pga/gravity), sentence)
+         call append(sentence)
+      end if
       if (abs(record%acceleration(1)) > abrupt*pga) call append('begins at '// &
          & to_text(nint(100.0_wp*(abs(record%acceleration(1))/pga)))//' % of its PGA')
       velocity = ground_velocity(record)

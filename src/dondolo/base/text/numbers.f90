@@ -7,7 +7,7 @@ module dondolo_numbers
    implicit none
    private
 
-   public :: parse_real, parse_integer, take_real, take_column
+   public :: parse_real, parse_printed, parse_integer, take_real, take_column
 
    !> Powers of ten that are exact in real64, hence in every working precision
    real(wp), parameter :: power(0:22) = [1e0_wp, 1e1_wp, 1e2_wp, 1e3_wp, 1e4_wp, 1e5_wp, 1e6_wp, 1e7_wp, &
@@ -48,6 +48,28 @@ contains
       ok = .false.
       value = 0.0_wp
    end subroutine parse_real
+
+   !> Read a decimal number as Fortran prints it: an exponent of three digits may lack its letter, as in 0.1000000-104
+   pure subroutine parse_printed(text, value, ok)
+      !> Text
+      character(len=*), intent(in) :: text
+      !> Its number, 0 unless ok
+      real(wp), intent(out) :: value
+      !> The text is one finite number
+      logical, intent(out) :: ok
+
+      integer :: first, last, sign
+
+      call parse_real(text, value, ok)
+      if (ok) return
+      call inner(text, first, last)
+      sign = last - 3
+      if (sign <= first) return
+      if (scan(text(sign:sign), '+-') == 0 .or. verify(text(sign + 1:last), '0123456789') > 0) return
+      ! Only after a mantissa with a point, for a date or two integers have none
+      if (index(text(first:sign - 1), '.') == 0 .or. verify(text(first:sign - 1), '+-.0123456789') > 0) return
+      call parse_real(text(first:sign - 1)//'E'//text(sign:last), value, ok)
+   end subroutine parse_printed
 
    !> Take a decimal number: [sign] digits [. digits] [e|d [sign] digits]
    !>

@@ -20,6 +20,7 @@ module dondolo_read_case
    use dondolo_population, only : population_reader_type
    use dondolo_population_group, only : read_population_group
    use dondolo_property_tables, only : group_names
+   use dondolo_reading_notes, only : list_reading_notes
    use dondolo_record, only : largest_acceleration, record_type
    use dondolo_records_group, only : read_records_group
    use dondolo_settings_group, only : read_values
@@ -345,8 +346,9 @@ contains
       if (.not. allocated(error)) call check_room(bytes_of_sample*sum([(real(size(records(i)%acceleration), wp), &
          & i=1, size(records))]), error)
       if (allocated(error)) return
-      call new_suite(case%suite, records, case%job%threads)
       if (len(note) > 0) call case%notes%add(note)
+      call list_reading_notes(records, case%notes)
+      call new_suite(case%suite, records, case%job%threads)
    end subroutine read_records
 
    !> Check that a variable names a file that exists

@@ -3,7 +3,11 @@
 !> A print rounds: to its last decimal, or to its number of significant digits, whichever is coarser for a given
 !> time. Steps may differ by that much and by 1 % of a step, so that a missing or doubled sample is always found
 !> where the print resolves a quarter of a step.
+!>
+!> The time step is the shortest decimal that all times allow: 0.02 of 0.019999999552965164, 0.03999999910593033 ..., which a
+!> program had in single precision before it printed them.
 module dondolo_equal_steps
+   use, intrinsic :: iso_fortran_env, only : real32
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_record_format, only : raise_at
@@ -20,10 +24,17 @@ module dondolo_equal_steps
    !> Part of a step that the print must resolve
    real(wp), parameter :: resolved = 0.25_wp
 
+   !> Most significant digits of a step
+   integer, parameter :: most_digits = 15
+
+   !> Of times that were added up, whose errors add up too: most significant digits of a step, and largest relative doubt
+   integer, parameter :: few_digits = 2
+   real(wp), parameter :: largest_doubt = 1.0e-4_wp
+
 contains
 
    !> Check the times of a file and find the time step
-   subroutine check_equal_steps(text, begin, time, first, last, dt, error)
+   subroutine check_equal_steps(text, begin, time, first, last, dt, doubt, error)
       type(text_file_type), intent(in) :: text
       !> Line of the first time; the others stand in the lines after it
       integer, intent(in) :: begin
@@ -33,8 +44,10 @@ contains
       integer, intent(in) :: first(:)
       !> Position of the last character of each time
       integer, intent(in) :: last(:)
-      !> Time step: the mean one [s]
+      !> Time step: the shortest decimal within the rounding of the times [s]
       real(wp), intent(out) :: dt
+      !> By how much the rounding of the times may have moved it [s]
+      real(wp), intent(out) :: doubt
       !> Times decrease or are not equally spaced
       type(error_type), allocatable, intent(out) :: error
 
@@ -42,6 +55,7 @@ contains
       real(wp) :: rounding, rounding_of_last, allowed
 
       dt = 0.0_wp
+      doubt = 0.0_wp
       n = size(time)
       if (n < 2) then
          call raise_at(error, text, begin, '1 sample: a record needs at least two')
@@ -74,7 +88,76 @@ contains
             & ': times must be equally spaced, the mean step is '//brief(dt))
          return
       end do
+      call find_step(time, decimals, digits, dt, doubt)
    end subroutine check_equal_steps
+
+   !> Find the shortest decimal among the steps that the print of the times allows
+   pure subroutine find_step(time, decimals, digits, dt, doubt)
+      !> Times [s]
+      real(wp), intent(in) :: time(:)
+      !> Decimals and significant digits of their print
+      integer, intent(in) :: decimals, digits
+      !> Time step: the mean one, then the shortest decimal [s]
+      real(wp), intent(inout) :: dt
+      !> By how much it may be off [s]
+      real(wp), intent(out) :: doubt
+
+      real(wp) :: low, high, rounding, mean, precision_of_times
+      logical :: is_single
+      integer :: i, n
+
+      mean = dt
+      n = size(time)
+      is_single = .true.
+      do i = 2, n
+         if (abs(time(i) - real(real(time(i), real32), wp)) <= rounding_of(time(i), dt, decimals, digits)) cycle
+         is_single = .false.
+         exit
+      end do
+      precision_of_times = epsilon(1.0_wp)
+      if (is_single) precision_of_times = real(epsilon(1.0_real32), wp)
+      low = 0.0_wp
+      high = huge(high)
+      do i = 2, n
+         rounding = max(rounding_of(time(i), dt, decimals, digits), 2.0_wp*precision_of_times*abs(time(i)))
+         low = max(low, (time(i) - time(1) - rounding)/real(i - 1, wp))
+         high = min(high, (time(i) - time(1) + rounding)/real(i - 1, wp))
+      end do
+      if (low <= high) then
+         call shorten(dt, low, high, most_digits)
+      else
+         ! Each time is the sum of a step and the one before, rounded
+         rounding = min(0.5_wp*real(n, wp)*precision_of_times, largest_doubt)
+         low = mean*(1.0_wp - rounding)
+         high = mean*(1.0_wp + rounding)
+         call shorten(dt, low, high, few_digits)
+      end if
+      doubt = max(abs(dt - low), abs(high - dt), abs(mean - dt))
+   end subroutine find_step
+
+   !> Replace a number by the shortest decimal of a range
+   pure subroutine shorten(value, low, high, most)
+      !> Number, positive; stays where there is no such decimal
+      real(wp), intent(inout) :: value
+      !> The range
+      real(wp), intent(in) :: low, high
+      !> Most significant digits
+      integer, intent(in) :: most
+
+      real(wp) :: candidate
+      integer :: digits, power
+
+      do digits = 1, most
+         power = digits - 1 - floor(log10(value))
+         candidate = anint(value*10.0_wp**power)
+         ! Over an exact power of ten: the number nearest to the decimal
+         if (power >= 0) candidate = candidate/10.0_wp**power
+         if (power < 0) candidate = candidate*10.0_wp**(-power)
+         if (candidate < low .or. candidate > high) cycle
+         value = candidate
+         return
+      end do
+   end subroutine shorten
 
    !> By how much the print of a time may have moved it
    pure function rounding_of(time, dt, decimals, digits) result(rounding)

@@ -9,7 +9,8 @@ module dondolo_format_asa
    use dondolo_metadata, only : metadata_type
    use dondolo_numbers, only : parse_integer, parse_real
    use dondolo_plain, only : shown
-   use dondolo_record_format, only : raise_at, read_fixed, samples_type
+   use dondolo_record_format, only : channel_type, check_duration, describe_extra, most_extra, raise_at, read_fixed, &
+      & samples_type
    use dondolo_text, only : first_word, to_text
    use dondolo_text_file, only : text_file_type
    implicit none
@@ -22,6 +23,9 @@ module dondolo_format_asa
 
    !> Channels that the header has places for
    integer, parameter :: most_channels = 12
+
+   !> Relative difference allowed between the time step and the sampling rate
+   real(wp), parameter :: step_tolerance = 0.01_wp
 
    !> Line that says what the file is
    character(len=*), parameter :: kind = 'ARCHIVO ESTANDAR DE ACELERACION'
@@ -48,7 +52,8 @@ contains
 
       type(labels_type) :: labels
       real(wp), allocatable :: values(:)
-      integer :: title, begin, channels, rows, i
+      character(len=:), allocatable :: note
+      integer :: title, begin, channels, rows, stated, i
 
       title = line_with(text, 1, text%lines(), data_title)
       ! Two rulers stand around the numbers and the names of the channels
@@ -66,60 +71,81 @@ contains
          return
       end if
       rows = text%lines() - begin + 1
-      call read_fixed(text, begin, channels*rows, width, channels, values, error)
+      stated = number_of(labels, 1)
+      do i = 1, channels
+         ! Some files hold the samples at both ends of the duration, one more than they state, or two
+         if (rows >= stated .and. rows <= stated + most_extra .and. number_of(labels, i) == stated) cycle
+         call raise_at(error, text, text%lines(), to_text(rows)//' rows of values: the header states '// &
+            & to_text(number_of(labels, i)))
+         return
+      end do
+      call read_fixed(text, begin, channels*stated, width, channels, values, error)
       if (allocated(error)) return
+      call describe_extra(rows - stated, stated, note)
+      call samples%metadata%append('reading', note)
       allocate (samples%channels(channels))
       do i = 1, channels
          associate (channel => samples%channels(i))
-            call read_channel(text, labels, i, rows, channel%name, channel%dt, channel%peak, error)
-            if (allocated(error)) return
             channel%values = values(i::channels)
+            call read_channel(text, labels, i, channel, error)
+            if (allocated(error)) return
             channel%units = first_word(labels%value_of('UNIDADES DE LOS DATOS'), ' ')
             channel%peak_units = 'gal'
             channel%peak_line = max(labels%line_of('ACEL. MAX.(Gal), C1-C6'), 1)
             call channel%metadata%set('component', channel%name)
-            if (rows /= number_of(labels, i)) call channel%metadata%set('samples', to_text(rows)// &
-               & ', of which the header states '//to_text(number_of(labels, i)))
          end associate
       end do
       call add_metadata(labels, samples%metadata)
    end subroutine read_asa
 
    !> What the header says of a channel
-   subroutine read_channel(text, labels, number, rows, name, dt, peak, error)
+   subroutine read_channel(text, labels, number, channel, error)
       type(text_file_type), intent(in) :: text
       type(labels_type), intent(in) :: labels
       !> Number of the channel
       integer, intent(in) :: number
-      !> Number of rows
-      integer, intent(in) :: rows
-      !> Name of the channel
-      character(len=:), allocatable, intent(out) :: name
-      !> Time step [s]
-      real(wp), intent(out) :: dt
-      !> Largest value, as printed
-      character(len=:), allocatable, intent(out) :: peak
-      !> The step is missing or the number of samples is another
+      !> The channel, with its values
+      type(channel_type), intent(inout) :: channel
+      !> Its step is missing, or contradicts rate or duration
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=*), parameter :: step = 'INTERVALO DE MUESTREO, C', rest = ' (s)'
+      character(len=*), parameter :: rest(2) = [character(len=6) :: '1-C6', '7-C12'], &
+         & step = 'INTERVALO DE MUESTREO, C', rate = 'VEL. DE MUESTREO, C', duration = 'DURACION DEL REGISTRO (s), C'
       character(len=:), allocatable :: key, value
-      logical :: ok
+      real(wp) :: frequency
+      integer :: part
+      logical :: ok, has_rate
 
-      call find_value(labels, 'ORIENTACION C1-C6 (rumbo;orientacion)', 'ORIENTACION C7-C12 (rumbo;orientacion)', number, name)
-      call find_value(labels, 'ACEL. MAX.(Gal), C1-C6', 'ACEL. MAX.(Gal), C7-C12', number, peak)
-      call find_value(labels, step//'1-C6'//rest, step//'7-C12'//rest, number, value)
-      call parse_real(value, dt, ok)
-      if (.not. (ok .and. dt > 0.0_wp)) then
-         key = step//trim(merge('1-C6 ', '7-C12', number <= 6))//rest
+      part = merge(1, 2, number <= 6)
+      call find_value(labels, 'ORIENTACION C1-C6 (rumbo;orientacion)', 'ORIENTACION C7-C12 (rumbo;orientacion)', number, &
+         & channel%name)
+      call find_value(labels, 'ACEL. MAX.(Gal), C1-C6', 'ACEL. MAX.(Gal), C7-C12', number, channel%peak)
+      call find_value(labels, rate//trim(rest(1))//' (muestras/s)', rate//trim(rest(2))//' (muestras/s)', number, value)
+      call parse_real(value, frequency, has_rate)
+      has_rate = has_rate .and. frequency > 0.0_wp
+      key = step//trim(rest(part))//' (s)'
+      call find_value(labels, step//trim(rest(1))//' (s)', step//trim(rest(2))//' (s)', number, value)
+      call parse_real(value, channel%dt, ok)
+      ! The rate serves where no interval is stated
+      if (len(value) == 0 .and. has_rate) then
+         channel%dt = 1.0_wp/frequency
+         ok = .true.
+      end if
+      if (.not. (ok .and. channel%dt > 0.0_wp)) then
          call raise_at(error, text, max(labels%line_of(key), 1), key//' = '''//shown(labels%value_of(key))// &
             & ''': must be a positive number for channel '//to_text(number))
          return
       end if
-      ! Some files hold the samples at both ends of the duration, one more than they state
-      if (rows == number_of(labels, number) .or. rows == number_of(labels, number) + 1) return
-      call raise_at(error, text, text%lines(), to_text(rows)//' rows of values: the header states '// &
-         & to_text(number_of(labels, number)))
+      if (has_rate) then
+         if (abs(channel%dt*frequency - 1.0_wp) > step_tolerance) then
+            call raise_at(error, text, max(labels%line_of(key), 1), key//' = '//to_text(channel%dt)// &
+               & ': the header states a rate of '//to_text(frequency)//' samples per second')
+            return
+         end if
+      end if
+      key = duration//trim(rest(part))
+      call find_value(labels, duration//trim(rest(1)), duration//trim(rest(2)), number, value)
+      call check_duration(text, max(labels%line_of(key), 1), value, channel, error)
    end subroutine read_channel
 
    !> Number of samples that the header states for a channel, 0 if none

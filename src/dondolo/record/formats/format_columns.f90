@@ -160,7 +160,7 @@ contains
       ! Line by line, so that those of a single column are the channel's
       real(wp), allocatable :: values(:)
       integer, allocatable :: time_first(:), time_last(:)
-      real(wp) :: dt
+      real(wp) :: dt, doubt
       logical :: ok
 
       begin = first_value_line(text)
@@ -193,7 +193,8 @@ contains
          return
       end do
       dt = 0.0_wp
-      if (cells > 1) call check_equal_steps(text, begin, values(1::cells), time_first, time_last, dt, error)
+      doubt = 0.0_wp
+      if (cells > 1) call check_equal_steps(text, begin, values(1::cells), time_first, time_last, dt, doubt, error)
       if (allocated(error)) then
          if (separator == ',' .and. index(text%text(text%first(begin):), '.') == 0) then
             error%message = error%message//' (columns separated by commas need decimal points)'
@@ -205,6 +206,7 @@ contains
          cell = min(i + 1, cells)
          if (cells > 1) samples%channels(i)%values = values(cell::cells)
          samples%channels(i)%dt = dt
+         samples%channels(i)%dt_doubt = doubt
          if (cells > 2) samples%channels(i)%name = 'column '//to_text(cell)
       end do
       if (cells == 1) call move_alloc(values, samples%channels(1)%values)

@@ -148,7 +148,7 @@ contains
       !> What is wrong, with file and line
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: line, format
+      character(len=:), allocatable :: line, format, note
       integer :: count, width, per_line, next
       real(wp) :: multiple, mean
       logical :: ok, raw
@@ -168,9 +168,9 @@ contains
       end if
       call read_units(text, header, channel%units, multiple, raw, error)
       if (allocated(error)) return
-      call read_fixed(text, header%value_line + 1, count, width, per_line, channel%values, error)
+      call read_fixed(text, header%value_line + 1, count, width, per_line, channel%values, error, note, next)
       if (allocated(error)) return
-      next = header%value_line + 2 + (count - 1)/per_line
+      call channel%metadata%append('reading', note)
       if (next > header%last_line .or. .not. is_end(text%line(next))) then
          call raise_at(error, text, next, 'after the '//to_text(count)// &
             & ' values that the header states: must be End-of-data')

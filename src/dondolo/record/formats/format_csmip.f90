@@ -85,7 +85,7 @@ contains
 
       integer :: begin, block, next, count, width, per_line
       real(wp) :: dt
-      character(len=:), allocatable :: units
+      character(len=:), allocatable :: units, note
 
       begin = line_with(text, first, last, announcement)
       if (begin == 0) then
@@ -94,9 +94,9 @@ contains
       end if
       call read_announcement(text, begin, count, channel%dt, channel%units, width, per_line, error)
       if (allocated(error)) return
-      call read_fixed(text, begin + 1, count, width, per_line, channel%values, error)
+      call read_fixed(text, begin + 1, count, width, per_line, channel%values, error, note, next)
       if (allocated(error)) return
-      next = begin + (count - 1)/per_line + 2
+      call channel%metadata%append('reading', note)
       if (next > last) then
          call raise_at(error, text, last, 'the channel ends with its accelerations: velocities must follow')
          return

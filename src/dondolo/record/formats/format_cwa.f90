@@ -9,7 +9,7 @@ module dondolo_format_cwa
    use dondolo_metadata, only : metadata_type
    use dondolo_numbers, only : parse_real
    use dondolo_plain, only : shown
-   use dondolo_record_format, only : raise_at, read_fixed, samples_type
+   use dondolo_record_format, only : describe_extra, most_extra, raise_at, read_fixed, samples_type
    use dondolo_text, only : first_word, to_text
    use dondolo_text_file, only : text_file_type
    implicit none
@@ -47,7 +47,8 @@ contains
       type(labels_type) :: labels
       character(len=:), allocatable :: units
       real(wp), allocatable :: values(:)
-      real(wp) :: rate, dt
+      character(len=:), allocatable :: note
+      real(wp) :: rate, dt, doubt
       integer :: begin, rows, columns, i
 
       begin = header_lines(text) + 1
@@ -63,10 +64,12 @@ contains
       end if
       rows = text%lines() - begin + 1
       call read_fixed(text, begin, columns*rows, width, columns, values, error)
-      if (.not. allocated(error)) call check_rows(text, labels, rate, rows, error)
+      if (.not. allocated(error)) call check_rows(text, labels, rate, rows, note, error)
       if (allocated(error)) return
-      call check_equal_steps(text, begin, values(1::columns), text%first(begin:), text%first(begin:) + width - 1, dt, &
-         & error)
+      call samples%metadata%append('reading', note)
+      call check_equal_steps(text, begin, values(1:columns*rows:columns), &
+         & text%first(begin:begin + rows - 1), text%first(begin:begin + rows - 1) + width - 1, dt, &
+         & doubt, error)
       if (allocated(error)) return
       if (abs(dt*rate - 1.0_wp) > step_tolerance) then
          call raise_at(error, text, labels%line_of('#SampleRate(Hz)'), 'SampleRate(Hz) = '//to_text(rate)// &
@@ -76,7 +79,7 @@ contains
       units = labels%value_of('#AmplitudeUnit')
       do i = 1, columns - 1
          associate (channel => samples%channels(i))
-            channel%values = values(1 + i::columns)
+            channel%values = values(1 + i:columns*rows:columns)
             channel%dt = 1.0_wp/rate
             channel%units = first_word(units, ' .')
             channel%peak = trim(larger(labels%value_of('#AmplitudeMAX. '//channel%name)))
@@ -88,23 +91,35 @@ contains
       if (index(units, '. ') > 0) call samples%metadata%set('processing', units(index(units, '. ') + 2:))
    end subroutine read_cwa
 
-   !> The number of rows must be the one that duration and sampling rate make
-   subroutine check_rows(text, labels, rate, rows, error)
+   !> The number of rows must be the one that duration and sampling rate make, or one or two more
+   subroutine check_rows(text, labels, rate, rows, note, error)
       type(text_file_type), intent(in) :: text
       type(labels_type), intent(in) :: labels
       !> Sampling rate [1/s]
       real(wp), intent(in) :: rate
-      !> Number of rows
-      integer, intent(in) :: rows
+      !> Number of rows; those that are ignored are taken off
+      integer, intent(inout) :: rows
+      !> What to report of them
+      character(len=:), allocatable, intent(out) :: note
       !> It is another
       type(error_type), allocatable, intent(out) :: error
 
       real(wp) :: duration
+      integer :: stated
 
+      note = ''
       call labels%get_positive(text, '#RecordLength(sec)', duration, error)
       if (allocated(error)) return
       ! The duration may count from the first to the last sample
       if (abs(real(rows, wp) - rate*duration) <= 1.0_wp) return
+      if (rate*duration < real(rows, wp)) then
+         stated = nint(rate*duration)
+         if (rows <= stated + most_extra) then
+            call describe_extra(rows - stated, stated, note)
+            rows = stated
+            return
+         end if
+      end if
       call raise_at(error, text, text%lines(), to_text(rows)//' rows of values: the header states '// &
          & to_text(rate*duration))
    end subroutine check_rows

@@ -39,6 +39,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(labels_type) :: labels
+      character(len=:), allocatable :: note
       integer :: count
 
       call read_labels(text, 1, header_lines(text), labels)
@@ -54,7 +55,8 @@ contains
          channel%peak_units = 'cm/s2'
          channel%peak_line = labels%line_of(peak_key)
          channel%name = one_of(labels%value_of('STREAM'), labels%value_of('COMPONENT'))
-         call read_block(text, header_lines(text) + 1, count, channel%values, error)
+         call read_block(text, header_lines(text) + 1, count, channel%values, error, note)
+         call samples%metadata%append('reading', note)
          if (.not. allocated(error)) call check_duration(text, max(labels%line_of('DURATION_S'), 1), &
             & labels%value_of('DURATION_S'), channel, error)
          call add_metadata(labels, channel%name, samples%metadata)

@@ -41,6 +41,7 @@ contains
       !> What is wrong, with file and line
       type(error_type), allocatable, intent(out) :: error
 
+      character(len=:), allocatable :: note
       integer :: count
       logical :: ok
 
@@ -51,7 +52,8 @@ contains
             & ''': must be the number of values and their step, both positive')
          return
       end if
-      call read_block(text, 3, count, samples%channels(1)%values, error)
+      call read_block(text, 3, count, samples%channels(1)%values, error, note)
+      call samples%metadata%append('reading', note)
       call samples%metadata%set('label', text%line(1))
    end subroutine read_eqsig
 

@@ -82,6 +82,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(table_type) :: integers, reals
+      character(len=:), allocatable :: note
       real(wp), allocatable :: others(:)
       integer :: counts(3), i
 
@@ -98,27 +99,16 @@ contains
       call read_step(text, first, reals, channel%dt, error)
       if (allocated(error)) return
       next = reals%next_line()
-      call read_fixed(text, next, counts(1), width, per_line, channel%values, error)
+      call read_fixed(text, (next), counts(1), width, per_line, channel%values, error, note, next)
       if (allocated(error)) return
-      next = next + lines_of(counts(1))
+      call channel%metadata%append('reading', note)
       ! Read, so that a count that is wrong does not go unseen
       do i = 2, 3
-         call read_fixed(text, next, counts(i), width, per_line, others, error)
+         call read_fixed(text, (next), counts(i), width, per_line, others, error, note, next)
          if (allocated(error)) return
-         next = next + lines_of(counts(i))
       end do
       call read_header(text, first, integers, reals, channel)
    end subroutine read_component
-
-   !> Lines of a block of values
-   pure function lines_of(count) result(lines)
-      !> Number of values
-      integer, intent(in) :: count
-      !> Number of lines
-      integer :: lines
-
-      lines = (count - 1 + per_line)/per_line
-   end function lines_of
 
    !> Read the numbers of accelerations, velocities and displacements
    subroutine read_counts(text, first, integers, counts, error)

@@ -50,6 +50,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(labels_type) :: labels
+      character(len=:), allocatable :: note
       real(wp) :: frequency, duration, factor, mean
       integer :: direction
 
@@ -65,8 +66,9 @@ contains
       end if
       allocate (samples%channels(1))
       associate (channel => samples%channels(1))
-         call read_block(text, header_lines + 1, nint(frequency*duration), channel%values, error)
+         call read_block(text, header_lines + 1, nint(frequency*duration), channel%values, error, note)
          if (allocated(error)) return
+         call samples%metadata%append('reading', note)
          mean = sum(channel%values)/real(max(size(channel%values), 1), wp)
          channel%values = factor*(channel%values - mean)
          channel%dt = 1.0_wp/frequency

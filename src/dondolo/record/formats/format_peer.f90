@@ -45,7 +45,7 @@ contains
       !> What is wrong, with file and line
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: line
+      character(len=:), allocatable :: line, note
       integer :: count, at
       logical :: ok
 
@@ -64,7 +64,8 @@ contains
             & ''': must be NPTS= count, DT= step SEC, both positive')
          return
       end if
-      call read_block(text, count_line + 1, count, samples%channels(1)%values, error)
+      call read_block(text, count_line + 1, count, samples%channels(1)%values, error, note)
+      call samples%metadata%append('reading', note)
       call add_metadata(text%line(event_line), samples%metadata)
       call samples%metadata%set('title', text%line(1))
       line = text%line(quantity_line)

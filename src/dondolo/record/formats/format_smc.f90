@@ -64,7 +64,8 @@ contains
       !> What is wrong, with file and line
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: first_line, last_line, count, digits, width, per_line
+      integer :: first_line, next_line, count, digits, width, per_line
+      character(len=:), allocatable :: note
       real(wp) :: rate
       logical :: ok
 
@@ -83,7 +84,7 @@ contains
       call parse_real(reals%field(text, rate_at), rate, ok)
       if (.not. (ok .and. rate > 0.0_wp)) then
          call raise_at(error, text, reals%line_of(rate_at), 'values per second = '''//reals%field(text, rate_at)// &
-            & ''': must be positive')
+            & ''': the samples are unevenly spaced, pairs of time and value; they must be evenly spaced')
          return
       end if
       call integers%integer_of(text, digits_at, digits, ok)
@@ -91,19 +92,14 @@ contains
       per_line = merge(5, 8, ok .and. digits == many_digits)
       allocate (samples%channels(1))
       associate (channel => samples%channels(1))
-         call read_fixed(text, first_line, count, width, per_line, channel%values, error)
+         call read_fixed(text, first_line, count, width, per_line, channel%values, error, note, next_line)
          if (allocated(error)) return
+         call samples%metadata%append('reading', note)
          call check_not_missing(text, first_line, per_line, channel%values, reals%missing, error)
          if (allocated(error)) return
-         last_line = first_line + (count - 1)/per_line
-         if (text%lines() > last_line) then
-            call raise_at(error, text, last_line + 1, 'text after the '//to_text(count)// &
+         if (text%lines() >= next_line) then
+            call raise_at(error, text, next_line, 'text after the '//to_text(count)// &
                & ' values that the header states')
-            return
-         end if
-         ! Nothing follows that would show that the file is whole; the exponent ends every column
-         if (len(text%line(last_line)) < (modulo(count - 1, per_line) + 1)*width) then
-            call raise_at(error, text, last_line, 'the last value is cut off')
             return
          end if
          channel%dt = 1.0_wp/rate

@@ -40,8 +40,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(labels_type) :: labels
-      character(len=:), allocatable :: line, date, station
-      integer :: last, count
+      character(len=:), allocatable :: line, date, station, note
+      integer :: last, count, next
 
       last = quantity_line(text)
       call read_labels(text, 1, last, labels)
@@ -61,10 +61,11 @@ contains
          channel%peak = labels%value_of('PGA (m/s/s)')
          channel%peak_units = 'm/s2'
          channel%peak_line = max(labels%line_of('PGA (m/s/s)'), 1)
-         call read_fixed(text, last + 1, count, 14, 5, channel%values, error)
+         call read_fixed(text, last + 1, count, 14, 5, channel%values, error, note, next)
          if (allocated(error)) return
-         if (last + (count + 4)/5 < text%lines()) then
-            call raise_at(error, text, last + (count + 4)/5 + 1, 'more values than the '// &
+         call metadata%append('reading', note)
+         if (next <= text%lines()) then
+            call raise_at(error, text, next, 'more values than the '// &
                & labels%value_of('Number of Data')//' that the header states')
             return
          end if
