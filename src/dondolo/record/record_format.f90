@@ -11,7 +11,8 @@ module dondolo_record_format
    implicit none
    private
 
-   public :: samples_type, channel_type, read_block, read_fixed, raise_at, check_duration, describe_extra, most_extra
+   public :: samples_type, channel_type, after_block_type, most_extra
+   public :: read_block, read_fixed, raise_at, check_duration, describe_extra
 
    !> Samples beyond those that a file states which are ignored: some programs count steps, or write both ends
    integer, parameter :: most_extra = 2
@@ -40,6 +41,14 @@ module dondolo_record_format
       !> What the file says of this channel alone
       type(metadata_type) :: metadata
    end type channel_type
+
+   !> What follows a block of numbers
+   type :: after_block_type
+      !> What to report of numbers beyond those that are stated, empty if there are none
+      character(len=:), allocatable :: note
+      !> Line after them
+      integer :: line = 1
+   end type after_block_type
 
    !> What a file says
    type :: samples_type
@@ -165,7 +174,7 @@ contains
    !> Read numbers that stand in columns of equal width, where they may touch
    !>
    !> Every line but the last is full; blanks at the end of a line may be missing.
-   subroutine read_fixed(text, first_line, count, width, per_line, values, error, note, next_line)
+   subroutine read_fixed(text, first_line, count, width, per_line, values, error, after)
       type(text_file_type), intent(in) :: text
       !> Line of the first number; the block ends (count - 1)/per_line lines later
       integer, intent(in) :: first_line
@@ -179,23 +188,23 @@ contains
       real(wp), allocatable, intent(out) :: values(:)
       !> A text that is no number, text after the last column, a file that ends before, or within its last number
       type(error_type), allocatable, intent(out) :: error
-      !> What to report, empty if there is nothing. Only with it may up to `most_extra` numbers follow, which are ignored
-      character(len=:), allocatable, intent(out), optional :: note
-      !> Line after the block
-      integer, intent(out), optional :: next_line
+      !> What follows. Only with it may up to `most_extra` numbers be there, which are ignored
+      type(after_block_type), intent(out), optional :: after
 
       integer :: line, at, finish, column, found, extra
       logical :: ok
 
-      if (present(note)) note = ''
-      if (present(next_line)) next_line = first_line
+      if (present(after)) then
+         after%note = ''
+         after%line = first_line
+      end if
       ! A header may state any count; the text bounds how many numbers there can be
       allocate (values(max(0, min(count, len(text%text)))))
       found = 0
       at = 0
       do line = first_line, text%lines()
          if (found >= count) exit
-         if (present(next_line)) next_line = line + 1
+         if (present(after)) after%line = line + 1
          at = text%first(line)
          do column = 1, min(per_line, count - found)
             finish = min(at + width - 1, text%last(line))
@@ -216,15 +225,15 @@ contains
          extra = 0
          ok = verify(text%text(at:text%last(line)), blanks) == 0
          if (ok .and. found < count) cycle
-         if (present(note) .and. found == count) then
+         if (present(after) .and. found == count) then
             if (.not. ok) call count_extra(text%text(at:text%last(line)), width, extra)
             ok = ok .or. extra > 0
             ! The next line may begin with them
             if (extra == 0 .and. modulo(count, per_line) == 0 .and. line < text%lines()) then
                call count_extra(text%line(line + 1), width, extra)
-               if (present(next_line) .and. extra > 0) next_line = line + 2
+               if (extra > 0) after%line = line + 2
             end if
-            call describe_extra(extra, count, note)
+            call describe_extra(extra, count, after%note)
          end if
          if (.not. ok) then
             call raise_at(error, text, line, 'text after value '//to_text(found)//' of '//to_text(count)// &

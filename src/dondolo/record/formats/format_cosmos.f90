@@ -13,7 +13,7 @@ module dondolo_format_cosmos
    use dondolo_header_text, only : after, before, check_not_missing, leading_number, parse_format, squeezed
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_record_format, only : channel_type, raise_at, read_fixed, samples_type
+   use dondolo_record_format, only : after_block_type, channel_type, raise_at, read_fixed, samples_type
    use dondolo_text, only : first_word, lower, to_text
    use dondolo_text_file, only : text_file_type
    use dondolo_units, only : unit_factor
@@ -148,7 +148,8 @@ contains
       !> What is wrong, with file and line
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: line, format, note
+      type(after_block_type) :: rest
+      character(len=:), allocatable :: line, format
       integer :: count, width, per_line, next
       real(wp) :: multiple, mean
       logical :: ok, raw
@@ -168,9 +169,10 @@ contains
       end if
       call read_units(text, header, channel%units, multiple, raw, error)
       if (allocated(error)) return
-      call read_fixed(text, header%value_line + 1, count, width, per_line, channel%values, error, note, next)
+      call read_fixed(text, header%value_line + 1, count, width, per_line, channel%values, error, rest)
       if (allocated(error)) return
-      call channel%metadata%append('reading', note)
+      next = rest%line
+      call channel%metadata%append('reading', rest%note)
       if (next > header%last_line .or. .not. is_end(text%line(next))) then
          call raise_at(error, text, next, 'after the '//to_text(count)// &
             & ' values that the header states: must be End-of-data')

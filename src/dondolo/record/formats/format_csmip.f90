@@ -10,7 +10,7 @@ module dondolo_format_csmip
    use dondolo_kinds, only : wp
    use dondolo_metadata, only : metadata_type
    use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_record_format, only : channel_type, check_duration, raise_at, read_fixed, samples_type
+   use dondolo_record_format, only : after_block_type, channel_type, check_duration, raise_at, read_fixed, samples_type
    use dondolo_text, only : first_word, lower, to_text
    use dondolo_text_file, only : text_file_type
    implicit none
@@ -83,9 +83,10 @@ contains
       !> What is wrong, with file and line
       type(error_type), allocatable, intent(out) :: error
 
+      type(after_block_type) :: rest
       integer :: begin, block, next, count, width, per_line
       real(wp) :: dt
-      character(len=:), allocatable :: units, note
+      character(len=:), allocatable :: units
 
       begin = line_with(text, first, last, announcement)
       if (begin == 0) then
@@ -94,9 +95,10 @@ contains
       end if
       call read_announcement(text, begin, count, channel%dt, channel%units, width, per_line, error)
       if (allocated(error)) return
-      call read_fixed(text, begin + 1, count, width, per_line, channel%values, error, note, next)
+      call read_fixed(text, begin + 1, count, width, per_line, channel%values, error, rest)
       if (allocated(error)) return
-      call channel%metadata%append('reading', note)
+      next = rest%line
+      call channel%metadata%append('reading', rest%note)
       if (next > last) then
          call raise_at(error, text, last, 'the channel ends with its accelerations: velocities must follow')
          return

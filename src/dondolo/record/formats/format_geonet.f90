@@ -8,7 +8,7 @@ module dondolo_format_geonet
    use dondolo_header_text, only : after, before, leading_number, squeezed, table_type
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_record_format, only : channel_type, raise_at, read_fixed, samples_type
+   use dondolo_record_format, only : after_block_type, channel_type, raise_at, read_fixed, samples_type
    use dondolo_text, only : first_word, lower, to_text
    use dondolo_text_file, only : text_file_type
    implicit none
@@ -82,7 +82,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(table_type) :: integers, reals
-      character(len=:), allocatable :: note
+      type(after_block_type) :: rest
       real(wp), allocatable :: others(:)
       integer :: counts(3), i
 
@@ -99,13 +99,15 @@ contains
       call read_step(text, first, reals, channel%dt, error)
       if (allocated(error)) return
       next = reals%next_line()
-      call read_fixed(text, (next), counts(1), width, per_line, channel%values, error, note, next)
+      call read_fixed(text, next, counts(1), width, per_line, channel%values, error, rest)
       if (allocated(error)) return
-      call channel%metadata%append('reading', note)
+      next = rest%line
+      call channel%metadata%append('reading', rest%note)
       ! Read, so that a count that is wrong does not go unseen
       do i = 2, 3
-         call read_fixed(text, (next), counts(i), width, per_line, others, error, note, next)
+         call read_fixed(text, next, counts(i), width, per_line, others, error, rest)
          if (allocated(error)) return
+         if (counts(i) > 0) next = rest%line
       end do
       call read_header(text, first, integers, reals, channel)
    end subroutine read_component

@@ -8,7 +8,7 @@ module dondolo_format_smc
    use dondolo_header_text, only : after, before, check_not_missing, find_moment, squeezed, table_type
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_real
-   use dondolo_record_format, only : channel_type, raise_at, read_fixed, samples_type
+   use dondolo_record_format, only : after_block_type, channel_type, raise_at, read_fixed, samples_type
    use dondolo_text, only : first_word, lower, to_text
    use dondolo_text_file, only : text_file_type
    implicit none
@@ -64,8 +64,8 @@ contains
       !> What is wrong, with file and line
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: first_line, next_line, count, digits, width, per_line
-      character(len=:), allocatable :: note
+      type(after_block_type) :: rest
+      integer :: first_line, count, digits, width, per_line
       real(wp) :: rate
       logical :: ok
 
@@ -92,13 +92,13 @@ contains
       per_line = merge(5, 8, ok .and. digits == many_digits)
       allocate (samples%channels(1))
       associate (channel => samples%channels(1))
-         call read_fixed(text, first_line, count, width, per_line, channel%values, error, note, next_line)
+         call read_fixed(text, first_line, count, width, per_line, channel%values, error, rest)
          if (allocated(error)) return
-         call samples%metadata%append('reading', note)
+         call samples%metadata%append('reading', rest%note)
          call check_not_missing(text, first_line, per_line, channel%values, reals%missing, error)
          if (allocated(error)) return
-         if (text%lines() >= next_line) then
-            call raise_at(error, text, next_line, 'text after the '//to_text(count)// &
+         if (text%lines() >= rest%line) then
+            call raise_at(error, text, rest%line, 'text after the '//to_text(count)// &
                & ' values that the header states')
             return
          end if

@@ -5,7 +5,7 @@ module dondolo_format_smtk
    use dondolo_error, only : error_type
    use dondolo_labels, only : labels_type, read_labels
    use dondolo_plain, only : shown
-   use dondolo_record_format, only : raise_at, read_fixed, samples_type
+   use dondolo_record_format, only : after_block_type, raise_at, read_fixed, samples_type
    use dondolo_text, only : lower
    use dondolo_text_file, only : text_file_type
    implicit none
@@ -40,8 +40,9 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(labels_type) :: labels
-      character(len=:), allocatable :: line, date, station, note
-      integer :: last, count, next
+      type(after_block_type) :: after
+      character(len=:), allocatable :: line, date, station
+      integer :: last, count
 
       last = quantity_line(text)
       call read_labels(text, 1, last, labels)
@@ -61,11 +62,11 @@ contains
          channel%peak = labels%value_of('PGA (m/s/s)')
          channel%peak_units = 'm/s2'
          channel%peak_line = max(labels%line_of('PGA (m/s/s)'), 1)
-         call read_fixed(text, last + 1, count, 14, 5, channel%values, error, note, next)
+         call read_fixed(text, last + 1, count, 14, 5, channel%values, error, after)
          if (allocated(error)) return
-         call metadata%append('reading', note)
-         if (next <= text%lines()) then
-            call raise_at(error, text, next, 'more values than the '// &
+         call metadata%append('reading', after%note)
+         if (after%line <= text%lines()) then
+            call raise_at(error, text, after%line, 'more values than the '// &
                & labels%value_of('Number of Data')//' that the header states')
             return
          end if
