@@ -14,6 +14,7 @@ program dondolo_main
    use dondolo_kinds, only : wp
    use dondolo_lane_variants, only : build_variant, check_variant
    use dondolo_lines, only : lines_type
+   use dondolo_plain, only : visible
    use dondolo_plan, only : print_plan
    use dondolo_progress_bar, only : erase_progress, show_progress, start_progress
    use dondolo_reports, only : check_reports, write_reports
@@ -176,7 +177,7 @@ contains
       integer :: i
 
       do i = 1, lines%count
-         write (error_unit, '(a)') 'dondolo: '//kind//': '//lines%line(i)%text
+         write (error_unit, '(a)') 'dondolo: '//kind//': '//visible(lines%line(i)%text)
       end do
    end subroutine print_lines
 
@@ -190,7 +191,7 @@ contains
       first = 1
       do while (first <= len(error%message))
          length = index(error%message(first:)//new_line('a'), new_line('a')) - 1
-         write (error_unit, '(a)') 'dondolo: '//error%message(first:first + length - 1)
+         write (error_unit, '(a)') 'dondolo: '//visible(error%message(first:first + length - 1))
          first = first + length + 1
       end do
       flush (error_unit)

@@ -10,6 +10,7 @@ module dondolo_plan
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_name_column, only : name_width
+   use dondolo_plain, only : visible
    use dondolo_plan_wall, only : print_body, print_head, print_row, print_wall
    use dondolo_plausibility, only : wall_warning_type
    use dondolo_member, only : member_type
@@ -57,7 +58,7 @@ contains
       if (allocated(error)) return
       call find_warnings(case, scales, warnings)
       if (quiet) return
-      write (output_unit, '(a)') case%file//': correct, nothing was run', ''
+      write (output_unit, '(a)') visible(case%file)//': correct, nothing was run', ''
       write (output_unit, '(a)') 'task: '//case%job%task
       if (len(case%job%title) > 0) write (output_unit, '(a)') 'title: '//case%job%title
       write (output_unit, '(a)') 'results: '//case%job%output//'_*.csv', ''
@@ -79,7 +80,7 @@ contains
       end if
       if (warnings%count > 0) write (output_unit, '(a)') ''
       do i = 1, warnings%count
-         write (output_unit, '(a)') 'warning: '//warnings%line(i)%text
+         write (output_unit, '(a)') 'warning: '//visible(warnings%line(i)%text)
       end do
    end subroutine print_plan
 
@@ -104,7 +105,7 @@ contains
          & to_text(work%histories - work%still)//' will be integrated'
       if (store%done > 0) write (output_unit, '(a)') 'of these an earlier run has done '// &
          & to_text(store%work%histories)//', '//to_text(store%done)//' of '// &
-         & to_text(case%survey%last - case%survey%first + 1)//' rows, in '//store%path
+         & to_text(case%survey%last - case%survey%first + 1)//' rows, in '//visible(store%path)
       write (output_unit, '(a)') 'largest scale factor: '//rounded(scales%largest)// &
          & ' (record '''//scales%record//''' at level '//to_text(scales%level)//')'
    end subroutine print_histories

@@ -9,6 +9,7 @@ module dondolo_summary
    use dondolo_fit_lines, only : bar, fractiles, make_head, print_fit, print_population_errors
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
+   use dondolo_plain, only : visible
    use dondolo_plan_wall, only : print_wall
    use dondolo_name_column, only : name_width
    use dondolo_results, only : results_type, row_counts_type
@@ -74,7 +75,7 @@ contains
          else
             write (output_unit, '(a)') 'rows '//to_text(case%survey%first)//' to '//to_text(case%survey%last)//' of '// &
                & to_text(case%survey%rows)//' are complete; when all are, take them together:', &
-               & '   dondolo --merge '//case%file//' '//case%job%output//'_walls_*.counts'
+               & '   dondolo --merge '//visible(case%file)//' '//case%job%output//'_walls_*.counts'
          end if
       end select
       if (case%job%task /= 'typology') call print_restitution(case)

@@ -9,12 +9,13 @@ import sys
 import warnings
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 import dondolo as dd
 from dondolo._base.files import whole_file
 from dondolo._fortran.records import catalogue_table
 from dondolo.analysis.request import progress_bar
+from dondolo.errors import visible
 from dondolo.exchange.fragility_model import Curve
 from dondolo.exchange.mean_functions import taxonomy_of
 from dondolo.figures.layout import lay_out
@@ -28,7 +29,7 @@ def main(arguments: list[str] | None = None) -> int:
     """Run a command and return its exit code: 0 done, 1 failed while running, 2 wrong input."""
     options = _parser().parse_args(arguments)
     # A warning is one line, as the executable's.
-    warnings.showwarning = lambda message, *rest: print(f"dondolo: warning: {message}", file=sys.stderr)
+    warnings.showwarning = lambda message, *rest: _tell(f"warning: {message}")
     try:
         options.run(options)
         sys.stdout.flush()
@@ -36,10 +37,10 @@ def main(arguments: list[str] | None = None) -> int:
         # Who reads the output has read enough, as head does; nothing may be flushed into the pipe at the end
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
     except dd.InputError as error:
-        print(f"dondolo: {error}", file=sys.stderr)
+        _tell(error)
         return 2
-    except dd.DondoloError as error:
-        print(f"dondolo: {error}", file=sys.stderr)
+    except (dd.DondoloError, MemoryError) as error:
+        _tell(error if isinstance(error, dd.DondoloError) else "not enough memory")
         return 1
     except OSError as error:
         # The library gives errors of its own: this one is of standard output, which may not be flushed again either.
@@ -52,8 +53,26 @@ def main(arguments: list[str] | None = None) -> int:
     return 0
 
 
+def _tell(message: object) -> None:
+    """Print a message on stderr, one line for each sentence."""
+    for line in str(message).split("\n"):
+        print(f"dondolo: {visible(line)}", file=sys.stderr)
+
+
+def _report_done(what: str, path: str, more: str = "") -> None:
+    """Print which file was made."""
+    print(f"{what}: {visible(path)}{more}")
+
+
+class _Parser(argparse.ArgumentParser):
+    """Parser whose messages quote arguments safely."""
+
+    def error(self, message: str) -> NoReturn:
+        super().error(visible(message))
+
+
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = _Parser(
         # The executable hands its commands over by -c.
         prog="dondolo" if sys.argv[0] == "-c" else "python -m dondolo",
         description="dondolo: fragility of masonry walls that rock and overturn in earthquakes. "
@@ -154,8 +173,8 @@ def _catalogue(options: argparse.Namespace) -> None:
     """Make a catalogue of a folder."""
     made = build_catalogue(options.folder, options.output, options.dt, options.units, options.vertical)
     for problem in made.problems:
-        print(f"dondolo: left out: {problem}", file=sys.stderr)
-    print(f"written: {made.path} ({made.records} records)")
+        _tell(f"left out: {problem}")
+    _report_done("written", str(made.path), f" ({made.records} records)")
 
 
 def _report(options: argparse.Namespace) -> None:
@@ -168,14 +187,14 @@ def _report(options: argparse.Namespace) -> None:
         raise dd.InputError(f"--output {path}: must end in .pdf with --pdf")
     hazard = None if options.hazard is None else dd.HazardCurve.from_csv(options.hazard)
     dd.report(dd.read_results(options.prefix), path, hazard=hazard)
-    print(f"written: {path}")
+    _report_done("written", path)
 
 
 def _workbook(options: argparse.Namespace) -> None:
     """Write the tables of a run into a workbook."""
     path = options.output or f"{options.prefix}_tables.xlsx"
     dd.write_workbook(options.prefix, path)
-    print(f"written: {path}")
+    _report_done("written", path)
 
 
 def _nrml(options: argparse.Namespace) -> None:
@@ -187,14 +206,16 @@ def _nrml(options: argparse.Namespace) -> None:
     if results.typology is not None:
         functions, sentences = dd.nrml_functions(results.typology)
     elif results.fragility is not None:
+        if not results.fragility.has_fit:
+            raise dd.DondoloError(f"{options.prefix}: has no curve (status '{results.fragility.status}')")
         functions = {taxonomy_of(results.population[0].name): {"collapse": results.fragility}}
     else:
         raise dd.InputError(f"{options.prefix}: is a single motion, which has no curves")
     for sentence in sentences:
-        print(f"dondolo: {sentence}", file=sys.stderr)
+        _tell(sentence)
     name = re.sub("[^A-Za-z0-9_-]", "_", Path(options.prefix).name)[:100]
     dd.write_nrml(path, functions, id=name)
-    print(f"written: {path} ({len(functions)} function{'s' if len(functions) > 1 else ''})")
+    _report_done("written", path, f" ({len(functions)} function{'s' if len(functions) > 1 else ''})")
 
 
 def _plot(options: argparse.Namespace) -> None:
@@ -274,7 +295,7 @@ def _film(path: str, motion: dd.Response) -> None:
             image.replace(part)
         finally:
             image.unlink(missing_ok=True)
-    print(f"drawn: {path}" + (f" ({speed:.3g} times as fast as the motion)" if speed > 1.0 else ""))
+    _report_done("drawn", path, f" ({speed:.3g} times as fast as the motion)" if speed > 1.0 else "")
 
 
 def _save(path: str, kind: str, draw: Callable[[], Any]) -> None:
@@ -292,7 +313,7 @@ def _save(path: str, kind: str, draw: Callable[[], Any]) -> None:
         raise dd.InputError(f"--format {kind}: {str(error).splitlines()[0]}") from None
     finally:
         plt.close(figure)
-    print(f"drawn: {path}")
+    _report_done("drawn", path)
 
 
 if __name__ == "__main__":

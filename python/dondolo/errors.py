@@ -11,9 +11,18 @@ from typing import Any
 _LONGEST = 2000
 
 
-def _visible(character: str) -> str:
+def _escaped(character: str) -> str:
     """A character, escaped if it cannot be printed."""
     return character if character.isprintable() else character.encode("unicode_escape").decode()
+
+
+def visible(text: str) -> str:
+    """A line as it is safe on a terminal: control characters and marks of direction escaped, a long middle left out.
+
+    Names of files and cells of tables may have any characters.
+    """
+    line = text if len(text) <= _LONGEST else f"{text[:1500]} ... {text[-400:]}"
+    return line if line.isprintable() else "".join(map(_escaped, line))
 
 
 class DondoloError(Exception):
@@ -24,9 +33,7 @@ class DondoloError(Exception):
     """
 
     def __str__(self) -> str:
-        lines = super().__str__().split("\n")
-        shown = (line if len(line) <= _LONGEST else f"{line[:1500]} ... {line[-400:]}" for line in lines)
-        return "\n".join("".join(map(_visible, line)) for line in shown)
+        return "\n".join(map(visible, super().__str__().split("\n")))
 
 
 class InputError(DondoloError, ValueError):
@@ -35,6 +42,9 @@ class InputError(DondoloError, ValueError):
 
 class MissingFileError(FileNotFoundError, InputError):
     """A file that was asked for does not exist."""
+
+    # That of OSError comes first, and escapes nothing.
+    __str__ = DondoloError.__str__
 
 
 class DondoloWarning(UserWarning):
@@ -61,6 +71,9 @@ class DondoloWarning(UserWarning):
     ) -> None:
         super().__init__(sentence)
         self.code, self.subject, self.numbers = code, dict(subject or {}), dict(numbers or {})
+
+    def __str__(self) -> str:
+        return visible(super().__str__())
 
     def __reduce__(self) -> tuple[Any, ...]:
         return DondoloWarning, (str(self), self.code, self.subject, self.numbers)

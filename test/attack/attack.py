@@ -19,7 +19,7 @@ from pathlib import Path
 
 from faults import Faults
 from kills import Kills
-from readers import EXECUTABLE, FORTRAN, PYTHON, Attack, Tally
+from readers import COMMANDS, EXECUTABLE, FORTRAN, PYTHON, Attack, Tally
 from samples import ROOT, Programs
 from workers import Workers
 
@@ -63,7 +63,7 @@ def attack(programs: Programs, folder: Path, given: argparse.Namespace) -> Itera
     def chosen(*names: str) -> bool:
         return not given.only or any(name in given.only for name in names)
 
-    if given.case or chosen("files", *FORTRAN, *PYTHON, *EXECUTABLE):
+    if given.case or chosen("files", *FORTRAN, *PYTHON, *COMMANDS, *EXECUTABLE):
         files = Attack(programs, folder, KEPT)
         if given.case:
             family, _, number = given.case.partition(":")

@@ -34,6 +34,7 @@ SANITIZERS = {
 }
 FORTRAN = ("case", "walls", "catalogue", "numbers", "records", "store")
 PYTHON = ("results", "archive", "hazard", "openquake", "nrml")
+COMMANDS = ("report", "plot", "xlsx", "curves")
 EXECUTABLE = ("study", "merge")
 
 
@@ -215,8 +216,8 @@ class Attack:
 
     def shares(self, cases: int) -> Iterator[tuple[str, int]]:
         """How many cases each family gets: a whole run of the executable costs as much as many readings."""
-        for family in (*FORTRAN, *PYTHON, *EXECUTABLE):
-            yield family, max(1, cases // 10) if family in EXECUTABLE else cases
+        for family in (*FORTRAN, *PYTHON, *COMMANDS, *EXECUTABLE):
+            yield family, max(1, cases // 10) if family in (*EXECUTABLE, *COMMANDS) else cases
 
     def damaged(self, family: str, number: int) -> tuple[random.Random, bytes]:
         """Contents of a case: always the same for its family and number."""
@@ -231,16 +232,16 @@ class Attack:
 
     def prepare(self, family: str, number: int) -> tuple[str, Path]:
         """Write the files of a case: the family to ask for, and the path."""
-        if family == "results":
-            return family, self.damaged_results(number)
+        if family == "results" or family in COMMANDS:
+            return family, self.damaged_results(family, number)
         suffix = {"archive": ".npz", "case": ".nml"}.get(family, "")
         path = self.inputs / f"attacked{suffix}"
         path.write_bytes(self.damaged(family, number)[1])
         return family, path
 
-    def damaged_results(self, number: int) -> Path:
+    def damaged_results(self, family: str, number: int) -> Path:
         """A set of result files one of which is damaged, or that of another run."""
-        chance = random.Random(f"results:{number}")
+        chance = random.Random(f"{family}:{number}")
         task = chance.choice(TASKS)
         files = dict(self.results[task])
         damage = Damage(chance, [one for kind in self.results.values() for one in kind.values()])
@@ -259,7 +260,7 @@ class Attack:
 
     def reader(self, family: str) -> Reader:
         """A process for a family."""
-        if family in PYTHON:
+        if family in (*PYTHON, *COMMANDS):
             return Reader([self.programs.python, Path(__file__).with_name("results.py"), "attack"], self.folder, {})
         return Reader([self.programs.readers, "attack"], self.folder, SANITIZERS)
 

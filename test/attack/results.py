@@ -5,20 +5,27 @@ python results.py attack | samples FOLDER
 
 from __future__ import annotations
 
+import contextlib
 import dataclasses
+import gc
 import hashlib
+import io
 import resource
 import sys
 import warnings
 from pathlib import Path
 from typing import Any
 
+import dondolo.__main__
 import numpy as np
 
 import dondolo as dd
 
 # Address space of the process: what is more than any small file needs [bytes]
 LARGEST = 6_000_000_000
+# Commands of the shell that read result sets, and the ends of what they write
+COMMANDS = ("report", "plot", "xlsx", "curves")
+SUFFIXES = {"report": ".html", "xlsx": ".xlsx", "curves": ".xml"}
 # Intensities at which curves are evaluated
 GRID = np.append(0.0, np.geomspace(1e-3, 100.0, 200))
 
@@ -80,9 +87,31 @@ def digest(stored: dd.StoredResults) -> str:
     return hashlib.sha256(repr((parts, settings, numbers)).encode()).hexdigest()[:16]
 
 
+def run_command(command: str, prefix: str) -> str:
+    """Run a command of the shell on a result set; whatever it says beside one sentence is a failure."""
+    output = Path(prefix).with_name("made")
+    options = {"plot": []}.get(command, ["-o", f"{output}{SUFFIXES.get(command, '')}"])
+    said = io.StringIO()
+    unraisable: list[str] = []
+    sys.unraisablehook = lambda event: unraisable.append(f"{event.err_msg}: {event.exc_value!r}")
+    with contextlib.redirect_stderr(said), contextlib.redirect_stdout(io.StringIO()):
+        code = dondolo.__main__.main([{"curves": "nrml"}.get(command, command), prefix, *options])
+        gc.collect()
+    sys.unraisablehook = sys.__unraisablehook__
+    lines = [line for line in said.getvalue().splitlines() if not line.startswith("dondolo: warning: ")]
+    lines = [line.removeprefix("dondolo: ") if line.startswith("dondolo: ") else f"UNCLEAR {line}" for line in lines]
+    if unraisable or any(line.startswith("UNCLEAR") for line in lines):
+        return f"UNCLEAR {unraisable} {lines}"
+    if code == 0:
+        return "read 1"
+    return f"refused {'|'.join(lines)}" if code in (1, 2) and len(lines) == 1 else f"ENDS with {code}: {lines}"
+
+
 def answer(family: str, path: str) -> str:
     """Read a file and say what came of it."""
     try:
+        if family in COMMANDS:
+            return run_command(family, path)
         if family == "archive":
             results = [dd.load(path)]
         elif family == "hazard":

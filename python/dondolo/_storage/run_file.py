@@ -15,6 +15,8 @@ from dondolo._fortran.library import unpack_warning
 from dondolo.errors import DondoloWarning, InputError
 
 FORMAT = "dondolo run 2"
+# The last but one day of the calendar [s since 1970]
+_LATEST = 253_402_128_000.0
 
 # What is known of a record, if its header or the catalogue states it
 RECORD_FACTS = ("date", "magnitude", "station", "component")
@@ -146,7 +148,7 @@ def read_run_file(path: str) -> RunFile:
     text = read_text(path)
     try:
         content = json.loads(text)
-        written = datetime.fromtimestamp(os.stat(path).st_mtime).astimezone()
+        written = _date(os.stat(path).st_mtime)
     except (OSError, ValueError, RecursionError) as error:
         raise InputError(f"{path}: no JSON: {error}") from error
     if not isinstance(content, dict) or content.get("format") != FORMAT:
@@ -179,6 +181,11 @@ def read_run_file(path: str) -> RunFile:
         )
     except (LookupError, TypeError, ValueError) as error:
         raise InputError(f"{path}: {error}") from error
+
+
+def _date(seconds: float) -> datetime:
+    """Local date and time; clocks of file systems go further than the calendar, which ends in the year 9999."""
+    return datetime.fromtimestamp(min(max(seconds, 0.0), _LATEST)).astimezone()
 
 
 def _run(content: Mapping[str, Any]) -> str:

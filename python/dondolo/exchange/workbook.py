@@ -12,7 +12,7 @@ from typing import Any
 from dondolo._base.files import as_file, whole_file
 from dondolo._base.transactions import RUN_FILE
 from dondolo._storage.run_file import RunFile, read_run_file
-from dondolo.errors import DondoloError, InputError
+from dondolo.errors import DondoloError, InputError, visible
 from dondolo.exchange.result_file import ResultFile
 
 # Numbers as tables have them; 007 is a name.
@@ -21,7 +21,16 @@ _NUMBER = re.compile(r"[+-]?(0|[1-9]\d*)(\.\d*)?(E[+-]?\d+)?")
 # Rows that a sheet of Excel has
 _MOST_ROWS = 2**20
 
+# What a sheet can be called
+_SHEET = re.compile(r"[A-Za-z0-9_-]{1,31}")
+# Numbers and characters that a cell can have
+_LARGEST = 9.99999999999999e307
+_LONGEST = 32767
+
 _CREATOR = "dondolo"
+
+# Titles and rows
+_Sheet = tuple[list[str], Iterable[Iterable[Any]]]
 
 
 def write_workbook(prefix: str | os.PathLike[str], path: str | os.PathLike[str]) -> None:
@@ -44,6 +53,7 @@ def write_workbook(prefix: str | os.PathLike[str], path: str | os.PathLike[str])
     """
     try:
         import openpyxl
+        from openpyxl.writer.excel import ExcelWriter
     except ImportError:
         raise DondoloError(
             "openpyxl is not installed: pip install 'dondolo[spreadsheets]'; spreadsheets open the CSV files too"
@@ -52,18 +62,39 @@ def write_workbook(prefix: str | os.PathLike[str], path: str | os.PathLike[str])
     if target.exists() and not _is_ours(target):
         raise InputError(f"{target}: exists, and is no workbook of dondolo")
     run = read_run_file(os.fspath(prefix) + RUN_FILE)
-    book = openpyxl.Workbook(write_only=True)
-    book.properties.creator = _CREATOR
-    _add_sheet(book, "case", ["group", "variable", "value"], _case(run))
+    # All tables before the workbook: one that is left unfinished makes openpyxl complain at the end.
+    sheets: dict[str, _Sheet] = {"case": (["group", "variable", "value"], _case(run))}
     for written in run.files:
         table = ResultFile(os.fspath(prefix) + written.name, run)
         table.check(run)
         if len(table) >= _MOST_ROWS:
             raise InputError(f"{table.path}: has {len(table)} rows, more than a sheet of a workbook can have")
         columns = [_values(table.texts(column)) for column in table]
-        _add_sheet(book, written.name.removeprefix("_").removesuffix(".csv"), list(table), zip(*columns, strict=True))
-    with whole_file(target) as part:
-        book.save(part)
+        name = written.name.removeprefix("_").removesuffix(".csv")
+        if not _SHEET.fullmatch(name) or name in sheets:
+            raise InputError(f"{run.path}: files: '{written.name}' is not the name of a table")
+        sheets[name] = (list(table), zip(*columns, strict=True))
+    book = openpyxl.Workbook(write_only=True)
+    book.properties.creator = _CREATOR
+    for name, (titles, rows) in sheets.items():
+        _add_sheet(book, name, titles, rows)
+    with whole_file(target) as part, _Archive(part, "w", zipfile.ZIP_DEFLATED, strict_timestamps=False) as archive:
+        ExcelWriter(book, archive).save()
+
+
+class _Archive(zipfile.ZipFile):
+    """An archive whose members have the date that archives begin with, whatever the clock of the machine says.
+
+    zipfile fails for years before 1980 and after 2107.
+    """
+
+    def writestr(self, zinfo_or_arcname: str | zipfile.ZipInfo, data: Any, *given: Any, **more: Any) -> None:
+        member = zinfo_or_arcname
+        if isinstance(member, str):
+            member = zipfile.ZipInfo(member)
+            member.compress_type = self.compression
+            member.external_attr = 0o600 << 16
+        super().writestr(member, data, *given, **more)
 
 
 def _case(run: RunFile) -> list[list[Any]]:
@@ -73,15 +104,23 @@ def _case(run: RunFile) -> list[list[Any]]:
         for name, value in settings.items():
             if isinstance(value, (list, tuple)):
                 value = " ".join(map(str, value))
-            rows.append([group, name, value])
+            is_plain = value is None or isinstance(value, (bool, str)) or _is_number(value)
+            rows.append([group, name, value if is_plain else str(value)])
     return rows + [["", "warning", str(warning)] for warning in run.warnings]
 
 
 def _values(cells: list[str]) -> list[Any]:
     """A column: numbers if all of its cells are, and nothing where a cell is empty."""
     if all(_NUMBER.fullmatch(cell) for cell in cells if cell):
-        return [(float(cell) if set(cell) & set(".E") else int(cell)) if cell else None for cell in cells]
+        numbers = [(float(cell) if set(cell) & set(".E") else int(cell)) if cell else None for cell in cells]
+        if all(number is None or _is_number(number) for number in numbers):
+            return numbers
     return list(cells)
+
+
+def _is_number(value: Any) -> bool:
+    """Whether a value is a number that a cell can have."""
+    return isinstance(value, (int, float)) and abs(value) < _LARGEST
 
 
 def _add_sheet(book: Any, name: str, titles: list[str], rows: Iterable[Iterable[Any]]) -> None:
@@ -92,6 +131,8 @@ def _add_sheet(book: Any, name: str, titles: list[str], rows: Iterable[Iterable[
     sheet.freeze_panes = "A2"
 
     def cell(value: Any) -> Any:
+        if isinstance(value, str):
+            value = visible(value)[:_LONGEST]
         made = WriteOnlyCell(sheet, value=value)
         if isinstance(value, str):
             # A name that begins with = is no formula.

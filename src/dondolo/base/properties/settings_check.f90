@@ -13,6 +13,10 @@ module dondolo_settings_check
 
    public :: check_settings
 
+   !> Values of a list that a message shows at most, and what it shows in place of the others
+   integer, parameter :: most_shown = 12
+   character(len=*), parameter :: more = ', ...'
+
 contains
 
    !> Check what is there against the table: `name = value: what is allowed`
@@ -59,6 +63,7 @@ contains
                call problems%note(trim(property%name)//': '//allowed)
                cycle
             end if
+            k = 0
             select case (property%kind)
             case (is_text, is_words)
                word = settings%word(trim(property%name))
@@ -70,13 +75,19 @@ contains
                if (allocated(allowed)) deallocate (allowed)
                list = settings%list(trim(property%name))
                do k = 1, size(list)
-                  if (.not. allocated(allowed)) call check_number(property, list(k), allowed)
+                  call check_number(property, list(k), allowed)
+                  if (allocated(allowed)) exit
                end do
             case default
                if (allocated(allowed)) deallocate (allowed)
             end select
-            if (allocated(allowed)) call problems%note(trim(property%name)//' = '// &
-               & value_text(settings, trim(property%name))//': '//allowed)
+            if (.not. allocated(allowed)) cycle
+            if (property%kind == is_list .and. k > most_shown) then
+               call problems%note(trim(property%name)//' = '//value_text(settings, trim(property%name))//' (value '// &
+                  & to_text(k)//' = '//to_text(list(k))//'): '//allowed)
+            else
+               call problems%note(trim(property%name)//' = '//value_text(settings, trim(property%name))//': '//allowed)
+            end if
          end associate
       end do
    end subroutine check_settings
@@ -107,7 +118,7 @@ contains
       end do
    end function one_of
 
-   !> Length of a value as it stands in messages
+   !> Length of a value as messages show it
    pure integer function value_length(settings, name)
       class(settings_type), intent(in) :: settings
       !> Name of a property that has a value
@@ -120,13 +131,16 @@ contains
          value_length = len(shown(settings%word(name))) + 2
       else if (settings%has_list(name)) then
          list = settings%list(name)
-         value_length = sum([(len(to_text(list(i))) + 2, i=1, size(list))]) - 2
+         value_length = merge(len(more), 0, size(list) > most_shown) - 2
+         do i = 1, min(size(list), most_shown)
+            value_length = value_length + len(to_text(list(i))) + 2
+         end do
       else
          value_length = len(to_text(settings%number(name)))
       end if
    end function value_length
 
-   !> A value as it stands in messages
+   !> A value as messages show it: of a list the first values
    pure function value_text(settings, name) result(text)
       class(settings_type), intent(in) :: settings
       !> Name of a property that has a value
@@ -142,12 +156,13 @@ contains
       else if (settings%has_list(name)) then
          list = settings%list(name)
          length = 0
-         do i = 1, size(list)
+         do i = 1, min(size(list), most_shown)
             if (i > 1) text(length + 1:) = ', '
             if (i > 1) length = length + 2
             text(length + 1:) = to_text(list(i))
             length = length + len(to_text(list(i)))
          end do
+         if (size(list) > most_shown) text(length + 1:) = more
       else
          text = to_text(settings%number(name))
       end if

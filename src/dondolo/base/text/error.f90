@@ -107,19 +107,21 @@ contains
       !> Where it happened
       character(len=*), intent(in) :: place
 
-      character(len=:), allocatable :: message
+      character(len=:), allocatable :: message, shown_place
       integer :: first, length
 
       if (.not. allocated(error)) return
+      ! A file's name may have any bytes, and those of a folder are not the user's choice.
+      shown_place = visible(place)
       message = ''
       first = 1
       do
          length = index(error%message(first:), new_line('a'))
          if (length == 0) exit
-         message = message//place//': '//error%message(first:first + length - 1)
+         message = message//shown_place//': '//error%message(first:first + length - 1)
          first = first + length
       end do
-      error%message = message//place//': '//error%message(first:)
+      error%message = message//shown_place//': '//error%message(first:)
    end subroutine add_place
 
    !> Note something that is wrong in what the user gave

@@ -102,7 +102,7 @@ contains
          call next_character(text, at, next, code)
          if (is_steering(code)) then
             associate (sign => escape(code, text(at:at)))
-               visible(length + 1:) = sign
+               visible(length + 1:length + len_trim(sign)) = sign
                length = length + len_trim(sign)
             end associate
          else
