@@ -458,6 +458,29 @@ def test_wrong_options(draw, message, wall, motion, stripes):
         draw(wall, motion, stripes)
 
 
+def test_bars_and_band_are_said_to_differ(stripes):
+    """Bars are of one stripe, its histories independent, the band is of the curve, clustered: the legend says so."""
+
+    def words(ax):
+        return [text.get_text() for text in ax.get_legend().get_texts()]
+
+    curve = stripes.fit()
+    alone = words(curve.plot(confidence=0.9))
+    assert "fractions; bars: 90 % of one stripe, exact binomial" in alone
+    assert "band: 90 % of the curve, clustered by records" in alone
+    naive = dd.fit_fragility(curve.levels, curve.collapses, curve.histories, im="pga")
+    assert "band: 95 % of the curve, histories independent" in words(naive.plot())
+    # Several in one figure: each explanation once, behind the curves.
+    ax = curve.plot(label="one")
+    several = words(curve.plot(ax, label="two"))
+    assert several == [
+        "one",
+        "two",
+        "bars: 95 % of one stripe, exact binomial",
+        "band: 95 % of the curve, clustered by records",
+    ]
+
+
 def test_titles_of_curves(stripes):
     assert stripes.fit().plot().get_title(loc="left") == "parapet"
     assert stripes.fit().plot(label="one of several").get_title(loc="left") == ""

@@ -755,3 +755,95 @@ def test_the_browser_would_see_a_request(browser, served, pages):
     _, console = browse(browser, folder, "--dump-dom", f"{address}/report.html")
     assert len(console) == 1
     assert "Content Security Policy" in console[0]
+
+
+# --- What fails, and what paper shows
+
+
+def test_a_wall_that_fails_its_checks_is_not_green(records, tmp_path):
+    """Without warnings too; a wall that passes all of them is."""
+    weak, firm = (dd.OneSidedWall(1.5, thickness, name="front") for thickness in (0.18, 1.6))
+    site = dd.Site(ag=0.25, f0=2.5, tc_star=0.35)
+    strong = [record for record in records if record.intensity("pga") > 0.1]
+    stripes = dd.multiple_stripe(weak, strong, [0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0], progress=False)
+    check = dd.check_ntc(weak, site)
+    assert not check.verified["linear", "SLV"]
+    dd.report(stripes, tmp_path / "weak.html", check=check)
+    page = read(tmp_path / "weak.html")
+    assert "Not verified by NTC 2018" in page.text
+    assert f"linear SLV, capacity / demand {check.value('linear', 'SLV', 'ratio'):.3g}" in page.text
+    assert "No warnings" not in page.text
+    dd.report(stripes, tmp_path / "bare.html")
+    assert "No warnings" in read(tmp_path / "bare.html").text
+    assert all(dd.check_ntc(firm, site).verified.values())
+    stripes = dd.multiple_stripe(firm, records, [0.4, 0.8, 1.2], progress=False)
+    dd.report(stripes, tmp_path / "firm.html", check=dd.check_ntc(firm, site))
+    assert "Not verified" not in read(tmp_path / "firm.html").text
+
+
+def test_failing_walls_of_a_population_are_named(root, executable, tmp_path):
+    rows = [f"wall {i},one_sided,{3.0 + 0.1 * i},0.25" for i in range(6)] + ["firm,one_sided,1.0,0.9"]
+    (tmp_path / "walls.csv").write_text("\n".join(["name,mechanism,height,thickness", *rows]) + "\n")
+    (tmp_path / "case.nml").write_text(
+        "&job task = 'typology', output = 'out' /\n&population file = 'walls.csv' /\n"
+        f"&records catalogue = '{root / 'data/records/synthetic44.csv'}' /\n"
+        "&stripes levels = 0.2, 0.4, 0.8 /\n&check ag = 0.2, f0 = 2.5, tc_star = 0.35 /\n"
+    )
+    subprocess.run([executable, "--quiet", "case.nml"], cwd=tmp_path, capture_output=True, check=True)
+    found = dd.read_results(tmp_path / "out")
+    dd.report(found, tmp_path / "page.html")
+    ratios = [check.value("linear", "SLV", "ratio") for check in found.checks]
+    assert f"linear SLV, least capacity / demand {min(ratios):.3g}: 6 of 7 walls" in read(tmp_path / "page.html").text
+
+
+def test_the_records_of_a_run_are_described(executable, root, tmp_path):
+    """Event, date, magnitude, station, component, from the catalogue by way of the executable, and in Python."""
+    (tmp_path / "a.txt").write_text("\n".join(f"{np.sin(0.2 * i):.6f}" for i in range(400)) + "\n")
+    (tmp_path / "b.txt").write_text("\n".join(f"{np.cos(0.3 * i):.6f}" for i in range(400)) + "\n")
+    (tmp_path / "catalogue.csv").write_text(
+        "file,dt_s,units,event,date,magnitude,station,component\n"
+        "a.txt,0.01,m/s2,Lakeside,2019-05-04,6.1,QQX,N\nb.txt,0.01,m/s2,Lakeside,2019-05-04,6.1,QQX,E\n"
+    )
+    (tmp_path / "case.nml").write_text(
+        "&job task = 'stripes', output = 'out' /\n&wall mechanism = 'one_sided', height = 2, thickness = 0.3 /\n"
+        "&records catalogue = 'catalogue.csv' /\n&stripes levels = 0.1, 0.3, 0.6 /\n"
+    )
+    subprocess.run([executable, "--quiet", "case.nml"], cwd=tmp_path, capture_output=True, check=True)
+    found = dd.read_results(tmp_path / "out")
+    described = {"date": "2019-05-04", "magnitude": "6.1", "station": "QQX"}
+    assert described.items() <= found.run.records[0].items()
+    for source in (found, dd.run_case(tmp_path / "case.nml", progress=False)):
+        dd.report(source, tmp_path / "page.html")
+        table = read(tmp_path / "page.html").table("Records, as their headers")
+        assert table["event"] == ["Lakeside", "Lakeside"]
+        assert table["magnitude"] == ["6.1", "6.1"]
+        assert (table["station"][1], table["component"][1], table["date"][1]) == ("QQX", "E", "2019-05-04")
+
+
+def test_paper_shows_what_is_folded_up(browser, pages, tmp_path):
+    """A page printed by a browser, and the report as PDF, have every table of the page."""
+    if not shutil.which("pdftotext"):
+        pytest.skip("pdftotext is not installed")
+    page = pages / "stripes.html"
+    last = next(iter(read(page).table("Records, and collapses").values()))[-1]
+    browse(browser, tmp_path, f"--print-to-pdf={tmp_path}/page.pdf", page.as_uri())
+    words = subprocess.run(["pdftotext", tmp_path / "page.pdf", "-"], capture_output=True, text=True, check=True).stdout
+    assert last in words.partition("Table of the histories of a stripe")[2]
+
+
+def test_pdf_is_printed_unfolded(monkeypatch, stripes, tmp_path):
+    """Whatever browser prints it."""
+    printed = []
+
+    def run(command, **_):
+        source = Path(command[-1].removeprefix("file://"))
+        printed.append(source.read_text(encoding="utf-8"))
+        Path(next(one for one in command if one.startswith("--print-to-pdf=")).partition("=")[2]).write_bytes(
+            b"%PDF-1.7\n"
+        )
+
+    monkeypatch.setattr(shutil, "which", lambda name: f"/usr/bin/{name}")
+    monkeypatch.setattr(subprocess, "run", run)
+    dd.report(stripes, tmp_path / "page.pdf")
+    assert "<details open>" in printed[0]
+    assert "<details>" not in printed[0]

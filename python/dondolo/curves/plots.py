@@ -44,7 +44,7 @@ def draw_fragility(
             color=style.BLACK if label is None else color,
             elinewidth=0.8,
             capsize=2,
-            label=_of_bars(confidence) if label is None else None,
+            label=f"fractions; {_of_bars(confidence)}" if label is None else None,
             zorder=3,
         )
     grid = curves.grid(x if len(x) else fragility.theta * np.exp(3.0 * fragility.beta))
@@ -71,8 +71,11 @@ def draw_fragility(
     ax.set_ylim(-0.02, 1.02)
     ax.set_xlabel(style.im_label(fragility.im))
     ax.set_ylabel("probability of collapse")
-    if label is not None:
-        _explain(ax, fragility, confidence)
+    if label is not None and len(x):
+        # Where several curves share the axes
+        style.note(ax, _of_bars(confidence))
+    if label is not None and fragility.has_errors:
+        style.note(ax, _of_band(fragility, confidence))
     if fragility.wall is not None and label is None:
         style.title(ax, fragility.wall.name)
     style.legend(ax, loc="upper left" if label is None else "lower right")
@@ -98,7 +101,7 @@ def draw_discrete(curve: DiscreteFragility, ax: Axes | None, label: str | None, 
 
 def _of_bars(confidence: float) -> str:
     """What the bars are: another statistic than the band."""
-    return f"fractions; bars: {100.0 * confidence:.4g} % of one stripe, exact binomial"
+    return f"bars: {100.0 * confidence:.4g} % of one stripe, exact binomial"
 
 
 def _of_band(fragility: Fragility, confidence: float) -> str:
@@ -106,16 +109,6 @@ def _of_band(fragility: Fragility, confidence: float) -> str:
     kinds = " and ".join(part.kind for part in fragility.parts) or "records"
     how = f"clustered by {kinds}" if fragility.errors == "clustered" else "histories independent"
     return f"band: {100.0 * confidence:.4g} % of the curve, {how}"
-
-
-def _explain(ax: Axes, fragility: Fragility, confidence: float) -> None:
-    """Where several curves share the axes, say once what bars and bands are."""
-    known = ax.get_legend_handles_labels()[1]
-    texts = [_of_bars(confidence)] if len(fragility.levels) else []
-    texts += [_of_band(fragility, confidence)] if fragility.has_errors else []
-    for text in texts:
-        if text not in known:
-            ax.plot([], [], linestyle="none", label=text)
 
 
 def parameters(fit: Fragility) -> str:

@@ -29,6 +29,9 @@ BRICK = "#E8C9A8"
 
 _DPI = 110.0
 
+# Mark of what a legend explains besides lines
+_NOTE = "note"
+
 RC: dict[Any, Any] = {
     "axes.spines.top": False,
     "axes.spines.right": False,
@@ -119,9 +122,23 @@ def title(ax: Axes, text: str, **options: Any) -> None:
     ax.set_title(text, loc="left", y=1.0, parse_math=False, **options)
 
 
+def note(ax: Axes, text: str) -> None:
+    """Explain something in the legend, once, that has no line of its own."""
+    if text not in ax.get_legend_handles_labels()[1]:
+        ax.plot([], [], linestyle="none", label=text, gid=_NOTE)
+
+
+def is_note(handle: Any) -> bool:
+    """Is an entry of a legend an explanation?"""
+    return getattr(handle, "get_gid", lambda: None)() == _NOTE
+
+
 def legend(ax: Axes, **options: Any) -> None:
     """A legend without a frame, if there is something to explain; names in it are no formulas."""
     handles, labels = ax.get_legend_handles_labels()
     if handles:
+        # What explains all of them comes last.
+        order = sorted(range(len(handles)), key=lambda i: is_note(handles[i]))
+        handles, labels = [handles[i] for i in order], [labels[i] for i in order]
         for text in ax.legend(handles, labels, frameon=False, fontsize=8.5, **options).get_texts():
             text.set_parse_math(False)
