@@ -332,6 +332,25 @@ def test_one_wall_with_two_mechanisms(few, tmp_path):
     assert functions["b"]["collapse"].probability[-1] == pytest.approx(0.9, abs=0.005)
 
 
+def test_a_union_beyond_the_levels_is_warned_of(executable, root, tmp_path):
+    """The executable, its files and Python say it of the union, and nothing of a population."""
+    text = CASE.format(catalogue=root / "data/records/synthetic44.csv").replace(
+        "0.15, 0.2, 0.25, 0.3, 0.4, 0.5", "0.15, 0.2"
+    )
+    (tmp_path / "case.nml").write_text(text)
+    done = subprocess.run([executable, "case.nml"], cwd=tmp_path, capture_output=True, text=True, check=True)
+    said = "the median of the mechanisms of 'front' in the same histories, "
+    assert said in done.stderr
+    assert "the population" not in done.stderr
+    theirs = dd.read_results(tmp_path / "out").typology.warnings
+    with pytest.warns(dd.DondoloWarning, match=said) as caught:
+        mine = dd.run_case(tmp_path / "case.nml", progress=False).typology
+    assert not any("the population" in str(one.message) for one in caught)
+    (own,) = (one for one in mine.warnings if one.code == "union_extrapolated")
+    assert str(own) in map(str, theirs)
+    assert own.numbers["theta"] == pytest.approx(mine.unions["front"].theta)
+
+
 def test_hazard(ran, tmp_path):
     """The annual frequency of the report is that of the union."""
     found = dd.read_results(ran[0] / "out")

@@ -19,12 +19,12 @@ module curves
    use dondolo_wall_curves, only : combined => in_series, wall_curves_type
    use dondolo_warning, only : warnings_type
    use dondolo_warning_sentence, only : warning_objects
-   use dondolo_warnings, only : fit_warning_type, warn_of_fit
+   use dondolo_warnings, only : fit_warning_type, warn_of_fit, warn_of_the_union => warn_of_union
    implicit none
    private
 
    public :: fit_curves, cluster_curves, cluster_changes, fit_ordinal, probability, in_series, warn_of_curve, fit_walls
-   public :: curve_of_population, student_quantile
+   public :: curve_of_population, student_quantile, warn_of_union
 
 contains
 
@@ -221,6 +221,26 @@ contains
       call send(parcel, error, sent, stat, message)
    end subroutine warn_of_curve
 
+   !> What the executable would warn of, of the curve of one facade or wall with several mechanisms; status as fit_curves has it
+   subroutine warn_of_union(name, theta, status, sent, stat, message)
+      character(len=*), intent(in) :: name
+      real(c_double), intent(in) :: theta
+      integer(c_int), intent(in) :: status
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(fragility_type) :: fragility
+      type(warnings_type) :: warnings
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+
+      fragility%status = status_names(status)
+      fragility%theta = theta
+      call warn_of_the_union(name, fragility, warnings)
+      call warning_objects(warnings, parcel%lines)
+      call send(parcel, error, sent, stat, message)
+   end subroutine warn_of_union
+
    !> Curves of rows (mechanisms of walls), of their walls and of the population. texts: mechanism and group of each row; names:
    !> of its wall; shares: weight and probability of occurrence of each row; rows: how many each wall has. Integers: number of
    !> the population's curves, statuses of the rows, of the walls and of the population's curves, and the number of walls in
@@ -272,7 +292,12 @@ contains
             call parcel%lines%add(groups(i)%group)
             call parcel%lines%add(groups(i)%mechanism)
          end do
-         call fits%warn(groups, warnings)
+         ! The number of one wall with several mechanisms is their union, of which warn_of_union says what there is to say.
+         if (w == 1 .and. r > 1) then
+            call fits%warn(groups(:0), warnings)
+         else
+            call fits%warn(groups, warnings)
+         end if
          call warning_objects(warnings, parcel%lines)
       end if
       call send(parcel, error, sent, stat, message)

@@ -187,6 +187,12 @@ def warnings_of_curve(wall: Handle, levels: FloatArray, largest_edp: float, curv
     return unpack_warnings(parcel.lines)
 
 
+def warnings_of_union(name: str, status: str, theta: float) -> list[DondoloWarning]:
+    """What the executable would warn of, of the curve of one facade or wall with several mechanisms."""
+    code = constants().statuses.index(status) + 1
+    return unpack_warnings(receive(*_core.curves.warn_of_union(as_text("name", name), theta, code)).lines)
+
+
 def probability(theta: float, beta: float, x: FloatArray) -> FloatArray:
     """Probabilities of collapse of a lognormal curve."""
     found: FloatArray = _core.curves.probability(theta, beta, x)

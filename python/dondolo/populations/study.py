@@ -105,6 +105,7 @@ def typology(
     flags, told = run.flags.chosen(chosen), (*plan.warnings, *result.warnings)
     ties = tuple(run.ties[i] for i in chosen)
     result = with_clustered_errors(dataclasses.replace(result, flags=flags, warnings=told, ties=ties), flags)
+    result = result._with_union_warnings()
     if not whole.all():
         raise Interrupted(f"interrupted: {whole.sum()} of {len(whole)} walls are complete", result)
     warn(result.warnings)

@@ -15,7 +15,7 @@ from dondolo._base.arguments import FloatArray, as_number, one_of
 from dondolo._base.files import as_file
 from dondolo._base.shown import Shown, shown_dispersion
 from dondolo._base.transactions import publishing
-from dondolo._fortran.curves import FlatPopulation, coded
+from dondolo._fortran.curves import FlatPopulation, coded, warnings_of_union
 from dondolo._fortran.library import constants, warn
 from dondolo._fortran.records import levels_in_words, unit_of
 from dondolo._storage import tables
@@ -149,6 +149,14 @@ class Typology(Shown, Saved):
         """Whether the walls are designs of one wall, of which one will be built: nothing is a mean over them."""
         return not self.groups
 
+    def _with_union_warnings(self) -> Typology:
+        """The same with what there is to say of the curve of one facade, which is its number."""
+        if not self.facade or not self.knows_unions:
+            return self
+        union = self.unions[self.facade]
+        said = warnings_of_union(self.facade, union.status, union.theta)
+        return dataclasses.replace(self, warnings=tuple(dict.fromkeys([*self.warnings, *said])))
+
     def _as_alternatives(self) -> Typology:
         """The same walls as designs of one wall."""
         said = tuple(one for one in self.warnings if one.code not in _OF_POPULATION)
@@ -247,8 +255,8 @@ class Typology(Shown, Saved):
                     )
                 }
                 state = dataclasses.replace(state, **kept)  # type: ignore[arg-type]
-            self._states[value] = dataclasses.replace(state, ties=self.ties)
-            warn(warning.placed(f"damage state {value:g}: ") for warning in state.warnings)
+            self._states[value] = dataclasses.replace(state, ties=self.ties)._with_union_warnings()
+            warn(warning.placed(f"damage state {value:g}: ") for warning in self._states[value].warnings)
         return self._states[value]
 
     @functools.cached_property

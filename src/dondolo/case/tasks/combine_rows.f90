@@ -15,7 +15,7 @@ module dondolo_combine_rows
    use dondolo_study, only : runs_of, study_type
    use dondolo_typology, only : combine_population, typology_type
    use dondolo_unite_rows, only : unite_rows
-   use dondolo_warnings, only : fit_warning_type, warn_of_records
+   use dondolo_warnings, only : fit_warning_type, warn_of_records, warn_of_union
    implicit none
    private
 
@@ -60,7 +60,13 @@ contains
       call case%survey%oddities%warn(results%warnings)
       call warn_of_records(case%suite, case%solver%gravity, results%warnings)
       call case%survey%scales%warn(results%warnings)
-      call fits%warn(results%typologies(:, states), results%warnings)
+      if (results%population%walls() == 1 .and. results%unions%count() > 0) then
+         ! The number of one facade is its union.
+         call fits%warn(results%typologies(:0, states), results%warnings)
+         call warn_of_union(results%unions%name(1)%text, results%unions%curve(states, 1), results%warnings)
+      else
+         call fits%warn(results%typologies(:, states), results%warnings)
+      end if
    end subroutine combine_rows
 
    !> What the scatter of the medians of a wall with variants is owed to

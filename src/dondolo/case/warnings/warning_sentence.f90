@@ -91,7 +91,8 @@ contains
          text = 'collapse or not is in doubt, by the estimated error'
          if (warning%value('histories') > 0.0_wp) text = text//', in '//to_text(warning%value('histories_in_doubt'))// &
             & ' of '//to_text(warning%value('histories'))//' histories'
-      case ('curves_without_fit', 'curves_extrapolated', 'population_without_fit', 'population_extrapolated')
+      case ('curves_without_fit', 'curves_extrapolated', 'population_without_fit', 'population_extrapolated', &
+         & 'union_without_fit', 'union_extrapolated')
          call say_of_population(warning, text)
       case default
          call say_of_fit(warning, text)
@@ -196,6 +197,11 @@ contains
       case ('population_extrapolated')
          text = 'the median of '//group//', '//rounded(warning%value('theta'))//' (mechanism '//mechanism// &
             & '), lies outside the levels: the fit extrapolates'
+      case ('union_without_fit')
+         text = 'the mechanisms of '''//wall//''' in the same histories have no fit (status '//status//')'
+      case ('union_extrapolated')
+         text = 'the median of the mechanisms of '''//wall//''' in the same histories, '//rounded(warning%value('theta'))// &
+            & ', lies outside the levels: the fit extrapolates'
       case default
          text = to_text(warning%value('curves'))//' of '//to_text(warning%value('of_curves'))//' '//of
          if (warning%value('curves') > 1.0_wp) then

@@ -17,6 +17,7 @@ module dondolo_warnings
    private
 
    public :: scale_warning_type, fit_warning_type, warn_of_fall, warn_of_records, warn_of_fit, warn_of_error, warn_of_errors
+   public :: warn_of_union
 
    !> A record scaled by more than this hardly is the earthquake it was
    real(wp), parameter :: large_scale = 10.0_wp
@@ -384,6 +385,25 @@ contains
          end associate
       end do
    end subroutine warn_of_fits
+
+   !> Warn of the curve of one facade, or one wall with several mechanisms, in the same histories
+   subroutine warn_of_union(name, curve, warnings)
+      !> Name of the facade or the wall
+      character(len=*), intent(in) :: name
+      type(fragility_type), intent(in) :: curve
+      !> Warnings to add to
+      type(warnings_type), intent(inout) :: warnings
+
+      type(warning_type) :: warning
+
+      if (curve%status == 'ok') return
+      warning = warning_type('union_without_fit')
+      if (curve%has_fit()) warning%code = 'union_extrapolated'
+      call warning%about('wall', name)
+      call warning%about('status', trim(curve%status))
+      if (curve%has_fit()) call warning%with('theta', curve%theta)
+      call warnings%add(warning)
+   end subroutine warn_of_union
 
    !> Warn of histories whose estimated error is large, and of collapses in doubt
    subroutine warn_of_errors(stripes, records, edp_limit, warnings)
