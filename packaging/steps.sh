@@ -27,7 +27,7 @@ signs_of_life() {
    # Not sleep, which would outlive this loop and keep the output open
    while ! read -rt 10 <> <(:) && kill -0 $$ 2>/dev/null; do
       seconds=$((seconds + 10))
-      line=$(tail -n 1 "$1" | tr '\r\t' '\n ' | tail -n 1)
+      line=$(tail -n 20 "$1" | tr '\r\t' '\n ' | awk 'NF { line = $0 } END { print line }')
       say "   $seconds s: ${line:0:110}"
    done
 }
