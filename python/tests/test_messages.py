@@ -1,6 +1,7 @@
 """Messages: safe on a terminal whatever files are called, of bounded length, and made in linear time."""
 
 import datetime
+import json
 import os
 import subprocess
 import sys
@@ -191,3 +192,39 @@ def test_a_damaged_set_of_results_ends_in_a_sentence(results, tmp_path, name, ol
     lines = done.stderr.splitlines()
     assert len(lines) == (done.returncode == 2)
     assert all(line.startswith(f"dondolo: {tmp_path}") for line in lines)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda run: run["inputs"][0].pop("crc32"), "'crc32'"),
+        (lambda run: run["inputs"][0].update(bytes="x"), "bytes = 'x': must be of type int"),
+        (lambda run: run["settings"]["job"].update(title={"a": 1}), "settings: job: title = "),
+        (lambda run: run["settings"]["job"].update(title=None), "settings: job: title = None"),
+        (lambda run: run["settings"]["stripes"].update(levels=[0.1, np.nan]), "settings: stripes: levels = nan"),
+        (lambda run: run["settings"]["stripes"].update(edp_thresholds=["x", "y"]), "edp_thresholds: must be numbers"),
+        (lambda run: run["settings"]["stripes"].update(edp_thresholds=[0.4, 0.4]), "must increase strictly"),
+        (lambda run: run["settings"]["stripes"].update(edp_thresholds=[0.4, 1e9]), "must be at most edp_limit = 1"),
+        (lambda run: run["warnings"].append({"code": "note", "sentence": 3}), "sentence = 3: must be of type str"),
+        (
+            lambda run: run["warnings"].append({"code": "a", "sentence": "b", "subject": {"c": []}, "numbers": {}}),
+            r"c = \[\]: must be of type str",
+        ),
+    ],
+)
+def test_a_damaged_file_of_a_run_is_refused_where_it_is_read(run, tmp_path, change, message):
+    """And not where the report shows what it says."""
+    case = tmp_path / "case.nml"
+    catalogue = os.path.relpath(os.path.dirname(__file__) + "/../../data/records/synthetic44.csv", tmp_path)
+    case.write_text(
+        "&job task = 'stripes', output = 'a' /\n&wall mechanism = 'one_sided', height = 1.5, thickness = 0.25 /\n"
+        f"&records catalogue = '{catalogue}' /\n&stripes im = 'pga', levels = 0.3, 0.5, edp_thresholds = 0.4, 1.0 /\n"
+    )
+    assert run("--quiet", case).returncode == 0
+    path = tmp_path / "a_run.json"
+    content = json.loads(path.read_text())
+    dd.read_results(tmp_path / "a")
+    change(content)
+    path.write_text(json.dumps(content))
+    with pytest.raises(dd.InputError, match=rf"a_run\.json: .*{message}"):
+        dd.read_results(tmp_path / "a")

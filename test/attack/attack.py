@@ -17,6 +17,7 @@ import warnings
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
+from bombs import Bombs
 from faults import Faults
 from kills import Kills
 from readers import COMMANDS, EXECUTABLE, FORTRAN, PYTHON, Attack, Tally
@@ -36,7 +37,7 @@ def main() -> int:
     parser.add_argument(
         "--cases", type=int, default=1000, help="damaged files of each family; all else is in proportion"
     )
-    parser.add_argument("--only", nargs="*", help="families, as the table names them, or files, faults, kills, workers")
+    parser.add_argument("--only", nargs="*", help="families, as the table names them, or a group: files, bombs ...")
     parser.add_argument("--case", metavar="FAMILY:NUMBER", help="a damaged file, as a failure names it")
     given = parser.parse_args()
     programs = Programs(*(path.resolve() for path in given.programs))
@@ -82,7 +83,8 @@ def attack(programs: Programs, folder: Path, given: argparse.Namespace) -> Itera
         "one checkpoint": lambda: kills.one_checkpoint(max(4, n // 10)),
     }
     workers = Workers(programs, folder / "workers").families(max(1, n // 100))
-    for group, families in (("faults", faults), ("kills", interrupted), ("workers", workers)):
+    bombs = Bombs(programs, folder / "bombs").families()
+    for group, families in (("bombs", bombs), ("faults", faults), ("kills", interrupted), ("workers", workers)):
         for family, attacked in families.items():
             if chosen(group, family):
                 yield attacked()

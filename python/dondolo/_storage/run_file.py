@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from datetime import datetime
 from typing import Any
 
+from dondolo._base.arguments import increasing
 from dondolo._base.files import read_text
 from dondolo._base.transactions import RUN_NAME, Written
-from dondolo._fortran.library import unpack_warning
+from dondolo._fortran.library import constants, unpack_warning
 from dondolo.errors import DondoloWarning, InputError
 
 FORMAT = "dondolo run 2"
@@ -114,6 +116,21 @@ class RunFile:
         except ValueError as error:
             raise InputError(f"{self.path}: settings: {group}: {error}") from error
 
+    @property
+    def edp_thresholds(self) -> list[float]:
+        """Damage states that the case names [rotation / capacity], if there are several."""
+        given = self.setting("stripes", "edp_thresholds", [])
+        if len(given) < 2:
+            return []
+        limit = self.setting("solver", "edp_limit", constants().edp_limit)
+        try:
+            levels: list[float] = increasing("edp_thresholds", given).tolist()
+            if levels[-1] > limit:
+                raise InputError(f"edp_thresholds = {levels[-1]:g}: must be at most edp_limit = {limit:g}")
+        except InputError as error:
+            raise InputError(f"{self.path}: settings: stripes: {error}") from None
+        return levels
+
     def to_json(self) -> str:
         """The text of the file."""
         content: dict[str, Any] = {"format": FORMAT, "run": self.run, "version": self.version}
@@ -161,8 +178,8 @@ def read_run_file(path: str) -> RunFile:
             _member(content, "compiler", str, ""),
             _member(content, "engine", str, ""),
             _member(content, "real_bits", int, 64),
-            {group: _member(content["settings"], group, dict) for group in _member(content, "settings", dict)},
-            tuple(_all(content, "inputs", dict)),
+            {group: _settings(content["settings"], group) for group in _member(content, "settings", dict)},
+            tuple(_input(one) for one in _all(content, "inputs", dict)),
             tuple(
                 {key: _member(one, key, str) for key in ("name", "event", "checksum")}
                 | {key: _member(one, key, str) for key in RECORD_FACTS if key in one}
@@ -171,7 +188,7 @@ def read_run_file(path: str) -> RunFile:
             {name: _member(work, name, int) for name in work},
             _history(history) if history else None,
             tuple(_all(content, "notes", str)),
-            tuple(unpack_warning(one) for one in _all(content, "warnings", dict)),
+            tuple(_warning(one) for one in _all(content, "warnings", dict)),
             written,
             path,
             _run(content),
@@ -194,6 +211,36 @@ def _run(content: Mapping[str, Any]) -> str:
     if not RUN_NAME.fullmatch(run):
         raise ValueError(f"run = {run!r}: must be a name such as 20260131T235959Z-0123456789abcdef")
     return run
+
+
+def _settings(content: Mapping[str, Any], group: str) -> dict[str, Any]:
+    """Variables of a group: words, numbers, flags, and lists of them."""
+    values: dict[str, Any] = _member(content, group, dict)
+    for name, value in values.items():
+        for one in value if isinstance(value, list) else [value]:
+            if not isinstance(one, (str, bool, int, float)) or (isinstance(one, float) and not math.isfinite(one)):
+                raise ValueError(f"settings: {group}: {name} = {one!r}: must be a word, a flag or a number")
+    return values
+
+
+def _input(content: Mapping[str, Any]) -> dict[str, Any]:
+    """An input file; one that was removed during the run has neither size nor checksum."""
+    given: dict[str, Any] = {key: _member(content, key, str) for key in ("role", "path")}
+    for key, kind in (("bytes", int), ("crc32", str)):
+        given[key] = None if content[key] is None else _member(content, key, kind)
+    return given
+
+
+def _warning(content: Mapping[str, Any]) -> DondoloWarning:
+    """A warning of the run."""
+    for key in ("sentence", "code"):
+        _member(content, key, str)
+    subject, numbers = _member(content, "subject", dict), _member(content, "numbers", dict)
+    for name in subject:
+        _member(subject, name, str)
+    for name in numbers:
+        _member(numbers, name, float)
+    return unpack_warning(dict(content))
 
 
 def _written(content: Mapping[str, Any]) -> Written:

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from dondolo._base.arguments import as_array, one_of
+from dondolo._base.arguments import one_of
 from dondolo._base.files import as_file
 from dondolo._base.shown import Shown
 from dondolo._base.transactions import RUN_FILE, TABLES, published_run
@@ -101,8 +101,7 @@ class StoredResults(Shown):
     @property
     def edp_thresholds(self) -> list[float]:
         """Damage states that the case names [rotation / capacity], if there are several."""
-        thresholds = self.run.setting("stripes", "edp_thresholds", [])
-        return as_array("edp_thresholds", thresholds).tolist() if len(thresholds) > 1 else []
+        return self.run.edp_thresholds
 
     @property
     def states(self) -> States:
@@ -171,7 +170,7 @@ def _read(prefix: str, run: RunFile) -> StoredResults:
         raise InputError(f"{run.path}: work: {error}") from error
     limit = run.setting("solver", "edp_limit", constants().edp_limit)
     tolerances = run.setting("solver", "rtol", np.nan), run.setting("solver", "atol", np.nan)
-    engine = run.setting("solver", "engine", "auto")
+    engine, thresholds = run.setting("solver", "engine", "auto"), run.edp_thresholds
     walls = ResultFile(prefix + "_walls.csv", run)
     with walls.reading():
         population = _population(walls, gravity)
@@ -186,8 +185,8 @@ def _read(prefix: str, run: RunFile) -> StoredResults:
                 events, checksums = (tuple(one[key] for one in run.records) for key in ("event", "checksum"))
                 stripes = replace(stripes, events=events, checksums=checksums)
             stored = replace(stored, stripes=stripes)
-            ordinal = stored.states == "ordinal" and stored.edp_thresholds
-            curves = stripes.fit_damage_states(stored.edp_thresholds, states="ordinal") if ordinal else [stripes.fit()]
+            ordinal = stored.states == "ordinal" and thresholds
+            curves = stripes.fit_damage_states(thresholds, states="ordinal") if ordinal else [stripes.fit()]
             stored = replace(stored, fragility=curves[-1])
         else:
             stored = replace(stored, typology=_typology(table, population, work, run.warnings))

@@ -67,7 +67,7 @@ def _case_text(settings: Mapping[str, Mapping[str, Any]]) -> str:
     """Settings in the notation of a case file."""
     lines = []
     for group, variables in settings.items():
-        parts = [f"{name} = {_namelist_value(value)}" for name, value in variables.items()]
+        parts = [f"{name} = {_namelist_value(value)}" for name, value in variables.items()] or [""]
         lines += [f"&{group} {parts[0]}", *(f"   {part}" for part in parts[1:])]
         lines[-1] += " /"
     return "\n".join(lines)
