@@ -17,9 +17,11 @@ module dondolo_front_door
    character(len=*), parameter :: needs_package = ' needs the Python package dondolo, which is not installed beside this '// &
       & 'executable: install its wheel by pip, or call python -m dondolo where it is'
 
-   !> What Python runs: the command, or the line above where the package is missing
+   !> What Python runs: the command, or the line above where the package is missing. The current folder, which Python puts first
+   !> among those of modules, is a study: a file `numpy.py` or `dondolo.py` in it is no module of the command.
    character(len=*), parameter :: script = &
       & 'import sys'//new_line('a')// &
+      & 'if sys.path[:1] == [""]: del sys.path[0]'//new_line('a')// &
       & 'try:'//new_line('a')// &
       & '    from dondolo.__main__ import main'//new_line('a')// &
       & 'except ModuleNotFoundError as error:'//new_line('a')// &

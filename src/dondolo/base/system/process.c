@@ -30,13 +30,43 @@ void dondolo_own_path(char *path, size_t room)
    free(real);
 }
 
-/* Become another program, with its name and arguments in words that a NUL ends each. Returns only if there is none. */
+/* Take the current folder out of PYTHONPATH, where an empty entry means it too, as in the common PYTHONPATH=$PYTHONPATH:more */
+static void leave_current_folder(void)
+{
+   const char *given = getenv("PYTHONPATH");
+   char *kept, *end;
+
+   if (given == NULL || (kept = malloc(strlen(given) + 1)) == NULL)
+      return;
+   end = kept;
+   for (const char *entry = given; entry != NULL;) {
+      const char *colon = strchr(entry, ':');
+      size_t length = colon == NULL ? strlen(entry) : (size_t)(colon - entry);
+
+      if (strspn(entry, "./") < length || memcmp(entry, "/", 1) == 0 || strncmp(entry, "..", 2) == 0) {
+         if (end > kept)
+            *end++ = ':';
+         memcpy(end, entry, length);
+         end += length;
+      }
+      entry = colon == NULL ? NULL : colon + 1;
+   }
+   *end = '\0';
+   if (end > kept)
+      setenv("PYTHONPATH", kept, 1);
+   else
+      unsetenv("PYTHONPATH");
+   free(kept);
+}
+
+/* Become Python, with its name and arguments in words that a NUL ends each. Returns only if there is none. */
 void dondolo_become(char *words, int count)
 {
    char **arguments = calloc((size_t)count + 1, sizeof *arguments);
 
    if (arguments == NULL)
       return;
+   leave_current_folder();
    for (int i = 0; i < count; i++) {
       arguments[i] = words;
       words += strlen(words) + 1;
