@@ -1,5 +1,6 @@
-"""Ctrl-C in the middle of one history that would take minutes."""
+"""Ctrl-C: in the middle of one history that would take minutes, and between blocks, where what is complete is kept."""
 
+import os
 import signal
 import subprocess
 import sys
@@ -7,6 +8,9 @@ import time
 
 import numpy as np
 import pytest
+from dondolo._base.interrupts import deferred
+from dondolo.analysis import certificate, cloud, overturning, stripe_runs
+from dondolo.populations import blocks, study
 
 import dondolo as dd
 
@@ -107,3 +111,131 @@ def test_the_executable_dies_of_it(executable, tmp_path):
     run.send_signal(signal.SIGINT)
     assert run.wait(60) == -signal.SIGINT
     assert not (tmp_path / "out").exists()
+
+
+@pytest.fixture
+def interrupt_at(monkeypatch):
+    """Let Ctrl-C come when a function of a module is called for a time, before or after what it does."""
+
+    def arrange(module, name, call, after=False):
+        inner, calls = getattr(module, name), []
+
+        def called(*arguments, **named):
+            calls.append(name)
+            if len(calls) == call and not after:
+                os.kill(os.getpid(), signal.SIGINT)
+            result = inner(*arguments, **named)
+            if len(calls) == call and after:
+                os.kill(os.getpid(), signal.SIGINT)
+            return result
+
+        monkeypatch.setattr(module, name, called)
+        return calls
+
+    return arrange
+
+
+@pytest.mark.parametrize("after", [False, True])
+@pytest.mark.parametrize("name", ["next_level", "stack", "_stripes"])
+def test_between_levels_that_are_chosen(name, after, wall, few, interrupt_at):
+    """Three stripes are complete, and come out whole."""
+    interrupt_at(stripe_runs, name, 3, after)
+    with pytest.raises(dd.Interrupted, match=r"interrupted: 3 of 6 stripes are complete") as caught:
+        dd.multiple_stripe(wall, few, "auto", budget=6 * len(few), progress=False)
+    partial = caught.value.partial
+    again = dd.multiple_stripe(wall, few, partial.levels, progress=False)
+    assert np.array_equal(partial.edp, again.edp)
+    assert partial.work == again.work
+
+
+def test_while_the_first_level_is_chosen(wall, few, interrupt_at):
+    interrupt_at(stripe_runs, "rounded", 1)
+    with pytest.raises(dd.Interrupted, match=r"interrupted: 0 of 6 stripes are complete") as caught:
+        dd.multiple_stripe(wall, few, "auto", budget=6 * len(few), progress=False)
+    assert caught.value.partial is None
+
+
+@pytest.mark.parametrize("name", ["next_level", "stack"])
+def test_a_handler_of_the_users_may_raise_anywhere(name, wall, few, interrupt_at):
+    def mine(number, frame):
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGINT, mine)
+    try:
+        interrupt_at(stripe_runs, name, 3)
+        with pytest.raises(dd.Interrupted, match=r"interrupted: 3 of 6 stripes") as caught:
+            dd.multiple_stripe(wall, few, "auto", budget=6 * len(few), progress=False)
+        assert signal.getsignal(signal.SIGINT) is mine
+    finally:
+        signal.signal(signal.SIGINT, before)
+    assert len(caught.value.partial.levels) == 3
+
+
+@pytest.mark.parametrize(("levels", "more"), [([0.3, 0.6, 0.9], {}), ("auto", {"budget": 24})])
+@pytest.mark.parametrize("name", ["_stripes", "_warnings"])
+def test_when_all_stripes_are_complete(name, levels, more, wall, few, interrupt_at):
+    interrupt_at(stripe_runs, name, 3 if levels == "auto" and name == "_stripes" else 1)
+    with pytest.raises(dd.Interrupted, match=r"interrupted: 3 of 3 stripes are complete") as caught:
+        dd.multiple_stripe(wall, few, levels, **more, progress=False)
+    assert len(caught.value.partial.levels) == 3
+
+
+def test_when_all_walls_are_complete(few, interrupt_at):
+    walls = [dd.OneSidedWall(1.5, 0.25), dd.OneSidedWall(2.0, 0.3)]
+    with pytest.warns(dd.DondoloWarning):
+        whole = dd.typology(walls, few, [0.3, 0.6, 0.9], progress=False)
+    interrupt_at(study, "combine", 1)
+    with pytest.raises(dd.Interrupted, match="interrupted: 2 of 2 walls are complete") as caught:
+        dd.typology(walls, few, [0.3, 0.6, 0.9], progress=False)
+    assert np.array_equal(caught.value.partial.exceedances, whole.exceedances)
+
+
+def test_between_blocks_of_walls(few, interrupt_at):
+    walls = [dd.OneSidedWall(1.5 + 0.1 * i, 0.25) for i in range(6)]
+    interrupt_at(blocks, "upload_walls", 3)
+    with pytest.raises(dd.Interrupted, match="interrupted: 4 of 6 walls are complete") as caught:
+        dd.typology(walls, few, [0.3, 0.6, 0.9], block=2, progress=False)
+    assert len(caught.value.partial.walls) == 4
+
+
+def test_a_cloud_and_a_spectrum_that_are_complete(wall, few, interrupt_at):
+    interrupt_at(cloud, "fit", 1)
+    calls = interrupt_at(cloud, "fit", 1)
+    with pytest.raises(KeyboardInterrupt):
+        dd.cloud(wall, few, progress=False)
+    assert calls
+    interrupt_at(overturning, "_bisect", 1)
+    with pytest.raises(dd.Interrupted, match="the scans of 2 of 2 frequencies are complete") as caught:
+        dd.overturning_spectrum(
+            wall, dd.pulses.one_sine, frequencies=[1.0, 2.0], amplitudes=[0.2, 0.5, 1.0, 2.0], progress=False
+        )
+    assert caught.value.partial.edp.shape == (4, 2)
+
+
+def test_certificates_so_far(wall, few, interrupt_at, monkeypatch):
+    stripes = dd.multiple_stripe(wall, few, [0.4, 0.6, 0.8], estimate_error=True, progress=False)
+    monkeypatch.setattr(certificate, "is_doubtful", lambda edp, *_: np.ones(edp.shape, dtype=bool))
+    monkeypatch.setattr(certificate, "_BLOCK", 5)
+    interrupt_at(certificate, "check", 2, after=True)
+    with pytest.raises(dd.Interrupted, match="interrupted: 10 of 24 histories in doubt are certified") as caught:
+        dd.certify(stripes, few, progress=False)
+    assert np.count_nonzero(caught.value.partial.status) == 10
+
+
+def test_deferred_interrupts():
+    """Once for all that are nested, and as usual afterwards."""
+    with pytest.raises(KeyboardInterrupt), deferred() as outer:
+        with deferred() as inner:
+            assert inner is outer
+            os.kill(os.getpid(), signal.SIGINT)
+            assert outer.requested
+        reached = True
+    assert reached
+    with deferred() as told:
+        with pytest.raises(KeyboardInterrupt), told.heard():
+            os.kill(os.getpid(), signal.SIGINT)
+        told.answered = True
+    assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    with pytest.raises(ValueError, match="wrong"), deferred():
+        os.kill(os.getpid(), signal.SIGINT)
+        raise ValueError("wrong")

@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dondolo._base.arguments import as_flag
+from dondolo._base.interrupts import deferred
 from dondolo._fortran import _core
 from dondolo._fortran.histories import is_doubtful
 from dondolo._fortran.library import Stoppable, check
 from dondolo.analysis.request import check_threads, progress_bar
-from dondolo.errors import InputError, Interrupted
+from dondolo.errors import DondoloError, InputError, Interrupted
 from dondolo.records.record import Record
 from dondolo.records.record_set import records_at_levels
 from dondolo.records.suite import upload
@@ -122,9 +123,9 @@ def run_again(stripes: Stripes, records: Sequence[Record], threads: int, progres
 
     done = 0
     # A few at a time, so that Ctrl-C and the bar are heard
-    with progress_bar(len(places), progress, "certificates", "history") as bar:
+    with deferred() as interrupts, progress_bar(len(places), progress, "certificates", "history") as bar:
         try:
-            while done < len(places):
+            while done < len(places) and not interrupts.requested:
                 here = slice(done, done + _BLOCK)
                 rows = tuple(places[here].T)
                 with Stoppable():
@@ -145,9 +146,17 @@ def run_again(stripes: Stripes, records: Sequence[Record], threads: int, progres
                 status[rows] = kind
                 done += len(places[here])
                 bar.update(len(places[here]))
+            is_stopped = interrupts.requested
         except KeyboardInterrupt:
-            text = f"interrupted: {done} of {len(places)} histories in doubt are certified"
-            raise Interrupted(text, so_far()) from None
+            # Of a handler of the user's
+            is_stopped = True
+        except DondoloError:
+            # Fortran has broken the block off.
+            is_stopped = interrupts.requested
+            if not is_stopped:
+                raise
+        if is_stopped:
+            raise Interrupted(f"interrupted: {done} of {len(places)} histories in doubt are certified", so_far())
     return so_far()
 
 

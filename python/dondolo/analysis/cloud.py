@@ -344,7 +344,7 @@ def cloud(
         What cannot be run; a record without motion, whose intensity has no logarithm; a row of a set with a level and
         no factor.
     Interrupted
-        Ctrl-C.
+        Ctrl-C; its `partial` is the result if all histories were complete, else None.
 
     Notes
     -----
@@ -372,10 +372,11 @@ def cloud(
     plan = request.plan()
     warn(plan.warnings)
     outcome, interrupted = request.run(plan.histories, progress, wall.name)
-    if interrupted:
-        raise Interrupted(f"interrupted: {outcome.done} of {len(plan.record)} histories are complete")
+    told = f"interrupted: {outcome.done} of {len(plan.record)} histories are complete"
+    if outcome.done < len(plan.record):
+        raise Interrupted(told)
     points = intensity[plan.record]
-    return Cloud(
+    cloud = Cloud(
         wall=wall,
         records=several,
         im=name,
@@ -389,6 +390,9 @@ def cloud(
         edp_limit=float(settings[2]),
         work=outcome.work,
     )
+    if interrupted:
+        raise Interrupted(told, cloud)
+    return cloud
 
 
 def _intensities(

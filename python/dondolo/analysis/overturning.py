@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_array, as_number, instance_of, one_of
+from dondolo._base.interrupts import deferred
 from dondolo._base.shown import Shown
 from dondolo._fortran import _core
 from dondolo._fortran.library import Stoppable, as_text, check
@@ -303,6 +304,20 @@ def overturning_spectrum(
         check_threads(threads),
         progress,
     )
+    with deferred() as interrupts:
+        spectrum, stopped = _spectrum(runner, frequency, amplitude, width, polarity)
+        if stopped or interrupts.requested:
+            complete = len(spectrum.frequencies)
+            sentence = f"interrupted: the scans of {complete} of {len(frequency)} frequencies are complete"
+            raise Interrupted(sentence, spectrum if complete else None)
+        return spectrum
+
+
+def _spectrum(
+    runner: _Runner, frequency: FloatArray, amplitude: FloatArray, width: float, polarity: str
+) -> tuple[OverturningSpectrum, bool]:
+    """The spectrum of the frequencies whose scan is complete, and whether Ctrl-C stopped it."""
+    wall = runner.wall
     columns, rows = len(frequency), len(amplitude)
     places = np.repeat(np.arange(columns), rows)
     outcome, stopped = runner.run(places, np.tile(amplitude, columns), f"{wall.name}: scan")
@@ -328,13 +343,10 @@ def overturning_spectrum(
             Boundary(float(frequency[b.place]), float(b.lower), float(b.upper), State(b.below), State(b.above))
             for b in sorted(brackets)
         ),
-        edp_limit=float(settings[2]),
+        edp_limit=float(runner.settings[2]),
         polarity=polarity,
     )
-    if stopped:
-        sentence = f"interrupted: the scans of {complete} of {columns} frequencies are complete"
-        raise Interrupted(sentence, spectrum if complete else None)
-    return spectrum
+    return spectrum, stopped
 
 
 class _Bracket(NamedTuple):

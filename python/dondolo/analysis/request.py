@@ -19,13 +19,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_count, as_flag
+from dondolo._base.interrupts import deferred
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
 from dondolo._fortran.library import Stoppable, as_text, check, properties, receive, unpack_warnings
 from dondolo._fortran.records import describe_measure
 from dondolo.analysis.solver import Solver, as_solver
 from dondolo.analysis.work import Work
-from dondolo.errors import DondoloWarning
+from dondolo.errors import DondoloError, DondoloWarning
 from dondolo.records.record import Record
 from dondolo.records.record_set import LevelRows, records_at_levels
 from dondolo.records.suite import Facts, Suite
@@ -282,17 +283,24 @@ def in_blocks(
     `block(done, count)` runs the next `count` histories.
     """
     done = 0
-    try:
-        while done < total:
-            count = pace.count(total - done)
-            start = time.perf_counter()
-            block(done, count)
-            pace.learn(count, time.perf_counter() - start)
-            done += count
-            report(count)
-    except KeyboardInterrupt:
-        return done, True
-    return done, False
+    with deferred() as interrupts:
+        try:
+            while done < total and not interrupts.requested:
+                count = pace.count(total - done)
+                start = time.perf_counter()
+                block(done, count)
+                pace.learn(count, time.perf_counter() - start)
+                done += count
+                report(count)
+        except KeyboardInterrupt:
+            # Of a handler of the user's
+            return done, True
+        except DondoloError:
+            # Fortran has broken the block off.
+            if not interrupts.requested:
+                raise
+        interrupts.answered = interrupts.requested
+        return done, interrupts.requested
 
 
 def new_request(

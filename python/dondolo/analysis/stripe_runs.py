@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import as_count, as_flag, instance_of, one_of
+from dondolo._base.interrupts import Interrupts, deferred
 from dondolo._fortran.histories import warnings_of_errors
 from dondolo._fortran.library import warn
 from dondolo.analysis.auto_levels import FEWEST, next_level, rounded
@@ -111,24 +112,32 @@ def multiple_stripe(
         if isinstance(records, Mapping) or getattr(records, "level", None) is not None:
             raise InputError("levels = 'auto': the records have levels of their own")
         request = new_request((wall,), records, [1.0], im, polarity, solver, threads, estimate_error or certify)
-        return _finished(_auto(request, budget, progress), request, certify, progress)
+        with deferred() as interrupts:
+            return _finished(_auto(request, budget, progress, interrupts), request, certify, progress, interrupts)
     if budget is not None:
         raise InputError(f"budget = {budget!r}: only with levels = 'auto'")
     request = new_request((wall,), records, levels, im, polarity, solver, threads, estimate_error or certify)
-    try:
-        plan = request.plan()
-    except KeyboardInterrupt:
-        raise Interrupted(f"interrupted: 0 of {len(request.levels)} stripes are complete", None) from None
-    warn(plan.warnings)
-    outcome, interrupted = request.run(plan.histories, progress, wall.name)
-    if not interrupted:
-        return _finished(_stripes(request, plan, outcome, len(request.levels)), request, certify, progress)
-    complete = int(np.searchsorted(np.cumsum(plan.ran.sum(axis=1)), outcome.done, side="right"))
-    partial = _stripes(request, plan, outcome, complete) if complete else None
-    raise Interrupted(f"interrupted: {complete} of {len(request.levels)} stripes are complete", partial)
+    with deferred() as interrupts:
+        try:
+            plan = request.plan()
+        except KeyboardInterrupt:
+            raise _stopped(0, len(request.levels), None) from None
+        warn(plan.warnings)
+        outcome, interrupted = request.run(plan.histories, progress, wall.name)
+        if not interrupted:
+            whole = _stripes(request, plan, outcome, len(request.levels))
+            return _finished(whole, request, certify, progress, interrupts)
+        complete = int(np.searchsorted(np.cumsum(plan.ran.sum(axis=1)), outcome.done, side="right"))
+        partial = _stripes(request, plan, outcome, complete) if complete else None
+        raise _stopped(complete, len(request.levels), partial)
 
 
-def _auto(request: Request, budget: int | None, progress: bool) -> Stripes:
+def _stopped(complete: int, stripes: int, partial: Stripes | None) -> Interrupted:
+    """What Ctrl-C leaves."""
+    return Interrupted(f"interrupted: {complete} of {stripes} stripes are complete", partial)
+
+
+def _auto(request: Request, budget: int | None, progress: bool, interrupts: Interrupts) -> Stripes:
     """Stripes at levels that are chosen one after the other."""
     wall = request.walls[0]
 
@@ -150,37 +159,44 @@ def _auto(request: Request, budget: int | None, progress: bool) -> Stripes:
     level: float | None = rounded(_TRIAL * (2.0 * wall.trigger_acceleration / one) ** (1.0 / np.log2(two / one)))
     parts: list[Stripes] = []
     pace = Pace(request.facts.samples)
-    interrupted = False
-    with progress_bar(budget // size * size, progress, wall.name, "history") as bar:
-        while level is not None and len(parts) < budget // size and not interrupted:
-            here = at(level)
-            try:
-                plan = here.plan()
-                outcome, interrupted = here.advance(here.totals(plan.histories), pace, bar.update)
-            except InputError:
-                if not parts:
-                    raise
-                break
-            except KeyboardInterrupt:
-                interrupted = True
-            if not interrupted:
-                parts.append(_stripes(here, plan, outcome, 1))
+    is_stopped = False
+    try:
+        with progress_bar(budget // size * size, progress, wall.name, "history") as bar:
+            while level is not None and len(parts) < budget // size and not interrupts.requested:
+                here = at(level)
+                try:
+                    plan = here.plan()
+                    outcome, is_stopped = here.advance(here.totals(plan.histories), pace, bar.update)
+                except InputError:
+                    if not parts:
+                        raise
+                    break
+                if outcome.done == len(outcome.edp):
+                    parts.append(_stripes(here, plan, outcome, 1))
+                if is_stopped:
+                    break
                 so_far = stack(parts)
                 counts = so_far.collapses.astype(np.float64), so_far.histories.astype(np.float64)
                 level = next_level(so_far.levels, *counts)
-    if interrupted:
-        text = f"interrupted: {len(parts)} of {budget // size} stripes are complete"
-        raise Interrupted(text, stack(parts) if parts else None)
+    except KeyboardInterrupt:
+        # Of a handler of the user's, at any moment
+        is_stopped = True
+    if is_stopped or interrupts.requested:
+        raise _stopped(len(parts), budget // size, stack(parts) if parts else None)
     stripes = stack(parts)
     warn(at(stripes.levels).plan().warnings)
     return stripes
 
 
-def _finished(stripes: Stripes, request: Request, certify: bool, progress: bool) -> Stripes:
+def _finished(
+    stripes: Stripes, request: Request, certify: bool, progress: bool, interrupts: Interrupts
+) -> Stripes:
     """The stripes, certified if they are to be, with the warnings of their errors."""
     if certify:
         stripes = run_again(stripes, request.records, request.threads, progress)
     warn(_warnings(stripes))
+    if interrupts.requested:
+        raise _stopped(len(stripes.levels), len(stripes.levels), stripes)
     return stripes
 
 

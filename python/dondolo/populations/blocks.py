@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dondolo._base.arguments import FloatArray, as_count
+from dondolo._base.interrupts import Interrupts
 from dondolo._fortran import _core
 from dondolo._fortran.library import Stoppable, available_threads, receive
 from dondolo.analysis.request import Request, progress_bar
@@ -84,15 +85,17 @@ def run_walls(
     checkpoint: str | os.PathLike[str] | None,
     block: int | None,
     progress: bool,
+    interrupts: Interrupts,
 ) -> Contents:
-    """Run all walls, or those that are complete when Ctrl-C comes."""
+    """Run all walls, or those that are complete when Ctrl-C comes, which is heard while they run alone."""
     from dondolo.populations.crew import CrewError
 
     _check(executor, block)
     with Store(checkpoint, request, states) as store:
         store.claim()
         try:
-            _run_rest(store, request, histories, states, executor, block, progress)
+            with interrupts.heard():
+                _run_rest(store, request, histories, states, executor, block, progress)
         except KeyboardInterrupt:
             # What is complete is in the store.
             pass

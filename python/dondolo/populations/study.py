@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from dondolo._base.interrupts import deferred
 from dondolo._fortran.library import warn
 from dondolo.analysis.request import Polarity, new_request
 from dondolo.analysis.solver import Solver, as_solver
@@ -92,21 +93,22 @@ def typology(
     alone = len(states) == 1
     request = new_request(people.walls, records, levels, im, polarity, solver, threads, collapses_only=alone)
     plan = request.plan()
-    run = run_walls(request, plan.histories, states, executor, checkpoint, block, progress)
-    # A wall is complete with all its mechanisms.
-    first = people.first_rows
-    whole = np.logical_and.reduceat(run.complete, first)
-    rows = np.repeat(whole, np.diff(np.append(first, len(people))))
-    if not whole.any():
-        raise Interrupted("interrupted: no wall is complete")
-    histories = np.rint(request.share[:, None] * plan.histories).astype(np.int32)
-    result = combine(people, request.im, request.levels, states, run.exceedances, histories, rows, run.work)
-    chosen = np.flatnonzero(rows[run.complete])
-    flags, told = run.flags.chosen(chosen), (*plan.warnings, *result.warnings)
-    ties = tuple(run.ties[i] for i in chosen)
-    result = with_clustered_errors(dataclasses.replace(result, flags=flags, warnings=told, ties=ties), flags)
-    result = result._with_union_warnings()
-    if not whole.all():
-        raise Interrupted(f"interrupted: {whole.sum()} of {len(whole)} walls are complete", result)
+    with deferred() as interrupts:
+        run = run_walls(request, plan.histories, states, executor, checkpoint, block, progress, interrupts)
+        # A wall is complete with all its mechanisms.
+        first = people.first_rows
+        whole = np.logical_and.reduceat(run.complete, first)
+        rows = np.repeat(whole, np.diff(np.append(first, len(people))))
+        if not whole.any():
+            raise Interrupted("interrupted: no wall is complete")
+        histories = np.rint(request.share[:, None] * plan.histories).astype(np.int32)
+        result = combine(people, request.im, request.levels, states, run.exceedances, histories, rows, run.work)
+        chosen = np.flatnonzero(rows[run.complete])
+        flags, told = run.flags.chosen(chosen), (*plan.warnings, *result.warnings)
+        ties = tuple(run.ties[i] for i in chosen)
+        result = with_clustered_errors(dataclasses.replace(result, flags=flags, warnings=told, ties=ties), flags)
+        result = result._with_union_warnings()
+        if not whole.all() or interrupts.requested:
+            raise Interrupted(f"interrupted: {whole.sum()} of {len(whole)} walls are complete", result)
     warn(result.warnings)
     return result
