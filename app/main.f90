@@ -18,6 +18,7 @@ program dondolo_main
    use dondolo_plan, only : print_plan
    use dondolo_progress_bar, only : erase_progress, show_progress, start_progress
    use dondolo_reports, only : check_reports, write_reports
+   use dondolo_replaced, only : describe_replaced, list_outdated
    use dondolo_result_files, only : result_files_type
    use dondolo_results, only : results_type
    use dondolo_run_case, only : run_case
@@ -87,9 +88,10 @@ contains
       type(case_type) :: case
       type(results_type) :: results
       type(result_files_type) :: files
-      type(lines_type) :: warnings
+      type(lines_type) :: warnings, replaced
       integer(int64) :: start, finish, rate
       integer :: threads
+      logical :: has_results
 
       if (allocated(arguments%rows)) then
          call read_case(arguments%case_file, case, error, arguments%rows)
@@ -99,6 +101,10 @@ contains
       if (.not. allocated(error)) call check_reports(case, error)
       if (allocated(error)) return
       call print_lines('note', case%notes)
+      ! The rows of a part go into a file of counts, which has a lock of its own.
+      has_results = .not. (case%job%task == 'typology' .and. case%survey%is_part)
+      if (has_results) call describe_replaced(case%job%output, replaced)
+      call print_lines('note', replaced)
       if (arguments%action == 'check') then
          call print_plan(case, arguments%quiet, warnings, error)
          if (arguments%quiet) call print_lines('warning', warnings)
@@ -106,8 +112,7 @@ contains
       end if
       threads = team(case%job%threads)
       call end_in_order()
-      ! The rows of a part go into a file of counts, which has a lock of its own.
-      if (.not. (case%job%task == 'typology' .and. case%survey%is_part)) call files%claim(case%job%output, error)
+      if (has_results) call files%claim(case%job%output, error)
       if (allocated(error)) return
       call system_clock(start, rate)
       if (arguments%action == 'merge') then
@@ -139,7 +144,7 @@ contains
       !> The reports could not be written
       type(error_type), allocatable, intent(out) :: error
 
-      type(lines_type) :: paths, warnings
+      type(lines_type) :: paths, warnings, outdated
       integer :: i
 
       if (case%job%task == 'typology' .and. case%survey%is_part) then
@@ -155,6 +160,8 @@ contains
       end if
       call warning_sentences(results%warnings, warnings)
       call print_lines('warning', warnings)
+      call list_outdated(case%job%output, outdated)
+      call print_lines('note', outdated)
       if (.not. arguments%quiet) call print_summary(case, results, paths, seconds, threads)
    end subroutine finish_run
 

@@ -3,7 +3,9 @@ module dondolo_status
    use, intrinsic :: iso_fortran_env, only : output_unit
    use dondolo_error, only : error_type, raise_missing
    use dondolo_lock, only : holder_type, look_at_lock
+   use dondolo_lines, only : lines_type
    use dondolo_progress_bar, only : duration
+   use dondolo_replaced, only : list_outdated
    use dondolo_result_files, only : published_run
    use dondolo_store, only : look_into_store, store_type
    use dondolo_text, only : to_text
@@ -23,7 +25,9 @@ contains
 
       type(holder_type) :: holder, writer
       type(store_type) :: store
+      type(lines_type) :: outdated
       character(len=:), allocatable :: path
+      integer :: i
       logical :: is_locked, is_written, has_store, is_file
 
       inquire (file=output, exist=is_file)
@@ -55,6 +59,10 @@ contains
       end if
       if (has_store) call print_rows(store, writer)
       if (len_trim(published_run(output)) > 0) call say('results are those of run '//published_run(output))
+      call list_outdated(output, outdated)
+      do i = 1, outdated%count
+         write (output_unit, '(a)') outdated%line(i)%text
+      end do
 
    contains
 

@@ -13,12 +13,13 @@ from typing import Any, NoReturn
 
 import dondolo as dd
 from dondolo._base.files import whole_file
+from dondolo._fortran.origins import check_replaced
 from dondolo._fortran.records import catalogue_table
 from dondolo.analysis.request import progress_bar
 from dondolo.errors import visible
 from dondolo.exchange.fragility_model import Curve
 from dondolo.exchange.mean_functions import taxonomy_of
-from dondolo.figures.layout import lay_out
+from dondolo.figures.saving import mark_end, save_figure
 from dondolo.records.catalogues import build_catalogue
 
 # An animation: frames per second, and the longest film [s]
@@ -214,7 +215,7 @@ def _nrml(options: argparse.Namespace) -> None:
     for sentence in sentences:
         _tell(sentence)
     name = re.sub("[^A-Za-z0-9_-]", "_", Path(options.prefix).name)[:100]
-    dd.write_nrml(path, functions, id=name)
+    dd.write_nrml(path, functions, id=name, run=results.run.run)
     _report_done("written", path, f" ({len(functions)} function{'s' if len(functions) > 1 else ''})")
 
 
@@ -231,7 +232,7 @@ def _plot_run(prefix: str, kind: str, animate: bool) -> None:
     """Draw whatever the result files of a run hold."""
 
     def save(name: str, draw: Callable[[], Any]) -> None:
-        _save(f"{prefix}_{name}.{kind}", kind, draw)
+        _save(f"{prefix}_{name}.{kind}", kind, results.run.run, draw)
 
     results = dd.read_results(prefix)
     if results.response is not None:
@@ -239,7 +240,7 @@ def _plot_run(prefix: str, kind: str, animate: bool) -> None:
         save("history", lambda: motion.plot()[0])
         save("wall", motion.plot_peak)
         if animate:
-            _film(f"{prefix}_motion.gif", motion)
+            _film(f"{prefix}_motion.gif", motion, results.run.run)
     if results.stripes is not None and results.fragility is not None:
         stripes = results.stripes
         save("stripes", stripes.plot)
@@ -279,10 +280,11 @@ def _plot_walls(results: dd.StoredResults, people: dd.Typology, save: Callable[[
         save("damage_states", people.plot_damage_states)
 
 
-def _film(path: str, motion: dd.Response) -> None:
+def _film(path: str, motion: dd.Response, run: str) -> None:
     """Write an animation of a motion; one that is long is shown faster, so that the film does not take minutes."""
     from dondolo.analysis.film import film_span
 
+    check_replaced(path, "film")
     first, last = film_span(motion)
     span = last - first
     speed = max(1.0, span / _FILM)
@@ -293,22 +295,21 @@ def _film(path: str, motion: dd.Response) -> None:
         try:
             animation.save(image, writer="pillow", progress_callback=lambda *_: bar.update(1))
             image.replace(part)
+            mark_end(part, "film", run)
         finally:
             image.unlink(missing_ok=True)
     _report_done("drawn", path, f" ({speed:.3g} times as fast as the motion)" if speed > 1.0 else "")
 
 
-def _save(path: str, kind: str, draw: Callable[[], Any]) -> None:
+def _save(path: str, kind: str, run: str, draw: Callable[[], Any]) -> None:
     """Draw a figure into a file, which appears whole or not at all."""
     import matplotlib.pyplot as plt
 
-    # PNG as small as by the default of 6, in two thirds of the time
-    options = {"pil_kwargs": {"compress_level": 3}} if kind == "png" else {}
     figure = draw().figure
     try:
-        lay_out(figure)
-        with whole_file(path) as part:
-            figure.savefig(part, format=kind, **options)
+        save_figure(figure, path, kind, run)
+    except dd.InputError:
+        raise
     except ValueError as error:
         raise dd.InputError(f"--format {kind}: {str(error).splitlines()[0]}") from None
     finally:

@@ -15,7 +15,7 @@ from datetime import UTC, datetime, timedelta
 
 import pytest
 from dondolo._base.files import whole_file
-from dondolo._base.transactions import TABLES, publishing
+from dondolo._storage.transactions import TABLES, publishing
 
 import dondolo as dd
 

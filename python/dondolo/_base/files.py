@@ -7,17 +7,56 @@ import errno
 import fcntl
 import os
 import re
+import stat
 import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
+from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from dondolo._base.transactions import RUN_NAME, create, new_run, release, synchronize
 from dondolo.errors import DondoloError, InputError, MissingFileError
 
+#: A name of a run
+RUN_NAME = re.compile(r"\d{8}T\d{6}Z-[0-9a-f]{16}")
 # How often a part is made that another process takes for a dead one
 _TRIES = 5
+# What is no regular file
+_THINGS = {
+    stat.S_IFLNK: "a symbolic link",
+    stat.S_IFDIR: "a folder",
+    stat.S_IFIFO: "a pipe",
+    stat.S_IFSOCK: "a socket",
+}
+
+
+def new_run() -> str:
+    """A name for a run that no other has: time (UTC) and 64 random bits."""
+    return f"{datetime.now(UTC):%Y%m%dT%H%M%SZ}-{os.urandom(8).hex()}"
+
+
+def create(path: Path) -> int:
+    """Make an empty file, and give its descriptor; one that exists is not touched, and no link followed."""
+    return os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666)
+
+
+def synchronize(path: Path) -> None:
+    """Bring a file, or the names of the files of a folder, to the disk."""
+    descriptor = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(descriptor)
+    except OSError as error:
+        # Some file systems have nothing to synchronize, and say so.
+        if error.errno not in (errno.EINVAL, errno.ENOTSUP):
+            raise
+    finally:
+        os.close(descriptor)
+
+
+def release(descriptor: int) -> None:
+    """Close a lock; whatever the system says, nothing was written through it that could be lost."""
+    with suppress(OSError):
+        os.close(descriptor)
 
 
 def as_file(name: str, path: Any, *suffixes: str) -> Path:
@@ -35,6 +74,40 @@ def as_file(name: str, path: Any, *suffixes: str) -> Path:
     return target
 
 
+def thing(path: str | os.PathLike[str], *, follow_symlinks: bool) -> str:
+    """What is at a path: '' for nothing or a regular file, else words such as 'a pipe'."""
+    try:
+        mode = os.stat(path, follow_symlinks=follow_symlinks).st_mode
+    except (OSError, ValueError):
+        return ""
+    return "" if stat.S_ISREG(mode) else _THINGS.get(stat.S_IFMT(mode), "a device")
+
+
+def check_regular(path: str | os.PathLike[str]) -> None:
+    """Refuse to read what is no regular file: a pipe would be waited for, and a device has no end."""
+    if what := thing(path, follow_symlinks=True):
+        raise InputError(f"{os.fspath(path)}: is {what}, not a regular file")
+
+
+def read_bytes(path: str | os.PathLike[str]) -> bytes:
+    """The bytes of a regular file.
+
+    Raises
+    ------
+    InputError
+        It cannot be read, or is something else.
+    MissingFileError
+        There is none.
+    """
+    check_regular(path)
+    try:
+        return Path(path).read_bytes()
+    except FileNotFoundError as error:
+        raise MissingFileError(f"{path}: cannot be read: {error.strerror}") from error
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from error
+
+
 def read_text(path: str | os.PathLike[str]) -> str:
     """The text of a file: UTF-8, or UTF-16 with a byte order mark, as the readers in Fortran take them.
 
@@ -45,12 +118,7 @@ def read_text(path: str | os.PathLike[str]) -> str:
     MissingFileError
         There is none.
     """
-    try:
-        content = Path(path).read_bytes()
-    except FileNotFoundError as error:
-        raise MissingFileError(f"{path}: cannot be read: {error.strerror}") from error
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from error
+    content = read_bytes(path)
     utf16 = content.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE))
     try:
         return content.decode("utf-16" if utf16 else "utf-8-sig")
@@ -63,11 +131,7 @@ def read_text(path: str | os.PathLike[str]) -> str:
 
 def described(path: str | os.PathLike[str]) -> str:
     """A file that was read, as results tell their source: its path and the checksum of its bytes."""
-    target = Path(path)
-    # A pipe has been read, and gives nothing any more
-    if not target.is_file():
-        return str(target)
-    return f"{target} (CRC-32 {zlib.crc32(target.read_bytes()):08x})"
+    return f"{Path(path)} (CRC-32 {zlib.crc32(read_bytes(path)):08x})"
 
 
 @contextmanager
@@ -91,11 +155,13 @@ def whole_file(path: Any) -> Iterator[Path]:
     Raises
     ------
     InputError
-        No path.
+        No path, or that of a symbolic link, a folder, a pipe or a device.
     DondoloError
         The file cannot be written.
     """
     target = as_file("path", path)
+    if what := thing(target, follow_symlinks=False):
+        raise InputError(f"{target}: is {what}, which is not replaced")
     _remove_dead_parts(target)
     part, lock = target, None
     try:
@@ -139,29 +205,3 @@ def _remove_dead_parts(target: Path) -> None:
                 fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
                 part.unlink()
             os.close(descriptor)
-
-
-def check_replaced(path: Any, mark: str, kind: str) -> None:
-    """May a file be replaced? Only one of its kind: a slip of the pen must not cost results.
-
-    Parameters
-    ----------
-    path : path
-        The file.
-    mark : str
-        What is near the beginning or the end of every file of the kind.
-    kind : str
-        What it is, for the message.
-    """
-    target = as_file("path", path)
-    try:
-        with target.open("rb") as file:
-            ends = file.read(500)
-            file.seek(max(target.stat().st_size - 500, 0))
-            ends += file.read(500)
-    except FileNotFoundError:
-        return
-    except OSError as error:
-        raise DondoloError(f"{target}: cannot be written: {error.strerror}") from error
-    if mark.encode() not in ends:
-        raise InputError(f"{target}: exists, and is no {kind} of dondolo")

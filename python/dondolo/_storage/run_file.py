@@ -11,9 +11,9 @@ from datetime import datetime
 from typing import Any
 
 from dondolo._base.arguments import increasing
-from dondolo._base.files import read_text
-from dondolo._base.transactions import RUN_NAME, Written
+from dondolo._base.files import RUN_NAME, read_text
 from dondolo._fortran.library import constants, unpack_warning
+from dondolo._storage.transactions import Written
 from dondolo.errors import DondoloWarning, InputError
 
 FORMAT = "dondolo run 2"

@@ -37,8 +37,9 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar, Union, get_args, get_or
 
 import numpy as np
 
-from dondolo._base.files import as_file, check_replaced, whole_file
+from dondolo._base.files import as_file, check_regular, whole_file
 from dondolo._fortran.library import constants
+from dondolo._fortran.origins import check_replaced
 from dondolo.errors import DondoloWarning, InputError, MissingFileError
 
 if TYPE_CHECKING:
@@ -104,7 +105,7 @@ class Saved:
         arrays: list[_Array] = []
         tree = _encode(self, type(self).__name__, arrays, {})
         content = {"format": "dondolo result", "format_version": _VERSION, "dondolo": constants().version}
-        check_replaced(target, _MARK, "result")
+        check_replaced(target, "result")
         with whole_file(target) as part, zipfile.ZipFile(part, "w") as archive:
             # A ZipInfo has a date of its own, not today's.
             archive.writestr(zipfile.ZipInfo(_CONTENT), json.dumps(content | {"result": tree}, allow_nan=False))
@@ -143,9 +144,9 @@ def load(path: str | os.PathLike[str]) -> Any:
     True
     """
     source = as_file("path", path)
+    check_regular(source)
     try:
         with source.open("rb") as file:
-            # A device has no end.
             data = file.read(_HEAD)
             is_saved = _MARK.encode() in data
             data += file.read() if is_saved else b""

@@ -5,7 +5,6 @@
 
 from __future__ import annotations
 
-import errno
 import fcntl
 import os
 import re
@@ -18,7 +17,10 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import NamedTuple
 
-from dondolo.errors import DondoloError, InputError
+from dondolo._base.files import create, new_run, release, synchronize, thing
+from dondolo._fortran.library import warn
+from dondolo._fortran.origins import check_replaced, outdated, replaced
+from dondolo.errors import DondoloError, DondoloWarning, InputError
 
 # What the names of the files of a set end with, of any task
 TABLES = tuple(
@@ -29,8 +31,6 @@ TABLES = tuple(
     )
 )
 RUN_FILE = "_run.json"
-#: A name of a run
-RUN_NAME = re.compile(r"\d{8}T\d{6}Z-[0-9a-f]{16}")
 _LOCK_MARK, _TABLE_MARK = "dondolo lock", "# dondolo "
 # How often, and after how many seconds, a lock is tried again: who only looks at it has it for a moment
 _TRIES, _PAUSE = 5, 0.02
@@ -54,38 +54,9 @@ class Written(NamedTuple):
     crc32: str
 
 
-def new_run() -> str:
-    """A name for a run that no other has: time (UTC) and 64 random bits."""
-    return f"{datetime.now(UTC):%Y%m%dT%H%M%SZ}-{os.urandom(8).hex()}"
-
-
 def staged(path: Path, run: str) -> Path:
     """Where a file stands before it is published."""
     return path.with_name(f"{path.name}.{run}.part")
-
-
-def create(path: Path) -> int:
-    """Make an empty file, and give its descriptor; one that exists is not touched, and no link followed."""
-    return os.open(path, os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666)
-
-
-def synchronize(path: Path) -> None:
-    """Bring a file, or the names of the files of a folder, to the disk."""
-    descriptor = os.open(path, os.O_RDONLY)
-    try:
-        os.fsync(descriptor)
-    except OSError as error:
-        # Some file systems have nothing to synchronize, and say so.
-        if error.errno not in (errno.EINVAL, errno.ENOTSUP):
-            raise
-    finally:
-        os.close(descriptor)
-
-
-def release(descriptor: int) -> None:
-    """Close a lock; whatever the system says, nothing was written through it that could be lost."""
-    with suppress(OSError):
-        os.close(descriptor)
 
 
 def run_of(table: str) -> tuple[str, str]:
@@ -134,8 +105,7 @@ class Publication:
         paths = [_end(self._prefix, file.name) for file in self.written]
         paths.sort(key=lambda path: not path.name.endswith(RUN_FILE))
         for path in paths:
-            if path.is_dir():
-                raise DondoloError(f"{path}: cannot be written: is a folder")
+            check_replaced(path, _kind(path.name))
         for path in paths:
             try:
                 staged(path, self.run).replace(path)
@@ -179,29 +149,92 @@ def publishing(prefix: Path) -> Iterator[Publication]:
     DondoloError
         The files cannot be written.
     """
-    lock = _end(prefix, ".lock")
-    try:
-        descriptor, said = _take(lock)
-    except BlockingIOError as error:
-        raise InputError(f"{prefix}: is being written by another run{_holder(str(error))}") from None
-    except OSError as error:
-        raise DondoloError(f"{lock}: cannot be written: {error.strerror}") from error
-    try:
-        publication = Publication(prefix, new_run())
-        try:
-            _end_publishing(prefix, _said(said, "run"))
-            _sign(descriptor, publication.run)
-        except OSError as error:
-            raise DondoloError(f"{lock}: cannot be written: {error.strerror}") from error
+    for name in (*TABLES, RUN_FILE):
+        check_replaced(_end(prefix, name), _kind(name))
+    notes = replaced(prefix)
+    with _locked(prefix) as (lock, killed):
+        publication = Publication(prefix, lock.run)
+        _end_publishing(prefix, killed)
+        lock.sign()
         try:
             yield publication
         finally:
-            # Removed while it is held: who waits for it sees that the file is gone, and makes another. One that cannot
-            # be removed is no lock any more.
-            if publication.close():
-                with suppress(OSError):
-                    lock.unlink(missing_ok=True)
+            lock.is_needed = not publication.close()
+    warn(DondoloWarning(sentence, "note") for sentence in (*notes, *outdated(prefix)))
+
+
+@contextmanager
+def locked(path: Path) -> Iterator[bool]:
+    """Hold the lock of a file, so that one process at a time writes it.
+
+    Parameters
+    ----------
+    path : Path
+        The file; its folder must exist.
+
+    Yields
+    ------
+    bool
+        Whether a process was killed while it had the lock.
+
+    Raises
+    ------
+    InputError
+        Another process has the lock, or its file is something else.
+    DondoloError
+        The lock cannot be written.
+    """
+    with _locked(path) as (lock, killed):
+        lock.sign()
+        yield bool(killed)
+
+
+class _Lock:
+    """A lock that this process has.
+
+    Attributes
+    ----------
+    run : str
+        Name of the run that has it.
+    is_needed : bool
+        Whether its file stays, for the next run to end what this one could not.
+    """
+
+    def __init__(self, path: Path, descriptor: int) -> None:
+        self.run, self.is_needed = new_run(), False
+        self._path, self._descriptor = path, descriptor
+
+    def sign(self) -> None:
+        """Say in its file who has it."""
+        since = f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ}"
+        host = f"pid {os.getpid()}\nhost {os.uname().nodename}"
+        text = f"{_LOCK_MARK}\nrun {self.run}\n{host}\nsince {since}\n".encode()
+        try:
+            os.pwrite(self._descriptor, text, 0)
+            os.ftruncate(self._descriptor, len(text))
+        except OSError as error:
+            raise DondoloError(f"{self._path}: cannot be written: {error.strerror}") from error
+
+
+@contextmanager
+def _locked(what: Path) -> Iterator[tuple[_Lock, str]]:
+    """Take the lock of a path: gives it, and the name of a run that was killed while it had it."""
+    path = _end(what, ".lock")
+    try:
+        descriptor, said = _take(path)
+    except BlockingIOError as error:
+        raise InputError(f"{what}: is being written by another run{_holder(str(error))}") from None
+    except OSError as error:
+        raise DondoloError(f"{path}: cannot be written: {error.strerror}") from error
+    lock = _Lock(path, descriptor)
+    try:
+        yield lock, _said(said, "run")
     finally:
+        # Removed while it is held: who waits for it sees that the file is gone, and makes another. One that cannot be
+        # removed is no lock any more.
+        if not lock.is_needed:
+            with suppress(OSError):
+                path.unlink(missing_ok=True)
         # A process that was forked meanwhile does not keep it.
         with suppress(OSError):
             fcntl.flock(descriptor, fcntl.LOCK_UN)
@@ -210,8 +243,11 @@ def publishing(prefix: Path) -> Iterator[Publication]:
 
 def published_run(prefix: Path) -> str:
     """Name of the run whose results are published; empty if there is none."""
+    path = _end(prefix, RUN_FILE)
+    if thing(path, follow_symlinks=True):
+        return ""
     try:
-        with _end(prefix, RUN_FILE).open("rb") as file:
+        with path.open("rb") as file:
             found = re.search(rb'"run": "([0-9a-fTZ-]+)"', file.read(200))
     except OSError:
         return ""
@@ -223,8 +259,9 @@ def _end_publishing(prefix: Path, killed: str) -> None:
     published = published_run(prefix)
     for name in (*TABLES, RUN_FILE):
         path = _end(prefix, name)
-        with suppress(OSError):
+        with suppress(InputError, OSError):
             if published:
+                check_replaced(path, _kind(name))
                 staged(path, published).replace(path)
         if killed and killed != published:
             with suppress(OSError):
@@ -237,6 +274,8 @@ def _end(prefix: Path, name: str) -> Path:
 
 def _take(lock: Path) -> tuple[int, str]:
     """Descriptor of a lock file that this process has now, and what the file says, which else is a BlockingIOError."""
+    if what := thing(lock, follow_symlinks=False):
+        raise InputError(f"{lock}: is {what}, not a regular file")
     flags = os.O_RDWR | os.O_CREAT | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_CLOEXEC
     tries, said = 0, ""
     while tries < _TRIES:
@@ -268,14 +307,6 @@ def _take(lock: Path) -> tuple[int, str]:
     raise BlockingIOError(said)
 
 
-def _sign(descriptor: int, run: str) -> None:
-    """Say in a lock file who has it."""
-    since = f"{datetime.now(UTC):%Y-%m-%dT%H:%M:%SZ}"
-    text = f"{_LOCK_MARK}\nrun {run}\npid {os.getpid()}\nhost {os.uname().nodename}\nsince {since}\n".encode()
-    os.pwrite(descriptor, text, 0)
-    os.ftruncate(descriptor, len(text))
-
-
 def _said(text: str, name: str) -> str:
     """What a lock file says."""
     found = re.search(rf"^{name} ([\w.:-]+)$", text, re.MULTILINE)
@@ -290,7 +321,12 @@ def _holder(text: str) -> str:
 
 
 def _remove_old(path: Path) -> None:
-    """Remove a table that an earlier run has left and the set does not replace; what begins otherwise stays."""
-    with suppress(OSError):
-        if path.is_file() and path.read_bytes()[: len(_TABLE_MARK)] == _TABLE_MARK.encode():
-            path.unlink()
+    """Remove a table that an earlier run has left and the set does not replace; another file stays."""
+    with suppress(InputError, OSError):
+        check_replaced(path, "table")
+        path.unlink(missing_ok=True)
+
+
+def _kind(name: str) -> str:
+    """What kind of file a result is, by the end of its name."""
+    return "run" if name.endswith(RUN_FILE) else "table"

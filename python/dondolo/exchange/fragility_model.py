@@ -16,9 +16,10 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from dondolo._base.files import as_file, check_replaced, read_text
+from dondolo._base.files import as_file, read_text
 from dondolo._base.shown import Shown
-from dondolo._fortran.library import constants, warn
+from dondolo._fortran.library import warn
+from dondolo._fortran.origins import check_replaced, derived_mark
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.curves.discrete import DiscreteFragility
@@ -29,8 +30,6 @@ from dondolo.exchange.state_order import disorder_at_levels, disorder_of_lognorm
 from dondolo.risk.openquake import as_written, im_of, imt_of, over, times
 
 NAMESPACE = "http://openquake.org/xmlns/nrml/0.5"
-#: What stands in the second line of every file of dondolo
-MARK = "<!-- dondolo "
 _LIMITS = ("noDamageLimit", "minIML", "maxIML")
 # More than the format has, which is four
 _DEEPEST = 100
@@ -70,13 +69,15 @@ class FragilityModel(Shown, Saved):
         object.__setattr__(self, "functions", functions)
         super().__post_init__()
 
-    def write(self, path: str | os.PathLike[str]) -> None:
+    def write(self, path: str | os.PathLike[str], *, run: str = "") -> None:
         """Write the model, NRML 0.5; the file appears whole or not at all.
 
         Parameters
         ----------
         path : path
             The file; its folder must exist. An earlier model of dondolo is replaced, any other file is not.
+        run : str
+            Name of the run whose curves they are, which the file then gives.
 
         Raises
         ------
@@ -85,7 +86,7 @@ class FragilityModel(Shown, Saved):
         DondoloError
             The file cannot be written.
         """
-        check_replaced(path, MARK, "fragility model")
+        check_replaced(path, "model")
         root = ElementTree.Element("nrml", {"xmlns": NAMESPACE})
         attributes = {"id": self.id, "assetCategory": self.asset_category, "lossCategory": self.loss_category}
         model = ElementTree.SubElement(root, "fragilityModel", attributes)
@@ -94,7 +95,7 @@ class FragilityModel(Shown, Saved):
         for taxonomy, curves in self.functions.items():
             _append(model, taxonomy, curves, self.limits[taxonomy])
         ElementTree.indent(root)
-        head = ["<?xml version='1.0' encoding='utf-8'?>", f"{MARK}{constants().version} -->"]
+        head = ["<?xml version='1.0' encoding='utf-8'?>", f"<!-- {derived_mark('model', run)} -->"]
         tables.write_lines(path, [*head, ElementTree.tostring(root, encoding="unicode")])
 
     def _facts(self) -> list[tuple[str, str]]:

@@ -55,12 +55,12 @@ from typing import Any, Literal, get_args
 import numpy as np
 
 from dondolo._base.arguments import as_number, one_of
-from dondolo._base.files import check_replaced
+from dondolo._fortran.origins import check_replaced
 from dondolo.curves.discrete import DiscreteFragility
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.limited import LimitedFragility, Limits
 from dondolo.errors import DondoloError, InputError
-from dondolo.exchange.fragility_model import MARK, Curve, FragilityModel
+from dondolo.exchange.fragility_model import Curve, FragilityModel
 from dondolo.exchange.mean_functions import in_order, straight_lines
 from dondolo.exchange.state_order import crossing, disorder_at_levels, disorder_of_lognormals
 from dondolo.risk.openquake import imt_of
@@ -87,6 +87,7 @@ def write_nrml(
     no_damage_limit: float | None = None,
     min_iml: float | None = None,
     max_iml: float | None = None,
+    run: str = "",
 ) -> None:
     """Write fragility functions for OpenQuake, NRML 0.5; the file appears whole or not at all.
 
@@ -112,6 +113,8 @@ def write_nrml(
     min_iml, max_iml : float, optional
         Range of the continuous functions. If left out, from six dispersions below the lowest median to three above the
         highest. These three are in the unit of the curves' levels, and for all functions.
+    run : str
+        Name of the run whose curves they are, which the file then gives; empty if they are not of result files.
 
     Raises
     ------
@@ -126,7 +129,7 @@ def write_nrml(
     >>> curve = dd.fit_fragility([0.2, 0.4], [11, 33], 44, im="pga")
     >>> dd.write_nrml("fragility.xml", {"parapets": {"collapse": curve}})
     """
-    check_replaced(path, MARK, "fragility model")
+    check_replaced(path, "model")
     if not isinstance(id, str) or not _NAME.fullmatch(id):
         raise InputError(f"id = {id!r}: must be of letters, digits, - and _, at most 100")
     description = _words("description", description)
@@ -168,7 +171,7 @@ def write_nrml(
         description=description,
         asset_category=asset_category,
         loss_category=loss_category,
-    ).write(path)
+    ).write(path, run=run)
 
 
 def _words(name: str, text: Any) -> str:

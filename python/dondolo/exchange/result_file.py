@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 
 from dondolo._base.arguments import FloatArray
 from dondolo._base.files import read_text
-from dondolo._base.transactions import described, run_of, staged
 from dondolo._storage.run_file import RunFile
 from dondolo._storage.tables import unguarded
+from dondolo._storage.transactions import described, run_of, staged
 from dondolo.errors import InputError, MissingFileError
 
 

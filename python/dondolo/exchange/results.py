@@ -13,11 +13,11 @@ import numpy as np
 from dondolo._base.arguments import one_of
 from dondolo._base.files import as_file
 from dondolo._base.shown import Shown
-from dondolo._base.transactions import RUN_FILE, TABLES, published_run
 from dondolo._fortran.buildings import BUILDING_NAMES
 from dondolo._fortran.library import constants
 from dondolo._fortran.walls import WALL_EXTRAS, WALL_LISTS, WALL_PROPERTIES, WALL_TEXTS, WALL_WORDS
 from dondolo._storage.run_file import HistoryResult, RunFile, read_run_file
+from dondolo._storage.transactions import RUN_FILE, TABLES, published_run
 from dondolo.analysis.certificate import Certified
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import States, Stripes

@@ -10,8 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from dondolo._base.files import as_file, whole_file
-from dondolo._base.transactions import RUN_FILE
+from dondolo._fortran.origins import check_replaced, derived_mark
 from dondolo._storage.run_file import RunFile, read_run_file
+from dondolo._storage.transactions import RUN_FILE
 from dondolo.errors import DondoloError, InputError, visible
 from dondolo.exchange.result_file import ResultFile
 
@@ -27,8 +28,6 @@ _SHEET = re.compile(r"[A-Za-z0-9_-]{1,31}")
 _LARGEST = 9.99999999999999e307
 _LONGEST = 32767
 
-_CREATOR = "dondolo"
-
 # Titles and rows
 _Sheet = tuple[list[str], Iterable[Iterable[Any]]]
 
@@ -41,7 +40,8 @@ def write_workbook(prefix: str | os.PathLike[str], path: str | os.PathLike[str])
     prefix : path
         What the names of the result files begin with, for example ``out/parapet``.
     path : path
-        The workbook, ``*.xlsx``. An earlier one of dondolo is replaced, any other file is not.
+        The workbook, ``*.xlsx``. An earlier one is replaced as dondolo wrote it; one that another program has saved since,
+        and any other file, is not.
 
     Raises
     ------
@@ -59,8 +59,7 @@ def write_workbook(prefix: str | os.PathLike[str], path: str | os.PathLike[str])
             "openpyxl is not installed: pip install 'dondolo[spreadsheets]'; spreadsheets open the CSV files too"
         ) from None
     target = as_file("path", path, ".xlsx")
-    if target.exists() and not _is_ours(target):
-        raise InputError(f"{target}: exists, and is no workbook of dondolo")
+    check_replaced(target, "workbook")
     run = read_run_file(os.fspath(prefix) + RUN_FILE)
     # All tables before the workbook: one that is left unfinished makes openpyxl complain at the end.
     sheets: dict[str, _Sheet] = {"case": (["group", "variable", "value"], _case(run))}
@@ -75,10 +74,12 @@ def write_workbook(prefix: str | os.PathLike[str], path: str | os.PathLike[str])
             raise InputError(f"{run.path}: files: '{written.name}' is not the name of a table")
         sheets[name] = (list(table), zip(*columns, strict=True))
     book = openpyxl.Workbook(write_only=True)
-    book.properties.creator = _CREATOR
+    book.properties.creator = "dondolo"
     for name, (titles, rows) in sheets.items():
         _add_sheet(book, name, titles, rows)
     with whole_file(target) as part, _Archive(part, "w", zipfile.ZIP_DEFLATED, strict_timestamps=False) as archive:
+        # Spreadsheets drop it when they save the workbook, which is the user's own from then on.
+        archive.comment = derived_mark("workbook", run.run).encode()
         ExcelWriter(book, archive).save()
 
 
@@ -142,12 +143,3 @@ def _add_sheet(book: Any, name: str, titles: list[str], rows: Iterable[Iterable[
     sheet.append([cell(title) for title in titles])
     for row in rows:
         sheet.append([cell(value) for value in row])
-
-
-def _is_ours(path: Path) -> bool:
-    """Was a workbook written here?"""
-    try:
-        with zipfile.ZipFile(path) as archive:
-            return f"<dc:creator>{_CREATOR}</dc:creator>".encode() in archive.read("docProps/core.xml")
-    except (OSError, KeyError, zipfile.BadZipFile):
-        return False

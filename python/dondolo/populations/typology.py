@@ -14,13 +14,13 @@ import numpy as np
 from dondolo._base.arguments import FloatArray, as_number, one_of
 from dondolo._base.files import as_file
 from dondolo._base.shown import Shown, shown_dispersion
-from dondolo._base.transactions import publishing
 from dondolo._fortran.curves import FlatPopulation, coded, warnings_of_union
 from dondolo._fortran.library import constants, warn
 from dondolo._fortran.records import levels_in_words, unit_of
 from dondolo._storage import tables
 from dondolo._storage.run_file import RunFile
 from dondolo._storage.saved import Saved
+from dondolo._storage.transactions import publishing
 from dondolo.analysis.stripe_tables import stripes_table
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import Fragility
@@ -520,9 +520,15 @@ class Typology(Shown, Saved):
         Raises
         ------
         InputError
-            Walls of different gravity, for which the files have no place; or another run is writing them.
+            Walls of different gravity, for which the files have no place; another run is writing them; or a file of the
+            same name is not a result of dondolo.
         DondoloError
             A file cannot be written.
+
+        Warns
+        -----
+        DondoloWarning
+            Whose results are replaced, and which reports, workbooks and figures are out of date.
         """
         pulls = {wall.gravity for wall in self.walls}
         if len(pulls) > 1:

@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+import csv
 import os
 import re
+import zlib
+from collections.abc import Mapping
+from contextlib import suppress
+from itertools import count
 from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from dondolo._base.arguments import as_flag
-from dondolo._base.files import as_file, check_replaced
+from dondolo._base.arguments import FloatArray, as_flag
+from dondolo._base.files import as_file, read_bytes, read_text, synchronize, thing
 from dondolo._fortran.library import constants
+from dondolo._fortran.origins import check_replaced
 from dondolo._storage import tables
+from dondolo._storage.transactions import locked
 from dondolo.errors import DondoloError, InputError
 from dondolo.records.directions import is_search_result, other_quantity, vertical_mark
 from dondolo.records.reading import read_records
@@ -21,8 +28,11 @@ from dondolo.records.record import Record
 if TYPE_CHECKING:
     from dondolo.records.record_set import RecordSet
 
-#: What stands in the second line of catalogues that sets of records were written to
-_MARK = "# records written by dondolo"
+# Second line of catalogues that sets of records were written to; the second comment of those that were made of a folder
+_MARK, _FOUND = "# records written by dondolo", "records found by dondolo"
+# Columns of files and of their checksums, and the names of the files that a set of records is written to
+_FILES = (("file", "crc32"), ("vertical", "vertical_crc32"))
+_NAMED = re.compile(r"\d+_.*_([0-9a-f]{8})(?:_\d+)?\.txt")
 # Metadata that a file of columns states otherwise
 _STATED = ("format", "quantity", "units", "dt", "channel", "reading")
 
@@ -78,7 +88,7 @@ def build_catalogue(
     if file is None and target.exists():
         raise InputError(f"{target}: already exists: name the catalogue with -o, which replaces it if it is one")
     columns = ("file", "channel", "dt_s", "units", *_KEYS)
-    check_replaced(target, ",".join(columns), "catalogue")
+    check_replaced(target, "catalogue")
     table: dict[str, list[str]] = {column: [] for column in columns}
     problems = []
     files = [path for path in sorted(root.rglob("*")) if path.is_file() and not _is_hidden(path, root)]
@@ -113,18 +123,20 @@ def build_catalogue(
                 table[column].append(text)
     if not table["file"]:
         raise InputError("\n".join([*problems, f"{root}: no accelerogram that can be read"]))
-    tables.write_csv(target, table)
+    tables.write_csv(target, table, [_FOUND])
     return Catalogue(target, len(table["file"]), problems)
 
 
 def write_catalogue(records: RecordSet, path: str | os.PathLike[str]) -> None:
     """Write a set of records as a catalogue, and its accelerograms as files of columns in a folder beside it.
 
-    Every file has the samples with all their digits. Names of files are numbers and the names of the records, those of
-    their characters that every file system takes.
+    Every file has the samples with all their digits. Its name is a number, the name of the record, of which it has the
+    characters that every file system takes, and the checksum of the file: no file of an earlier catalogue is touched
+    before the table, which states the checksums, takes the place of the earlier one. What only that one named is removed
+    then, unless it has been changed.
     """
     target = as_file("path", path)
-    check_replaced(target, _MARK, "catalogue of records")
+    check_replaced(target, "records")
     if not target.suffix:
         raise InputError(f"path = {os.fspath(path)!r}: must have a suffix, such as .csv")
     each = list(dict.fromkeys(records.records))
@@ -133,36 +145,118 @@ def write_catalogue(records: RecordSet, path: str | os.PathLike[str]) -> None:
         if names.count(name) > 1:
             raise InputError(f"records: two have the name {name!r}: must have names of their own in a catalogue")
     folder = target.with_suffix("")
-    try:
-        folder.mkdir(exist_ok=True)
-    except OSError as error:
-        raise DondoloError(f"{folder}: cannot be written: {error.strerror}") from error
-    files, verticals = {}, {}
-    for i, record in enumerate(each, 1):
-        stem = re.sub(r"[^A-Za-z0-9_.-]+", "_", record.name)[:80]
-        files[record] = f"{folder.name}/{i:0{len(str(len(each)))}d}_{stem}.txt"
-        about = {key: value for key, value in record.metadata.items() if key not in _STATED}
-        lines = [f"# {key}: {' '.join(value.split())}" for key, value in about.items()]
-        lines += ["# units: m/s2", f"# dt: {record.dt!r}", *map(repr, record.acceleration.tolist())]
-        tables.write_lines(target.parent / files[record], lines)
-        if record.vertical is not None:
-            verticals[record] = files[record].removesuffix(".txt") + "_vertical.txt"
-            lines = ["# units: m/s2", f"# dt: {record.dt!r}", *map(repr, record.vertical.tolist())]
-            tables.write_lines(target.parent / verticals[record], lines)
+    with locked(target) as killed:
+        check_replaced(target, "records")
+        earlier = _files_of(target)
+        if killed:
+            earlier |= _left_by_killed(folder)
+        added: list[Path] = []
+        try:
+            is_new = not folder.exists()
+            folder.mkdir(exist_ok=True)
+            files, verticals = {}, {}
+            for i, record in enumerate(each, 1):
+                stem = f"{i:0{len(str(len(each)))}d}_{re.sub(r'[^A-Za-z0-9_.-]+', '_', record.name)[:80]}"
+                about = {key: value for key, value in record.metadata.items() if key not in _STATED}
+                lines = [f"# {key}: {' '.join(value.split())}" for key, value in about.items()]
+                files[record] = _write_record(folder, stem, lines, record.dt, record.acceleration, added)
+                if record.vertical is not None:
+                    verticals[record] = _write_record(folder, f"{stem}_vertical", [], record.dt, record.vertical, added)
+            synchronize(folder)
+            lines = tables.csv_lines(_table(records, files, verticals), [f"dondolo {constants().version}"])
+            tables.write_lines(target, [lines[0], _MARK, *lines[1:]])
+        except BaseException as error:
+            # What comes too late to keep the table from its place must not cost its files.
+            for file in set(added) - _files_of(target):
+                with suppress(OSError):
+                    file.unlink()
+            if is_new:
+                with suppress(OSError):
+                    folder.rmdir()
+            if isinstance(error, OSError) and not isinstance(error, DondoloError):
+                raise DondoloError(f"{folder}: cannot be written: {error.strerror}") from error
+            raise
+        named = {target.parent / file.place for file in (*files.values(), *verticals.values())}
+        for file in earlier - named:
+            with suppress(OSError):
+                file.unlink()
+
+
+class _RecordFile(NamedTuple):
+    """A file of a record: its path from the folder of the catalogue, and its checksum."""
+
+    place: str
+    crc32: str
+
+
+def _write_record(
+    folder: Path, stem: str, about: list[str], dt: float, samples: FloatArray, added: list[Path]
+) -> _RecordFile:
+    """Write a file of a record, unless it is there already; another of its name stays. It is noted where it is added."""
+    lines = [*about, "# units: m/s2", f"# dt: {dt!r}", *map(repr, samples.tolist())]
+    content = ("\n".join(lines) + "\n").encode()
+    crc32 = f"{zlib.crc32(content):08x}"
+    for i in count(1):
+        again = f"_{i}" if i > 1 else ""
+        file = folder / f"{stem}_{crc32}{again}.txt"
+        if not os.path.lexists(file):
+            added.append(file)
+            tables.write_lines(file, lines)
+            break
+        if not thing(file, follow_symlinks=False) and file.read_bytes() == content:
+            break
+    return _RecordFile(f"{folder.name}/{file.name}", crc32)
+
+
+def _table(
+    records: RecordSet, files: Mapping[Record, _RecordFile], verticals: Mapping[Record, _RecordFile]
+) -> tables.Table:
+    """Columns of a catalogue."""
     table: tables.Table = {
-        "file": [files[record] for record in records],
+        "file": [files[record].place for record in records],
         "name": [record.name for record in records],
         "dt_s": [tables.shortest(record.dt) for record in records],
         "units": ["m/s2"] * len(records),
+        "crc32": [files[record].crc32 for record in records],
     }
     if verticals:
-        table["vertical"] = [verticals.get(record, "") for record in records]
+        none = _RecordFile("", "")
+        table["vertical"] = [verticals.get(record, none).place for record in records]
+        table["vertical_crc32"] = [verticals.get(record, none).crc32 for record in records]
     for what in ("level", "factor"):
         values = getattr(records, what)
         if values is not None:
             table[what] = ["" if np.isnan(value) else tables.shortest(value) for value in values]
-    lines = tables.csv_lines(table, [f"dondolo {constants().version}"])
-    tables.write_lines(target, [lines[0], _MARK, *lines[1:]])
+    return table
+
+
+def _files_of(target: Path) -> set[Path]:
+    """The files that a catalogue of records names, of those that are in its folder and as they were written."""
+    found: set[Path] = set()
+    if not target.exists():
+        return found
+    # A table that was changed so that it cannot be read names nothing that may be removed.
+    with suppress(InputError, csv.Error):
+        rows = csv.DictReader(line for line in read_text(target).splitlines() if not line.startswith("#"))
+        for row in rows:
+            for place, crc32 in ((row.get(what), row.get(sum_)) for what, sum_ in _FILES):
+                if place and crc32 and _is_unchanged(file := target.parent / place, crc32, target.with_suffix("")):
+                    found.add(file)
+    return found
+
+
+def _left_by_killed(folder: Path) -> set[Path]:
+    """Files of records that a process may have left that was killed: those with their own checksum in their names."""
+    named = {file: _NAMED.fullmatch(file.name) for file in folder.glob("*.txt")}
+    return {file for file, found in named.items() if found and _is_unchanged(file, found[1], folder)}
+
+
+def _is_unchanged(file: Path, crc32: str, folder: Path) -> bool:
+    """Whether a file is in a folder, and has a checksum."""
+    try:
+        return file.parent == folder and f"{zlib.crc32(read_bytes(file)):08x}" == crc32
+    except InputError:
+        return False
 
 
 def _read(path: Path, dt: float | None, units: str | None) -> tuple[list[Record], str]:

@@ -290,15 +290,21 @@ class RecordSet(Shown, Saved):
         Parameters
         ----------
         path : path
-            The catalogue, a CSV file; an earlier one that dondolo wrote is replaced. The accelerograms are written to a
-            folder of its name without the suffix, with all digits and with the metadata.
+            The catalogue, a CSV file; an earlier one that this method wrote is replaced. The accelerograms are written to
+            a folder of its name without the suffix, with all digits and with the metadata.
 
         Raises
         ------
         InputError
-            The path is that of another file; different records have the same name.
+            The path is that of another file; different records have the same name; another process writes it.
         DondoloError
             The files cannot be written.
+
+        Notes
+        -----
+        Nothing of an earlier catalogue is replaced but its table, at once and last, so that it is the old or the new one
+        whatever fails. The table states the CRC-32 of each file, and whoever reads it, the executable too, refuses a file
+        of another. Files that only the earlier catalogue named are removed, unless they were changed since.
         """
         from dondolo.records.catalogues import write_catalogue
 

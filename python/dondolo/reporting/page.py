@@ -10,8 +10,9 @@ from importlib import resources
 from typing import TYPE_CHECKING, Any
 
 from dondolo._base.arguments import instance_of
-from dondolo._base.files import as_file, check_replaced
+from dondolo._base.files import as_file
 from dondolo._fortran.library import as_text, constants
+from dondolo._fortran.origins import check_replaced, derived_mark
 from dondolo._fortran.records import blank_unit
 from dondolo._storage import tables
 from dondolo.analysis.response import Response
@@ -36,8 +37,6 @@ from dondolo.risk.hazard import HazardCurve
 
 if TYPE_CHECKING:
     from jinja2 import Environment
-
-_GENERATOR = "dondolo report"
 
 
 @dataclass(frozen=True)
@@ -98,7 +97,7 @@ def report(
     import matplotlib.pyplot as plt
 
     target = as_file("path", path, ".html", ".htm", ".pdf")
-    check_replaced(path, _GENERATOR, "report")
+    check_replaced(target, "report")
     run = run_of(results)
     if title is not None:
         run.title = as_text("title", title).decode()
@@ -115,16 +114,17 @@ def report(
     with plt.ioff(), silent():
         chapters = _chapters(run, hazard)
     version, template = constants().version, _environment().get_template("page.html.j2")
+    mark = derived_mark("report", "" if run.file is None else run.file.run)
     text = template.render(
         title=run.title,
-        generator=f"{_GENERATOR} {version}",
+        generator=mark,
         lead=_lead(run),
         chapters=chapters,
         version=version,
         made=date_in_words(datetime.now().astimezone()),
     )
     if target.suffix.lower() == ".pdf":
-        write_pdf(path, text, f"{_GENERATOR} {version}")
+        write_pdf(path, text, mark)
     else:
         tables.write_lines(path, [text.rstrip("\n")])
 

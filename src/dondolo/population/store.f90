@@ -9,6 +9,7 @@ module dondolo_store
    use dondolo_kinds, only : wp
    use dondolo_lock, only : holder_type, lock_type, look_at_lock
    use dondolo_memory, only : check_room
+   use dondolo_origin, only : check_regular
    use dondolo_row_result, only : row_result_type
    use dondolo_store_format, only : is_cut_head, bytes_of_entry, identity_type, make_head, pack_entry, read_entry, &
       & read_head
@@ -75,7 +76,9 @@ contains
       logical :: exists
 
       exists = .false.
-      if (len(path) > 0) call look_into_store(found, path, exists, error)
+      ! What a link leads to is read, but never written.
+      if (len(path) > 0) call check_regular(path, .false., error)
+      if (len(path) > 0 .and. .not. allocated(error)) call look_into_store(found, path, exists, error)
       if (allocated(error)) return
       if (exists) then
          call identity%key%compare(found%identity%key, path, error)
@@ -107,11 +110,9 @@ contains
       inquire (file=path, exist=exists, size=store%size)
       if (.not. exists) return
       exists = .false.
-      if (store%size == 0) return
-      stat = 1
-      ! A pipe has no size, and would be waited for.
-      if (store%size > 0) open (newunit=store%unit, file=path, access='stream', form='unformatted', action='read', &
-         & status='old', iostat=stat)
+      call check_regular(path, .true., error)
+      if (allocated(error) .or. store%size == 0) return
+      open (newunit=store%unit, file=path, access='stream', form='unformatted', action='read', status='old', iostat=stat)
       if (stat /= 0) then
          store%unit = 0
          call raise_input(error, path//': not a dondolo counts file, or unreadable')
@@ -211,8 +212,12 @@ contains
       self%is_writing = .true.
       if (len_trim(self%lock%killed) > 0) call remove_file(ordered_path(self, self%lock%killed))
       call self%writer%append_to(self%path, ok)
-      if (.not. ok) call raise_failure(error, self%path//': cannot be written')
       inquire (file=self%path, size=size)
+      if (.not. ok .and. size == 0) then
+         call raise_input(error, self%path//': exists, is empty, and is not a file of counts of dondolo')
+      else if (.not. ok) then
+         call raise_failure(error, self%path//': cannot be written')
+      end if
       if (.not. allocated(error) .and. size /= self%size) then
          ! Another run has put rows in between, and has ended.
          call open_store(now, self%path, self%identity, error)

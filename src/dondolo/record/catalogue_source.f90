@@ -1,26 +1,32 @@
 !> The record that a row of a catalogue names: where its files are and what the row says of them.
 !>
+!> Where a row states the checksum of a file, as `RecordSet.to_catalogue` writes it, a file of other bytes is refused: it was
+!> changed since, or belongs to another version of the catalogue.
+!>
 !> What a row says is taken from the table row by row; the files are read from that alone, several at a time.
 module dondolo_catalogue_source
+   use, intrinsic :: iso_fortran_env, only : int64
+   use dondolo_checksum, only : crc32_length, crc32_of_file
    use dondolo_csv_reader, only : csv_reader_type
    use dondolo_dead_channel, only : check_vertical_motion
    use dondolo_error, only : add_place, error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_metadata, only : metadata_type
+   use dondolo_plain, only : shown
    use dondolo_record, only : record_type
    use dondolo_record_reader, only : read_record
-   use dondolo_text, only : lower
+   use dondolo_text, only : lower, to_text
    implicit none
    private
 
    public :: source_type, describe_source, take_source, read_source
 
    !> Columns that say how a record is read and run; all others are metadata
-   character(len=8), parameter :: own_columns(9) = [character(len=8) :: 'file', 'dt_s', 'units', 'channel', 'format', &
-      & 'name', 'vertical', 'level', 'factor']
+   character(len=14), parameter :: own_columns(11) = [character(len=14) :: 'file', 'dt_s', 'units', 'channel', 'format', &
+      & 'name', 'vertical', 'crc32', 'vertical_crc32', 'level', 'factor']
 
    !> How many of them say which record a row is of
-   integer, parameter :: columns_of_record = 7
+   integer, parameter :: columns_of_record = 9
 
    !> Where a record is
    type :: source_type
@@ -34,6 +40,8 @@ module dondolo_catalogue_source
       real(wp), allocatable :: dt
       !> Units, channel and format; empty: not given
       character(len=:), allocatable :: units, channel, format
+      !> CRC-32 of the files, hexadecimal; empty: not given
+      character(len=:), allocatable :: checksum, vertical_checksum
       !> Path of the file of the vertical component; not allocated: it is a channel of the same file, or not read
       character(len=:), allocatable :: vertical_path
       !> Channel of the vertical component; empty: the only one
@@ -82,6 +90,9 @@ contains
       source%units = table%get_text(table%column('units'))
       source%channel = table%get_text(table%column('channel'))
       source%format = table%get_text(table%column('format'))
+      call take_checksum(table, 'crc32', source%checksum, error)
+      if (.not. allocated(error)) call take_checksum(table, 'vertical_crc32', source%vertical_checksum, error)
+      if (allocated(error)) return
       if (len_trim(table%get_text(table%column('dt_s'))) > 0) then
          allocate (source%dt)
          call table%get_real(table%column('dt_s'), source%dt, error)
@@ -95,6 +106,24 @@ contains
       end do
       if (with_vertical) call take_vertical(table, source)
    end subroutine take_source
+
+   !> Take the checksum of a file
+   subroutine take_checksum(table, name, checksum, error)
+      !> The catalogue, with a row
+      type(csv_reader_type), intent(in) :: table
+      !> Name of the column
+      character(len=*), intent(in) :: name
+      !> Hexadecimal figures in lower case; empty: none is given
+      character(len=:), allocatable, intent(out) :: checksum
+      !> It is none
+      type(error_type), allocatable, intent(out) :: error
+
+      checksum = lower(trim(adjustl(table%get_text(table%column(name)))))
+      if (len(checksum) == 0) return
+      if (len(checksum) == crc32_length .and. verify(checksum, '0123456789abcdef') == 0) return
+      call raise_input(error, table%place()//': '//name//' = '''//shown(checksum)//''': must be a CRC-32 of '// &
+         & to_text(crc32_length)//' hexadecimal figures')
+   end subroutine take_checksum
 
    !> Take where the vertical component is: a channel of the same file where the record is one, else a file
    subroutine take_vertical(table, source)
@@ -125,7 +154,7 @@ contains
 
       type(record_type) :: vertical
 
-      call read_component(source, source%path, source%channel, record, error)
+      call read_component(source, source%path, source%channel, source%checksum, record, error)
       if (allocated(error)) return
       record%file = source%path
       call record%metadata%include(source%metadata)
@@ -135,10 +164,10 @@ contains
          return
       end if
       if (allocated(source%vertical_path)) then
-         call read_component(source, source%vertical_path, source%vertical_channel, vertical, error)
+         call read_component(source, source%vertical_path, source%vertical_channel, source%vertical_checksum, vertical, error)
          if (.not. allocated(error)) record%vertical_file = source%vertical_path
       else
-         call read_component(source, source%path, source%vertical_channel, vertical, error)
+         call read_component(source, source%path, source%vertical_channel, source%checksum, vertical, error)
       end if
       if (allocated(error)) return
       call check_vertical_motion(vertical%acceleration, error)
@@ -147,19 +176,33 @@ contains
    end subroutine read_source
 
    !> Read a component of a motion, with the step, the units and the format that the row gives
-   subroutine read_component(source, path, channel, record, error)
+   subroutine read_component(source, path, channel, checksum, record, error)
       !> Where it is
       type(source_type), intent(in) :: source
       !> Path of the file
       character(len=*), intent(in) :: path
       !> Name or number of the channel; empty: the only one
       character(len=*), intent(in) :: channel
+      !> Checksum of the file; empty: not given
+      character(len=*), intent(in) :: checksum
       type(record_type), intent(out) :: record
       !> What is wrong
       type(error_type), allocatable, intent(out) :: error
 
+      character(len=crc32_length) :: found
+      integer(int64) :: bytes
+      logical :: ok
+
       ! A dt that is not allocated is an argument that is not present
       call read_record(path, record, error, source%dt, source%units, channel, source%format)
+      if (.not. allocated(error) .and. len(checksum) > 0) then
+         ! One thread at a time, as in load_text
+         !$omp critical (open_file)
+         call crc32_of_file(path, found, bytes, ok)
+         !$omp end critical (open_file)
+         if (.not. ok .or. found /= checksum) call raise_input(error, path//': has the CRC-32 '//found//', and '//checksum// &
+            & ' is stated: the file was changed, or is of another version of the catalogue')
+      end if
       call add_place(error, source%place)
    end subroutine read_component
 

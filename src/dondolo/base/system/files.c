@@ -1,5 +1,6 @@
 /* What files need of POSIX that Fortran cannot call: functions with optional arguments, structures, clocks. */
 #define _GNU_SOURCE
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdint.h>
@@ -16,6 +17,101 @@ FILE *dondolo_create(const char *path)
    int descriptor = open(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
 
    return descriptor < 0 ? NULL : fdopen(descriptor, "w");
+}
+
+/* What is at a path: 0 nothing, 1 a regular file, 2 a symbolic link, 3 a folder, 4 a pipe, 5 a socket, 6 a device. A link is
+   what it leads to where links are followed. */
+int dondolo_thing(const char *path, int follows)
+{
+   struct stat found;
+
+   if ((follows ? stat(path, &found) : lstat(path, &found)) != 0)
+      return 0;
+   switch (found.st_mode & S_IFMT) {
+   case S_IFREG: return 1;
+   case S_IFLNK: return 2;
+   case S_IFDIR: return 3;
+   case S_IFIFO: return 4;
+   case S_IFSOCK: return 5;
+   default: return 6;
+   }
+}
+
+/* Read the first and the last bytes of a regular file, `room` of each or all that there are; what is left of the texts stays
+   as it is. No link is followed, and nothing is waited for. */
+void dondolo_read_ends(const char *path, char *first, char *last, size_t room)
+{
+   struct stat found;
+   int descriptor = open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+
+   if (descriptor < 0)
+      return;
+   if (fstat(descriptor, &found) == 0 && S_ISREG(found.st_mode) && pread(descriptor, first, room, 0) > 0) {
+      off_t at = found.st_size > (off_t)room ? found.st_size - (off_t)room : 0;
+
+      if (pread(descriptor, last, room, at) < 0)
+         last[0] = ' ';
+   }
+   close(descriptor);
+}
+
+/* The names in a folder that begin with a text, each with a line feed at its end; those without room are left out, and so are
+   names with a line feed */
+void dondolo_list(const char *folder, const char *begin, char *names, size_t room)
+{
+   DIR *list = opendir(folder);
+   struct dirent *entry;
+   size_t used = 0;
+
+   while (list != NULL && (entry = readdir(list)) != NULL) {
+      size_t length = strlen(entry->d_name);
+
+      if (strncmp(entry->d_name, begin, strlen(begin)) != 0 || strchr(entry->d_name, '\n') != NULL || used + length + 2 > room)
+         continue;
+      memcpy(names + used, entry->d_name, length);
+      names[used + length] = '\n';
+      used += length + 1;
+   }
+   names[used] = '\0';
+   if (list != NULL)
+      closedir(list);
+}
+
+/* Open a regular file to write behind what is there, no link followed; NULL if that fails, or if the file is empty and somebody
+   else's. One that is made has the sticky bit until it is no longer empty, as that of dondolo_take_lock. */
+FILE *dondolo_append(const char *path)
+{
+   struct stat found;
+   int descriptor = open(path, O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666 | S_ISVTX);
+
+   if (descriptor < 0)
+      return NULL;
+   if (fstat(descriptor, &found) == 0 && S_ISREG(found.st_mode) && (found.st_size > 0 || (found.st_mode & S_ISVTX) != 0))
+      return fdopen(descriptor, "a");
+   close(descriptor);
+   return NULL;
+}
+
+/* Take the sticky bit from a file that is no longer empty */
+void dondolo_unmark(FILE *file)
+{
+   struct stat found;
+
+   if (fstat(fileno(file), &found) == 0 && (found.st_mode & S_ISVTX) != 0)
+      (void)!fchmod(fileno(file), found.st_mode & 0777);
+}
+
+/* Cut a regular file to a length, no link followed; 1: it has this length now */
+int dondolo_cut(const char *path, long bytes)
+{
+   struct stat found;
+   int descriptor = open(path, O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC), done;
+
+   if (descriptor < 0)
+      return 0;
+   done = fstat(descriptor, &found) == 0 && S_ISREG(found.st_mode) && ftruncate(descriptor, (off_t)bytes) == 0;
+   close(descriptor);
+   return done;
 }
 
 /* Make an empty file and remove it; 1: that can be done. It has the sticky bit of dondolo_take_lock: so one that a killed

@@ -1,10 +1,11 @@
 !> Locks: one run at a time writes an output or a store. The lock of `out/city` is the file `out/city.lock`, which says who
 !> has it; the kernel holds the lock itself (flock), and gives it back however the process ends. A file that a killed run
-!> has left is therefore no lock, but says which run that was. Python takes the same locks (_base/transactions.py).
+!> has left is therefore no lock, but says which run that was. Python takes the same locks (_storage/transactions.py).
 module dondolo_lock
    use, intrinsic :: iso_c_binding, only : c_char, c_double, c_int, c_null_char, c_size_t
    use dondolo_error, only : error_type, raise_failure, raise_input
    use dondolo_numbers, only : parse_integer
+   use dondolo_origin, only : check_regular, run_length
    use dondolo_system, only : remove_file
    use dondolo_text, only : to_text
    implicit none
@@ -15,8 +16,8 @@ module dondolo_lock
    !> What the file begins with
    character(len=*), parameter :: mark = 'dondolo lock'
 
-   !> Bytes of the file at most, and of the name of a run
-   integer, parameter :: room = 500, run_length = 33
+   !> Bytes of the file at most
+   integer, parameter :: room = 500
    integer(c_size_t), parameter :: space = room
 
    !> Who has a lock, or had it
@@ -108,6 +109,8 @@ contains
       integer(c_int) :: stat
 
       self%path = what//'.lock'
+      call check_regular(self%path, .false., error)
+      if (allocated(error)) return
       text = c_null_char
       stat = c_take(self%path//c_null_char, self%descriptor, text, space)
       call read_holder(text, holder)

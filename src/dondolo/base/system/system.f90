@@ -63,14 +63,14 @@ module dondolo_system
          character(kind=c_char), intent(in) :: path(*)
       end function c_unlink
 
-      !> Cut a file to a length
-      integer(c_int) function c_truncate(path, length) bind(c, name='truncate')
+      !> Cut a file to a length; 1: it has it
+      integer(c_int) function c_cut(path, length) bind(c, name='dondolo_cut')
          import :: c_char, c_int, c_long
          !> Path
          character(kind=c_char), intent(in) :: path(*)
          !> Length [bytes]; off_t is a long on 64-bit systems
          integer(c_long), value :: length
-      end function c_truncate
+      end function c_cut
 
       !> The one absolute path of a file
       type(c_ptr) function c_realpath(path, resolved) bind(c, name='realpath')
@@ -102,14 +102,19 @@ module dondolo_system
          integer(c_intptr_t), value :: handler
       end function c_signal
 
-      !> Open a file
-      type(c_ptr) function c_fopen(path, mode) bind(c, name='fopen')
+      !> Open a regular file to write behind what is there; it is made if it is not, and no link is followed
+      type(c_ptr) function c_append(path) bind(c, name='dondolo_append')
          import :: c_char, c_ptr
          !> Path
          character(kind=c_char), intent(in) :: path(*)
-         !> 'a' to write behind what is there
-         character(kind=c_char), intent(in) :: mode(*)
-      end function c_fopen
+      end function c_append
+
+      !> Take the mark from a file that is no longer empty
+      subroutine c_unmark(handle) bind(c, name='dondolo_unmark')
+         import :: c_ptr
+         !> File
+         type(c_ptr), value :: handle
+      end subroutine c_unmark
 
       !> Make a file and open it to write; it must not be there yet, and no link is followed
       type(c_ptr) function c_create(path) bind(c, name='dondolo_create')
@@ -214,7 +219,7 @@ contains
       stat = c_unlink(path//c_null_char)
    end subroutine remove_file
 
-   !> Cut a file to a length
+   !> Cut a file to a length; a link is not followed
    subroutine cut_file(path, bytes, ok)
       !> Path
       character(len=*), intent(in) :: path
@@ -223,7 +228,7 @@ contains
       !> It has this length now
       logical, intent(out) :: ok
 
-      ok = c_truncate(path//c_null_char, int(bytes, c_long)) == 0
+      ok = c_cut(path//c_null_char, int(bytes, c_long)) == 1
    end subroutine cut_file
 
    !> Bring the names of the files of a folder to the disk
@@ -325,7 +330,8 @@ contains
       ok = c_associated(self%handle)
    end subroutine create
 
-   !> Open a file to write behind what is there; it is made if it is not
+   !> Open a regular file to write behind what is there; it is made if it is not. A link is not followed, and an empty file that
+   !> no run has made is left alone
    subroutine append_to(self, path, ok)
       class(writer_type), intent(inout) :: self
       !> Path
@@ -333,7 +339,7 @@ contains
       !> It can be written
       logical, intent(out) :: ok
 
-      self%handle = c_fopen(path//c_null_char, 'a'//c_null_char)
+      self%handle = c_append(path//c_null_char)
       ok = c_associated(self%handle)
    end subroutine append_to
 
@@ -357,7 +363,11 @@ contains
       !> Set to false when it could not be written; left alone otherwise
       logical, intent(inout) :: ok
 
-      if (c_fflush(self%handle) /= 0) ok = .false.
+      if (c_fflush(self%handle) /= 0) then
+         ok = .false.
+      else
+         call c_unmark(self%handle)
+      end if
    end subroutine flush_writer
 
    !> Bring what was written to the disk: it then outlives a loss of power

@@ -6,6 +6,7 @@ module dondolo_text_file
    use dondolo_error, only : add_place, error_type, raise_input, raise_missing
    use dondolo_kinds, only : wp
    use dondolo_memory, only : check_room
+   use dondolo_origin, only : check_regular
    use dondolo_text, only : to_text
    implicit none
    private
@@ -199,7 +200,8 @@ contains
          call raise_missing(error, file//': no such file')
          return
       end if
-      ! Seen before it is opened: a pipe has no size either, and would be waited for.
+      call check_regular(file, .true., error)
+      if (allocated(error)) return
       if (bytes == 0) then
          call raise_input(error, file//': the file is empty')
          return
@@ -214,7 +216,7 @@ contains
       if (bytes >= 0) return
       close (unit)
       unit = 0
-      call raise_input(error, file//': larger than 2 GiB, or not a regular file')
+      call raise_input(error, file//': larger than 2 GiB')
    end subroutine open_text
 
    !> Find the lines of a text

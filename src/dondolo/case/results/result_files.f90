@@ -12,13 +12,14 @@
 !>
 !> The folder is synchronized between 3 and 4, so that a loss of power does not keep 4 without 3, and after 4, before a
 !> checkpoint is removed. Tables begin with a line that names RUN, so that files that were brought together by other
-!> means are found out. Python publishes by the same steps (_base/transactions.py).
+!> means are found out. Python publishes by the same steps (_storage/transactions.py).
 module dondolo_result_files
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_checksum, only : crc32_length, crc32_of_file
    use dondolo_error, only : error_type, raise_failure, raise_input, status_failure
    use dondolo_lines, only : lines_type
-   use dondolo_lock, only : lock_type, run_length
+   use dondolo_lock, only : lock_type
+   use dondolo_origin, only : check_replaced, look_at_origin, origin_type, run_length
    use dondolo_system, only : is_folder, make_folder, remove_file, remove_folder, rename_file, same_file, &
       & synchronize_folder, try_file, writer_type
    use dondolo_version, only : dondolo_version_text
@@ -112,6 +113,8 @@ contains
             call raise_input(error, 'the result file '//path//' would replace a file of the case')
             return
          end do
+         call check_replaced(path, kind_of(suffixes(i)), error)
+         if (allocated(error)) return
       end do
       do i = 1, tries
          call make_folders(prefix, made, ok)
@@ -129,6 +132,15 @@ contains
       end if
       call remove_folders(made)
    end subroutine check_output
+
+   !> What kind of file a result is
+   pure function kind_of(suffix) result(kind)
+      !> What its name ends with
+      character(len=*), intent(in) :: suffix
+      character(len=5) :: kind
+
+      kind = merge('run  ', 'table', suffix == run_suffix)
+   end function kind_of
 
    !> Path of a file before it is published
    pure function staged(path, run)
@@ -226,13 +238,15 @@ contains
 
       character(len=run_length) :: published
       character(len=:), allocatable :: path
+      type(error_type), allocatable :: error
       integer :: i
       logical :: ok
 
       published = published_run(prefix)
       do i = 1, size(all_suffixes)
          path = prefix//trim(all_suffixes(i))
-         if (len_trim(published) > 0) call rename_file(staged(path, published), path, ok)
+         call check_replaced(path, kind_of(all_suffixes(i)), error)
+         if (len_trim(published) > 0 .and. .not. allocated(error)) call rename_file(staged(path, published), path, ok)
          if (len_trim(killed) > 0 .and. killed /= published) call remove_file(staged(path, killed))
       end do
       if (len_trim(killed) > 0) call remove_file(staged(prefix//run_suffix, killed))
@@ -245,22 +259,11 @@ contains
       !> Name of the run; blank if there is none
       character(len=run_length) :: run
 
-      character(len=*), parameter :: key = '"run": "'
-      character(len=200) :: start
-      integer(int64) :: bytes
-      integer :: unit, stat, at
+      type(origin_type) :: origin
 
       run = ''
-      ! A pipe has no size, and would be waited for.
-      inquire (file=prefix//run_suffix, size=bytes)
-      if (bytes < len(start)) return
-      open (newunit=unit, file=prefix//run_suffix, access='stream', form='unformatted', action='read', status='old', &
-         & iostat=stat)
-      if (stat /= 0) return
-      read (unit, iostat=stat) start
-      close (unit)
-      at = index(start, key)
-      if (stat == 0 .and. at > 0 .and. at + len(key) + run_length <= len(start)) run = start(at + len(key):)
+      call look_at_origin(prefix//run_suffix, origin)
+      if (origin%kind == 'run') run = origin%run
    end function published_run
 
    !> Begin a file; a table begins with the line that names the run
@@ -331,9 +334,8 @@ contains
       logical :: ok
 
       do i = 1, size(self%written)
-         if (.not. is_folder(self%prefix//trim(self%written(i)%suffix))) cycle
-         call raise_failure(error, self%prefix//trim(self%written(i)%suffix)//': is a folder, and cannot be replaced')
-         return
+         call check_replaced(self%prefix//trim(self%written(i)%suffix), kind_of(self%written(i)%suffix), error)
+         if (allocated(error)) return
       end do
       call rename_file(staged(self%prefix//run_suffix, self%lock%run), self%prefix//run_suffix, ok)
       if (.not. ok) then
@@ -375,21 +377,15 @@ contains
       !> Paths of the files of the case
       type(lines_type), intent(in) :: inputs
 
-      character(len=len(mark)) :: begin
-      integer(int64) :: bytes
-      integer :: unit, stat, i
+      type(origin_type) :: origin
+      integer :: i
 
-      ! A pipe has no size, and would be waited for.
-      inquire (file=path, size=bytes)
-      if (bytes < len(mark)) return
+      call look_at_origin(path, origin)
+      if (origin%kind /= 'table') return
       do i = 1, inputs%count
          if (same_file(path, inputs%line(i)%text)) return
       end do
-      open (newunit=unit, file=path, access='stream', form='unformatted', action='read', status='old', iostat=stat)
-      if (stat /= 0) return
-      read (unit, iostat=stat) begin
-      close (unit)
-      if (stat == 0 .and. begin == mark) call remove_file(path)
+      call remove_file(path)
    end subroutine remove_old
 
    !> Give the lock back; what was not published is removed, with folders that were made for it
