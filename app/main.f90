@@ -101,15 +101,15 @@ contains
       if (.not. allocated(error)) call check_reports(case, error)
       if (allocated(error)) return
       call print_lines('note', case%notes)
-      ! The rows of a part go into a file of counts, which has a lock of its own.
-      has_results = .not. (case%job%task == 'typology' .and. case%survey%is_part)
-      if (has_results) call describe_replaced(case%job%output, replaced)
-      call print_lines('note', replaced)
       if (arguments%action == 'check') then
          call print_plan(case, arguments%quiet, warnings, error)
          if (arguments%quiet) call print_lines('warning', warnings)
          return
       end if
+      ! The rows of a part go into a file of counts, which has a lock of its own.
+      has_results = .not. (case%job%task == 'typology' .and. case%survey%is_part)
+      if (has_results) call describe_replaced(case%job%output, replaced)
+      call print_lines('note', replaced)
       threads = team(case%job%threads)
       call end_in_order()
       if (has_results) call files%claim(case%job%output, error)

@@ -52,7 +52,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 if [ $# -eq 1 ]; then
    # Workers have tests of their own in python/tests/test_executors.py.
-   set -- "$1" "$cases" --only files bombs faults kills
+   set -- "$1" "$cases" --only files bombs strangers faults kills
    checked=$exe
    readers=$(program test test_readers)
 else

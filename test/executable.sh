@@ -869,7 +869,7 @@ refused "--merge with --walls" '--walls: cannot go together with --merge' --wall
 refused "--merge: a row is missing" '--merge: row 1 of 2 is missing from the files' --merge people.nml out/people_walls_2-2.counts
 refused "--merge: the case itself" 'people.nml: not a dondolo counts file' --merge people.nml people.nml
 refused "--merge: a folder" 'records: not a dondolo counts file' --merge people.nml records
-refused "--merge: a pipe" 'pipe: no such file, or nothing in it' --merge people.nml pipe
+refused "--merge: a pipe" 'pipe: is a pipe, not a regular file' --merge people.nml pipe
 refused "--merge: nothing" 'none: no such file, or nothing in it' --merge people.nml none
 rm -rf out walls.csv pipe
 

@@ -236,7 +236,7 @@ def test_only_a_catalogue_is_replaced(folder, tmp_path):
     survey.write_text("name,mechanism,height,thickness\n")
     code, _, err = run("catalogue", folder, "-o", survey)
     assert code == 2
-    assert "walls.csv: exists, and is no catalogue of dondolo" in err
+    assert "walls.csv: exists, and is not a catalogue of files of dondolo" in err
     assert survey.read_text() == "name,mechanism,height,thickness\n"
 
 

@@ -170,7 +170,7 @@ def test_only_models_of_dondolo_are_replaced(path):
     assert 'id="again"' in text
     other = text.replace("<!-- dondolo ", "<!-- another ")
     path.write_text(other)
-    with pytest.raises(dd.InputError, match=r"model\.xml: exists, and is no fragility model of dondolo"):
+    with pytest.raises(dd.InputError, match=r"model\.xml: exists, and is not a fragility model of dondolo"):
         dd.write_nrml(path, functions)
     assert path.read_text() == other
 
@@ -433,7 +433,7 @@ def test_models_of_others(path, tmp_path):
     model.write(tmp_path / "again.xml")
     with pytest.warns(dd.DondoloWarning, match="the curves cross"):
         same(model, dd.read_nrml(tmp_path / "again.xml"))
-    with pytest.raises(dd.InputError, match="exists, and is no fragility model of dondolo"):
+    with pytest.raises(dd.InputError, match="exists, and is not a fragility model of dondolo"):
         model.write(path)
 
 

@@ -83,7 +83,7 @@ def test_workbook(run):
     assert cell.data_type == "s"
     dd.write_workbook(run, path)
     path.write_text("notes of the office")
-    with pytest.raises(dd.InputError, match="is no workbook of dondolo"):
+    with pytest.raises(dd.InputError, match="is not a workbook of dondolo"):
         dd.write_workbook(run, path)
 
 
@@ -115,7 +115,8 @@ def test_report_as_pdf(run):
     dd.report(dd.read_results(run), path)
     data = path.read_bytes()
     assert data.startswith(b"%PDF")
-    assert data.rstrip().endswith(f"% dondolo report {dd.__version__}".encode())
+    run_name = dd.read_results(run).run.run
+    assert data.rstrip().endswith(f"% dondolo report {dd.__version__} of run {run_name}".encode())
     # An earlier report is replaced, another PDF is not.
     dd.report(dd.read_results(run), path)
     if shutil.which("pdftotext") is not None:
@@ -123,7 +124,7 @@ def test_report_as_pdf(run):
         pages, text = text.count("\f"), text.replace(" ", "")
         assert [f"{page}/{pages}" in text for page in range(1, pages + 1)] == [True] * pages
     path.write_bytes(b"%PDF-1.4 of somebody else")
-    with pytest.raises(dd.InputError, match="is no report of dondolo"):
+    with pytest.raises(dd.InputError, match="is not a report of dondolo"):
         dd.report(dd.read_results(run), path)
 
 

@@ -5,10 +5,11 @@ import re
 import shutil
 import socket
 import subprocess
-import sys
+import warnings
 
 import numpy as np
 import pytest
+from dondolo.__main__ import main
 from dondolo._base.files import whole_file
 
 import dondolo as dd
@@ -161,13 +162,10 @@ def test_an_empty_file_is_no_checkpoint(start, folder, few):
     assert path.read_bytes().startswith(b"dondolo counts ")
 
 
-@pytest.mark.parametrize("thing", ["a pipe", "a socket", "a folder"])
+@pytest.mark.parametrize("thing", ["a pipe", "a socket"])
 def test_what_is_read_is_a_regular_file(thing, start, folder, root):
     path = folder / "out/input"
-    if thing == "a folder":
-        path.mkdir()
-    else:
-        put(thing, path)
+    put(thing, path)
     reads = [dd.read_record, dd.read_catalogue, dd.read_population, dd.HazardCurve.from_csv, dd.load]
     for read in (*reads, dd.read_nrml, dd.HazardCurve.from_openquake):
         with pytest.raises(dd.InputError, match=f"input: is {thing}, not a regular file"):
@@ -175,30 +173,34 @@ def test_what_is_read_is_a_regular_file(thing, start, folder, root):
     (folder / "records.csv").write_text("file,dt_s,units\nout/input,0.01,g\n")
     (folder / "a.nml").write_text((folder / "a.nml").read_text().replace(f"{root}/data/records/synthetic44", "records"))
     refused(start("a.nml"), "out/input", f"is {thing}, not a regular file")
-    if thing != "a folder":
-        run_file = folder / "x_run.json"
-        path.rename(run_file)
-        with pytest.raises(dd.InputError, match=f"x_run.json: is {thing}, not a regular file"):
-            dd.read_results(folder / "x")
+    path.rename(folder / "x_run.json")
+    with pytest.raises(dd.InputError, match=f"x_run.json: is {thing}, not a regular file"):
+        dd.read_results(folder / "x")
 
 
-def command(folder, *arguments):
-    """Run a command of Python."""
-    done = subprocess.run(
-        [sys.executable, "-m", "dondolo", *arguments], cwd=folder, capture_output=True, text=True, check=False
-    )
-    return done.returncode, done.stdout, done.stderr
+@pytest.fixture
+def command(folder, monkeypatch, capsys):
+    """Run a command of Python in the folder: its exit code and what it says on stderr."""
+    monkeypatch.chdir(folder)
+    before = warnings.showwarning
+
+    def call(*arguments):
+        code = main(list(arguments))
+        warnings.showwarning = before
+        return code, capsys.readouterr().err
+
+    return call
 
 
 @pytest.mark.slow
-def test_what_is_made_of_results_knows_its_run(start, folder):
+def test_what_is_made_of_results_knows_its_run(start, folder, command):
     """It is replaced where it is dondolo's, and named as out of date when another run replaces the results."""
     assert start("a.nml").returncode == 0
     made = ["x_fragility.png", "x_fragility.xml", "x_report.html", "x_stripes.png", "x_tables.xlsx"]
     commands = (["plot", "out/x"], ["report", "out/x"], ["xlsx", "out/x"], ["nrml", "out/x"])
     for _ in range(2):
         for arguments in commands:
-            assert command(folder, *arguments)[::2] == (0, "")
+            assert command(*arguments) == (0, "")
     before = {name: (folder / "out" / name).read_bytes() for name in made}
     run = dd.read_results(folder / "out/x").run.run
     assert all(f" of run {run}".encode() in content for content in before.values())
@@ -219,12 +221,12 @@ def test_what_is_made_of_results_knows_its_run(start, folder):
     people = dd.read_results(folder / "out/x")
     assert people.run.run != run
     for arguments in commands:
-        assert command(folder, *arguments)[::2] == (0, "")
+        assert command(*arguments) == (0, "")
     assert start("--status", "out/x").stdout.splitlines()[2:] == []
 
 
 @pytest.mark.slow
-def test_nothing_made_of_results_takes_the_place_of_another_file(start, folder):
+def test_nothing_made_of_results_takes_the_place_of_another_file(start, folder, command):
     assert start("a.nml").returncode == 0
     page = FOREIGN["a page"]
     kinds = {
@@ -237,22 +239,22 @@ def test_nothing_made_of_results_takes_the_place_of_another_file(start, folder):
     for name, (arguments, noun) in kinds.items():
         path = folder / "out" / name
         path.write_text(page)
-        code, _, err = command(folder, *arguments, "out/x")
+        code, err = command(*arguments, "out/x")
         assert (code, err) == (2, f"dondolo: out/{name}: exists, and is not {noun} of dondolo\n")
         assert path.read_text() == page
         # One kind does not take the place of another.
         shutil.copy(folder / "out/x_stripes.csv", path)
-        assert command(folder, *arguments, "out/x")[0] == 2
+        assert command(*arguments, "out/x")[0] == 2
         path.unlink()
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", ["svg", "pdf", "eps", "jpg", "tiff", "webp"])
-def test_figures_of_every_format_are_known(kind, start, folder):
+def test_figures_of_every_format_are_known(kind, start, folder, command):
     pil = pytest.importorskip("PIL.Image")
     assert start("a.nml").returncode == 0
     for _ in range(2):
-        assert command(folder, "plot", "--format", kind, "out/x")[0] == 0
+        assert command("plot", "--format", kind, "out/x")[0] == 0
     if kind in ("jpg", "tiff", "webp"):
         with pil.open(folder / f"out/x_stripes.{kind}") as image:
             assert np.asarray(image).std() > 1.0

@@ -462,7 +462,7 @@ def test_report_appears_whole_or_not_at_all(stripes, tmp_path, monkeypatch):
 def test_only_reports_are_replaced(stripes, tmp_path):
     path = tmp_path / "walls.html"
     path.write_text("wall\n")
-    with pytest.raises(dd.InputError, match=r"walls\.html: exists, and is no report of dondolo"):
+    with pytest.raises(dd.InputError, match=r"walls\.html: exists, and is not a report of dondolo"):
         dd.report(stripes, path)
     assert path.read_text() == "wall\n"
     with pytest.raises(dd.DondoloError, match="cannot be written"):
@@ -678,7 +678,7 @@ def test_command_nrml(runs):
     survey.write_text("name,height\n")
     done = command("nrml", runs / "two_block", "-o", survey)
     assert done.returncode == 2
-    assert done.stderr == f"dondolo: {survey}: exists, and is no fragility model of dondolo\n"
+    assert done.stderr == f"dondolo: {survey}: exists, and is not a fragility model of dondolo\n"
     assert survey.read_text() == "name,height\n"
     done = command("nrml", runs / "history")
     assert done.returncode == 2

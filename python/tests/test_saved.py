@@ -308,7 +308,7 @@ def test_paths(results, tmp_path):
         curve.save(tmp_path / "none" / "curve.npz")
     np.savez(path, edp=[1.0])
     before = path.read_bytes()
-    with pytest.raises(dd.InputError, match=r"curve\.npz: exists, and is no result of dondolo$"):
+    with pytest.raises(dd.InputError, match=r"curve\.npz: exists, and is not a saved result of dondolo$"):
         curve.save(path)
     with pytest.raises(dd.InputError, match=r"curve\.npz: is no result saved by dondolo$"):
         dd.load(path)

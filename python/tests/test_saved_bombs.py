@@ -152,5 +152,5 @@ def test_content_that_a_constructor_cannot_take(path):
 
 
 def test_a_device_has_no_end():
-    with pytest.raises(dd.InputError, match="/dev/zero: is no result saved by dondolo"):
+    with pytest.raises(dd.InputError, match="/dev/zero: is a device, not a regular file"):
         dd.load("/dev/zero")

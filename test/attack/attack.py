@@ -22,6 +22,7 @@ from faults import Faults
 from kills import Kills
 from readers import COMMANDS, EXECUTABLE, FORTRAN, PYTHON, Attack, Tally
 from samples import ROOT, Programs
+from strangers import families as strangers_of
 from workers import Workers
 
 # Files that made something fail
@@ -37,7 +38,11 @@ def main() -> int:
     parser.add_argument(
         "--cases", type=int, default=1000, help="damaged files of each family; all else is in proportion"
     )
-    parser.add_argument("--only", nargs="*", help="families, as the table names them, or a group: files, bombs ...")
+    parser.add_argument(
+        "--only",
+        nargs="*",
+        help="families, as the table names them, or files, bombs, strangers, faults, kills, workers",
+    )
     parser.add_argument("--case", metavar="FAMILY:NUMBER", help="a damaged file, as a failure names it")
     given = parser.parse_args()
     programs = Programs(*(path.resolve() for path in given.programs))
@@ -82,9 +87,17 @@ def attack(programs: Programs, folder: Path, given: argparse.Namespace) -> Itera
         "one output": lambda: kills.together(max(4, n // 10)),
         "one checkpoint": lambda: kills.one_checkpoint(max(4, n // 10)),
     }
+    strangers = strangers_of(programs, folder / "strangers", max(12, n))
     workers = Workers(programs, folder / "workers").families(max(1, n // 100))
     bombs = Bombs(programs, folder / "bombs").families()
-    for group, families in (("bombs", bombs), ("faults", faults), ("kills", interrupted), ("workers", workers)):
+    groups: dict[str, dict[str, Callable[[], Tally]]] = {
+        "bombs": bombs,
+        "strangers": strangers,
+        "faults": faults,
+        "kills": interrupted,
+        "workers": workers,
+    }
+    for group, families in groups.items():
         for family, attacked in families.items():
             if chosen(group, family):
                 yield attacked()

@@ -84,8 +84,12 @@ def thing(path: str | os.PathLike[str], *, follow_symlinks: bool) -> str:
 
 
 def check_regular(path: str | os.PathLike[str]) -> None:
-    """Refuse to read what is no regular file: a pipe would be waited for, and a device has no end."""
-    if what := thing(path, follow_symlinks=True):
+    """Refuse to read what is no regular file: a pipe would be waited for, and a device has no end.
+
+    Who reads a folder is told so by the system.
+    """
+    what = thing(path, follow_symlinks=True)
+    if what and what != _THINGS[stat.S_IFDIR]:
         raise InputError(f"{os.fspath(path)}: is {what}, not a regular file")
 
 

@@ -91,6 +91,7 @@ class Publication:
     def write(self, name: str, lines: Iterable[str]) -> None:
         """Write a file under its name before it is published; `name` is what its name ends with."""
         path = _end(self._prefix, name)
+        check_replaced(path, _kind(name))
         text = "".join(f"{line}\n" for line in lines)
         try:
             os.close(create(staged(path, self.run)))
@@ -145,12 +146,12 @@ def publishing(prefix: Path) -> Iterator[Publication]:
     Raises
     ------
     InputError
-        Another run has the lock, or its file is something else.
+        Another run has the lock, or its file is something else; the name of a file is that of one that dondolo has not
+        written.
     DondoloError
         The files cannot be written.
     """
-    for name in (*TABLES, RUN_FILE):
-        check_replaced(_end(prefix, name), _kind(name))
+    check_replaced(_end(prefix, RUN_FILE), _kind(RUN_FILE))
     notes = replaced(prefix)
     with _locked(prefix) as (lock, killed):
         publication = Publication(prefix, lock.run)
@@ -160,7 +161,8 @@ def publishing(prefix: Path) -> Iterator[Publication]:
             yield publication
         finally:
             lock.is_needed = not publication.close()
-    warn(DondoloWarning(sentence, "note") for sentence in (*notes, *outdated(prefix)))
+    for code, sentences in (("results_replaced", notes), ("out_of_date", outdated(prefix))):
+        warn(DondoloWarning(sentence, code, {"results": str(prefix)}) for sentence in sentences)
 
 
 @contextmanager

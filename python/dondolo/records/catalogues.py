@@ -28,8 +28,8 @@ from dondolo.records.record import Record
 if TYPE_CHECKING:
     from dondolo.records.record_set import RecordSet
 
-# Second line of catalogues that sets of records were written to; the second comment of those that were made of a folder
-_MARK, _FOUND = "# records written by dondolo", "records found by dondolo"
+# Second line of catalogues that sets of records were written to; end of the first line of those made of a folder
+_MARK, _FOUND = "# records written by dondolo", ": records found"
 # Columns of files and of their checksums, and the names of the files that a set of records is written to
 _FILES = (("file", "crc32"), ("vertical", "vertical_crc32"))
 _NAMED = re.compile(r"\d+_.*_([0-9a-f]{8})(?:_\d+)?\.txt")
@@ -123,7 +123,7 @@ def build_catalogue(
                 table[column].append(text)
     if not table["file"]:
         raise InputError("\n".join([*problems, f"{root}: no accelerogram that can be read"]))
-    tables.write_csv(target, table, [_FOUND])
+    tables.write_lines(target, tables.csv_lines(table, [f"dondolo {constants().version}{_FOUND}"]))
     return Catalogue(target, len(table["file"]), problems)
 
 

@@ -2,9 +2,9 @@
 !>
 !> Each kind of file that dondolo writes has a mark in its first or last bytes, by which it is recognised wherever it lies and
 !> whatever its name. A table begins with `# dondolo VERSION`, the file of a run with its format, a lock, a file of counts and a
-!> saved result with theirs; catalogues of records are tables whose second line says so. What is made of results - reports, workbooks, figures, animations, models of other programs - has
-!> the mark of `derived_mark` in its metadata, which names the run whose results it shows. A symbolic link, a pipe, a device or
-!> an empty file is nobody's that dondolo knows.
+!> saved result with theirs; catalogues of records are tables whose first two lines say so. What is made of results - reports,
+!> workbooks, figures, animations, models of other programs - has the mark of `derived_mark` in its metadata, which names the run
+!> whose results it shows. A symbolic link, a pipe, a device or an empty file is nobody's that dondolo knows.
 module dondolo_origin
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_null_char, c_size_t
    use dondolo_error, only : error_type, raise_input
@@ -82,7 +82,7 @@ contains
       last = ''
       call c_read_ends(path//c_null_char, first, last, int(room, c_size_t))
       if (is_table(first)) then
-         origin%kind = kind_of_table(first(index(first, new_line('a')) + 1:))
+         origin%kind = kind_of_table(first)
          call find_run(first, new_line('a')//'# run: ', origin%run)
       else if (first(1:1) == '{' .and. index(first(:100), '"format": "dondolo run ') > 0) then
          origin%kind = 'run'
@@ -114,14 +114,17 @@ contains
    end function is_table
 
    !> What kind of table it is
-   pure function kind_of_table(rest) result(kind)
-      !> What follows its first line
-      character(len=*), intent(in) :: rest
+   pure function kind_of_table(first) result(kind)
+      !> Its first bytes
+      character(len=*), intent(in) :: first
       character(len=word_length) :: kind
 
+      integer :: ends
+
       kind = 'table'
-      if (index(rest, '# records written by dondolo'//new_line('a')) == 1) kind = 'records'
-      if (index(rest, '# records found by dondolo'//new_line('a')) == 1) kind = 'catalogue'
+      ends = index(first, new_line('a'))
+      if (index(first(ends + 1:), '# records written by dondolo'//new_line('a')) == 1) kind = 'records'
+      if (index(first(:ends), ': records found'//new_line('a')) > 0) kind = 'catalogue'
    end function kind_of_table
 
    !> The mark of a file that is made of results
@@ -208,7 +211,8 @@ contains
       end do
    end function noun
 
-   !> Refuse what is no regular file: a pipe would be waited for, and a device has no end
+   !> Refuse what is no regular file: a pipe would be waited for, and a device has no end. A folder cannot be opened as a file, and
+   !> whoever tries it says so
    subroutine check_regular(path, follows, error)
       !> Path
       character(len=*), intent(in) :: path
@@ -220,8 +224,8 @@ contains
       integer :: thing
 
       thing = c_thing(path//c_null_char, merge(1_c_int, 0_c_int, follows))
-      if (thing /= nothing .and. thing /= regular) call raise_input(error, path//': is '//trim(things(thing))// &
-         & ', not a regular file')
+      if (any(thing == [nothing, regular, folder])) return
+      call raise_input(error, path//': is '//trim(things(thing))//', not a regular file')
    end subroutine check_regular
 
 end module dondolo_origin
