@@ -96,7 +96,7 @@ def test_nothing_of_an_earlier_run_is_left(people, tmp_path):
     (tmp_path / "city_walls.csv").unlink()
     (tmp_path / "city_walls.csv").mkdir()
     changed = dataclasses.replace(people, warnings=(dd.DondoloWarning("other", "note"),))
-    with pytest.raises(dd.DondoloError, match=r"city_walls\.csv: is a folder, which is not replaced"):
+    with pytest.raises(dd.DondoloError, match=r"city_walls\.csv: cannot be written: is a folder"):
         changed.write_results(tmp_path / "city")
     assert [(tmp_path / name).read_bytes() for name in WRITTEN[:-1]] == before
     assert not list(tmp_path.glob("*.part"))

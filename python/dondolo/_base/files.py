@@ -165,7 +165,7 @@ def whole_file(path: Any) -> Iterator[Path]:
     """
     target = as_file("path", path)
     if what := thing(target, follow_symlinks=False):
-        raise InputError(f"{target}: is {what}, which is not replaced")
+        raise InputError(f"{target}: cannot be written: is {what}")
     _remove_dead_parts(target)
     part, lock = target, None
     try:

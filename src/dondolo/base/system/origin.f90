@@ -191,7 +191,7 @@ contains
       call look_at_origin(path, origin)
       if (origin%thing == nothing .or. origin%kind == kind) return
       if (origin%thing /= regular) then
-         call raise_input(error, path//': is '//trim(things(origin%thing))//', which is not replaced')
+         call raise_input(error, path//': cannot be written: is '//trim(things(origin%thing)))
       else
          call raise_input(error, path//': exists, and is not '//trim(noun(kind))//' of dondolo')
       end if
