@@ -44,7 +44,9 @@ def test_a_file_appears_whole_or_not_at_all(tmp_path):
     assert (path.read_text(), os.listdir(tmp_path)) == ("after", ["table.csv"])
 
 
-WRITTEN = ["city_fragility.csv", "city_run.json", "city_stripes.csv", "city_typology.csv", "city_walls.csv"]
+WRITTEN = [
+    *("city_fragility.csv", "city_run.json", "city_stripes.csv", "city_typology.csv", "city_unions.csv", "city_walls.csv")
+]
 
 
 @pytest.fixture(scope="module")
