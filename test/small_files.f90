@@ -7,7 +7,7 @@ module small_files
 
    public :: sample_type, list_contents, write_file, small
    public :: columns_content, dyna_content, peer_content, smtk_content, knet_content, cwa_content, asa_content, &
-      & eqsig_content
+      & eqsig_content, afad_content, nied_content
 
    character(len=*), parameter :: cr = achar(13), lf = achar(10)
 
@@ -28,7 +28,7 @@ contains
    subroutine list_contents(all)
       type(sample_type), allocatable, intent(out) :: all(:)
 
-      allocate (all(9))
+      allocate (all(11))
       all(1) = sample_of(peer_content('Valley, 1/2/1990, Hall, 67', ''), 'peer')
       all(2) = sample_of(dyna_content('STREAM: HNE'), 'dyna')
       all(3) = sample_of(smtk_content(), 'smtk')
@@ -37,6 +37,8 @@ contains
       all(6) = sample_of(asa_content('7'), 'asa')
       all(7) = sample_of(eqsig_content('7'), 'eqsig')
       all(8) = sample_of(columns_content('# remark: x'//lf//'t,a,b,c'//lf), 'columns')
+      all(10) = sample_of(afad_content(), 'afad')
+      all(11) = sample_of(nied_content(), 'nied')
       all(9) = sample_of('0 1'//lf//'.01 2'//lf//'.02 -1.5'//lf, 'columns')
    end subroutine list_contents
 
@@ -163,6 +165,37 @@ contains
          content = content//line//cr//lf
       end do
    end function asa_content
+
+   !> A file of AFAD: the small values, and they with the other sign, in columns that touch
+   function afad_content() result(content)
+      character(len=:), allocatable :: content
+      character(len=20) :: line
+      integer :: i
+
+      content = 'STRONG GROUND MOTION RECORDS OF TURKIYE'//lf//'PLACE                   : HALL'//lf// &
+         & 'EARTHQUAKE DATE         : 14/11/2010 23:08:25 (GMT)'//lf//'STATION ID              : 3104'//lf// &
+         & 'STATION COORDINATES     : 36.50000N-36.25000E'//lf//'NUMBER OF DATA          : 7'//lf// &
+         & 'SAMPLING INTERVAL (sec) : 0.01'//lf//'RAW PGA VALUES (gal)    : (N-S) 1.5 (E-W) 1.5'//lf// &
+         & '     N-S      E-W'//lf
+      do i = 1, size(small)
+         write (line, '(2f9.6)') small(i), -small(i)
+         content = content//trim(line)//lf
+      end do
+   end function afad_content
+
+   !> A table of NIED: the small values, and they with the other sign
+   function nied_content() result(content)
+      character(len=:), allocatable :: content
+      character(len=80) :: line
+      integer :: i
+
+      content = '# Origin Time, 2031/12/31 23:59:00'//lf//'# Station Code, ABC001'//lf//'# Sampling Freq(Hz), 100'//lf// &
+         & '# Time, N-S(gal), E-W(gal)'//lf
+      do i = 1, size(small)
+         write (line, '(a, f4.2, 2(a, f0.4))') '2031/12/31 23:59:0', 0.01_wp*(i - 1), ',', small(i), ',', -small(i)
+         content = content//trim(line)//lf
+      end do
+   end function nied_content
 
    !> An eqsig file with a number of values
    function eqsig_content(stated) result(content)

@@ -38,9 +38,10 @@ contains
             end if
             if (i == k .or. all(i)%format == all(k)%format) then
                call check_ok(error, all(i)%format//' as itself')
-            else if (all(i)%format == 'cwa' .and. all(k)%format == 'columns') then
-               ! Its header are comments to the other, which knows less of it
-               call check(.not. allocated(error), 'cwa as columns')
+            else if (all(k)%format == 'columns' .and. any(all(i)%format == [character(len=5) :: 'cwa', 'dyna', &
+               & 'eqsig'])) then
+               ! Their headers are lines of words to the other, which knows less of them
+               call check(.not. allocated(error), all(i)%format//' as columns')
             else
                call check(allocated(error), all(i)%format//' as '//all(k)%format//' is refused')
             end if

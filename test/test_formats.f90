@@ -17,8 +17,8 @@ program test_formats
    use dondolo_record_table, only : find_problems, record_table
    use dondolo_text, only : to_text
    use dondolo_text_file, only : read_text_file, text_file_type
-   use small_files, only : asa_content, columns_content, cwa_content, dyna_content, eqsig_content, knet_content, &
-      & peer_content, small, smtk_content, write_file
+   use small_files, only : afad_content, asa_content, columns_content, cwa_content, dyna_content, eqsig_content, knet_content, &
+      & nied_content, peer_content, small, smtk_content, write_file
    implicit none
 
    character(len=*), parameter :: scratch = 'build/test_formats'
@@ -40,6 +40,8 @@ program test_formats
    call test_cwa()
    call test_asa()
    call test_eqsig()
+   call test_afad()
+   call test_nied()
    call test_cut()
    call test_touching()
    call test_step()
@@ -517,6 +519,45 @@ contains
       call check(size(record%acceleration) == 6, 'the stated number is read')
       call check_metadata(record, 'reading', '1 sample beyond the 6 that the file states ignored')
    end subroutine test_eqsig
+
+   !> AFAD files
+   subroutine test_afad()
+      type(record_type), allocatable :: records(:)
+      type(error_type), allocatable :: error
+
+      call suite('AFAD')
+      call write_file(scratch//'/content.dat', afad_content())
+      call read_records(scratch//'/content.dat', records, error)
+      call check_ok(error, 'read')
+      if (allocated(error)) return
+      call check(size(records) == 2, 'two channels')
+      call check_values(records(1), gal, 'N-S')
+      call check_values(records(2), -gal, 'E-W')
+      call check_metadata(records(2), 'format', 'afad')
+      call check_metadata(records(2), 'component', 'E-W')
+      call check_metadata(records(2), 'station', '3104')
+      call check_metadata(records(2), 'longitude', '36.25000')
+      call check_refused(replaced(afad_content(), ': 7', ': 8'), '7 rows of values: the header states 8')
+      call check_refused(replaced(afad_content(), '(E-W) 1.5', '(E-W) 2.5'), 'peak value 2.5: the largest value is 1.5')
+   end subroutine test_afad
+
+   !> Tables of NIED
+   subroutine test_nied()
+      type(record_type), allocatable :: records(:)
+      type(error_type), allocatable :: error
+
+      call suite('NIED')
+      call write_file(scratch//'/content.dat', nied_content())
+      call read_records(scratch//'/content.dat', records, error)
+      call check_ok(error, 'read')
+      if (allocated(error)) return
+      call check(size(records) == 2, 'two channels')
+      call check_values(records(1), gal, 'N-S')
+      call check_values(records(2), -gal, 'E-W')
+      call check_metadata(records(2), 'format', 'nied')
+      call check_metadata(records(2), 'date', '2031-12-31T23:59:00+09:00')
+      call check_refused(replaced(nied_content(), 'Freq(Hz), 100', 'Freq(Hz), 200'), 'the step of the times is 0.01 s')
+   end subroutine test_nied
 
    !> Files that are cut off inside their last number
    subroutine test_cut()

@@ -279,3 +279,37 @@ def test_files_of_openquake_that_are_refused(tmp_path, old, new, message):
     assert "\n" not in str(error.value)
     with pytest.raises(dd.InputError, match="paths = 5: must be the path of a file, or a sequence of them"):
         dd.HazardCurve.from_openquake(5)
+
+
+@pytest.mark.parametrize(
+    ("table", "frequency"),
+    [
+        ("pga,annual_frequency\n0.1,0.0317\n0.2,0.0318\n0.4,0.0050\n", [0.0318, 0.0318, 0.005]),
+        ("pga,annual_frequency\n0.1,3.170e-2\n0.2,3.171e-2\n0.4,5.02e-5\n", [0.03171, 0.03171, 5.02e-5]),
+        ("pga,return_period\n0.1,73\n0.2,72\n0.4,475\n", [1 / 72, 1 / 72, 1 / 475]),
+        ("pga,poe,investigation_time\n0.1,0.99997,1\n0.2,0.99998,1\n0.4,0.2,1\n", [-np.log(2e-5)] * 2 + [-np.log(0.8)]),
+    ],
+)
+def test_rises_in_the_last_printed_digit_are_levelled(table, frequency, tmp_path):
+    path = tmp_path / "site.csv"
+    path.write_text(table)
+    with pytest.warns(dd.DondoloWarning, match="1 frequencies rise with the level in their last printed digit"):
+        curve = dd.HazardCurve.from_csv(path)
+    np.testing.assert_allclose(curve.annual_frequency, frequency, rtol=1e-9)
+    assert any("last printed digit" in one for one in curve.source)
+
+
+def test_larger_rises_are_refused(tmp_path):
+    path = tmp_path / "site.csv"
+    for table in ("pga,annual_frequency\n0.1,0.0317\n0.2,0.0319\n0.4,0.0050\n", "pga,return_period\n0.1,75\n0.2,72\n"):
+        path.write_text(table)
+        with pytest.raises(dd.InputError, match="must not increase with the level"):
+            dd.HazardCurve.from_csv(path)
+
+
+def test_rises_of_openquake_are_levelled(tmp_path):
+    text = OLD.replace("poe-0.4", "poe-0.4,poe-0.5").replace("0.5,0.01", "9.999997E-01,9.999998E-01,2.000000E-02")
+    with pytest.warns(dd.DondoloWarning, match="site 0: 1 frequencies rise"):
+        curve = dd.HazardCurve.from_openquake(file_of(tmp_path, text=text))
+    assert curve.annual_frequency[0] == curve.annual_frequency[1]
+    assert curve.annual_frequency[0] == pytest.approx(-np.log1p(-0.9999998) / 50.0)

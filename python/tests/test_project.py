@@ -217,7 +217,7 @@ def test_formats_are_documented(root, tmp_path):
     page = (root / "docs/ground_motions.md").read_text()
     table = page[page.index("| format | files |") :].split("\n\n")[0]
     documented = re.findall(r"(?m)^\| `(\w+)` \|", table)
-    assert len(known) == 12
+    assert len(known) == 14
     assert sorted(known) == sorted(documented)
 
 

@@ -12,6 +12,7 @@ from dondolo._base.arguments import FloatArray
 from dondolo._fortran.library import constants
 from dondolo._fortran.records import describe_measure, read_number_table
 from dondolo.errors import DondoloWarning, InputError
+from dondolo.risk.printed import levelled, note_of
 
 #: Columns that say how often a level is exceeded.
 _FREQUENCIES = ("annual_frequency", "return_period", "poe")
@@ -40,10 +41,11 @@ def read_hazard(path: str | os.PathLike[str]) -> tuple[str, FloatArray, FloatArr
             raise InputError("is of OpenQuake: must be read by HazardCurve.from_openquake")
         im, levels, columns, unused = _understand(titles, values)
         is_rigid = any(_name_and_unit(title)[0] == "ag" for title in titles)
+        raised = _level(columns)
         frequency, fractiles = _frequencies(columns)
     except InputError as error:
         raise InputError(f"{os.fspath(path)}: {error}") from None
-    notes = []
+    notes = [note_of(os.fspath(path), raised)] if raised else []
     if unused:
         names = ", ".join(unused)
         subject = {"file": os.fspath(path), "columns": names}
@@ -133,6 +135,20 @@ def _frequencies(columns: dict[str, FloatArray]) -> tuple[FloatArray, Fractiles]
         if title.startswith(FRACTILE)
     }
     return _as_frequency(name, name, columns[name], time), fractiles
+
+
+def _level(columns: dict[str, FloatArray]) -> int:
+    """Level rises within the last printed digit in the columns of frequencies; how many values were raised."""
+    raised = 0
+    for title, column in columns.items():
+        if title == "investigation_time":
+            continue
+        # Return periods increase where frequencies decrease
+        sign = -1.0 if "return_period" in columns else 1.0
+        found, which = levelled(sign * column)
+        columns[title] = sign * found
+        raised += int(which.sum())
+    return raised
 
 
 def _share(title: str) -> float:

@@ -28,6 +28,7 @@ from dondolo._base.files import read_text
 from dondolo._fortran.records import describe_measure
 from dondolo._storage import tables
 from dondolo.errors import DondoloError, DondoloWarning, InputError
+from dondolo.risk.printed import levelled, note_of
 
 #: Number of a site in a file, from 0, or its longitude and latitude [degrees]
 Site = int | tuple[float, float]
@@ -126,11 +127,14 @@ def read_curves(
         kinds = ", ".join(repr(one.kind or Path(one.path).name) for one in files)
         raise InputError(f"paths: must be one mean and its quantiles, each once; there are {kinds}")
     poe = np.stack([means[0].poe[row], *(one.poe[row] for one in quantiles.values())])
+    curves = [levelled(curve) for curve in poe]
+    poe = np.stack([curve for curve, _ in curves])
     # No frequency follows from certainty, nor from a probability that is rounded to 0
     kept = np.all(poe < 1.0, axis=0) & (poe[0] > 0.0)
     if kept.sum() < 2:
         raise InputError(f"{first.path}: site {row}: has fewer than two levels with a probability between 0 and 1")
-    notes = []
+    raised = sum(int(which.sum()) for _, which in curves)
+    notes = [note_of(f"{first.path}: site {row}", raised)] if raised else []
     if not kept.all():
         left = ", ".join(f"{level:g}" for level in levels[~kept])
         text = f"{first.path}: site {row}: levels with a probability of 0 or 1 are left out: {left}"

@@ -4,6 +4,8 @@
 !> rest of 1.25E-05 is 1.25E-0. Its print gives it away: columns end at the same place, and numbers of one print have equal
 !> numbers of decimals and of digits in the exponent.
 module dondolo_last_number
+   use dondolo_kinds, only : wp
+   use dondolo_numbers, only : parse_printed
    use dondolo_text_file, only : text_file_type
    implicit none
    private
@@ -12,6 +14,9 @@ module dondolo_last_number
 
    !> Lines before the last that are compared with it
    integer, parameter :: compared_lines = 64
+
+   !> How many times as large as all before it a last sample can hardly be
+   real(wp), parameter :: far = 10.0_wp
 
    !> Numbers that show how the others are printed
    integer, parameter :: fewest = 3
@@ -36,6 +41,8 @@ module dondolo_last_number
       integer :: exponent = 0
       !> Digits from the first that is not 0
       integer :: digits = 0
+      !> Its value, 0 if it is no number
+      real(wp) :: value = 0.0_wp
    end type print_type
 
 contains
@@ -125,6 +132,7 @@ contains
       is_cut = ends_early(final, column(:aligned), width > 0) .or. is_shorter(final, others(:count))
       if (is_cut .or. verify(text(begin:first(lines) + final%finish - 1), '+-0.') == 0) return
       is_cut = is_short(final, others(:count), ends_line)
+      if (.not. alike) is_cut = is_cut .or. is_far(final, others(:count))
    end subroutine cut_in_lines
 
    !> Take the print of the next number of a line
@@ -141,6 +149,7 @@ contains
       !> There is one
       logical, intent(out) :: found
 
+      logical :: ok
       integer :: begin, finish, point, mark
 
       begin = at
@@ -160,6 +169,7 @@ contains
       number%finish = finish - first + 1
       number%padding = begin - at
       at = finish + 1
+      call parse_printed(text(begin:finish), number%value, ok)
       mark = scan(text(begin:finish), 'eEdD')
       if (mark > 0) number%exponent = count_figures(text(begin + mark:finish))
       if (mark == 0) mark = finish - begin + 2
@@ -220,9 +230,20 @@ contains
       if (size(others) < fewest) return
       ! No program prints exponents of one digit beside those of two
       if (number%exponent == 1 .and. any(others%exponent > 1)) is_short = all(others%exponent /= 1)
+      if (number%exponent == 0) is_short = all(others%exponent > 0)
       if (ends_line .or. is_short) return
       longer = count(others%digits >= number%digits + many_digits)
       is_short = number%digits < minval(others%digits) .or. 2*longer > size(others)
    end function is_short
+
+   !> Is a number far larger than all before it, as no last sample is?
+   pure logical function is_far(number, others)
+      type(print_type), intent(in) :: number
+      type(print_type), intent(in) :: others(:)
+
+      is_far = .false.
+      if (size(others) < compared_lines/2) return
+      is_far = abs(number%value) > far*maxval(abs(others%value)) .and. maxval(abs(others%value)) > 0.0_wp
+   end function is_far
 
 end module dondolo_last_number

@@ -2,7 +2,7 @@
 module dondolo_record_reader
    use dondolo_channel, only : as_record, find_channel, name_channels
    use dondolo_error, only : add_place, error_type
-   use dondolo_formats, only : find_format, format_type, recognise_format
+   use dondolo_formats, only : find_format, format_type, read_as, recognise_format
    use dondolo_kinds, only : wp
    use dondolo_limits, only : longest_record_file
    use dondolo_record, only : record_type
@@ -39,7 +39,7 @@ contains
       type(samples_type) :: samples
       integer :: i
 
-      call read_samples(file, text, samples, error, format)
+      call read_samples(file, text, samples, error, format, dt)
       if (allocated(error)) return
       call find_channel(samples, i, error, channel)
       call add_place(error, file)
@@ -66,7 +66,7 @@ contains
       integer, allocatable :: ground(:)
       integer :: i
 
-      call read_samples(file, text, samples, error, format)
+      call read_samples(file, text, samples, error, format, dt)
       if (allocated(error)) return
       ground = pack([(i, i=1, size(samples%channels))], &
          & [(.not. allocated(samples%channels(i)%refusal), i=1, size(samples%channels))])
@@ -82,7 +82,7 @@ contains
    end subroutine read_records
 
    !> Read what a file says
-   subroutine read_samples(file, text, samples, error, format)
+   subroutine read_samples(file, text, samples, error, format, dt)
       !> Path of the file
       character(len=*), intent(in) :: file
       type(text_file_type), intent(out) :: text
@@ -92,6 +92,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Name of the format that the file is in; empty is not given
       character(len=*), intent(in), optional :: format
+      !> Time step that the caller gives [s]
+      real(wp), intent(in), optional :: dt
 
       type(format_type) :: chosen
       logical :: is_given, is_column
@@ -111,7 +113,7 @@ contains
          if (allocated(error)) return
          if (.not. is_given) call recognise_format(text, chosen, error)
          call add_place(error, file)
-         if (.not. allocated(error)) call chosen%read(text, samples, error)
+         if (.not. allocated(error)) call read_as(chosen, text, samples, error, dt)
       end if
       if (allocated(error)) return
       call samples%metadata%set('format', chosen%name)

@@ -1,4 +1,4 @@
-!> What the title of a column says: units in its brackets, and whether its values are accelerations at all.
+!> What the title of a column says: units in its brackets, whether its values are times, numbers of samples or accelerations.
 module dondolo_column_titles
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
@@ -7,12 +7,33 @@ module dondolo_column_titles
    implicit none
    private
 
-   public :: find_units, is_other_quantity, is_seconds
+   public :: find_units, has_word, is_acceleration_unit, is_index, is_other_quantity, is_other_unit, is_seconds, is_time
+   public :: is_title_of_other, says_nothing
+
+   character(len=*), parameter :: letters = 'abcdefghijklmnopqrstuvwxyz'
 
    !> Words of titles whose values are no accelerations of the ground in time
    character(len=*), parameter :: others(*) = [character(len=12) :: 'velocity', 'veloc', 'vel', 'displacement', &
       & 'displ', 'disp', 'period', 'frequency', 'freq', 'spectrum', 'spectral', 'pseudo', 'sa', 'psa', 'sv', 'psv', 'sd', &
       & 'velocit', 'velocita', 'spostamento', 'periodo', 'frequenza', 'spettro', 'spettrale', 'slo', 'sld', 'slv', 'slc']
+
+   !> Words of free text that is about velocities, displacements or spectra: fewer, since a comment may name a frequency
+   character(len=*), parameter :: others_in_text(*) = [character(len=15) :: 'velocity', 'velocities', 'veloc', 'vel', &
+      & 'displacement', 'displacements', 'displ', 'disp', 'spectrum', 'spectra', 'velocita', 'spostamento', 'spostamenti', &
+      & 'velocit', 'spettro', 'velocidad', 'desplazamiento', 'vitesse', 'deplacement', 'geschwindigkeit', 'verschiebung']
+
+   !> Words that titles of times begin with
+   character(len=*), parameter :: times(*) = [character(len=8) :: 'time', 'times', 't', 'tempo', 'tempi', 'zeit', 'temps', &
+      & 'tiempo', 'tiempos', 'zaman', 'sec', 'secs', 'second', 'seconds', 'secondi', 'segundos', 's']
+
+   !> Words of titles of numbers of samples
+   character(len=*), parameter :: indices(*) = [character(len=11) :: 'index', 'idx', 'sample', 'samples', 'no', 'nr', &
+      & 'num', 'number', 'id', 'row', 'rows', 'rownames', 'i', 'point', 'points', 'unnamed', 'campione', 'campioni', &
+      & 'indice', 'numero', 'obs', 'observation', 'count', 'counter', 'step', 'rn']
+
+   !> Words of titles that programs give where nobody did
+   character(len=*), parameter :: nothing(*) = [character(len=8) :: 'column', 'col', 'var', 'variable', 'field', 'unnamed', &
+      & 'colonna', 'spalte', 'columna']
 
    !> Units of other quantities
    character(len=*), parameter :: other_units(*) = [character(len=4) :: 'm', 'cm', 'mm', 'in', 'ft', 'm/s', 'cm/s', &
@@ -57,6 +78,95 @@ contains
       end do
    end subroutine find_units
 
+   !> Do units belong to another quantity?
+   pure logical function is_other_unit(units)
+      !> Units in any case, perhaps in brackets
+      character(len=*), intent(in) :: units
+
+      is_other_unit = any(other_units == without_sec(lower(bare(units))))
+   end function is_other_unit
+
+   !> Are units those of an acceleration?
+   logical function is_acceleration_unit(units)
+      !> Units, perhaps in brackets
+      character(len=*), intent(in) :: units
+
+      type(error_type), allocatable :: unknown
+      real(wp) :: factor
+
+      call unit_factor(trim(bare(units)), factor, unknown)
+      is_acceleration_unit = .not. allocated(unknown)
+   end function is_acceleration_unit
+
+   !> Units without brackets and quotes around
+   pure function bare(units)
+      character(len=*), intent(in) :: units
+      !> The same, filled up with blanks
+      character(len=len(units)) :: bare
+
+      integer :: i
+
+      bare = units
+      do i = 1, len(units)
+         if (index('()[]"''', units(i:i)) > 0) bare(i:i) = ' '
+      end do
+      bare = adjustl(bare)
+   end function bare
+
+   !> Is free text about velocities, displacements or spectra?
+   pure logical function is_title_of_other(text)
+      character(len=*), intent(in) :: text
+
+      is_title_of_other = has_word(text, others_in_text)
+   end function is_title_of_other
+
+   !> Does a title name times?
+   pure logical function is_time(title, units)
+      character(len=*), intent(in) :: title
+      !> Units in it
+      character(len=*), intent(in) :: units
+
+      is_time = any(seconds == lower(units))
+      if (is_time .or. .not. any(times == first_letters(title))) return
+      ! Not a time history of accelerations in g
+      is_time = len_trim(units) == 0 .or. has_word(units, no_seconds)
+   end function is_time
+
+   !> Does a title name numbers of samples?
+   pure logical function is_index(title)
+      character(len=*), intent(in) :: title
+
+      is_index = any(indices == first_letters(title)) .or. title == '#'
+   end function is_index
+
+   !> Does a title say nothing of what is below it? A letter may be a direction, or any name
+   pure logical function says_nothing(title)
+      character(len=*), intent(in) :: title
+
+      integer :: letters_in_title, i
+
+      letters_in_title = 0
+      do i = 1, len(title)
+         if (index(letters, lower(title(i:i))) > 0) letters_in_title = letters_in_title + 1
+      end do
+      says_nothing = letters_in_title < 2 .or. any(nothing == first_letters(title))
+   end function says_nothing
+
+   !> The first letters of a title
+   pure function first_letters(title) result(word)
+      character(len=*), intent(in) :: title
+      !> In lower case, filled up with blanks
+      character(len=len(title)) :: word
+
+      integer :: first, last
+
+      word = ''
+      first = scan(lower(title), letters)
+      if (first == 0) return
+      last = first - 2 + verify(lower(title(first:))//' ', letters)
+      word = lower(title(first:last))
+   end function first_letters
+
    !> Does a title name something else than accelerations?
    pure function is_other_quantity(title, units) result(other)
       !> Title
@@ -95,7 +205,6 @@ contains
       !> One of them stands there, between characters that are no letters
       logical :: has_word
 
-      character(len=*), parameter :: letters = 'abcdefghijklmnopqrstuvwxyz'
       character(len=:), allocatable :: rest
       integer :: first, last
 

@@ -1,6 +1,7 @@
 !> The formats of accelerogram files that are known. A new format is one new file with two procedures, and a line here.
 module dondolo_formats
    use dondolo_error, only : error_type, raise_input
+   use dondolo_format_afad, only : read_afad, recognises_afad
    use dondolo_format_asa, only : read_asa, recognises_asa
    use dondolo_format_columns, only : read_columns, recognises_columns
    use dondolo_format_cosmos, only : read_cosmos, recognises_cosmos
@@ -10,16 +11,18 @@ module dondolo_formats
    use dondolo_format_eqsig, only : read_eqsig, recognises_eqsig
    use dondolo_format_geonet, only : read_geonet, recognises_geonet
    use dondolo_format_knet, only : read_knet, recognises_knet
+   use dondolo_format_nied, only : read_nied, recognises_nied
    use dondolo_format_peer, only : read_peer, recognises_peer
    use dondolo_format_smc, only : read_smc, recognises_smc
    use dondolo_format_smtk, only : read_smtk, recognises_smtk
+   use dondolo_kinds, only : wp
    use dondolo_record_format, only : samples_type
    use dondolo_text, only : join, lower
    use dondolo_text_file, only : text_file_type
    implicit none
    private
 
-   public :: format_type, find_format, recognise_format
+   public :: format_type, find_format, read_as, recognise_format
 
    !> A format
    type :: format_type
@@ -56,7 +59,7 @@ contains
    !> The formats; plain columns come last, for what no other recognises
    function known_formats() result(known)
       !> The formats
-      type(format_type) :: known(12)
+      type(format_type) :: known(14)
 
       known = [ &
          & format_type('peer', recognises_peer, read_peer), &
@@ -67,11 +70,42 @@ contains
          & format_type('smc', recognises_smc, read_smc), &
          & format_type('smtk', recognises_smtk, read_smtk), &
          & format_type('knet', recognises_knet, read_knet), &
+         & format_type('nied', recognises_nied, read_nied), &
+         & format_type('afad', recognises_afad, read_afad), &
          & format_type('cwa', recognises_cwa, read_cwa), &
          & format_type('asa', recognises_asa, read_asa), &
          & format_type('eqsig', recognises_eqsig, read_eqsig), &
-         & format_type('columns', recognises_columns, read_columns)]
+         & format_type('columns', recognises_columns, read_columns_alone)]
    end function known_formats
+
+   !> Read plain columns without a time step that the caller gives
+   subroutine read_columns_alone(text, samples, error)
+      type(text_file_type), intent(in) :: text
+      !> What it says
+      type(samples_type), intent(out) :: samples
+      !> What is wrong, with file and line
+      type(error_type), allocatable, intent(out) :: error
+
+      call read_columns(text, samples, error)
+   end subroutine read_columns_alone
+
+   !> Read a text in a format
+   subroutine read_as(format, text, samples, error, dt)
+      type(format_type), intent(in) :: format
+      type(text_file_type), intent(in) :: text
+      !> What it says
+      type(samples_type), intent(out) :: samples
+      !> What is wrong, with file and line
+      type(error_type), allocatable, intent(out) :: error
+      !> Time step that the caller gives [s]: plain columns have no column of times then, unless it is one for sure
+      real(wp), intent(in), optional :: dt
+
+      if (format%name == 'columns') then
+         call read_columns(text, samples, error, dt)
+      else
+         call format%read(text, samples, error)
+      end if
+   end subroutine read_as
 
    !> Find a format by its name
    subroutine find_format(name, format, error)

@@ -1,0 +1,248 @@
+!> Text files of the national network of Turkey (AFAD): a title, lines `KEY : value`, a line with the names of the components, and
+!> one column for each of them. The values are in gal, the unit of the peaks in the header. Raw values contain the offset of the
+!> instrument.
+module dondolo_format_afad
+   use dondolo_dates, only : iso_date
+   use dondolo_error, only : error_type
+   use dondolo_header_text, only : after, before, leading_number
+   use dondolo_kinds, only : wp
+   use dondolo_labels, only : labels_type, read_labels
+   use dondolo_metadata, only : metadata_type
+   use dondolo_numbers, only : parse_real
+   use dondolo_record_format, only : channel_type, describe_extra, most_extra, raise_at, read_block, samples_type
+   use dondolo_text, only : blanks, first_word, lower, to_text
+   use dondolo_text_file, only : text_file_type
+   use dondolo_units, only : unit_factor
+   implicit none
+   private
+
+   public :: recognises_afad, read_afad
+
+   !> Lines of a header at most
+   integer, parameter :: most_lines = 60
+
+   !> Channels at most
+   integer, parameter :: most_channels = 6
+
+   !> Relative difference allowed between a peak and the header's, and between interval and rate
+   real(wp), parameter :: peak_tolerance = 0.01_wp, step_tolerance = 0.01_wp
+
+   character(len=*), parameter :: count_key = 'NUMBER OF DATA', step_key = 'SAMPLING INTERVAL (sec)', &
+      & rate_keys(2) = [character(len=18) :: 'SAMPLING RATE (Hz)', 'SAMPLING FREQ (Hz)'], peak_word = 'PGA VALUES'
+
+contains
+
+   !> Is a text in this format? Its title names records of strong motion, and its header states number and step of the data
+   logical function recognises_afad(text) result(recognised)
+      type(text_file_type), intent(in) :: text
+
+      type(labels_type) :: labels
+
+      recognised = index(lower(text%line(1)), 'strong ground motion record') > 0
+      if (.not. recognised) return
+      call read_labels(text, 1, min(most_lines, text%lines()), labels)
+      recognised = labels%line_of(count_key) > 0
+   end function recognises_afad
+
+   !> Read a file
+   subroutine read_afad(text, samples, error)
+      type(text_file_type), intent(in) :: text
+      !> What it says
+      type(samples_type), intent(out) :: samples
+      !> What is wrong, with file and line
+      type(error_type), allocatable, intent(out) :: error
+
+      type(labels_type) :: labels
+      character(len=:), allocatable :: note, units
+      real(wp), allocatable :: values(:)
+      real(wp) :: dt
+      integer :: begin, channels, count, rows, i
+
+      begin = first_row(text)
+      call read_labels(text, 1, begin - 1, labels)
+      call labels%get_count(text, count_key, count, error)
+      if (.not. allocated(error)) call read_step(text, labels, dt, error)
+      if (allocated(error)) return
+      call name_channels(text%line(begin - 1), samples%channels)
+      channels = size(samples%channels)
+      if (channels == 0) then
+         call raise_at(error, text, max(begin - 1, 1), 'must be the names of the components')
+         return
+      end if
+      rows = text%lines() - begin + 1
+      if (rows < count .or. rows > count + most_extra) then
+         call raise_at(error, text, text%lines(), to_text(rows)//' rows of values: the header states '//to_text(count))
+         return
+      end if
+      ! All rows, since the last one may be cut off
+      call read_block(text, begin, channels*rows, values, error, note)
+      if (allocated(error)) return
+      call describe_extra(rows - count, count, note)
+      call samples%metadata%append('reading', note)
+      call find_units(labels, units)
+      do i = 1, channels
+         associate (channel => samples%channels(i))
+            channel%values = values(i:channels*count:channels)
+            channel%dt = dt
+            channel%units = units
+            call channel%metadata%set('component', channel%name)
+            call take_peak(text, labels, channel)
+         end associate
+      end do
+      call add_metadata(labels, samples%metadata)
+   end subroutine read_afad
+
+   !> Line of the first row of values, beyond the last if there is none
+   integer function first_row(text) result(line)
+      type(text_file_type), intent(in) :: text
+
+      real(wp) :: value
+      logical :: ok
+
+      do line = 2, text%lines()
+         call parse_real(first_word(text%line(line), blanks), value, ok)
+         ! Touching columns begin with a number too
+         if (.not. ok) ok = scan(adjustl(text%line(line)), '-+.0123456789') == 1 .and. index(text%line(line), ':') == 0
+         if (ok) return
+      end do
+   end function first_row
+
+   !> Read the time step: the interval, or the rate in its place
+   subroutine read_step(text, labels, dt, error)
+      type(text_file_type), intent(in) :: text
+      type(labels_type), intent(in) :: labels
+      !> Time step [s]
+      real(wp), intent(out) :: dt
+      !> Neither is stated, or the two differ
+      type(error_type), allocatable, intent(out) :: error
+
+      real(wp) :: rate
+      integer :: i
+
+      dt = 0.0_wp
+      rate = 0.0_wp
+      do i = 1, size(rate_keys)
+         if (len(labels%value_of(trim(rate_keys(i)))) > 0 .and. .not. allocated(error)) then
+           call labels%get_positive(text, trim(rate_keys(i)), rate, error, 'Hz')
+         end if
+      end do
+      if (allocated(error)) return
+      if (len(labels%value_of(step_key)) == 0 .and. rate > 0.0_wp) then
+         dt = 1.0_wp/rate
+         return
+      end if
+      call labels%get_positive(text, step_key, dt, error)
+      if (allocated(error) .or. .not. rate > 0.0_wp) return
+      if (abs(dt*rate - 1.0_wp) > step_tolerance) call raise_at(error, text, labels%line_of(step_key), step_key//' = '// &
+         & to_text(dt)//': the header states a rate of '//to_text(rate)//' samples per second')
+   end subroutine read_step
+
+   !> Name the channels: `N-S          E-W          U-D`
+   subroutine name_channels(line, channels)
+      !> Line before the values
+      character(len=*), intent(in) :: line
+      type(channel_type), allocatable, intent(out) :: channels(:)
+
+      character(len=:), allocatable :: rest, word
+      character(len=16) :: names(most_channels)
+      integer :: count, i
+
+      rest = line
+      count = 0
+      do while (count < most_channels)
+         word = first_word(rest, blanks)
+         if (len(word) == 0) exit
+         rest = rest(index(rest, word) + len(word):)
+         count = count + 1
+         names(count) = word
+      end do
+      allocate (channels(count))
+      do i = 1, count
+         channels(i)%name = trim(names(i))
+      end do
+   end subroutine name_channels
+
+   !> Find the units of the values: those of the peaks, which are in the brackets of their key
+   subroutine find_units(labels, units)
+      type(labels_type), intent(in) :: labels
+      !> The units, empty if they are not stated
+      character(len=:), allocatable, intent(out) :: units
+
+      integer :: i
+
+      units = ''
+      do i = 1, size(labels%labels)
+         if (index(labels%labels(i)%key, peak_word) == 0) cycle
+         units = before(after(labels%labels(i)%key, '('), ')')
+      end do
+   end subroutine find_units
+
+   !> Take the peak of a channel: `(N-S) 146.18 (E-W) 102.33 (U-D) 14.62`; the peak of raw values may be that without their mean
+   subroutine take_peak(text, labels, channel)
+      type(text_file_type), intent(in) :: text
+      type(labels_type), intent(in) :: labels
+      type(channel_type), intent(inout) :: channel
+
+      type(error_type), allocatable :: unknown
+      character(len=:), allocatable :: stated
+      real(wp) :: peak, mean, factor
+      integer :: i
+      logical :: ok
+
+      do i = 1, size(labels%labels)
+         associate (label => labels%labels(i))
+            if (index(label%key, peak_word) == 0) cycle
+            stated = leading_number(after(label%value, '('//channel%name//')'))
+            call parse_real(stated, peak, ok)
+            call unit_factor(before(after(label%key, '('), ')'), factor, unknown)
+            if (.not. ok .or. allocated(unknown)) cycle
+            mean = sum(channel%values)/real(size(channel%values), wp)
+            if (abs(maxval(abs(channel%values - mean)) - abs(peak)) <= peak_tolerance*abs(peak)) cycle
+            channel%peak = stated
+            channel%peak_line = min(label%line, text%lines())
+         end associate
+      end do
+   end subroutine take_peak
+
+   !> What the header says
+   subroutine add_metadata(labels, metadata)
+      type(labels_type), intent(in) :: labels
+      !> What it says
+      type(metadata_type), intent(inout) :: metadata
+
+      character(len=:), allocatable :: date, day, place
+
+      date = labels%value_of('EARTHQUAKE DATE')
+      day = first_word(date, blanks)
+      place = first_word(after(date, day), blanks)
+      date = trim(iso_date(day, 'dmy'))
+      if (len(date) > 0 .and. len(place) > 0) date = date//'T'//place//'Z'
+      call metadata%set('date', date)
+      call metadata%set('station', labels%value_of('STATION ID'))
+      call metadata%set('magnitude', leading_number(labels%value_of('EARTHQUAKE MAGNITUDE')))
+      place = labels%value_of('STATION COORDINATES')
+      call metadata%set('latitude', signed(place, 'N', 'S'))
+      if (index(place, '-') > 0) call metadata%set('longitude', signed(place(index(place, '-') + 1:), 'E', 'W'))
+      call labels%add_to(metadata)
+   end subroutine add_metadata
+
+   !> A coordinate with its sign: `38.10000N`
+   pure function signed(stated, positive, negative) result(degrees)
+      character(len=*), intent(in) :: stated
+      !> Letters of the two sides
+      character(len=1), intent(in) :: positive, negative
+      !> The coordinate, filled up with blanks; empty if it is not written so
+      character(len=len(stated) + 1) :: degrees
+
+      character(len=:), allocatable :: number
+      integer :: side
+
+      degrees = ''
+      number = leading_number(stated)
+      side = max(verify(stated, blanks), 1) + len(number)
+      if (len(number) == 0 .or. side > len(stated)) return
+      if (stated(side:side) == positive) degrees = number
+      if (stated(side:side) == negative) degrees = '-'//number
+   end function signed
+
+end module dondolo_format_afad
