@@ -122,7 +122,8 @@ def test_a_file_of_another_version_is_refused(tmp_path, executable):
     for wrong in ("1234567", "xyzw0123", "0x123456"):
         cells[column] = wrong
         path.write_text("\n".join([*lines[:3], ",".join(cells), *lines[4:]]) + "\n")
-        with pytest.raises(dd.InputError, match=rf"line 4: crc32 = '{wrong}': must be a CRC-32 of 8 hexadecimal figures"):
+        sentence = rf"line 4: crc32 = '{wrong}': must be a CRC-32 of 8 hexadecimal figures"
+        with pytest.raises(dd.InputError, match=sentence):
             dd.read_catalogue(path)
     # Nothing is compared where nothing is stated, and figures in upper case are the same.
     for right in ("", lines[3].split(",")[column].upper()):

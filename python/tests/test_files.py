@@ -45,7 +45,14 @@ def test_a_file_appears_whole_or_not_at_all(tmp_path):
 
 
 WRITTEN = [
-    *("city_fragility.csv", "city_run.json", "city_stripes.csv", "city_typology.csv", "city_unions.csv", "city_walls.csv")
+    *(
+        "city_fragility.csv",
+        "city_run.json",
+        "city_stripes.csv",
+        "city_typology.csv",
+        "city_unions.csv",
+        "city_walls.csv",
+    )
 ]
 
 

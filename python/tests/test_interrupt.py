@@ -224,18 +224,26 @@ def test_certificates_so_far(wall, few, interrupt_at, monkeypatch):
 
 def test_deferred_interrupts():
     """Once for all that are nested, and as usual afterwards."""
-    with pytest.raises(KeyboardInterrupt), deferred() as outer:
-        with deferred() as inner:
-            assert inner is outer
+    reached = []
+
+    def nested():
+        with deferred() as outer:
+            with deferred() as inner:
+                os.kill(os.getpid(), signal.SIGINT)
+            reached.append(outer.requested and inner is outer)
+
+    def failing():
+        with deferred():
             os.kill(os.getpid(), signal.SIGINT)
-            assert outer.requested
-        reached = True
-    assert reached
+            raise ValueError("wrong")
+
+    with pytest.raises(KeyboardInterrupt):
+        nested()
+    assert reached == [True]
     with deferred() as told:
         with pytest.raises(KeyboardInterrupt), told.heard():
             os.kill(os.getpid(), signal.SIGINT)
         told.answered = True
+    with pytest.raises(ValueError, match="wrong"):
+        failing()
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
-    with pytest.raises(ValueError, match="wrong"), deferred():
-        os.kill(os.getpid(), signal.SIGINT)
-        raise ValueError("wrong")

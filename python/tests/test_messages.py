@@ -161,7 +161,7 @@ def test_a_workbook_whatever_the_clock_says(results, tmp_path, year):
 @pytest.mark.parametrize("seconds", [-(2**31), 2**33, 2**60])
 def test_results_whatever_their_dates(results, seconds):
     path = results.with_name("walls_run.json")
-    with mock.patch("os.stat", return_value=mock.Mock(st_mtime=float(seconds))):
+    with mock.patch("os.stat", return_value=mock.Mock(st_mtime=float(seconds), st_mode=0o100644)):
         from dondolo._storage.run_file import read_run_file
 
         assert 1970 <= read_run_file(str(path)).written.year <= 9999

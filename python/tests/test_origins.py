@@ -148,20 +148,6 @@ def test_links_and_pipes_are_neither_followed_nor_waited_for(thing, start, folde
     assert os.listdir(folder / "out") == []
 
 
-def test_an_empty_file_is_no_checkpoint(start, folder, few):
-    """One that a run has made and had no time to fill has the sticky bit, and is gone on with."""
-    path = folder / "out/x.checkpoint"
-    path.touch()
-    refused(start("people.nml"), "out/x.checkpoint", "exists, is empty, and is not a file of counts of dondolo")
-    with pytest.raises(dd.InputError, match="exists, is empty"):
-        dd.typology([dd.OneSidedWall(1.5, 0.25)], few[:3], [0.3, 0.6], checkpoint=path, progress=False)
-    assert os.listdir(folder / "out") == ["x.checkpoint"]
-    path.chmod(0o1644)
-    dd.typology([dd.OneSidedWall(1.5, 0.25)], few[:3], [0.3, 0.6], checkpoint=path, progress=False)
-    assert path.stat().st_mode & 0o7777 == 0o644
-    assert path.read_bytes().startswith(b"dondolo counts ")
-
-
 @pytest.mark.parametrize("thing", ["a pipe", "a socket"])
 def test_what_is_read_is_a_regular_file(thing, start, folder, root):
     path = folder / "out/input"

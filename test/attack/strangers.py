@@ -1,6 +1,6 @@
 """Files of others in the places of dondolo's: links, pipes and sockets, and files that no run has written.
 
-A run must refuse them with one sentence that names the file, before it computes anything, and leave everything as it was;
+A run must refuse them with one sentence that names the file, before it computes anything, and leave all as it was;
 once the stranger is gone the same run must end as usual. What is read must not be waited for either.
 """
 
@@ -94,6 +94,9 @@ class Strangers:
         name = chance.choice(names)
         path = study.out / f"study{name}"
         put(family, path, self.mine, chance)
+        if name.endswith((".checkpoint", ".counts")) and path.is_file() and not path.stat().st_size:
+            # A run may have been killed before its first byte, and an empty file holds nothing.
+            path.write_bytes(TEXTS[1])
         before = look(study.out)
         options = ("--walls", "1:2") if name in PARTS else ()
         if not options and chance.random() < 0.2 and not name.endswith((".lock", ".checkpoint")):

@@ -77,7 +77,7 @@ def as_file(name: str, path: Any, *suffixes: str) -> Path:
 def thing(path: str | os.PathLike[str], *, follow_symlinks: bool) -> str:
     """What is at a path: '' for nothing or a regular file, else words such as 'a pipe'."""
     try:
-        mode = os.stat(path, follow_symlinks=follow_symlinks).st_mode
+        mode = (os.stat(path) if follow_symlinks else os.lstat(path)).st_mode
     except (OSError, ValueError):
         return ""
     return "" if stat.S_ISREG(mode) else _THINGS.get(stat.S_IFMT(mode), "a device")

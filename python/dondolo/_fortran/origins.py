@@ -1,4 +1,4 @@
-"""Whose files are: dondolo replaces what it has written itself, and nothing else (src/dondolo/base/system/origin.f90)."""
+"""Whose files are: dondolo replaces what it has written itself, and nothing else (base/system/origin.f90)."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ def check_replaced(path: str | os.PathLike[str], kind: str) -> None:
     path : path
         The file.
     kind : str
-        What will take its place: 'report', 'workbook', 'figure', 'film', 'model', 'table', 'run', 'result', 'records' (a catalogue
-        that `RecordSet.to_catalogue` wrote) or 'catalogue' (one that was made of a folder).
+        What will take its place: 'report', 'workbook', 'figure', 'film', 'model', 'table', 'run', 'result', 'records'
+        (a catalogue that `RecordSet.to_catalogue` wrote) or 'catalogue' (one that was made of a folder).
 
     Raises
     ------

@@ -188,9 +188,7 @@ def _auto(request: Request, budget: int | None, progress: bool, interrupts: Inte
     return stripes
 
 
-def _finished(
-    stripes: Stripes, request: Request, certify: bool, progress: bool, interrupts: Interrupts
-) -> Stripes:
+def _finished(stripes: Stripes, request: Request, certify: bool, progress: bool, interrupts: Interrupts) -> Stripes:
     """The stripes, certified if they are to be, with the warnings of their errors."""
     if certify:
         stripes = run_again(stripes, request.records, request.threads, progress)

@@ -6,7 +6,6 @@ import os
 import re
 import zipfile
 from collections.abc import Iterable
-from pathlib import Path
 from typing import Any
 
 from dondolo._base.files import as_file, whole_file
@@ -40,8 +39,8 @@ def write_workbook(prefix: str | os.PathLike[str], path: str | os.PathLike[str])
     prefix : path
         What the names of the result files begin with, for example ``out/parapet``.
     path : path
-        The workbook, ``*.xlsx``. An earlier one is replaced as dondolo wrote it; one that another program has saved since,
-        and any other file, is not.
+        The workbook, ``*.xlsx``. An earlier one is replaced as dondolo wrote it; one that another program has saved
+        since, and any other file, is not.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Figures in files whose names are dondolo's: each says which run it shows, and only a figure of dondolo is replaced."""
+"""Figures in files whose names are dondolo's: each gives the run that it shows, and only such a file is replaced."""
 
 from __future__ import annotations
 
@@ -20,7 +20,8 @@ def save_figure(figure: Any, path: str, kind: str, run: str) -> None:
 
     Parameters
     ----------
-    figure : matplotlib Figure
+    figure : Figure
+        Of Matplotlib.
     path : str
         The file; an earlier figure of dondolo is replaced, any other file is not.
     kind : str

@@ -132,7 +132,7 @@ def write_catalogue(records: RecordSet, path: str | os.PathLike[str]) -> None:
 
     Every file has the samples with all their digits. Its name is a number, the name of the record, of which it has the
     characters that every file system takes, and the checksum of the file: no file of an earlier catalogue is touched
-    before the table, which states the checksums, takes the place of the earlier one. What only that one named is removed
+    before the table, which states the checksums, takes the place of the earlier one. What only it named is removed
     then, unless it has been changed.
     """
     target = as_file("path", path)
@@ -192,7 +192,7 @@ class _RecordFile(NamedTuple):
 def _write_record(
     folder: Path, stem: str, about: list[str], dt: float, samples: FloatArray, added: list[Path]
 ) -> _RecordFile:
-    """Write a file of a record, unless it is there already; another of its name stays. It is noted where it is added."""
+    """Write a file of a record, unless it is there already; another of its name stays; note what is added."""
     lines = [*about, "# units: m/s2", f"# dt: {dt!r}", *map(repr, samples.tolist())]
     content = ("\n".join(lines) + "\n").encode()
     crc32 = f"{zlib.crc32(content):08x}"

@@ -290,8 +290,8 @@ class RecordSet(Shown, Saved):
         Parameters
         ----------
         path : path
-            The catalogue, a CSV file; an earlier one that this method wrote is replaced. The accelerograms are written to
-            a folder of its name without the suffix, with all digits and with the metadata.
+            The catalogue, a CSV file; an earlier one that this method wrote is replaced. The accelerograms are written
+            to a folder of its name without the suffix, with all digits and with the metadata.
 
         Raises
         ------
@@ -302,9 +302,9 @@ class RecordSet(Shown, Saved):
 
         Notes
         -----
-        Nothing of an earlier catalogue is replaced but its table, at once and last, so that it is the old or the new one
-        whatever fails. The table states the CRC-32 of each file, and whoever reads it, the executable too, refuses a file
-        of another. Files that only the earlier catalogue named are removed, unless they were changed since.
+        Nothing of an earlier catalogue is replaced but its table, at once and last, so that it is the old or the new
+        one whatever fails. The table states the CRC-32 of each file, and whoever reads it, the executable too, refuses
+        a file of another. Files that only the earlier catalogue named are removed, unless they were changed since.
         """
         from dondolo.records.catalogues import write_catalogue
 

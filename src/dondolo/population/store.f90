@@ -212,12 +212,8 @@ contains
       self%is_writing = .true.
       if (len_trim(self%lock%killed) > 0) call remove_file(ordered_path(self, self%lock%killed))
       call self%writer%append_to(self%path, ok)
+      if (.not. ok) call raise_failure(error, self%path//': cannot be written')
       inquire (file=self%path, size=size)
-      if (.not. ok .and. size == 0) then
-         call raise_input(error, self%path//': exists, is empty, and is not a file of counts of dondolo')
-      else if (.not. ok) then
-         call raise_failure(error, self%path//': cannot be written')
-      end if
       if (.not. allocated(error) .and. size /= self%size) then
          ! Another run has put rows in between, and has ended.
          call open_store(now, self%path, self%identity, error)

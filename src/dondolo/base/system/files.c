@@ -77,28 +77,18 @@ void dondolo_list(const char *folder, const char *begin, char *names, size_t roo
       closedir(list);
 }
 
-/* Open a regular file to write behind what is there, no link followed; NULL if that fails, or if the file is empty and somebody
-   else's. One that is made has the sticky bit until it is no longer empty, as that of dondolo_take_lock. */
+/* Open a regular file to write behind what is there, no link followed; it is made if it is not there. NULL if that fails. */
 FILE *dondolo_append(const char *path)
 {
    struct stat found;
-   int descriptor = open(path, O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666 | S_ISVTX);
+   int descriptor = open(path, O_WRONLY | O_APPEND | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666);
 
    if (descriptor < 0)
       return NULL;
-   if (fstat(descriptor, &found) == 0 && S_ISREG(found.st_mode) && (found.st_size > 0 || (found.st_mode & S_ISVTX) != 0))
+   if (fstat(descriptor, &found) == 0 && S_ISREG(found.st_mode))
       return fdopen(descriptor, "a");
    close(descriptor);
    return NULL;
-}
-
-/* Take the sticky bit from a file that is no longer empty */
-void dondolo_unmark(FILE *file)
-{
-   struct stat found;
-
-   if (fstat(fileno(file), &found) == 0 && (found.st_mode & S_ISVTX) != 0)
-      (void)!fchmod(fileno(file), found.st_mode & 0777);
 }
 
 /* Cut a regular file to a length, no link followed; 1: it has this length now */

@@ -109,13 +109,6 @@ module dondolo_system
          character(kind=c_char), intent(in) :: path(*)
       end function c_append
 
-      !> Take the mark from a file that is no longer empty
-      subroutine c_unmark(handle) bind(c, name='dondolo_unmark')
-         import :: c_ptr
-         !> File
-         type(c_ptr), value :: handle
-      end subroutine c_unmark
-
       !> Make a file and open it to write; it must not be there yet, and no link is followed
       type(c_ptr) function c_create(path) bind(c, name='dondolo_create')
          import :: c_char, c_ptr
@@ -330,8 +323,7 @@ contains
       ok = c_associated(self%handle)
    end subroutine create
 
-   !> Open a regular file to write behind what is there; it is made if it is not. A link is not followed, and an empty file that
-   !> no run has made is left alone
+   !> Open a regular file to write behind what is there; it is made if it is not. A link is not followed
    subroutine append_to(self, path, ok)
       class(writer_type), intent(inout) :: self
       !> Path
@@ -363,11 +355,7 @@ contains
       !> Set to false when it could not be written; left alone otherwise
       logical, intent(inout) :: ok
 
-      if (c_fflush(self%handle) /= 0) then
-         ok = .false.
-      else
-         call c_unmark(self%handle)
-      end if
+      if (c_fflush(self%handle) /= 0) ok = .false.
    end subroutine flush_writer
 
    !> Bring what was written to the disk: it then outlives a loss of power
