@@ -1,15 +1,18 @@
 !> After the record: the closed form of free motion against stepping on (docs/theory.md, section 4).
 program test_tail
-   use checks, only : check, check_close, finish, suite
+   use checks, only : check, check_close, check_ok, finish, suite
    use dondolo_adaptive_step, only : advance, motion_type
-   use dondolo_dormand_prince, only : angular_acceleration
+   use dondolo_dormand_prince, only : angular_acceleration, excitation_type
+   use dondolo_error, only : error_type
    use dondolo_events, only : impact, limit_reached
+   use dondolo_grip, only : grip_type
+   use dondolo_held_tail, only : held_motion
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_response, only : response_type
    use dondolo_rk45, only : simulate_rk45
    use dondolo_tail, only : free_motion, tail_type
-   use dondolo_wall, only : wall_type
+   use dondolo_wall, only : new_wall, wall_input_type, wall_type
    use dondolo_wall_constants, only : new_wall_constants, wall_constants_type
    use motion_inputs, only : a_wall, accelerogram, tight
    implicit none
@@ -19,6 +22,7 @@ program test_tail
 
    call test_records()
    call test_states()
+   call test_next_to_the_turn()
    call finish()
 
 contains
@@ -90,6 +94,56 @@ contains
       end do
       call check(beyond > 0, 'walls come back from beyond their capacity')
    end subroutine test_states
+
+   !> A record that ends as the wall all but stands still, moving outwards: the peak follows after v/|q''|, for walls with and
+   !> without ties. The kinetic energy is far below the rounding of the potential of a whole wall
+   subroutine test_next_to_the_turn()
+      real(wp), parameter :: places(3) = [0.05_wp, 0.3_wp, 0.7_wp]
+      type(wall_type) :: wall
+      type(wall_input_type) :: input
+      type(error_type), allocatable :: error
+      class(mechanism_type), allocatable :: held
+      type(grip_type) :: grip
+      type(tail_type) :: tail
+      real(wp) :: q, v, f
+      integer :: i, k, m
+
+      call suite('next to the turn')
+      do m = 1, 5
+         if (m < 5) then
+            wall = a_wall(m)
+         else
+            call input%set('mechanism', 'one_sided')
+            call input%set('height', 3.0_wp)
+            call input%set('thickness', 0.25_wp)
+            call input%set('tie_height', [2.0_wp])
+            call input%set('tie_depth', [0.25_wp])
+            call input%set('tie_area', [5.0e-6_wp])
+            call input%set('tie_length', [2.0_wp])
+            call new_wall(wall, input, error)
+            call check_ok(error, 'wall with a tie')
+         end if
+         do i = 1, size(places)
+            do k = 4, 10
+               q = places(i)*wall%mechanism%capacity
+               v = 10.0_wp**(-k)*wall%mechanism%frequency_parameter()*wall%mechanism%capacity
+               allocate (held, source=wall%mechanism)
+               if (m < 5) then
+                  call free_motion(held, held%capacity, 0.0_wp, q, v, tail)
+               else
+                  grip = grip_type()
+                  call grip%begin(held, 0.0_wp)
+                  call grip%cross(held, q, .true., 0.0_wp)
+                  call held_motion(held, grip, held%capacity, q, v, 0.0_wp, tail)
+               end if
+               f = angular_acceleration(held, excitation_type(), 0.0_wp, q, 0.0_wp)
+               call check(.not. tail%collapsed, 'it turns')
+               call check(abs(tail%delay + v/f) <= 1.0e-11_wp + 10.0_wp**(-k)*abs(v/f)*20.0_wp, 'time of the turn')
+               deallocate (held)
+            end do
+         end do
+      end do
+   end subroutine test_next_to_the_turn
 
    !> Free motion step by step, until the limit, or the turn after which every rotation is lower
    subroutine step_on(mechanism, limit, q, v, tail)

@@ -7,7 +7,7 @@ module dondolo_held_tail
    use dondolo_grip, only : grip_type
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
-   use dondolo_tail, only : inertia, tail_type, time_between, turning_rotation
+   use dondolo_tail, only : inertia, tail_type, time_between, turning_rotation, way_to_turn, work_between
    implicit none
    private
 
@@ -33,18 +33,19 @@ contains
       real(wp), intent(in) :: start
       type(tail_type), intent(out) :: tail
 
-      real(wp) :: at, goal, kinetic
+      real(wp) :: at, goal, kinetic, lively
       logical :: outwards, has_struck, turns
 
       if (grip%flows .and. .not. v > 0.0_wp) call grip%turn(wall, q)
       at = q
       kinetic = 0.5_wp*inertia(wall, q)*v**2
+      lively = kinetic
       outwards = v > 0.0_wp .or. (.not. v < 0.0_wp .and. moment(wall, q) < 0.0_wp)
       has_struck = .false.
       do
          goal = max(0.0_wp, grip%below)
          if (outwards) goal = min(limit, grip%above)
-         call go(wall, goal, at, kinetic, tail%delay, turns)
+         call go(wall, goal, at, kinetic, lively, tail%delay, turns)
          if (turns .and. .not. outwards) then
             outwards = .true.
          else if (turns) then
@@ -59,6 +60,7 @@ contains
             call grip%cross(wall, at, outwards, start + tail%delay)
          else
             kinetic = wall%restitution**2*kinetic
+            lively = wall%restitution**2*lively
             if (has_struck .or. .not. kinetic > 0.0_wp) return
             has_struck = .true.
             outwards = .true.
@@ -68,12 +70,14 @@ contains
    end subroutine held_motion
 
    !> Go to a rotation, or to where the motion turns before it
-   pure subroutine go(wall, goal, at, kinetic, time, turns)
+   pure subroutine go(wall, goal, at, kinetic, lively, time, turns)
       class(mechanism_type), intent(in) :: wall
       !> The rotation [rad]
       real(wp), intent(in) :: goal
       !> Rotation [rad] and kinetic energy [J] at the start; out: at the end
       real(wp), intent(inout) :: at, kinetic
+      !> The same kinetic energy with the digits that it loses in the sum with the potential, for times [J]
+      real(wp), intent(inout) :: lively
       !> Time, added to [s]
       real(wp), intent(inout) :: time
       !> Does it turn?
@@ -97,11 +101,17 @@ contains
          end if
          turns = wall%potential(next) > energy
          if (turns) next = turning_rotation(wall, energy, next, at)
-         if (wall%potential(next) > wall%potential(at)) then
-            time = time + time_between(wall, max(energy, wall%potential(next)), next, at)
-         else if (.not. turns .and. abs(next - at) > 0.0_wp) then
-            ! A turn no higher than the start is one of rounding, since the kinetic energy is lost in the potential: no time.
-            time = time + time_between(wall, energy, at, next)
+         if (turns) then
+            time = time + time_between(wall, 0.0_wp, next, -way_to_turn(wall, lively, at, next))
+            lively = 0.0_wp
+         else if (abs(next - at) > 0.0_wp) then
+            after = max(0.0_wp, lively - work_between(wall, at, next - at))
+            if (after < lively) then
+               time = time + time_between(wall, after, next, at - next)
+            else
+               time = time + time_between(wall, lively, at, next - at)
+            end if
+            lively = after
          end if
          at = next
          if (turns) exit

@@ -9,7 +9,7 @@ module dondolo_tail
    private
 
    public :: tail_type, free_motion
-   public :: inertia, time_between, turning_rotation
+   public :: inertia, time_between, turning_rotation, way_to_turn, work_between
 
    !> What happens after the record
    type :: tail_type
@@ -37,42 +37,43 @@ contains
       real(wp), intent(in) :: v
       type(tail_type), intent(out) :: tail
 
-      real(wp) :: j, energy, energy_left, rest_energy, turn
+      real(wp) :: kinetic, energy, energy_left, rest_energy, turn, way
 
-      j = inertia(mechanism, q)
-      energy = 0.5_wp*j*v**2 + mechanism%potential(q)
+      kinetic = 0.5_wp*inertia(mechanism, q)*v**2
+      energy = kinetic + mechanism%potential(q)
       if (v > 0.0_wp .or. (.not. v < 0.0_wp .and. q > mechanism%capacity)) then
-         call rise(mechanism, limit, reached, q, energy, tail)
+         call rise(mechanism, limit, reached, q, energy, kinetic, tail)
       else if (q > mechanism%capacity .and. energy <= mechanism%potential(mechanism%capacity)) then
          ! Moving inwards beyond the capacity, too slow to come back over it: it turns and falls outwards.
          turn = turning_rotation(mechanism, energy, mechanism%capacity, q)
          tail%collapsed = .true.
          tail%peak = limit
-         energy = mechanism%potential(turn)
-         tail%delay = time_between(mechanism, energy, turn, q) + time_between(mechanism, energy, turn, limit)
+         way = way_to_turn(mechanism, kinetic, q, turn)
+         tail%delay = time_between(mechanism, 0.0_wp, turn, -way) + time_between(mechanism, 0.0_wp, turn, (limit - q) - way)
       else
          ! It falls to q = 0, loses 1 - e^2 of its kinetic energy there, and rises once more.
          rest_energy = mechanism%potential(0.0_wp)
          energy_left = rest_energy + mechanism%restitution**2*(energy - rest_energy)
          if (.not. energy_left > mechanism%potential(min(reached, limit, mechanism%capacity))) return
-         tail%delay = fall_time(mechanism, energy, q)
-         call rise(mechanism, limit, reached, 0.0_wp, energy_left, tail)
+         tail%delay = fall_time(mechanism, kinetic, q)
+         kinetic = mechanism%restitution**2*max(0.0_wp, kinetic - work_between(mechanism, q, -q))
+         call rise(mechanism, limit, reached, 0.0_wp, energy_left, kinetic, tail)
       end if
    end subroutine free_motion
 
    !> Outward motion with a given energy: it reaches the limit or a peak
-   pure subroutine rise(mechanism, limit, reached, q, energy, tail)
+   pure subroutine rise(mechanism, limit, reached, q, energy, kinetic, tail)
       class(mechanism_type), intent(in) :: mechanism
       !> Rotation that counts as collapse, and the largest so far [rad]
       real(wp), intent(in) :: limit, reached
       !> Where the motion begins [rad]
       real(wp), intent(in) :: q
-      !> Energy [J]
-      real(wp), intent(in) :: energy
+      !> Energy [J], and the part of it that is kinetic, whose digits are not those that the sum has left of it
+      real(wp), intent(in) :: energy, kinetic
       !> What happens; the delay is added to
       type(tail_type), intent(inout) :: tail
 
-      real(wp) :: top
+      real(wp) :: top, excess
 
       top = min(limit, mechanism%capacity)
       tail%collapsed = q >= top
@@ -80,30 +81,38 @@ contains
       if (tail%collapsed) then
          tail%peak = limit
          ! The slowest place, the capacity, is an end of the integrals.
-         if (q < top) tail%delay = tail%delay + time_between(mechanism, energy, top, q)
-         if (limit > top) tail%delay = tail%delay + time_between(mechanism, energy, max(top, q), limit)
+         excess = kinetic
+         if (q < top) then
+            excess = kinetic - work_between(mechanism, q, top - q)
+            if (.not. excess > 0.0_wp) excess = max(0.0_wp, energy - mechanism%potential(top))
+            tail%delay = tail%delay + time_between(mechanism, excess, top, q - top)
+         end if
+         if (limit > top) tail%delay = tail%delay + time_between(mechanism, excess, max(top, q), limit - max(top, q))
       else if (energy > mechanism%potential(min(reached, top))) then
          tail%peak = turning_rotation(mechanism, energy, top, q)
-         ! V at the turning point, not E: their difference is rounding, and would be taken for speed there.
-         tail%delay = tail%delay + time_between(mechanism, mechanism%potential(tail%peak), tail%peak, q)
+         ! No kinetic energy is left at the turning point: what the sum shows is rounding, and would be taken for speed there.
+         tail%delay = tail%delay + time_between(mechanism, 0.0_wp, tail%peak, -way_to_turn(mechanism, kinetic, q, tail%peak))
       end if
    end subroutine rise
 
    !> Time of the fall from q to 0; a motion that passes the capacity is slowest there
-   pure function fall_time(mechanism, energy, q) result(time)
+   pure function fall_time(mechanism, kinetic, q) result(time)
       class(mechanism_type), intent(in) :: mechanism
-      !> Energy [J]
-      real(wp), intent(in) :: energy
+      !> Kinetic energy at q [J]
+      real(wp), intent(in) :: kinetic
       !> Rotation [rad]
       real(wp), intent(in) :: q
       !> Time [s]
       real(wp) :: time
 
+      real(wp) :: excess
+
       if (q > mechanism%capacity) then
-         time = time_between(mechanism, energy, mechanism%capacity, q) &
-            & + time_between(mechanism, energy, mechanism%capacity, 0.0_wp)
+         excess = max(0.0_wp, kinetic - work_between(mechanism, q, mechanism%capacity - q))
+         time = time_between(mechanism, excess, mechanism%capacity, q - mechanism%capacity) &
+            & + time_between(mechanism, excess, mechanism%capacity, -mechanism%capacity)
       else
-         time = time_between(mechanism, energy, q, 0.0_wp)
+         time = time_between(mechanism, kinetic, q, -q)
       end if
    end function fall_time
 
@@ -134,26 +143,91 @@ contains
       end do
    end function turning_rotation
 
-   !> Time of the motion between two rotations, the integral of dq/q'; the motion is slowest at the first.
-   !> q = slow + (other - slow) x^2 takes the singularity of a turning point out, and the double exponential
-   !> rule (Takahasi and Mori 1974) what is left near an unstable equilibrium
-   pure function time_between(mechanism, energy, slow, other) result(time)
+   !> Way from a rotation to the next turning point. Where it is short the difference of two rotations, which the potentials know
+   !> to the rounding of the whole wall only, does not have its digits
+   pure function way_to_turn(mechanism, kinetic, from, turn) result(way)
       class(mechanism_type), intent(in) :: mechanism
-      !> Energy [J]
-      real(wp), intent(in) :: energy
+      !> Kinetic energy at the rotation [J]
+      real(wp), intent(in) :: kinetic
+      !> The rotation, and the turning point to rounding [rad]
+      real(wp), intent(in) :: from, turn
+      !> The way, signed [rad]
+      real(wp) :: way
+
+      ! More than rounding is not corrected: then the turn is next to an equilibrium.
+      real(wp), parameter :: most = 1.0e-6_wp
+      integer, parameter :: iterations = 4
+      real(wp) :: better, j, c, g, l, load
+      integer :: i
+
+      way = turn - from
+      better = way
+      do i = 1, iterations
+         call mechanism%terms(from + better, j, c, g, l, load)
+         better = better + (kinetic - work_between(mechanism, from, better))/(g - load)
+      end do
+      if (abs(better - way) <= most*mechanism%capacity) way = better
+   end function way_to_turn
+
+   !> Work against the restoring moment on a way, which is what potentials differ by, by the Gauss-Legendre rule where their
+   !> difference would be lost in their rounding
+   pure function work_between(mechanism, from, way) result(work)
+      class(mechanism_type), intent(in) :: mechanism
+      !> Where it begins, and the way, signed [rad]
+      real(wp), intent(in) :: from, way
+      !> Work [J]
+      real(wp) :: work
+
+      real(wp), parameter :: short = 1.0e-3_wp
+      real(wp), parameter :: nodes(2) = [sqrt(5.0_wp - 2.0_wp*sqrt(10.0_wp/7.0_wp))/3.0_wp, &
+         & sqrt(5.0_wp + 2.0_wp*sqrt(10.0_wp/7.0_wp))/3.0_wp]
+      real(wp), parameter :: weights(2) = [(322.0_wp + 13.0_wp*sqrt(70.0_wp))/1800.0_wp, &
+         & (322.0_wp - 13.0_wp*sqrt(70.0_wp))/1800.0_wp]
+      integer :: i
+
+      if (abs(way) > short*mechanism%capacity) then
+         work = mechanism%potential(from + way) - mechanism%potential(from)
+         return
+      end if
+      work = 64.0_wp/225.0_wp*moment(0.5_wp)
+      do i = 1, size(nodes)
+         work = work + weights(i)*(moment(0.5_wp*(1.0_wp - nodes(i))) + moment(0.5_wp*(1.0_wp + nodes(i))))
+      end do
+      work = work*way
+
+   contains
+
+      !> Restoring moment G - Q at a part of the way
+      pure real(wp) function moment(part)
+         real(wp), intent(in) :: part
+
+         real(wp) :: j, c, g, l, load
+
+         call mechanism%terms(from + part*way, j, c, g, l, load)
+         moment = g - load
+      end function moment
+
+   end function work_between
+
+   !> Time of the motion on a way, the integral of dq/q'; the motion is slowest where it begins, or ends.
+   !> q = slow + way x^2 takes the singularity of a turning point out, and the double exponential
+   !> rule (Takahasi and Mori 1974) what is left near an unstable equilibrium
+   pure function time_between(mechanism, excess, slow, way) result(time)
+      class(mechanism_type), intent(in) :: mechanism
+      !> Kinetic energy where it is slowest [J]
+      real(wp), intent(in) :: excess
       !> Rotation at which the motion is slowest, or turns [rad]
       real(wp), intent(in) :: slow
-      !> The other end [rad]
-      real(wp), intent(in) :: other
+      !> Way from there to the other end, signed [rad]
+      real(wp), intent(in) :: way
       !> Time [s]
       real(wp) :: time
 
       real(wp), parameter :: half_pi = acos(0.0_wp), reach = 3.6_wp, accuracy = 1.0e-10_wp
       integer, parameter :: finest = 9
-      real(wp) :: excess, step, total, before, x, weight, s
+      real(wp) :: step, total, before, x, weight, s
       integer :: level, i, n
 
-      excess = max(energy - mechanism%potential(slow), 0.0_wp)
       total = 0.0_wp
       time = 0.0_wp
       do level = 3, finest
@@ -166,9 +240,9 @@ contains
             s = real(i, wp)*step
             x = 0.5_wp*(1.0_wp + tanh(half_pi*sinh(s)))
             weight = 0.5_wp*half_pi*cosh(s)/cosh(half_pi*sinh(s))**2
-            if (x > 0.0_wp) total = total + weight*2.0_wp*x*slowness(mechanism, excess, slow, (other - slow)*x**2)
+            if (x > 0.0_wp) total = total + weight*2.0_wp*x*slowness(mechanism, excess, slow, way*x**2)
          end do
-         time = total*step*abs(other - slow)
+         time = total*step*abs(way)
          if (abs(time - before) <= accuracy*time) exit
       end do
    end function time_between
