@@ -23,7 +23,7 @@ program dondolo_main
    use dondolo_results, only : results_type
    use dondolo_run_case, only : run_case
    use dondolo_population_case, only : merge_population
-   use dondolo_threads, only : available_threads
+   use dondolo_threads, only : available_threads, given_threads
    use dondolo_status, only : print_status
    use dondolo_summary, only : print_summary
    use dondolo_system, only : outlive_file_limit, output_arrives, stderr_is_terminal
@@ -165,7 +165,7 @@ contains
       if (.not. arguments%quiet) call print_summary(case, results, paths, seconds, threads)
    end subroutine finish_run
 
-   !> Number of threads
+   !> Number of threads that will run
    integer function team(threads)
       !> Number unless the command line gives one; 0: all
       integer, intent(in) :: threads
@@ -173,6 +173,7 @@ contains
       team = threads
       if (allocated(arguments%threads)) team = arguments%threads
       if (team == 0) team = available_threads()
+      team = given_threads(team)
    end function team
 
    !> Print notes or warnings

@@ -158,8 +158,8 @@ contains
             & ' by an earlier run, engine '//engines
       else if (seconds > 0.0_wp) then
          write (output_unit, '(a)') to_text(histories)//' histories in '//rounded(seconds)//' s, '// &
-            & to_text(nint(real(histories, wp)/seconds, int64))//' a second on '//counted(threads, 'thread')// &
-            & ', engine '//engines
+            & to_text(nint(real(histories, wp)/seconds, int64))//' a second on '// &
+            & counted(int(min(int(threads, int64), histories)), 'thread')//', engine '//engines
       else
          write (output_unit, '(a)') to_text(histories)//' histories, engine '//engines
       end if

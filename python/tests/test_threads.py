@@ -7,6 +7,8 @@ import subprocess
 import sys
 import threading
 
+import pytest
+
 import dondolo as dd
 
 FORK = """
@@ -102,3 +104,59 @@ def test_threads_are_those_that_the_process_may_use():
             check=True,
         )
         assert int(run.stdout) == expected
+
+
+SMALL_STACKS = """
+import numpy as np
+import dondolo as dd
+
+records = [dd.Record(3.0 * np.sin(0.05 * i * np.arange(400)), 0.01, f"r{i}") for i in range(1, 9)]
+tie = dict(tie_height=2.0, tie_depth=0.25, tie_area=5e-6, tie_length=2.0)
+for wall in dd.OneSidedWall(3.0, 0.25), dd.OneSidedWall(3.0, 0.25, **tie), dd.TwoBlockWall(3.0, 0.25):
+    for engine in "lanes", "rk45":
+        dd.multiple_stripe(wall, records, [0.2, 0.4], threads=4, progress=False, solver=dd.Solver(engine=engine))
+    dd.simulate(wall, records[0])
+dd.typology([dd.OneSidedWall(h, 0.25) for h in (2.0, 3.0, 4.0)], records, [0.2, 0.4], threads=3, progress=False)
+dd.multiple_stripe(wall, records, [0.2, 0.4], threads=3, certify=True, progress=False)
+"""
+
+
+@pytest.mark.parametrize("stack", ["64K", "128K", "256K"])
+def test_small_stacks_of_threads_in_python(stack):
+    """128 KiB are what threads have with musl, and anybody can set less."""
+    done = subprocess.run(
+        [sys.executable, "-W", "ignore", "-c", SMALL_STACKS],
+        env=os.environ | {"OMP_STACKSIZE": stack},
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, (done.returncode, done.stderr)
+
+
+@pytest.mark.parametrize("stack", ["64", "128", "256"])
+@pytest.mark.parametrize("name", ["parapet", "two_block", "tied_facade", "history"])
+def test_small_stacks_of_the_executable(executable, root, tmp_path, stack, name):
+    """That of the process too, by `ulimit -s`."""
+    shell = f"ulimit -s {stack} && exec '{executable}' --threads 4 '{root}/data/cases/{name}.nml'"
+    done = subprocess.run(
+        ["bash", "-c", shell],
+        cwd=tmp_path,
+        env=os.environ | {"OMP_STACKSIZE": f"{stack}K"},
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 0, (done.returncode, done.stderr)
+    assert (tmp_path / f"out/{name}_run.json").is_file()
+
+
+@pytest.mark.parametrize("limit", [1, 2])
+def test_printed_threads_are_those_that_ran(executable, root, tmp_path, limit):
+    """OpenMP gives fewer than are asked for where OMP_THREAD_LIMIT says so."""
+    done = subprocess.run(
+        [executable, "--threads", "6", root / "data/cases/parapet.nml"],
+        cwd=tmp_path,
+        env=os.environ | {"OMP_THREAD_LIMIT": str(limit)},
+        capture_output=True,
+        text=True,
+    )
+    assert f"a second on {limit} thread" in done.stdout, done.stdout

@@ -35,7 +35,8 @@ contains
       !> Bytes at its beginning that are left out; none unless given
       integer, intent(in), optional :: behind
 
-      integer(int64) :: words(chunk/8)
+      ! Not on the stack, of which there may be little
+      integer(int64), allocatable :: words(:)
       integer(int32) :: table(0:255, 8), crc
       character(len=8) :: tail
       integer(int64) :: left
@@ -46,6 +47,7 @@ contains
       open (newunit=unit, file=path, access='stream', form='unformatted', action='read', status='old', iostat=stat)
       ok = stat == 0 .and. bytes >= 0
       if (.not. ok) return
+      allocate (words(chunk/8))
       call make_tables(table)
       crc = not(0_int32)
       left = bytes

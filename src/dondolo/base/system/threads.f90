@@ -1,12 +1,12 @@
 !> How many threads share some work.
 module dondolo_threads
-   use, intrinsic :: omp_lib, only : omp_get_max_threads
+   use, intrinsic :: omp_lib, only : omp_get_max_threads, omp_get_num_threads
    use dondolo_error, only : error_type, raise_input
    use dondolo_text, only : to_text
    implicit none
    private
 
-   public :: largest_threads, available_threads, team_of, check_threads
+   public :: largest_threads, available_threads, given_threads, team_of, check_threads
 
    !> Most threads that are asked for
    integer, parameter :: largest_threads = 1024
@@ -30,6 +30,19 @@ contains
 
       available_threads = min(omp_get_max_threads(), largest_threads)
    end function available_threads
+
+   !> Threads that OpenMP gives where so many are asked for: fewer if OMP_THREAD_LIMIT or OMP_DYNAMIC says so
+   integer function given_threads(threads)
+      !> Number of threads that are asked for, at least 1
+      integer, intent(in) :: threads
+
+      given_threads = 1
+      !$omp parallel num_threads(threads) default(none) shared(given_threads)
+      !$omp single
+      given_threads = omp_get_num_threads()
+      !$omp end single
+      !$omp end parallel
+   end function given_threads
 
    !> Check a number of threads
    subroutine check_threads(threads, error)

@@ -4,6 +4,7 @@
 !> are seen to one by one (dondolo_lane_history). A lane whose history is over takes the next from the queue, so that
 !> vectors stay full. What a history gives depends neither on its lane nor on those beside it.
 module dondolo_lanes
+   use, intrinsic :: iso_fortran_env, only : int64
    use, intrinsic :: omp_lib, only : omp_get_num_threads
    use dondolo_kinds, only : wp
    use dondolo_lane_constants, only : lane_constants_type
@@ -23,6 +24,10 @@ module dondolo_lanes
 
    public :: simulate_lanes, trace_lanes
 
+   !> A batch at its beginning. Each is a copy of it in memory of its own: a batch is larger than the stack that a thread may have,
+   !> and gfortran takes a copy on the stack to initialise what is allocated without a source
+   type(lane_batch_type), save, protected :: empty
+
 contains
 
    !> Histories of one wall, as long as the queue has some
@@ -37,9 +42,10 @@ contains
       !> Counts, added to
       type(work_type), intent(inout) :: work
 
-      type(lane_batch_type) :: batch
+      type(lane_batch_type), allocatable :: batch
       integer :: i, n, most
 
+      allocate (batch, source=empty)
       batch%mechanism => mechanism
       batch%constants => constants
       batch%records => records
@@ -139,13 +145,14 @@ contains
       !> The motion
       type(trace_type), intent(inout), target :: trace
 
-      type(lane_batch_type) :: batch
+      type(lane_batch_type), allocatable :: batch
       type(record_type), target :: records(2)
       type(record_set_type), target :: set
       type(queue_type), target :: queue
       type(lane_grip_type), allocatable :: grip
-      integer(kind(batch%lanes%next)) :: next
+      integer(int64) :: next
 
+      allocate (batch, source=empty)
       records(1) = record
       records(2)%dt = record%dt
       allocate (records(2)%acceleration(intervals_after(record%dt) + 1), source=0.0_wp)
@@ -175,6 +182,7 @@ contains
       end do
       ! A wall that never moves has no step.
       if (allocated(batch%grips) .and. .not. allocated(trace%ties)) call batch%grips(1)%responses(0.0_wp, trace%ties)
+      trace%is_whole = queue%response(1)%is_whole
       call trace%trim_rows()
 
    contains
