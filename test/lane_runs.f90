@@ -1,6 +1,7 @@
 !> Histories through the engine lanes, as an ensemble runs them.
 module lane_runs
    use dondolo_ensemble, only : ensemble_type, run_ensemble
+   use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_mechanism, only : mechanism_type
    use dondolo_normal_form, only : new_normal_form, normal_form_type
@@ -40,6 +41,7 @@ contains
       type(suite_type) :: suite
       type(record_type), allocatable :: copies(:)
       type(solver_type) :: in_lanes
+      type(error_type), allocatable :: error
       integer :: team
 
       team = 1
@@ -51,7 +53,8 @@ contains
       in_lanes%engine = 'lanes'
       copies = records
       call new_suite(suite, copies)
-      call run_ensemble(ensemble, mechanism, suite, in_lanes, team)
+      ! That a history was given up is seen in its response.
+      call run_ensemble(ensemble, mechanism, suite, in_lanes, team, error)
       call move_alloc(ensemble%response, response)
       if (present(work)) work = ensemble%work
    end subroutine run_lanes

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # The motion under long stress: bash test/stress.sh PATH/TO/fpm [HISTORIES]
-# Random histories (test/test_stress.f90), and those of walls with ties (test/test_tied_histories.f90), in an optimised build,
+# Random histories (test/test_stress.f90), constructed coincidences (test/test_coincidences.f90), and histories of walls with
+# ties (test/test_tied_histories.f90), in an optimised build,
 # with every check and trap, with sanitizers, and in valgrind; many lanes side by side (test/test_lanes.f90) with checks, traps
 # and sanitizers; threads and grouping (test/test_grouping.f90). One line a stage; fails if any fails.
 set -uo pipefail
@@ -69,14 +70,17 @@ stage() {
 at_least() { echo $(($1 > $2 ? $1 : $2)); }
 
 stage 'optimised' "$histories" 1000 release '' test_stress
+stage 'coincidences' "$histories" 1000 release '' test_coincidences
 stage 'walls with ties' "$histories" 1000 release '' test_tied_histories
 traps='-fcheck=all -ffpe-trap=invalid,zero,overflow -finit-real=snan -finit-integer=-99999'
 sanitizers='-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer'
 stage 'checks and traps' "$(at_least $((histories / 5)) 10)" 1000 debug "$traps" test_stress
 stage 'checks and traps, walls with ties' "$(at_least $((histories / 5)) 10)" 1000 debug "$traps" test_tied_histories
+stage 'checks and traps, coincidences' "$(at_least $((histories / 20)) 10)" 500 debug "$traps" test_coincidences
 stage 'checks and traps, many lanes' 1 1 debug "$traps" test_lanes
 stage 'sanitizers' "$(at_least $((histories / 50)) 10)" 500 debug "$sanitizers" test_stress
 stage 'sanitizers, walls with ties' "$(at_least $((histories / 50)) 10)" 500 debug "$sanitizers" test_tied_histories
+stage 'sanitizers, coincidences' "$(at_least $((histories / 100)) 10)" 250 debug "$sanitizers" test_coincidences
 stage 'sanitizers, many lanes' 1 1 debug "$sanitizers" test_lanes
 stage 'threads and grouping' "$(at_least $((histories / 100)) 10)" 250 release '' test_grouping
 # Eight threads make a million texts, most of them messages of errors.

@@ -98,7 +98,8 @@ contains
       first = 1
       do while (first <= total)
          last = min(total, first + choice(random, total/2) - 1)
-         call run_histories(other, wall, study, choice(random, 3), first, last)
+         call run_histories(other, wall, study, choice(random, 3), error, first, last)
+         call check_ok(error, what)
          first = last + 1
       end do
       call check(all(is_same(one%response, other%response)), what//' in pieces')

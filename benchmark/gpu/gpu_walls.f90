@@ -138,11 +138,11 @@ contains
       type(ensemble_type) :: ensemble
       integer :: i
 
-      !$omp parallel do schedule(dynamic) default(none) shared(self, response) private(ensemble)
+      !$omp parallel do schedule(dynamic) default(none) shared(self, response) private(ensemble, error)
       do i = 1, size(self%wall)
          ensemble%record = self%record
          ensemble%scale = self%scale
-         call run_ensemble(ensemble, self%wall(i)%mechanism, self%suite, self%solver, 1)
+         call run_ensemble(ensemble, self%wall(i)%mechanism, self%suite, self%solver, 1, error)
          response(:, i) = ensemble%response
       end do
       !$omp end parallel do

@@ -140,9 +140,9 @@ contains
       if (.not. allocated(error)) then
          ensemble%record = record
          ensemble%scale = scale
-         call run_ensemble(ensemble, people(1)%mechanism, motions, solver, threads)
+         call run_ensemble(ensemble, people(1)%mechanism, motions, solver, threads, error)
          call unpack_response(ensemble%response, edp, collapsed, impacts, time_of_peak, edp_error)
-         call check_interrupt(error)
+         if (.not. allocated(error)) call check_interrupt(error)
       end if
       call report(error, stat, message)
    end subroutine run_scaled

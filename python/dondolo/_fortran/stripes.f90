@@ -215,7 +215,7 @@ contains
       type(wall_type), pointer :: people(:)
       type(ensemble_type), allocatable :: part(:)
       type(work_type) :: total
-      type(error_type), allocatable :: error
+      type(error_type), allocatable :: error, trouble
       integer, allocatable :: range(:, :)
       integer :: i, k, left, crew, shared_out, since
 
@@ -236,15 +236,21 @@ contains
          crew = team_of(chosen%threads, huge(1))
          shared_out = last - modulo(last - one + 1, crew)
          !$omp parallel do schedule(dynamic) num_threads(crew) if(shared_out >= one) default(none) &
-         !$omp & shared(one, shared_out, chosen, people, range, part, since)
+         !$omp & shared(one, shared_out, chosen, people, range, part, since, error) private(trouble)
          do i = one, shared_out
             call watch(since)
-            call run_part(part(i), people(i), chosen, 1, range(:, i))
+            call run_part(part(i), people(i), chosen, 1, range(:, i), trouble)
+            if (.not. allocated(trouble)) cycle
+            !$omp critical (note_trouble)
+            call move_alloc(trouble, error)
+            !$omp end critical (note_trouble)
          end do
          !$omp end parallel do
          do i = shared_out + 1, last
-            call run_part(part(i), people(i), chosen, chosen%threads, range(:, i))
+            if (.not. allocated(error)) call run_part(part(i), people(i), chosen, chosen%threads, range(:, i), error)
          end do
+      end if
+      if (.not. allocated(error)) then
          k = 0
          do i = one, last
             call total%add(part(i)%work)

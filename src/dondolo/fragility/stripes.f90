@@ -62,13 +62,13 @@ contains
       type(wall_type), intent(in) :: wall
       !> What it is tried with
       type(study_type), intent(in) :: study
-      !> What cannot be run: `variable = value: what is allowed`
+      !> What cannot be run: `variable = value: what is allowed`; a history that was given up
       type(error_type), allocatable, intent(out) :: error
       !> Hears how far the work is
       procedure(progress_interface), optional :: progress
 
       call plan_stripes(stripes, wall, study, error)
-      if (.not. allocated(error)) call run_histories(stripes, wall, study, study%threads, progress=progress)
+      if (.not. allocated(error)) call run_histories(stripes, wall, study, study%threads, error, progress=progress)
    end subroutine multiple_stripe
 
    !> Check what is asked for and choose every history: its record, polarity and scale. Nothing is run
@@ -139,7 +139,7 @@ contains
    end function planned_work
 
    !> Run the histories of a plan, or some of them; those that run are numbered stripe by stripe, from the lowest level
-   subroutine run_histories(stripes, wall, study, threads, first, last, progress)
+   subroutine run_histories(stripes, wall, study, threads, error, first, last, progress)
       !> The plan; the responses of these histories are set, and all have room
       type(stripes_type), intent(inout) :: stripes
       type(wall_type), intent(in) :: wall
@@ -147,6 +147,8 @@ contains
       type(study_type), intent(in) :: study
       !> Number of threads instead of the study's; 0: all that OpenMP gives
       integer, intent(in) :: threads
+      !> A history was given up
+      type(error_type), allocatable, intent(out) :: error
       !> The first history to run, from 1, and the last; all if absent
       integer, intent(in), optional :: first, last
       !> Hears how far the work is
@@ -159,7 +161,7 @@ contains
       if (present(first)) from = first
       to = count(stripes%ran)
       if (present(last)) to = last
-      call run_part(ensemble, wall, study, threads, [from, to], progress)
+      call run_part(ensemble, wall, study, threads, [from, to], error, progress)
       if (.not. allocated(stripes%response)) allocate (stripes%response(size(stripes%record), size(stripes%levels)))
       k = 0
       do j = 1, size(stripes%levels)
@@ -173,7 +175,7 @@ contains
    end subroutine run_histories
 
    !> Run some histories of a wall that a plan has checked, without the plan; they are numbered as in run_histories
-   subroutine run_part(ensemble, wall, study, threads, range, progress)
+   subroutine run_part(ensemble, wall, study, threads, range, error, progress)
       !> The histories and their responses
       type(ensemble_type), intent(out) :: ensemble
       type(wall_type), intent(in) :: wall
@@ -183,6 +185,8 @@ contains
       integer, intent(in) :: threads
       !> The first history to run, from 1, and the last
       integer, intent(in) :: range(2)
+      !> A history was given up
+      type(error_type), allocatable, intent(out) :: error
       !> Hears how far the work is
       procedure(progress_interface), optional :: progress
 
@@ -208,7 +212,7 @@ contains
          end do
       end do
       call take_motions(study, wall, threads, own, floors, place, motions)
-      call run_ensemble(ensemble, wall%mechanism, motions, study%solver, threads, progress)
+      call run_ensemble(ensemble, wall%mechanism, motions, study%solver, threads, error, progress)
       if (place > 0) call floors%give_back(place)
    end subroutine run_part
 

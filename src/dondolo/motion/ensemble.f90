@@ -3,7 +3,7 @@
 !> Histories are independent, and each is computed by one thread from data that no thread changes: results are the same
 !> to the bit for any number of threads and any grouping.
 module dondolo_ensemble
-   use dondolo_error, only : error_type, raise_input
+   use dondolo_error, only : error_type, raise_failure, raise_input
    use dondolo_error_estimate, only : estimated_error, other_run, runs_of_estimate
    use dondolo_interrupt, only : watch, watched
    use dondolo_kinds, only : wp
@@ -11,17 +11,19 @@ module dondolo_ensemble
    use dondolo_lane_variants, only : build_variant, check_variant, first_variant, simulate_variant
    use dondolo_mechanism, only : mechanism_type
    use dondolo_queue, only : progress_interface, queue_type
+   use dondolo_record, only : record_type
    use dondolo_response, only : response_type
    use dondolo_rest, only : new_rest, rest_type
    use dondolo_rk45, only : simulate_rk45
    use dondolo_solver, only : solver_type
    use dondolo_suite, only : suite_type
+   use dondolo_text, only : brief, to_text
    use dondolo_threads, only : team_of
    use dondolo_work, only : work_type
    implicit none
    private
 
-   public :: ensemble_type, run_ensemble, check_engine, name_engines
+   public :: ensemble_type, run_ensemble, check_engine, name_engines, raise_given_up
 
    !> Histories of one wall
    type :: ensemble_type
@@ -38,7 +40,7 @@ module dondolo_ensemble
 contains
 
    !> Run the histories of an ensemble
-   subroutine run_ensemble(ensemble, mechanism, suite, solver, threads, progress)
+   subroutine run_ensemble(ensemble, mechanism, suite, solver, threads, error, progress)
       !> The histories: records and factors are given, results and counts set
       type(ensemble_type), intent(inout) :: ensemble
       class(mechanism_type), intent(in) :: mechanism
@@ -47,6 +49,8 @@ contains
       type(solver_type), intent(in) :: solver
       !> Number of threads; 0: all that OpenMP gives
       integer, intent(in) :: threads
+      !> A history was given up; the results are not whole then
+      type(error_type), allocatable, intent(out) :: error
       !> Progress callback
       procedure(progress_interface), optional :: progress
 
@@ -58,9 +62,9 @@ contains
 
       call queue%announce(merge(runs_of_estimate, 1, solver%estimate_error)*size(ensemble%record), progress)
       call queue%fill(ensemble%record, ensemble%scale, suite%by_duration)
-      call run_queue(queue, mechanism, suite, solver, threads, ensemble%work)
+      call run_queue(queue, mechanism, suite, solver, threads, ensemble%work, error)
       call move_alloc(queue%response, ensemble%response)
-      if (.not. solver%estimate_error) return
+      if (allocated(error) .or. .not. solver%estimate_error) return
       scale = ensemble%scale
       do k = 1, runs_of_estimate - 1
          if (k > 1) call move_alloc(queue%response, stronger)
@@ -69,14 +73,15 @@ contains
             call other_run(k, solver, ensemble%scale(i), other_solver, scale(i))
          end do
          call queue%fill(ensemble%record, scale, suite%by_duration)
-         call run_queue(queue, mechanism, suite, other_solver, threads, ensemble%work)
+         call run_queue(queue, mechanism, suite, other_solver, threads, ensemble%work, error)
+         if (allocated(error)) return
       end do
       ensemble%response%edp_error = estimated_error(ensemble%response, stronger, queue%response, &
          & mechanism%frequency_parameter(), solver%edp_limit)
    end subroutine run_ensemble
 
    !> Run every history in a queue
-   subroutine run_queue(queue, mechanism, suite, solver, threads, work)
+   subroutine run_queue(queue, mechanism, suite, solver, threads, work, error)
       !> The histories, and their results
       type(queue_type), intent(inout) :: queue
       class(mechanism_type), intent(in) :: mechanism
@@ -87,6 +92,8 @@ contains
       integer, intent(in) :: threads
       !> Counts, added to
       type(work_type), intent(inout) :: work
+      !> A history was given up
+      type(error_type), allocatable, intent(out) :: error
 
       type(lane_constants_type) :: constants
       type(rest_type) :: rest
@@ -123,7 +130,23 @@ contains
       !$omp end critical (add_work)
       !$omp end parallel
       call queue%report_all()
+      number = findloc(queue%response%is_whole, .false., dim=1)
+      if (number > 0) call raise_given_up(suite%records(queue%record(number)), queue%scale(number), queue%response(number), error)
    end subroutine run_queue
+
+   !> Report a history that was given up
+   subroutine raise_given_up(record, scale, response, error)
+      type(record_type), intent(in) :: record
+      !> Factor on it
+      real(wp), intent(in) :: scale
+      !> What is left of it
+      type(response_type), intent(in) :: response
+      type(error_type), allocatable, intent(out) :: error
+
+      call raise_failure(error, 'record '''//record%name//''', scale factor '//brief(scale)//': the time history does not get '// &
+         & 'beyond the sample at '//brief(response%time_of_peak)//' s and was given up; another rtol, atol or engine may '// &
+         & 'complete it')
+   end subroutine raise_given_up
 
    !> The engines that have computed histories, each with the build variant that ran
    subroutine name_engines(work, text, variant)

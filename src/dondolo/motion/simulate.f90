@@ -1,7 +1,7 @@
 !> The motion of a wall under an accelerogram, by the engine that runs its stripes: result and estimated error are those of the
 !> same history in a stripe, to the bit.
 module dondolo_simulate
-   use dondolo_ensemble, only : check_engine, ensemble_type, run_ensemble
+   use dondolo_ensemble, only : check_engine, ensemble_type, raise_given_up, run_ensemble
    use dondolo_error, only : error_type, raise_input
    use dondolo_interrupt, only : check_interrupt
    use dondolo_kinds, only : wp
@@ -36,7 +36,8 @@ contains
       !> Engine, tolerances and limit; whether the error of the EDP is to be estimated
       type(solver_type), intent(in) :: solver
       type(response_type), intent(out) :: response
-      !> What cannot be run: `variable = value: what is allowed`; an interrupt; lack of memory for the time history
+      !> What cannot be run: `variable = value: what is allowed`; an interrupt; lack of memory for the time history; a history
+      !> that was given up
       type(error_type), allocatable, intent(out) :: error
       !> Time history, until rest or 10 s past the end of the record; computed only if present
       type(trace_type), intent(inout), optional :: trace
@@ -73,10 +74,10 @@ contains
       ensemble%scale = [scale]
       records = [record]
       call new_suite(suite, records)
-      call run_ensemble(ensemble, mechanism, suite, solver, 1)
+      call run_ensemble(ensemble, mechanism, suite, solver, 1, error)
       response = ensemble%response(1)
       if (present(work)) work = ensemble%work
-      call check_interrupt(error)
+      if (.not. allocated(error)) call check_interrupt(error)
       if (allocated(error) .or. .not. present(trace)) return
       ! Once more, row by row: the loop over lanes knows nothing of rows, nor does it pay for them.
       if (solver%engine /= 'rk45') constants = new_lane_constants(mechanism, solver, suite%has_vertical)
@@ -87,7 +88,13 @@ contains
          call simulate_rk45(mechanism, record, scale, solver, again, trace)
       end if
       call check_interrupt(error)
-      if (trace%lacks_memory .and. .not. allocated(error)) call raise_shortage(bytes_of_row*real(trace%rows, wp), error)
+      if (allocated(error)) return
+      if (trace%lacks_memory) then
+         call raise_shortage(bytes_of_row*real(trace%rows, wp), error)
+      else if (.not. trace%is_whole) then
+         again%time_of_peak = trace%time(trace%rows)
+         call raise_given_up(record, scale, again, error)
+      end if
    end subroutine simulate
 
 end module dondolo_simulate

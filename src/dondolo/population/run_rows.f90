@@ -103,11 +103,11 @@ contains
       type(stripes_type) :: stripes
 
       call plan_stripes(stripes, wall, study, error)
+      if (.not. allocated(error)) call run_histories(stripes, wall, study, threads, error)
       if (allocated(error)) then
          call add_place(error, 'wall '''//wall%name()//'''')
          return
       end if
-      call run_histories(stripes, wall, study, threads)
       row%work = stripes%work
       call row%set_flags(stripes%response, study%thresholds)
       row%ties = wall%mechanism%ties

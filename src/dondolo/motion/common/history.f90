@@ -6,7 +6,7 @@ module dondolo_history
    use dondolo_record, only : record_type
    use dondolo_response, only : response_type
    use dondolo_rest, only : bounce_type, rest_type
-   use dondolo_step_limits, only : shortest_motion
+   use dondolo_step_limits, only : most_steps, shortest_motion
    use dondolo_tail, only : free_motion, tail_type
    use dondolo_wall_constants, only : wall_constants_type
    use dondolo_work, only : work_type
@@ -30,6 +30,8 @@ module dondolo_history
       integer :: impacts = 0, low_bounces(2) = 0
       !> Whether the wall has moved, and whether it has collapsed
       logical :: moved = .false., collapsed = .false.
+      !> Whether it was given up, which leaves no result
+      logical :: given_up = .false.
       !> Sample intervals in which it has rocked, and the last of them
       integer, private :: rocked = 0, last_rocked = 0
       !> Instant at which it last began to rock: sample interval, and time in it [s]
@@ -37,7 +39,11 @@ module dondolo_history
       real(wp), private :: start_time = 0.0_wp
       !> Sample that stops a chain of bounces, from the last look at one
       integer, private :: stopper = 0
+      !> Sample interval in which steps are counted, and how many there were
+      integer, private :: counted = 0, steps_there = 0
    contains
+      !> Count a step, and give the history up after too many
+      procedure :: count_step
       !> Rocking begins now
       procedure :: begin_rocking
       !> Rocking ends now
@@ -69,6 +75,25 @@ contains
       outward = f
       if (q == 0.0_wp .and. v == 0.0_wp) outward = max(0.0_wp, f)
    end function starting_acceleration
+
+   !> Count a step, or an event, of the present sample interval. A history that does not get out of one, whatever keeps it there,
+   !> is given up: it must end, and must not pass for one that survived
+   elemental subroutine count_step(self, constants, interval, dt)
+      class(history_type), intent(inout) :: self
+      !> Constants of the wall
+      class(wall_constants_type), intent(in) :: constants
+      !> The sample interval
+      integer, intent(in) :: interval
+      !> Its length [s]
+      real(wp), intent(in) :: dt
+
+      if (interval /= self%counted) then
+         self%counted = interval
+         self%steps_there = 0
+      end if
+      self%steps_there = self%steps_there + 1
+      if (self%steps_there > most_steps(dt, constants%fastest)) self%given_up = .true.
+   end subroutine count_step
 
    !> Rocking begins now
    elemental subroutine begin_rocking(self)
@@ -216,6 +241,13 @@ contains
       if (response%collapsed) response%edp = constants%solver%edp_limit
       response%impacts = self%impacts
       response%time_of_peak = self%time_of_peak
+      if (self%given_up) then
+         ! Its callers report it; to those that do not look it is no survivor.
+         response%is_whole = .false.
+         response%collapsed = .true.
+         response%edp = constants%solver%edp_limit
+         response%time_of_peak = real(self%counted - 1, wp)*record%dt
+      end if
       if (.not. present(work)) return
       work%histories = work%histories + 1
       if (.not. self%moved) work%still = work%still + 1

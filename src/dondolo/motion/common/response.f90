@@ -27,6 +27,8 @@ module dondolo_response
       real(wp) :: time_of_peak = 0.0_wp
       !> Estimated error of the EDP; 0 unless the solver was asked for it
       real(wp) :: edp_error = 0.0_wp
+      !> Was it computed to its end? If not, there is no result: it was given up at the time of the peak
+      logical :: is_whole = .true.
    contains
       !> Is the EDP in doubt?
       procedure :: is_ill_conditioned
@@ -60,6 +62,8 @@ module dondolo_response
       integer :: rows = 0
       !> Is there no memory for more rows? The last one is missing then
       logical :: lacks_memory = .false.
+      !> Was the motion computed to its end?
+      logical :: is_whole = .true.
       !> Time [s]
       real(wp), allocatable :: time(:)
       !> Scaled ground acceleration [m/s2]

@@ -37,6 +37,8 @@ module dondolo_rest
       real(wp) :: vertical_lever = 0.0_wp
       !> Inertia J(0) [kg m2]
       real(wp) :: inertia
+      !> Rate at which the moment changes with the rotation up to `height` [N m/rad]
+      real(wp) :: stiffness
       !> Rotation up to which the bounds of a chain hold [rad]
       real(wp) :: height
       !> Relative change of the terms up to that rotation
@@ -103,6 +105,7 @@ contains
       do
          call mechanism%terms(rest%height, j, c, g, l, load)
          change = (g - load)/rest%moment - 1.0_wp
+         rest%stiffness = (g - load - rest%moment)/rest%height
          ! What a tie adds to the moment shortens a bounce; the bounds of a chain ask for no more than the rest.
          if (allocated(mechanism%restraints)) change = min(change, 0.0_wp)
          ! The term C q'^2 takes at most 2 |C| height/J of the moment from a bounce of that height.

@@ -5,7 +5,7 @@ module dondolo_step_limits
    private
 
    public :: shortest_motion, smallest_step
-   public :: longest_step
+   public :: longest_step, most_steps
 
    !> Fraction of the sample interval below which a motion is treated as rest, and a step as no step
    real(wp), parameter :: shortest_motion = 1.0e3_wp*epsilon(1.0_wp)
@@ -33,5 +33,20 @@ contains
          longest_step = max(shortest_motion*dt, slack*(dt - time)/real(steps_per_sample, wp))
       end if
    end function longest_step
+
+   !> Most steps and events of a history from one sample to the next, after which it is given up, far more than any needs: as many
+   !> as smallest steps, while the guard of low bounces (dondolo_rest) follows 20 000, and those that a smooth motion takes a
+   !> radian at the tightest tolerances
+   elemental integer function most_steps(dt, rate)
+      !> Sample interval [s]
+      real(wp), intent(in) :: dt
+      !> Largest natural frequency of the wall [rad/s]
+      real(wp), intent(in) :: rate
+
+      real(wp), parameter :: fewest = 1.0_wp/smallest_step, largest = 1.0e9_wp
+      real(wp), parameter :: steps_of_radian = 10.0_wp*epsilon(1.0_wp)**(-0.2_wp)
+
+      most_steps = int(min(largest, fewest + steps_of_radian*rate*dt))
+   end function most_steps
 
 end module dondolo_step_limits

@@ -21,6 +21,8 @@ module dondolo_wall_constants
       real(wp) :: gravity
       !> Velocity p q_c, the unit of the absolute tolerance [rad/s]
       real(wp) :: velocity_unit
+      !> Largest natural frequency: p, or that of the wall on its ties [rad/s]
+      real(wp) :: fastest
    end type wall_constants_type
 
    !> Factor on the tolerances of the engine rk45 for walls with ties, and what it does not tighten them beyond. They
@@ -51,6 +53,7 @@ contains
       constants%gravity = mechanism%gravity
       constants%limit = min(solver%edp_limit*mechanism%capacity, mechanism%unseating)
       constants%velocity_unit = mechanism%frequency_parameter()*mechanism%capacity
+      constants%fastest = sqrt(max(mechanism%frequency_parameter()**2, constants%rest%stiffness/constants%rest%inertia))
    end function new_wall_constants
 
 end module dondolo_wall_constants

@@ -1,7 +1,7 @@
 !> The first event in the step of each flagged lane: most of them all at once, in vectors, the others one by one.
 module dondolo_lane_events
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_events, only : no_event
+   use dondolo_events, only : no_event, turning
    use dondolo_kinds, only : wp
    use dondolo_lane_constants, only : lane_constants_type
    use dondolo_lane_grip, only : lane_grip_type
@@ -109,6 +109,12 @@ contains
          if (present(grips) .and. found%last(n)*lanes%step(i) > shortest_motion*lanes%dt(i)) then
             call grips(i)%heed(heeds)
             if (heeds) call find_first_level(d, lanes%below(i), lanes%above(i), part, event)
+         end if
+         ! A motion that begins where it turns does not turn there again: that is rounding, and would be found forever, since no
+         ! time passes. It goes on a little instead.
+         if (event == turning .and. d(1) == 0.0_wp .and. part*lanes%step(i) <= shortest_motion*lanes%dt(i)) then
+            event = no_event
+            part = min(found%last(n), shortest_motion*lanes%dt(i)/lanes%step(i))
          end if
          lanes%y(i) = value(d, part)
          if (part*lanes%step(i) > 0.0_wp) lanes%v(i) = rate(d, part)/lanes%step(i)

@@ -129,6 +129,7 @@ contains
       i = batch%found%lane(n)
       associate (lanes => batch%lanes, history => batch%history(i), constants => batch%constants)
          if (lanes%flag(i) >= event_possible) then
+            call history%count_step(constants, interval_of(batch, i), lanes%dt(i))
             call find_event(batch%found, n, lanes, batch%grips, part, event)
             h = part*lanes%step(i)
             if (event == no_event .and. .not. lanes%time(i) + h < lanes%dt(i)) then
@@ -158,7 +159,7 @@ contains
             end select
             if (history%collapsed .and. associated(batch%trace)) call add_row(batch, i)
          end if
-         history%over = history%over .or. lanes%next(i) > lanes%last(i)
+         history%over = history%over .or. history%given_up .or. lanes%next(i) > lanes%last(i)
          if (history%over) call finish(batch, i)
       end associate
    end subroutine resolve
@@ -314,7 +315,7 @@ contains
          if (lanes%y(i) > 0.0_wp .or. lanes%v(i) > 0.0_wp) then
             history%interval = interval_of(batch, i)
             call history%end_rocking(record)
-            if (history%collapsed) then
+            if (history%collapsed .or. history%given_up) then
                continue
             else if (allocated(batch%grips)) then
                call batch%grips(i)%after_record(constants, lanes%y(i), lanes%v(i), record%duration(), tail)

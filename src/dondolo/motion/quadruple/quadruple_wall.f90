@@ -55,6 +55,8 @@ module dondolo_quadruple_wall
       integer :: impacts = 0
       !> Time of the largest rotation, or of reaching the limit [s]
       real(real64) :: time_of_peak = 0.0_real64
+      !> Was it computed to its end?
+      logical :: is_whole = .true.
    end type quadruple_response_type
 
 contains
@@ -146,7 +148,7 @@ contains
       solver%edp_limit = real(edp_limit, wp)
       call simulate_rk45(self%wall%mechanism, record%record, real(scale, wp), solver, response)
       result = quadruple_response_type(real(response%edp, real64), response%collapsed, response%impacts, &
-         & real(response%time_of_peak, real64))
+         & real(response%time_of_peak, real64), response%is_whole)
    end subroutine simulate
 
 end module dondolo_quadruple_wall

@@ -103,11 +103,11 @@ contains
          end if
       end if
       if (event /= no_event) then
-         call land(mechanism, constants%limit, motion, h, event, x, next)
+         call land(mechanism, constants%limit, dt, motion, h, event, x, next)
          ! What is only grazed may have hidden the event that the step has gone beyond.
          if (event == no_event .and. (next%q < 0.0_wp .or. next%q >= constants%limit)) then
             event = merge(impact, limit_reached, next%q < 0.0_wp)
-            call land(mechanism, constants%limit, motion, h, event, 1.0_wp, next)
+            call land(mechanism, constants%limit, dt, motion, h, event, 1.0_wp, next)
          end if
       end if
       sample_reached = parts == 1 .and. event == no_event
@@ -156,15 +156,17 @@ contains
 
    !> Take a step again so that it ends on an event: Newton's method on the step itself, kept in a bracket by
    !> bisection, from the place found on the dense output
-   pure subroutine land(mechanism, limit, motion, h, event, x, next)
+   pure subroutine land(mechanism, limit, dt, motion, h, event, x, next)
       class(mechanism_type), intent(in) :: mechanism
-      !> Rotation that counts as collapse [rad]
-      real(wp), intent(in) :: limit
+      !> Rotation that counts as collapse [rad], and sample interval [s]
+      real(wp), intent(in) :: limit, dt
       !> The motion at the start of the step
       type(motion_type), intent(inout) :: motion
       !> In: the whole step; out: the step to the event [s]
       real(wp), intent(inout) :: h
-      !> The event; `no_event` if the step, taken again, only grazes it
+      !> The event; `no_event` if the step, taken again, only grazes it. A motion that begins where it turns does not turn there
+      !> again: such a turn is rounding, and would be found forever, since no time passes. A wall at rest that turns as it
+      !> leaves has not left: that is an impact without speed
       integer, intent(inout) :: event
       !> Its place on the dense output, as a part of the step
       real(wp), intent(in) :: x
@@ -172,8 +174,8 @@ contains
       type(state_type), intent(inout) :: next
 
       integer, parameter :: most_trials = 60
-      type(state_type) :: start
-      real(wp) :: before, after, trial, gap, rate, change, sense, level, q_error, v_error
+      type(state_type) :: start, whole
+      real(wp) :: whole_step, before, after, trial, gap, rate, change, sense, level, q_error, v_error
       logical :: crossed
       integer :: i
 
@@ -181,6 +183,8 @@ contains
       if (event == level_above) level = motion%grip%above
       if (event == level_below) level = motion%grip%below
       start = state_type(motion%q, motion%v, motion%f)
+      whole = next
+      whole_step = h
       before = 0.0_wp
       after = h
       trial = x*h
@@ -230,6 +234,16 @@ contains
       h = trial + change
       next%q = next%q + change*(next%v + 0.5_wp*change*next%f)
       next%v = next%v + change*next%f
+      if (event == turning .and. h <= shortest_motion*dt .and. start%v == 0.0_wp) then
+         if (start%q > 0.0_wp) then
+            event = no_event
+            h = whole_step
+            next = whole
+            return
+         end if
+         event = impact
+         next%v = 0.0_wp
+      end if
       if (event == impact) next%q = 0.0_wp
       if (event >= level_above) next%q = level
       if (event == turning) then

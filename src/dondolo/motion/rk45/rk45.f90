@@ -93,6 +93,7 @@ contains
             last = last + intervals_after(record%dt)
             call rock(wall, constants, record, last, motion, ending, trace)
          end if
+         trace%is_whole = .not. motion%given_up
          call trace%trim_rows()
          if (.not. allocated(trace%ties)) allocate (trace%ties(0))
       end if
@@ -185,7 +186,8 @@ contains
       do while (motion%interval <= last)
          call look_for_interrupt(interrupted)
          if (present(trace)) interrupted = merge(1_c_int, interrupted, trace%lacks_memory)
-         if (interrupted == 1) then
+         call motion%count_step(constants, motion%interval, record%dt)
+         if (interrupted == 1 .or. motion%given_up) then
             ending = broken_off
             return
          end if
