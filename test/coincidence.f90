@@ -10,7 +10,7 @@ module coincidence
    use dondolo_record, only : new_record, record_type
    use dondolo_response, only : response_type
    use dondolo_rk45, only : simulate_rk45
-   use dondolo_solver, only : check_limit, solver_type
+   use dondolo_solver, only : check_limit
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    use random_history, only : across, choice, history_type
    implicit none

@@ -17,7 +17,7 @@ module dondolo_ensemble
    use dondolo_rk45, only : simulate_rk45
    use dondolo_solver, only : solver_type
    use dondolo_suite, only : suite_type
-   use dondolo_text, only : brief, to_text
+   use dondolo_text, only : brief
    use dondolo_threads, only : team_of
    use dondolo_work, only : work_type
    implicit none

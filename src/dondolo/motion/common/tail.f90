@@ -157,16 +157,18 @@ contains
       ! More than rounding is not corrected: then the turn is next to an equilibrium.
       real(wp), parameter :: most = 1.0e-6_wp
       integer, parameter :: iterations = 4
-      real(wp) :: better, j, c, g, l, load
+      real(wp) :: better, left, j, c, g, l, load
       integer :: i
 
       way = turn - from
       better = way
       do i = 1, iterations
          call mechanism%terms(from + better, j, c, g, l, load)
-         better = better + (kinetic - work_between(mechanism, from, better))/(g - load)
+         left = kinetic - work_between(mechanism, from, better)
+         if (.not. abs(left) < most*mechanism%capacity*abs(g - load)) return
+         better = better + left/(g - load)
       end do
-      if (abs(better - way) <= most*mechanism%capacity) way = better
+      way = better
    end function way_to_turn
 
    !> Work against the restoring moment on a way, which is what potentials differ by, by the Gauss-Legendre rule where their
