@@ -1,8 +1,5 @@
 """Histories that are given up end every route with an error: millions of bounces from one sample to the next."""
 
-from collections.abc import Callable
-from pathlib import Path
-
 import numpy as np
 import pytest
 
@@ -40,25 +37,7 @@ def test_stripes(bouncing: dd.Wall, slow: dd.Record, sine: dd.Record) -> None:
         dd.multiple_stripe(bouncing, [sine, slow], [LEVEL], progress=False)
 
 
-def test_typology(bouncing: dd.Wall, wall: dd.Wall, slow: dd.Record, sine: dd.Record) -> None:
+def test_typology(bouncing: dd.Wall, slow: dd.Record, sine: dd.Record) -> None:
     """The error names the wall."""
     with pytest.raises(dd.DondoloError, match="rubber.*" + ERROR):
-        dd.typology([wall, bouncing, wall], [sine, slow], [LEVEL], progress=False)
-
-
-@pytest.mark.parametrize("task", ["history", "stripes"])
-def test_executable(run: Callable, tmp_path: Path, task: str) -> None:
-    """No table is written."""
-    (tmp_path / "slow.txt").write_text("\n".join(map(str, SHAPE)) + "\n")
-    (tmp_path / "records.csv").write_text("file,dt_s,units\nslow.txt,10,m/s2\n")
-    levels = {"history": f"&history record = 1, im_level = {LEVEL!r} /", "stripes": f"&stripes im_levels = {LEVEL!r} /"}
-    (tmp_path / "case.nml").write_text(
-        f"&job task = '{task}', output = 'results' /\n"
-        f"&wall mechanism = 'one_sided', height = {HEIGHT}, thickness = {THICKNESS}, restitution = 'constant',\n"
-        f"   restitution_value = {RESTITUTION} /\n"
-        f"&records catalogue = 'records.csv' /\n{levels[task]}\n"
-    )
-    done = run("case.nml")
-    assert done.returncode == 1
-    assert "was given up" in done.stderr and "slow" in done.stderr
-    assert not list(tmp_path.glob("results*"))
+        dd.typology([dd.OneSidedWall(2.0, 0.25, name="brick"), bouncing], [sine, slow], [LEVEL], progress=False)
