@@ -112,6 +112,7 @@ contains
             call arguments%parts%add(word)
          else if (allocated(arguments%case_file)) then
             call look_for_command(arguments%case_file, error)
+            if (.not. allocated(error)) call look_for_command(word, error)
             if (.not. allocated(error)) call raise_input(error, word//': one case at a time, '//arguments%case_file// &
                & ' was given before')
          else
@@ -155,7 +156,7 @@ contains
          end if
       end subroutine set_action
 
-   !> Refuse the name of a case that is not there and that is nearly a command
+   !> Refuse the name of a case that is not there and that is an option without its dashes or nearly a command
    subroutine look_for_command(name, error)
       character(len=*), intent(in) :: name
       !> What may have been meant
@@ -166,7 +167,12 @@ contains
 
       inquire (file=name, exist=exists)
       if (exists) return
-      hint = trim(meant(name, python_commands))
+      if (any(option_names == '--'//name)) then
+         call raise_input(error, name//': no such file or command; it is an option: dondolo --'//name)
+         return
+      end if
+      hint = trim(meant(name, [character(len=12) :: python_commands, option_names]))
+      if (len(hint) == 0) hint = trim(meant('--'//name, option_names))
       if (len(hint) > 0) call raise_input(error, name//': no such file or command'//hint)
    end subroutine look_for_command
 

@@ -11,11 +11,14 @@ module dondolo_plan
    use dondolo_lines, only : lines_type
    use dondolo_name_column, only : name_width
    use dondolo_plain, only : visible
+   use dondolo_plan_building, only : print_building
+   use dondolo_plan_warnings, only : warn_of_plan
    use dondolo_plan_wall, only : print_body, print_head, print_row, print_wall
    use dondolo_plausibility, only : wall_warning_type
    use dondolo_member, only : member_type
    use dondolo_population, only : population_reader_type
    use dondolo_population_case, only : find_start
+   use dondolo_record, only : record_type
    use dondolo_record_table, only : record_table
    use dondolo_results, only : shown_rows
    use dondolo_run_case, only : plan_case
@@ -56,7 +59,7 @@ contains
          call check_wall(case, case%wall, sheet, error)
       end if
       if (allocated(error)) return
-      call find_warnings(case, scales, warnings)
+      call find_warnings(case, work, scales, warnings)
       if (quiet) return
       write (output_unit, '(a)') visible(case%file)//': correct, nothing was run', ''
       write (output_unit, '(a)') 'task: '//case%job%task
@@ -68,6 +71,7 @@ contains
       else
          call print_wall(case%wall)
          call print_body(case%wall)
+         if (allocated(case%wall%building)) call print_building(case%wall%building, used_records(case))
          write (output_unit, '(a)') ''
          if (allocated(case%check)) call print_check(sheet, was_run=.false.)
       end if
@@ -83,6 +87,15 @@ contains
          write (output_unit, '(a)') 'warning: '//visible(warnings%line(i)%text)
       end do
    end subroutine print_plan
+
+   !> The records that would run: of a time history one
+   function used_records(case) result(records)
+      type(case_type), intent(in) :: case
+      type(record_type), allocatable :: records(:)
+
+      records = case%suite%records
+      if (case%job%task == 'history') records = [case%suite%records(case%history%record)]
+   end function used_records
 
    !> Print which histories would run
    subroutine print_histories(case, work, scales, store)
@@ -132,8 +145,10 @@ contains
    end subroutine print_clusters
 
    !> What a run would warn of beforehand
-   subroutine find_warnings(case, scales, sentences)
+   subroutine find_warnings(case, work, scales, sentences)
       type(case_type), intent(in) :: case
+      !> Work of all histories
+      type(work_type), intent(in) :: work
       !> What there is to say of scale factors
       type(scale_warning_type), intent(in) :: scales
       !> What to say
@@ -152,6 +167,7 @@ contains
          call warn_of_records(case%suite, case%solver%gravity, warnings, case%history%record)
       else
          call warn_of_records(case%suite, case%solver%gravity, warnings)
+         call warn_of_plan(size(case%stripes%levels), case%suite%clusters, work, warnings)
       end if
       call scales%warn(warnings)
       call warning_sentences(warnings, sentences)

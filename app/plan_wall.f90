@@ -3,6 +3,7 @@ module dondolo_plan_wall
    use, intrinsic :: iso_fortran_env, only : output_unit
    use dondolo_error, only : error_type, problems_type
    use dondolo_kinds, only : wp
+   use dondolo_plan_building, only : building_summary
    use dondolo_text, only : left, rounded
    use dondolo_tie_statics, only : greatest_acceleration, plastic_acceleration
    use dondolo_wall, only : new_wall, wall_type
@@ -51,7 +52,7 @@ contains
    pure function load_of(wall) result(text)
       type(wall_type), intent(in) :: wall
       !> Blanks and a few words, filled up with blanks; empty for a bare wall
-      character(len=200) :: text
+      character(len=360) :: text
 
       real(wp) :: half, eccentricity
 
@@ -75,6 +76,7 @@ contains
          end if
          if (input%number('leaves') > 1.0_wp) text = trim(text)//'  '//rounded(input%number('leaves'))//' leaves of '// &
             & rounded(input%number('thickness')/input%number('leaves'))//' m, one of which rocks'
+         if (allocated(wall%building)) text = trim(text)//trim(building_summary(wall%building))
          if (wall%hinge_depth > 0.0_wp) text = trim(text)//'  hinge '//rounded(wall%hinge_depth)//' m deep'
          if (wall%mechanism%unseating < wall%mechanism%capacity) text = trim(text)//'  unseating at '// &
             & rounded(wall%mechanism%unseating)//' rad'

@@ -334,6 +334,12 @@ EDITS = [
         "test_fragility.f90",
     ),
     Edit(
+        "the gain in log likelihood stands for the likelihood ratio",
+        "is_flat = 2.0_wp*gain < least_ratio",
+        "is_flat = gain < least_ratio",
+        "test_fragility.f90",
+    ),
+    Edit(
         "counts that tell of a falling curve are fitted",
         "else if (score <= 16.0_wp*epsilon(score)*sum(n)) then",
         "else if (score <= -huge(score)) then",

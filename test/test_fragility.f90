@@ -4,6 +4,7 @@ program test_fragility
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, suite
    use dondolo_clustered, only : cluster_errors, parameter_intervals
    use dondolo_error, only : error_type
+   use dondolo_even_levels, only : even_levels, settle_levels
    use dondolo_fragility, only : fit_fragility, fragility_type, normal_cdf
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
@@ -19,6 +20,8 @@ program test_fragility
    call test_two_stripes()
    call test_published()
    call test_statuses()
+   call test_nearly_flat()
+   call test_even_levels()
    call test_invariances()
    call test_wrong_counts()
    call test_clusters()
@@ -119,6 +122,104 @@ contains
       ! Rising by so little that the median is beyond all numbers
       call expect('decreasing', [0.1_wp, 0.2_wp, 0.4001_wp], [1.0_wp, 0.0_wp, 1.0_wp], n, 0.4001_wp, huge(0.0_wp))
    end subroutine test_statuses
+
+   !> Collapses that hardly become more frequent: the curve stays, with a status. For two levels the probit model is saturated, so
+   !> that the likelihood ratio against no slope is that of two fractions, in closed form
+   subroutine test_nearly_flat()
+      real(wp), parameter :: x(2) = [0.3_wp, 0.6_wp], n(2) = [60.0_wp, 60.0_wp], quantile = 3.841458820694124_wp
+      type(fragility_type) :: curve, curves(2)
+      type(wall_type) :: wall
+      type(stripes_type) :: stripes
+      type(warnings_type) :: warnings
+      type(lines_type) :: sentences
+      type(error_type), allocatable :: error
+      real(wp) :: low, high, middle
+      integer :: i
+
+      call suite('nearly flat curves')
+      ! Collapses at the second level for which the ratio is the quantile
+      low = 27.0_wp
+      high = 50.0_wp
+      do i = 1, 100
+         middle = 0.5_wp*(low + high)
+         if (ratio_of_two(27.0_wp, middle) < quantile) then
+            low = middle
+         else
+            high = middle
+         end if
+      end do
+      curve = fitted(x, [27.0_wp, low - 1.0e-6_wp], n, 'just not significant')
+      call check_text(curve%status, 'nearly_flat', 'status below the quantile')
+      call check(curve%has_fit(), 'a nearly flat curve is a curve')
+      curve = fitted(x, [27.0_wp, high + 1.0e-6_wp], n, 'just significant')
+      call check_text(curve%status, 'ok', 'status above the quantile')
+      curve = fitted([0.1_wp, 0.2_wp, 0.4_wp, 0.8_wp], [9.0_wp, 11.0_wp, 9.0_wp, 11.0_wp], spread(20.0_wp, 1, 4), 'hardly rising')
+      call check_text(curve%status, 'nearly_flat', 'status of counts that hardly rise')
+      call check(curve%beta > 5.0_wp, 'its dispersion is large')
+      ! A slope that is certain is no fault, however flat
+      curve = fitted([0.1_wp, 10.0_wp], [4.0e4_wp, 6.0e4_wp], spread(1.0e5_wp, 1, 2), 'flat and certain')
+      call check_text(curve%status, 'ok', 'status of a flat curve of many histories')
+      ! A median outside the levels is the first thing to say
+      curve = fitted([1.0_wp, 2.0_wp], [1.0_wp, 2.0_wp], [44.0_wp, 44.0_wp], 'beyond the levels')
+      call check_text(curve%status, 'extrapolated', 'status of a median outside the levels')
+
+      call fit_ordinal(curves, x, reshape([28.0_wp, 33.0_wp, 27.0_wp, 32.0_wp], [2, 2]), n, error)
+      call check_ok(error, 'two states')
+      call check_text(curves(1)%status, 'nearly_flat', 'the first of two states with one dispersion')
+      call check_text(curves(2)%status, 'nearly_flat', 'the second of them')
+
+      stripes%levels = x
+      curve = fitted(x, [29.0_wp, 31.0_wp], n, 'of a wall')
+      call warn_of_fit(wall, stripes, curve, warnings)
+      call check(warnings%count == 1, 'one warning')
+      call warning_sentences(warnings, sentences)
+      call check(index(sentences%line(1)%text, 'collapses hardly become more frequent with the level') == 1, 'its sentence')
+   end subroutine test_nearly_flat
+
+   !> Likelihood ratio statistic of two fractions of 60 against one
+   pure real(wp) function ratio_of_two(first, second) result(ratio)
+      !> Collapses
+      real(wp), intent(in) :: first, second
+
+      ratio = 2.0_wp*(height(first, 60.0_wp) + height(second, 60.0_wp) - height(first + second, 120.0_wp))
+   end function ratio_of_two
+
+   !> Largest log likelihood of a count
+   pure real(wp) function height(z, n)
+      real(wp), intent(in) :: z, n
+
+      height = z*log(z/n) + (n - z)*log(1.0_wp - z/n)
+   end function height
+
+   !> Equally spaced levels are decimals, and lists that are equally spaced but for rounding become the same
+   subroutine test_even_levels()
+      real(wp), parameter :: tenths(9) = [0.1_wp, 0.2_wp, 0.3_wp, 0.4_wp, 0.5_wp, 0.6_wp, 0.7_wp, 0.8_wp, 0.9_wp]
+      real(wp) :: levels(9), thirds(4), other(5), step
+      integer :: i
+
+      call suite('equally spaced levels')
+      call check(all(abs(even_levels(0.1_wp, 0.9_wp, 9) - tenths) <= 0.0_wp), 'decimals to the last bit')
+      step = (0.9_wp - 0.1_wp)/8.0_wp
+      levels = [(0.1_wp + real(i, wp)*step, i=0, 8)]
+      call check(any(abs(levels - tenths) > 0.0_wp), 'steps from the first level miss decimals')
+      call settle_levels(levels)
+      call check(all(abs(levels - tenths) <= 0.0_wp), 'settled')
+      ! Sums of steps miss the end, too
+      levels(1) = 0.1_wp
+      do i = 2, 9
+         levels(i) = levels(i - 1) + 0.1_wp
+      end do
+      call check(abs(levels(9) - 0.9_wp) > 0.0_wp, 'a sum of steps misses its end')
+      call settle_levels(levels)
+      call check(all(abs(levels - tenths) <= 0.0_wp), 'a sum of steps settled')
+      thirds = [0.1_wp, 0.1_wp + 0.8_wp/3.0_wp, 0.1_wp + 1.6_wp/3.0_wp, 0.9_wp]
+      call settle_levels(thirds)
+      call check(all(abs(thirds - even_levels(0.1_wp, 0.9_wp, 4)) <= 0.0_wp), 'levels that are no decimals')
+      other = [0.1_wp, 0.2_wp, 0.3_wp + 1.0e-12_wp, 0.4_wp, 0.5_wp]
+      thirds = other(:4)
+      call settle_levels(other)
+      call check(all(abs(other(:4) - thirds) <= 0.0_wp), 'a list that is not equally spaced stays')
+   end subroutine test_even_levels
 
    !> A status without a curve
    subroutine expect(status, levels, collapses, histories, below, above)

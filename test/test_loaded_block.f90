@@ -534,6 +534,16 @@ contains
       input = a_case('roof')
       call input%set('load_depth', [0.5_wp, 0.35_wp])
       call refuse(input, 'load_depth: has 2 values, must have 3 as load, or one for all')
+      ! Heights are never shared: two loads at one height would be one
+      input = a_case('roof')
+      call input%set('load_height', [4.0_wp])
+      call refuse(input, 'load_height = 4: is one value for 3 values of load, must be one for each, such as load_height = 4, 4')
+      input = a_case('roof')
+      call input%set('load_height', [4.0_wp, 7.5_wp])
+      call refuse(input, 'load_height: has 2 values, must have 3 as load')
+      call refuse_one_height('thrust', 'thrust_height')
+      call refuse_one_height('spring', 'spring_height')
+      call refuse_one_height('inertia_mass', 'inertia_height')
       input = plain_wall()
       call input%set('thrust_height', [3.0_wp])
       call refuse(input, 'thrust_height: only with thrust')
@@ -544,6 +554,18 @@ contains
       call input%set('mechanism', 'two_block')
       call refuse(input, 'load = 10000: only for mechanism = ''one_sided'' or ''free_standing''')
    end subroutine test_wrong_input
+
+   !> Two things of a kind with one height between them
+   subroutine refuse_one_height(list, height)
+      !> Their property, and that of their heights
+      character(len=*), intent(in) :: list, height
+      type(wall_input_type) :: input
+
+      input = plain_wall()
+      call input%set(list, [400.0_wp, 600.0_wp])
+      call input%set(height, [1.5_wp])
+      call refuse(input, height//' = 1.5: is one value for 2 values of '//list)
+   end subroutine refuse_one_height
 
    !> Input that must be refused with a sentence
    subroutine refuse(input, sentence)

@@ -3,7 +3,7 @@
 program test_properties
    use dondolo_check_group, only : read_check_group
    use dondolo_check_input, only : check_input_type, check_properties, put_check
-   use checks, only : check, check_close, check_error, check_ok, finish, suite
+   use checks, only : check, check_close, check_error, check_ok, check_text, finish, suite
    use dondolo_echo, only : echo_type
    use dondolo_error, only : error_type
    use dondolo_history_group, only : history_input_type, read_history_group
@@ -13,7 +13,7 @@ program test_properties
    use dondolo_namelist, only : namelist_type, read_namelist
    use dondolo_namelist_group, only : group_type
    use dondolo_population_group, only : put_population, read_population_group
-   use dondolo_property, only : check_number, check_word, find_property, has_owner, is_integer, is_list, &
+   use dondolo_property, only : check_number, check_word, find_property, has_owner, hint_of, is_integer, is_list, &
       & is_logical, is_many, is_number_or_name, is_text, is_words, no_limit, number_of_choices, property_type
    use dondolo_property_tables, only : property_table, table_names
    use dondolo_records_group, only : read_records_group, records_input_type
@@ -38,6 +38,7 @@ program test_properties
    end do
    call test_walls()
    call test_unknown()
+   call test_hints()
    call remove(path)
    call finish()
 
@@ -117,6 +118,77 @@ contains
          end associate
       end do
    end subroutine test_reading
+
+   !> Values that are plausible in another unit are refused, or warned of, with that unit
+   subroutine test_hints()
+      call suite('units of implausible values')
+      call hint('height', 2700.0_wp, 'is it in millimetres?')
+      call hint('height', 270.0_wp, 'is it in centimetres?')
+      call hint('thickness', 380.0_wp, 'is it in millimetres?')
+      call hint('thickness', 38.0_wp, 'is it in centimetres?')
+      call hint('section_height', 3500.0_wp, 'is it in millimetres?')
+      call hint('load_depth', 175.0_wp, 'is it in millimetres?')
+      call hint('hinge_depth', 2.0_wp, 'is it in centimetres?')
+      call hint('tie_area', 78.5_wp, 'is it in mm2 per metre of wall?')
+      call hint('tie_area', 0.785_wp, 'is it in cm2 per metre of wall?')
+      call hint('tie_modulus', 2.1e5_wp, 'is it in MPa?')
+      call hint('tie_modulus', 210.0_wp, 'is it in GPa?')
+      call hint('tie_strength', 235.0_wp, 'is it in MPa?')
+      call hint('compressive_strength', 3.2_wp, 'is it in MPa?')
+      call hint('compressive_strength', 3200.0_wp, 'is it in kPa?')
+      call hint('load', 8.5_wp, 'is it in kN/m?')
+      call hint('thrust', 1.2_wp, 'is it in kN/m?')
+      call hint('spring', 45.0_wp, 'is it in kN/m2?')
+      call hint('bed', 25.0_wp, 'is it in kN/m3?')
+      call hint('mass', 1.4_wp, 'is it in t/m?')
+      call hint('inertia_mass', 0.7_wp, 'is it in t/m?')
+      call hint('hinge_inertia', 4.1_wp, 'is it in t m2/m?')
+      call hint('density', 17.5_wp, 'is it in kN/m3 or t/m3?')
+      call hint('interlock_friction', 30.0_wp, 'is it an angle, or in per cent?')
+      call hint('hinge', 60.0_wp, 'is it in per cent?')
+      call hint('restitution_value', 88.0_wp, 'is it in per cent?')
+      call hint('restitution_factor', 87.0_wp, 'is it in per cent?')
+      call hint('section_fill', 80.0_wp, 'is it in per cent?')
+      call hint('period', 3.5_wp, 'is it in Hz, a frequency?', 'building')
+      call hint('period', 280.0_wp, 'is it in milliseconds?', 'building')
+      call hint('damping', 5.0_wp, 'is it in per cent?', 'building')
+      call hint('participation', 130.0_wp, 'is it in per cent?', 'building')
+      call hint('ag', 2.4_wp, 'is it in m/s2?', 'check')
+      call hint('ag', 24.0_wp, 'is it in per cent of g?', 'check')
+      call hint('ag', 240.0_wp, 'is it in cm/s2?', 'check')
+      call hint('tc_star', 350.0_wp, 'is it in milliseconds?', 'check')
+      ! Plausible, or implausible in any unit
+      call hint('height', 3.0_wp, '')
+      call hint('height', -3.0_wp, '')
+      call hint('height', 1.0e9_wp, '')
+      call hint('leaves', 300.0_wp, '')
+   end subroutine test_hints
+
+   !> The question that is asked of a value, also by the refusal of one beyond the range
+   subroutine hint(name, value, question, group)
+      !> Property
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: value
+      !> Empty: none
+      character(len=*), intent(in) :: question
+      !> Table; that of walls if absent
+      character(len=*), intent(in), optional :: group
+
+      type(property_type), allocatable :: table(:)
+      character(len=:), allocatable :: allowed
+      type(property_type) :: property
+
+      if (present(group)) then
+         table = property_table(group)
+      else
+         table = property_table('wall')
+      end if
+      property = table(find_property(table, name))
+      call check_text(trim(hint_of(property, value)), question, name//' = '//to_text(value))
+      call check_number(property, value, allowed)
+      if (.not. allocated(allowed) .or. len(question) == 0) return
+      call check(index(allowed, ': '//question) > 0, name//' = '//to_text(value)//': '//allowed)
+   end subroutine hint
 
    !> A value that must be refused
    subroutine refuse(name, property, text, sentence)

@@ -213,6 +213,37 @@ def test_case_and_report(root, executable, tmp_path):
     assert "wrong.nml: &check: soil = 'f': must be one of" in run.stderr
 
 
+def test_hazard_of_rigid_ground(root, executable, tmp_path):
+    """A hazard curve in ag is refused beside a check whose soil amplifies it."""
+    rock = tmp_path / "rock.csv"
+    rock.write_text("ag (g),return_period\n0.04,30\n0.1,140\n0.18,475\n0.3,2475\n")
+    (tmp_path / "wall.nml").write_text(CASE.format(root=root).replace("soil = 'b'", "soil = 'D'"))
+    subprocess.run([executable, "--quiet", "wall.nml"], cwd=tmp_path, check=True, capture_output=True)
+    stored = dd.read_results(tmp_path / "out/wall")
+    with pytest.warns(dd.DondoloWarning, match="rigid ground"):
+        hazard = dd.HazardCurve.from_csv(rock)
+    hazard.to_csv(tmp_path / "again.csv")
+    with pytest.warns(dd.DondoloWarning, match="rigid ground"):
+        again = dd.HazardCurve.from_csv(tmp_path / "again.csv")
+    hazard.save(tmp_path / "hazard.npz")
+    for one in (hazard, hazard.smoothed(), again, dd.load(tmp_path / "hazard.npz")):
+        assert one.rigid_ground
+        with pytest.raises(dd.InputError, match="ag, of rigid, level ground, and the check has soil D, topography T1"):
+            dd.report(stored, tmp_path / "report.html", hazard=one)
+        assert not (tmp_path / "report.html").exists()
+    # S = 2.4 - 1.5 F0 a_g, between 0.9 and 1.8, of class D
+    surface = np.clip(2.4 - 1.5 * 2.5 * hazard.levels, 0.9, 1.8) * hazard.levels
+    dd.report(stored, tmp_path / "report.html", hazard=dd.HazardCurve(surface, hazard.annual_frequency))
+    command = [executable, "report", "out/wall", "--hazard", "rock.csv"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 2
+    assert "the check has soil D" in done.stderr
+    # On rock the factors are 1
+    (tmp_path / "wall.nml").write_text(CASE.format(root=root).replace("soil = 'b'", "soil = 'A'"))
+    subprocess.run([executable, "--quiet", "wall.nml"], cwd=tmp_path, check=True, capture_output=True)
+    dd.report(dd.read_results(tmp_path / "out/wall"), tmp_path / "rock.html", hazard=hazard)
+
+
 def test_population(root, executable, tmp_path):
     """The rows of the executable are the checks of the walls, each with its own curve."""
     (tmp_path / "walls.csv").write_text(

@@ -69,6 +69,21 @@ def test_extrapolation_warns():
     assert (curve.theta, curve.beta) == (pytest.approx(5.85981, abs=1e-5), pytest.approx(0.684495, abs=1e-6))
 
 
+def test_counts_that_hardly_rise_warn():
+    with pytest.warns(dd.DondoloWarning, match="collapses hardly become more frequent with the level") as caught:
+        curve = dd.fit_fragility([0.15, 0.3, 0.45, 0.6, 0.75], [14, 16, 15, 14, 17], 30)
+    assert (curve.status, curve.has_fit) == ("nearly_flat", True)
+    assert curve.beta > 5.0
+    warning = caught[0].message
+    assert (warning.code, warning.numbers["beta"], warning.subject) == ("nearly_flat", curve.beta, {})
+    # The curve is the one of maximum likelihood, whatever its status
+    peak = stats.binom.logpmf([14, 16, 15, 14, 17], 30, curve(curve.levels)).sum()
+    assert curve.log_likelihood == pytest.approx(peak, abs=1e-9)
+    ratio = 2.0 * (peak - stats.binom.logpmf([14, 16, 15, 14, 17], 30, 76 / 150).sum())
+    assert ratio < stats.chi2.ppf(0.95, 1)
+    assert dd.fit_fragility([0.15, 0.3, 0.45, 0.6, 0.75], [8, 12, 15, 18, 22], 30).status == "ok"
+
+
 @pytest.mark.parametrize(
     ("collapses", "status", "bracket"),
     [

@@ -116,13 +116,14 @@ def test_columns():
         row.column for row in WALL if row.column and (row.name not in WALL_EXTRAS or row.name == "overburden_inertia")
     ]
     assert columns[: len(own)] == own
-    loaded = dd.OneSidedWall(3.0, 0.25, load=[1e4, 2e4], load_depth=0.1, load_height=3.0, load_inertia="both")
+    loaded = dd.OneSidedWall(3.0, 0.25, load=[1e4, 2e4], load_depth=0.1, load_height=[2.0, 3.0], load_inertia="both")
     columns = list(dd.Population([wall, loaded]).to_frame().columns)
     assert [name for name in columns if name.startswith("load")] == [
         "load1_n_m",
         "load2_n_m",
         "load1_depth_m",
         "load1_height_m",
+        "load2_height_m",
         "load1_inertia",
     ]
 

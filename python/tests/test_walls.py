@@ -248,6 +248,7 @@ def test_sampled_loads():
     common = {"height": 3.0, "thickness": 0.25, "load_depth": 0.175, "load_height": 3.0, "load_inertia": "both"}
     walls = dd.sample_population("one_sided", 4, 1, load=dd.Uniform(5e3, 10e3), **common)
     assert all(5e3 < wall.load[0] < 10e3 for wall in walls)
+    common["load_height"] = [2.0, 3.0]
     assert dd.sample_population("one_sided", 2, 1, load=[1e3, 2e3], **common)[1].load == (1e3, 2e3)
 
 

@@ -191,7 +191,8 @@ contains
       end do
    end subroutine in_series
 
-   !> What the executable would warn of, of the curve of one wall; numbers and status as fit_curves has them
+   !> Warnings of the executable for the curve of one wall, or for walls = 0 of counts without a wall; numbers and status
+   !> as fit_curves has them
    subroutine warn_of_curve(walls, levels, m, largest_edp, curve, status, sent, stat, message)
       integer(c_int64_t), intent(in) :: walls
       integer(c_int), intent(in) :: m, status
@@ -199,23 +200,26 @@ contains
       integer(c_int64_t), intent(out) :: sent(4)
       integer(c_int), intent(out) :: stat
       character(len=2048), intent(out) :: message
-      type(wall_type), pointer :: people(:)
+      type(wall_type), pointer :: people(:), wall
       type(stripes_type) :: stripes
       type(fragility_type) :: fragility
       type(warnings_type) :: warnings
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
 
-      call find_walls(walls, people, error)
+      wall => null()
+      if (walls /= 0) call find_walls(walls, people, error)
       if (.not. allocated(error)) then
+         if (walls /= 0) wall => people(1)
          fragility%status = status_names(status)
          fragility%theta = curve(1)
+         fragility%beta = curve(2)
          fragility%bracket = curve(7:8)
          stripes%levels = levels
          ! Of the responses the sentences need the largest only
          allocate (stripes%response(1, 1))
          stripes%response%edp = largest_edp
-         call warn_of_fit(people(1), stripes, fragility, warnings)
+         call warn_of_fit(wall, stripes, fragility, warnings)
          call warning_objects(warnings, parcel%lines)
       end if
       call send(parcel, error, sent, stat, message)

@@ -180,10 +180,13 @@ def rows_in_series(probabilities: FloatArray, rows: NDArray[np.integer[Any]]) ->
     return whole
 
 
-def warnings_of_curve(wall: Handle, levels: FloatArray, largest_edp: float, curve: CurveData) -> list[DondoloWarning]:
-    """What the executable would warn of, of the curve of one wall."""
+def warnings_of_curve(
+    wall: Handle | None, levels: FloatArray, largest_edp: float, curve: CurveData
+) -> list[DondoloWarning]:
+    """Warnings of the executable for the curve of one wall, or of counts without a wall."""
     code = constants().statuses.index(curve.status) + 1
-    parcel = receive(*_core.curves.warn_of_curve(wall.number, levels, largest_edp, curve.numbers, code))
+    number = 0 if wall is None else wall.number
+    parcel = receive(*_core.curves.warn_of_curve(number, levels, largest_edp, curve.numbers, code))
     return unpack_warnings(parcel.lines)
 
 

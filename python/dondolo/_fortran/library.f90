@@ -13,7 +13,7 @@ module library
    use dondolo_clustered, only : fewest_clusters
    use dondolo_distribution, only : least_share
    use dondolo_error, only : error_type, raise_input
-   use dondolo_fragility, only : error_names, status_names
+   use dondolo_fragility, only : error_names, least_ratio, status_names, statuses_with_curve
    use dondolo_handles, only : release
    use dondolo_interrupt, only : begin => listen, finish => end_listening
    use dondolo_lane_variants, only : build_variant, check_variant
@@ -37,12 +37,12 @@ module library
 contains
 
    !> Version, defaults and limits that Python must not repeat
-   subroutine constants(longest, fewest, defaults, version, statuses, errors)
-      ! Bytes of a name, and clusters that standard errors need
-      integer(c_int), intent(out) :: longest, fewest
+   subroutine constants(longest, fewest, fitted, defaults, version, statuses, errors)
+      ! Bytes of a name, clusters that standard errors need, and how many of the statuses, the first ones, have a curve
+      integer(c_int), intent(out) :: longest, fewest, fitted
       ! rtol, atol, edp_limit, gravity; the part of a distribution that must be left where it is cut off, and of a level by
-      ! which another differs
-      real(c_double), intent(out) :: defaults(6)
+      ! which another differs; likelihood ratio from which on a slope is significant
+      real(c_double), intent(out) :: defaults(7)
       character(len=32), intent(out) :: version
       character(len=256), intent(out) :: statuses, errors
       type(solver_type) :: solver
@@ -50,7 +50,9 @@ contains
 
       longest = longest_name
       fewest = fewest_clusters
-      defaults = [solver%rtol, solver%atol, solver%edp_limit, standard_gravity, least_share, same_level]
+      fitted = statuses_with_curve
+      defaults = [solver%rtol, solver%atol, solver%edp_limit, standard_gravity, least_share, same_level, &
+         & least_ratio]
       version = dondolo_version_text
       statuses = ''
       do i = 1, size(status_names)

@@ -44,8 +44,10 @@ class Constants(NamedTuple):
     gravity: float
     least_share: float
     same_level: float
+    least_ratio: float
     version: str
     statuses: tuple[str, ...]
+    fitted: tuple[str, ...]
     errors: tuple[str, ...]
 
 
@@ -114,8 +116,9 @@ _NOTHING = Parcel(np.empty(0, dtype=np.int32), np.empty(0), [], 0)
 @functools.cache
 def constants() -> Constants:
     """Ask Fortran for its version, defaults and the names of its statuses."""
-    longest, fewest, defaults, version, statuses, errors = _core.library.constants()
-    rtol, atol, edp_limit, gravity, least_share, same_level = (float(value) for value in defaults)
+    longest, fewest, fitted, defaults, version, statuses, errors = _core.library.constants()
+    names = tuple(statuses.decode().split())
+    rtol, atol, edp_limit, gravity, least_share, same_level, least_ratio = (float(value) for value in defaults)
     return Constants(
         int(longest),
         int(fewest),
@@ -125,8 +128,10 @@ def constants() -> Constants:
         gravity,
         least_share,
         same_level,
+        least_ratio,
         version=version.decode().strip(),
-        statuses=tuple(statuses.decode().split()),
+        statuses=names,
+        fitted=names[:fitted],
         errors=tuple(errors.decode().split()),
     )
 

@@ -5,6 +5,7 @@ module stripes
    use dondolo_catalogue, only : record_rows_type
    use dondolo_ensemble, only : ensemble_type
    use dondolo_error, only : add_place, error_type
+   use dondolo_even_levels, only : settle_levels
    use dondolo_handles, only : find_study, find_suite, find_walls, held_study_type, hold
    use dondolo_interrupt, only : check_interrupt, watch, watched
    use dondolo_parcel, only : parcel_type, send
@@ -24,7 +25,7 @@ module stripes
    implicit none
    private
 
-   public :: new_study, choose_records, runs_of_records, plan, check_wall, run_block
+   public :: new_study, settle, choose_records, runs_of_records, plan, check_wall, run_block
 
 contains
 
@@ -65,6 +66,16 @@ contains
       end if
       call report(error, stat, message)
    end subroutine new_study
+
+   !> Levels as a case has them: a list that is equally spaced but for rounding becomes that of first, last and count
+   subroutine settle(levels, m, settled)
+      integer(c_int), intent(in) :: m
+      real(c_double), intent(in) :: levels(m)
+      real(c_double), intent(out) :: settled(m)
+
+      settled = levels
+      call settle_levels(settled)
+   end subroutine settle
 
    !> Choose the records of each level: n rows of record (from 1), level and factor, as those of a catalogue; 0: every
    !> level, and a factor computed from the measure

@@ -46,6 +46,8 @@ if TYPE_CHECKING:
     from zipfile import ZipInfo
 
 _VERSION = 1
+# Fields that archives of earlier versions do not have, and what they are there
+_ADDED: dict[str, dict[str, Any]] = {"HazardCurve": {"rigid_ground": False}, "Logistic": {"likelihood_ratio": math.nan}}
 _CONTENT = "dondolo.json"
 # What every file has in its first bytes: the first member is not compressed
 _MARK = '{"format": "dondolo result"'
@@ -322,6 +324,7 @@ def _made(kind: Any, values: dict[str, Any]) -> Any:
     if hasattr(kind, "_restored"):
         return kind._restored(**values)
     fields = _fields(kind)
+    values = {**_ADDED.get(kind.__name__, {}), **values}
     if set(values) != set(fields):
         wrong = sorted(set(values) ^ set(fields))[0]
         raise InputError(f"{kind.__name__}: has {'no' if wrong in fields else 'an unknown'} field {wrong!r}")

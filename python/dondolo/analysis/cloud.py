@@ -53,7 +53,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_levels, as_number, instance_of, shaped
-from dondolo._fortran.library import warn
+from dondolo._fortran.library import constants, warn
 from dondolo._fortran.records import describe_measure, unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
@@ -61,7 +61,7 @@ from dondolo.analysis.request import SMALL_LEVEL, Polarity, Request, check_threa
 from dondolo.analysis.solver import Solver, as_solver
 from dondolo.analysis.work import Work
 from dondolo.curves.regression import Logistic, Regression, logistic_regression, regress
-from dondolo.errors import DondoloError, InputError, Interrupted
+from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted
 from dondolo.records.record import Record
 from dondolo.records.record_set import scaled_records
 from dondolo.walls.wall import Wall
@@ -163,7 +163,9 @@ class Cloud(tables.Tabular, Saved):
         """
         intensity, name = _intensities(self.wall, self.records, im, self.scale, 0)
         intensity = intensity[self.record_index]
-        return replace(self, im=name, intensity=intensity, **fit(intensity, self.edp, self.collapsed))
+        found = replace(self, im=name, intensity=intensity, **fit(intensity, self.edp, self.collapsed))
+        warn(found._doubts())
+        return found
 
     def probability(self, x: ArrayLike, edp_threshold: float | None = None) -> Any:
         """P(EDP > edp_threshold | IM = x) by total probability.
@@ -227,6 +229,27 @@ class Cloud(tables.Tabular, Saved):
         from dondolo.analysis.plots_cloud import draw_cloud
 
         return draw_cloud(self, ax)
+
+    def _doubts(self) -> list[DondoloWarning]:
+        """Warnings of models whose slope is not significant."""
+        limit = constants().least_ratio
+        models: dict[str, Regression | Logistic] = {
+            "the EDP of histories that rock": self.regression,
+            "the probability of rocking": self.rocking,
+            "the probability of collapse": self.collapse,
+        }
+        return [
+            DondoloWarning(
+                f"{what} hardly increases with {self.im} (likelihood ratio against no slope"
+                f" {model.likelihood_ratio:.3g}, below {limit:.4g}, its 95 % quantile): medians and dispersions are not"
+                " reliable",
+                "nearly_flat",
+                {"wall": self.wall.name, "im": self.im},
+                {"likelihood_ratio": model.likelihood_ratio, "limit": limit},
+            )
+            for what, model in models.items()
+            if model.status == "ok" and model.likelihood_ratio < limit
+        ]
 
     def _threshold(self, edp_threshold: float | None) -> float:
         threshold = self.edp_limit if edp_threshold is None else as_number("edp_threshold", edp_threshold)
@@ -346,6 +369,11 @@ def cloud(
     Interrupted
         Ctrl-C; its `partial` is the result if all histories were complete, else None.
 
+    Warns
+    -----
+    DondoloWarning
+        A model whose slope is not significant.
+
     Notes
     -----
     Jalayer and others (2017). The docstring of the module dondolo.analysis.cloud has the formulas.
@@ -376,7 +404,7 @@ def cloud(
     if outcome.done < len(plan.record):
         raise Interrupted(told)
     points = intensity[plan.record]
-    cloud = Cloud(
+    found = Cloud(
         wall=wall,
         records=several,
         im=name,
@@ -391,8 +419,9 @@ def cloud(
         work=outcome.work,
     )
     if interrupted:
-        raise Interrupted(told, cloud)
-    return cloud
+        raise Interrupted(told, found)
+    warn(found._doubts())
+    return found
 
 
 def _intensities(

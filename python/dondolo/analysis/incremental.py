@@ -51,7 +51,7 @@ from dondolo._storage.saved import Saved
 from dondolo.analysis.request import polarity_names
 from dondolo.analysis.stripes import Stripes
 from dondolo.curves.clusters import Clusters, errors_of_parts, no_errors
-from dondolo.curves.fitting import extrapolation, with_errors
+from dondolo.curves.fitting import counts_are_flat, warnings_of_fit, with_errors
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloWarning, InputError
 
@@ -132,15 +132,17 @@ class Incremental(Shown, Saved):
         Returns
         -------
         FirstCollapseFragility
-            By maximum likelihood of capacities between two levels. Its status is 'ok' or 'extrapolated' (theta outside
-            the levels); without a curve it is 'no_collapse', 'all_collapse' (all at the lowest level), 'single_level',
-            'decreasing' (some collapse at the lowest level and no other at any) or 'separated' (else, where at most one
-            level has both histories that have collapsed and histories that have not).
+            By maximum likelihood of capacities between two levels. Its status is 'ok', 'extrapolated' (theta outside
+            the levels) or 'nearly_flat' (less than half of the histories collapse between two levels, and the counts
+            hardly increase with the level, as for `fit_fragility`); without a curve it is 'no_collapse', 'all_collapse'
+            (all at the lowest level), 'single_level', 'decreasing' (some collapse at the lowest level and no other at
+            any) or 'separated' (else, where at most one level has both histories that have collapsed and histories that
+            have not).
 
         Warns
         -----
         DondoloWarning
-            There is no curve, or it extrapolates.
+            There is no curve, it extrapolates, or it is nearly flat.
         """
         levels, n = self.levels, len(self.first_collapse)
         theta = beta = np.nan
@@ -173,6 +175,10 @@ class Incremental(Shown, Saved):
             else:
                 errors = errors_of_parts([Clusters("records", labels, changes)])
             status = "ok" if levels[0] <= theta <= levels[-1] else "extrapolated"
+            # A history is its own control: where most of them collapse between two levels, few of them show a slope
+            few = 2 * (self.counted[-1] - self.counted[0]) < n
+            if status == "ok" and few and counts_are_flat(levels, self.counted, n):
+                status = "nearly_flat"
         half = self.fraction >= 0.5
         first = int(np.argmax(half)) if half.any() else len(levels)
         curve = FirstCollapseFragility(
@@ -189,9 +195,9 @@ class Incremental(Shown, Saved):
             wall=self.stripes.wall,
             naive_covariance=covariance,
         )
-        if status == "extrapolated":
-            warn([extrapolation(curve)])
-        elif status != "ok":
+        if curve.has_fit:
+            warn(warnings_of_fit(curve))
+        else:
             sentence = f"no curve of first collapses is fitted (status '{status}')"
             warn([DondoloWarning(sentence, status, {"wall": self.stripes.wall.name}, {"levels": len(levels)})])
         return curve if errors is None else with_errors(curve, errors)

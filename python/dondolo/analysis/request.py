@@ -314,14 +314,18 @@ def new_request(
     estimate_error: bool = False,
     collapses_only: bool = False,
 ) -> Request:
-    """A request out of what a user gives; for records and levels see `records_at_levels`."""
+    """A request out of what a user gives; for records and levels see `records_at_levels`.
+
+    Levels that are equally spaced but for rounding become those of ``first, last, count`` of a case.
+    """
     team = check_threads(threads)
-    several, levels, rows = records_at_levels(records, levels)
-    levels.flags.writeable = False
+    several, given, rows = records_at_levels(records, levels)
+    settled: FloatArray = _core.stripes.settle(given)
+    settled.flags.writeable = False
     how = as_solver(solver)
     settings = how._settings(estimate_error, collapses_only)
     name = describe_measure(im).name
-    return Request(tuple(walls), several, levels, name, polarity, how.engine, settings, team, rows)
+    return Request(tuple(walls), several, settled, name, polarity, how.engine, settings, team, rows)
 
 
 def check_threads(threads: int) -> int:

@@ -52,8 +52,9 @@ def multiple_stripe(
         levels only, with the factor of the set where it has one.
     levels : array_like, shape (levels,), or 'auto'
         Levels of intensity, positive and increasing, in the unit of the measure; may be left out where the records have
-        levels. 'auto': stripe by stripe, each level is chosen where the histories so far leave most to learn of the
-        curve of collapse, rounded to three digits, until the budget is spent (see Notes).
+        levels. Levels that are equally spaced but for rounding, as from `numpy.linspace`, are those of first, last and
+        count of a case, rounded to 14 digits. 'auto': stripe by stripe, each level is chosen where the histories so far
+        leave most to learn of the curve of collapse, rounded to three digits, until the budget is spent (see Notes).
     budget : int, optional
         With levels = 'auto': how many histories to run at most, enough for three stripes of all records. What does not
         suffice for a stripe is not spent.

@@ -375,7 +375,7 @@ class Stripes(Shown, Saved):
         """Warn of a curve as the executable does."""
         low, high = curve.bracket
         numbers = np.zeros(8)
-        numbers[[0, 6, 7]] = curve.theta, low, min(high, np.finfo(np.float64).max)
+        numbers[[0, 1, 6, 7]] = curve.theta, curve.beta, low, min(high, np.finfo(np.float64).max)
         data = CurveData(curve.status, numbers)
         sentences = warnings_of_curve(upload((self.wall,)), self.levels, float(np.nanmax(self.edp)), data)
         warn(sentence.placed(where) for sentence in sentences)

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from dondolo._base.arguments import FloatArray, as_count, as_generator, as_levels, shaped, tails
 from dondolo._base.shown import Shown
 from dondolo._fortran.curves import fit_curves
+from dondolo._fortran.library import constants
 from dondolo._storage.saved import Saved
 from dondolo.curves.sample import Sample
 from dondolo.errors import DondoloError, InputError
@@ -147,5 +148,5 @@ def fit_samples(
     """Curves of many samples: theta and beta, NaN where a sample has no fit, and the status of each."""
     curves, statuses = fit_curves(levels, collapses, histories)
     status = np.array(statuses)
-    fitted = np.isin(status, ("ok", "extrapolated"))
+    fitted = np.isin(status, constants().fitted)
     return np.where(fitted, curves[:, 0], np.nan), np.where(fitted, curves[:, 1], np.nan), status

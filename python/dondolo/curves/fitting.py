@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_array, as_number
-from dondolo._fortran.curves import CurveData, fit_curves
-from dondolo._fortran.library import warn
+from dondolo._fortran.curves import CurveData, fit_curves, warnings_of_curve
+from dondolo._fortran.library import constants, warn
 from dondolo._fortran.records import name_of_measure
 from dondolo.curves.clusters import Errors, errors_of_sample
 from dondolo.curves.fragility import Fragility
@@ -46,7 +46,7 @@ def fit_fragility(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike,
     Warns
     -----
     DondoloWarning
-        The median lies outside the levels.
+        The median lies outside the levels, or the collapses hardly become more frequent with the level.
 
     Examples
     --------
@@ -56,19 +56,21 @@ def fit_fragility(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike,
     (0.282842712, 0.513830774)
     """
     curve = fit(*_counts(levels, collapses, histories), im=name_of_measure(im))
-    if curve.status == "extrapolated":
-        warn([extrapolation(curve)])
+    if curve.has_fit:
+        warn(warnings_of_fit(curve))
     return curve
 
 
-def extrapolation(curve: Fragility) -> DondoloWarning:
-    """The warning that a curve with its median outside the levels is worth."""
-    low, high = float(curve.levels.min()), float(curve.levels.max())
-    return DondoloWarning(
-        f"theta = {curve.theta:.4g} lies outside the levels {low:g} to {high:g}: the fit extrapolates",
-        "extrapolated",
-        numbers={"levels": len(curve.levels), "first_level": low, "last_level": high, "theta": curve.theta},
-    )
+def warnings_of_fit(curve: Fragility) -> list[DondoloWarning]:
+    """Warnings of a fitted curve of counts without a wall: it extrapolates, or is nearly flat."""
+    numbers = np.array([curve.theta, curve.beta, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
+    return warnings_of_curve(None, curve.levels, 0.0, CurveData(curve.status, numbers))
+
+
+def counts_are_flat(levels: FloatArray, collapses: ArrayLike, histories: int) -> bool:
+    """Whether collapses hardly increase with the level: whether the binomial fit to them is nearly flat."""
+    counts = np.asarray(collapses, dtype=np.float64)
+    return fit_curves(levels, counts[None, :], np.full((1, len(levels)), float(histories)))[1][0] == "nearly_flat"
 
 
 def fit(levels: FloatArray, collapses: FloatArray, histories: FloatArray, **origin: Any) -> Fragility:
@@ -91,7 +93,7 @@ def curve_of(
 ) -> Fragility:
     """A curve as Fortran has fitted it."""
     theta, beta, var_theta, both, var_beta, height, low, high = (float(value) for value in data.numbers)
-    if data.status not in ("ok", "extrapolated"):
+    if data.status not in constants().fitted:
         theta = beta = var_theta = both = var_beta = height = np.nan
     largest = np.finfo(np.float64).max
     covariance = np.array([[var_theta, both], [both, var_beta]])

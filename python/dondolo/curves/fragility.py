@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from dondolo._base.arguments import FloatArray, as_levels, as_number, as_probabilities, shaped, tails
 from dondolo._base.shown import Shown
 from dondolo._fortran.curves import probability, student_quantile
+from dondolo._fortran.library import constants
 from dondolo._fortran.records import blank_unit, name_of_measure, unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
@@ -50,8 +51,9 @@ class Fragility(Shown, Saved):
     covariance : ndarray, shape (2, 2)
         Covariance of ln theta and beta, of the kind that `errors` says; NaN without standard errors.
     status : str
-        'ok', 'extrapolated' (theta outside the levels), 'no_collapse', 'all_collapse', 'separated', 'single_level',
-        'decreasing' or 'not_converged'; the first two have a curve.
+        'ok', 'extrapolated' (theta outside the levels), 'nearly_flat' (collapses hardly become more frequent with the
+        level: the likelihood ratio against no slope is below 3.841, its 95 % quantile), 'no_collapse', 'all_collapse',
+        'separated', 'single_level', 'decreasing' or 'not_converged'; the first three have a curve.
     log_likelihood : float
         With the binomial coefficients; NaN without a fit.
     bracket : (float, float)
@@ -147,7 +149,7 @@ class Fragility(Shown, Saved):
     @property
     def has_fit(self) -> bool:
         """Is there a curve?"""
-        return self.status in ("ok", "extrapolated")
+        return self.status in constants().fitted
 
     @property
     def has_errors(self) -> bool:

@@ -47,6 +47,12 @@ class Regression:
     histories: int
     status: str
 
+    @property
+    def likelihood_ratio(self) -> float:
+        """Likelihood ratio statistic against no slope; NaN without a fit."""
+        with np.errstate(divide="ignore"):
+            return float(-self.histories * np.log1p(-self.r2))
+
 
 @part_of_results
 @dataclass(frozen=True, kw_only=True)
@@ -65,6 +71,8 @@ class Logistic:
         the other kind.
     histories, count : int
         All, and those of the kind.
+    likelihood_ratio : float
+        Likelihood ratio statistic against no slope; NaN without a curve.
     """
 
     b0: float
@@ -73,6 +81,7 @@ class Logistic:
     bracket: tuple[float, float]
     histories: int
     count: int
+    likelihood_ratio: float = np.nan
 
     def __call__(self, x: ArrayLike) -> Any:
         """Probability at intensities.
@@ -180,4 +189,6 @@ def logistic_regression(x: FloatArray, kind: BoolArray) -> Logistic:
     b1 = float(found.x[1] / unit)
     if b1 <= 0.0:
         return decreasing
-    return replace(decreasing, b0=float(found.x[0] - b1 * shift), b1=b1, status="ok")
+    flat = -count * np.log(count / n) - (n - count) * np.log1p(-count / n)
+    ratio = float(2.0 * (flat - found.fun))
+    return replace(decreasing, b0=float(found.x[0] - b1 * shift), b1=b1, status="ok", likelihood_ratio=ratio)

@@ -24,7 +24,7 @@ from dondolo.analysis.stripes import States, Stripes
 from dondolo.analysis.work import Work
 from dondolo.checks.ntc import CodeCheck
 from dondolo.curves.fragility import Fragility
-from dondolo.errors import DondoloWarning, InputError, MissingFileError
+from dondolo.errors import DondoloWarning, InputError, MissingFileError, silent
 from dondolo.exchange.case_checks import checks_of_run, stored_check
 from dondolo.exchange.result_file import MixedError, ResultFile
 from dondolo.exchange.stored_designs import stored_designs
@@ -44,6 +44,8 @@ from dondolo.walls.wall import Wall
 
 # How often results are read again that another run replaces meanwhile
 _TRIES = 20
+# Prefixes that a message shows
+_SHOWN = 5
 # What only some populations have
 _UNIONS, _TIES, _DESIGNS = "_unions.csv", "_ties.csv", "_designs.csv"
 # Columns of _walls.csv and the numbers of a wall
@@ -143,6 +145,7 @@ def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
                 if name.endswith(end):
                     start = prefix.removesuffix(end)
                     raise InputError(f"prefix = {prefix!r}: must be what the names begin with, {start!r}") from None
+            _refuse_other(prefix)
             raise
         try:
             return _read(prefix, run)
@@ -151,6 +154,29 @@ def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
             tries += 1
             if tries == _TRIES or published_run(Path(prefix)) == run.run:
                 raise
+
+
+def _refuse_other(prefix: str) -> None:
+    """Refuse a case, another file, a folder or a prefix with an underscore, and name the prefix that is meant."""
+    path, what = Path(prefix), f"prefix = {prefix!r}"
+    if prefix.endswith("_") and Path(prefix[:-1] + RUN_FILE).is_file():
+        raise InputError(f"{what}: must be what the names begin with, {prefix[:-1]!r}")
+    if path.is_dir():
+        found = sorted(str(one).removesuffix(RUN_FILE) for one in path.glob(f"*{RUN_FILE}"))
+        more = f" and {len(found) - _SHOWN} more" if len(found) > _SHOWN else ""
+        names = ", ".join(map(repr, found[:_SHOWN])) + more
+        if found:
+            raise InputError(f"{what}: is a folder, must be what the names of result files begin with, such as {names}")
+    if not path.is_file():
+        return
+    if path.suffix.lower() != ".nml":
+        raise InputError(f"{what}: is a file, must be what the names of result files begin with")
+    from dondolo.exchange.cases import read_case
+
+    with silent():
+        output = read_case(prefix).output
+    run = "" if Path(output + RUN_FILE).is_file() else f"; there are none yet, dondolo {prefix} writes them"
+    raise InputError(f"{what}: is a case, must be what the names of its result files begin with, {output!r}{run}")
 
 
 def _read(prefix: str, run: RunFile) -> StoredResults:

@@ -109,6 +109,8 @@ def report(
         raise InputError(f"hazard: {type(hazard).__name__} is no hazard curve")
     if hazard is not None and isinstance(run.results, Response):
         raise InputError("hazard: must be left out for a single motion, which has no fragility")
+    if hazard is not None and hazard.rigid_ground:
+        _check_ground(run)
     # Choose the backend first: that may turn interactive mode on, and ioff restores the mode it finds.
     plt.draw_if_interactive()  # type: ignore[no-untyped-call]
     with plt.ioff(), silent():
@@ -127,6 +129,17 @@ def report(
         write_pdf(path, text, mark)
     else:
         tables.write_lines(path, [text.rstrip("\n")])
+
+
+def _check_ground(run: Run) -> None:
+    """Refuse a hazard curve of rigid ground where the check of the wall has factors of soil or topography."""
+    site = next((one.site for one in (run.check, *run.checks) if one is not None), None)
+    if site is not None and (site.soil, site.topography) != ("A", "T1"):
+        raise InputError(
+            f"hazard: its levels are ag, of rigid, level ground, and the check has soil {site.soil}, topography"
+            f" {site.topography}: multiply each ag by S, the factor of soil and topography at that ag, and title the"
+            " column pga"
+        )
 
 
 def _environment() -> Environment:

@@ -19,6 +19,7 @@ _CROSSING = 1e-3
 STATUSES = {
     "ok": "a curve",
     "extrapolated": "a curve whose median θ lies outside the levels of the analysis: to be used with care",
+    "nearly_flat": "a curve whose slope is not significant: θ and β are not reliable",
     "no_collapse": "no history reached the state at any level: no curve",
     "all_collapse": "every history reached the state at every level: no curve",
     "separated": "no overlap between levels that reach the state and levels that do not: any steep curve fits",

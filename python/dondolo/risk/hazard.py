@@ -79,6 +79,10 @@ class HazardCurve(Shown, Saved):
     source : iterable of str, optional
         Where the curve is from and what was done to it, a sentence each, for reports; `from_csv` and `from_openquake`
         name their files and how they were read.
+    rigid_ground : bool
+        Whether the levels are accelerations of rigid, level ground, without the factors of soil and topography of the
+        site, as those that `from_csv` reads from a column 'ag' are. A report refuses them beside a check with such
+        factors.
 
     Raises
     ------
@@ -96,6 +100,7 @@ class HazardCurve(Shown, Saved):
         Share -> annual frequency, in increasing order; empty if none are known.
     endless : bool
     source : tuple of str
+    rigid_ground : bool
 
     Examples
     --------
@@ -111,6 +116,7 @@ class HazardCurve(Shown, Saved):
     fractiles: dict[float, FloatArray]
     endless: bool
     source: tuple[str, ...]
+    rigid_ground: bool
 
     def __init__(
         self,
@@ -121,6 +127,7 @@ class HazardCurve(Shown, Saved):
         fractiles: Mapping[float, ArrayLike] | None = None,
         endless: bool = False,
         source: Iterable[str] = (),
+        rigid_ground: bool = False,
     ) -> None:
         x = increasing("levels", levels)
         h = as_array("annual_frequency", annual_frequency).copy()
@@ -144,6 +151,7 @@ class HazardCurve(Shown, Saved):
             ("fractiles", _fractiles(fractiles, len(x))),
             ("endless", as_flag("endless", endless)),
             ("source", as_sentences("source", source)),
+            ("rigid_ground", as_flag("rigid_ground", rigid_ground)),
         ):
             object.__setattr__(self, what, value)
 
@@ -215,10 +223,10 @@ class HazardCurve(Shown, Saved):
         site. Tables of spreadsheets with semicolons and decimal commas are read as those of walls and records are.
         """
         name = os.fspath(as_file("path", path))
-        im, levels, frequency, fractiles, notes = read_hazard(name)
+        im, levels, frequency, fractiles, notes, is_rigid = read_hazard(name)
         source = [described(name), *map(str, notes)]
         try:
-            curve = cls(levels, frequency, im=im, fractiles=fractiles, source=source)
+            curve = cls(levels, frequency, im=im, fractiles=fractiles, source=source, rigid_ground=is_rigid)
         except InputError as error:
             raise InputError(f"{name}: {error}") from None
         warn([*notes, *(one.placed(f"{name}: ") for one in warnings_of_levels(curve.im, curve.levels))])
@@ -365,7 +373,9 @@ class HazardCurve(Shown, Saved):
                 f" {exceeded.sum()}"
             )
         source = (*self.source, f"fractile {share:g}")
-        return HazardCurve(self.levels[exceeded], h[exceeded], im=self.im, source=source)
+        return HazardCurve(
+            self.levels[exceeded], h[exceeded], im=self.im, source=source, rigid_ground=self.rigid_ground
+        )
 
     def _curves(self) -> dict[float, HazardCurve]:
         """The curves of the fractiles, of those that are exceeded at enough levels for one."""
@@ -402,7 +412,7 @@ class HazardCurve(Shown, Saved):
         x[::parts] = self.levels
         fractiles = {q: _cubic(u, h, fine, parts) for q, h in self.fractiles.items()}
         mean, source = _cubic(u, self.annual_frequency, fine, parts), (*self.source, f"smoothed, {parts} steps in each")
-        return HazardCurve(x, mean, im=self.im, fractiles=fractiles, source=source)
+        return HazardCurve(x, mean, im=self.im, fractiles=fractiles, source=source, rigid_ground=self.rigid_ground)
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the curve on logarithmic axes.
@@ -453,7 +463,8 @@ class HazardCurve(Shown, Saved):
 
     def _table(self) -> tables.Table:
         fractiles = {f"{FRACTILE}{q!r}": h for q, h in self.fractiles.items()}
-        return {self.im: self.levels, "annual_frequency": self.annual_frequency, **fractiles}
+        title = "ag (g)" if self.rigid_ground else self.im
+        return {title: self.levels, "annual_frequency": self.annual_frequency, **fractiles}
 
     def _facts(self) -> list[tuple[str, str]]:
         if self.endless:

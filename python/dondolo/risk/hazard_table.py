@@ -33,8 +33,13 @@ _YEARS = ("year", "years", "yr", "anno", "anni")
 Fractiles = dict[float, FloatArray]
 
 
-def read_hazard(path: str | os.PathLike[str]) -> tuple[str, FloatArray, FloatArray, Fractiles, list[DondoloWarning]]:
-    """Intensity measure, levels and annual frequencies of a table, and of its fractiles; how it was read."""
+def read_hazard(
+    path: str | os.PathLike[str],
+) -> tuple[str, FloatArray, FloatArray, Fractiles, list[DondoloWarning], bool]:
+    """Intensity measure, levels and annual frequencies of a table, and of its fractiles; how it was read.
+
+    Last comes whether the levels are ag, that of rigid, level ground.
+    """
     titles, values = read_number_table(path)
     try:
         if any(title.lower().startswith("poe-") for title in titles):
@@ -56,7 +61,7 @@ def read_hazard(path: str | os.PathLike[str]) -> tuple[str, FloatArray, FloatArr
         subject = {"file": os.fspath(path)}
         text = "ag is taken for the PGA; that of rigid ground must be multiplied by the factors of soil and topography"
         notes.append(DondoloWarning(f"{subject['file']}: {text}", "hazard_of_rigid_ground", subject))
-    return im, levels, frequency, fractiles, notes
+    return im, levels, frequency, fractiles, notes, is_rigid
 
 
 def _understand(titles: list[str], values: FloatArray) -> tuple[str, FloatArray, dict[str, FloatArray], list[str]]:

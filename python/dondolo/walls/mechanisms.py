@@ -200,8 +200,8 @@ class OneSidedWall(BlockWall):
     Notes
     -----
     Equation (1) of Nale et al.; docs/theory.md, section 2. Depths are measured from the outer face of the base, towards
-    which the wall falls, heights from the base. What belongs to several loads is a value for each, or one for all;
-    which inertia to choose is the subject of docs/loads.md.
+    which the wall falls, heights from the base. What belongs to several loads is a value for each, or, except for
+    heights, one for all; which inertia to choose is the subject of docs/loads.md.
 
     Examples
     --------

@@ -27,18 +27,19 @@ module dondolo_building
    !> Properties of a building, none of which a wall on the ground has
    type(property_type), parameter :: building_rows(*) = [ &
       & property_type('period', is_list, unit='s', optional=.true., positive=.true., smallest=1.0e-6_wp, &
-      &   largest=20.0_wp, usual_least=0.02_wp, example='0.30', if_less='is it in ms?', &
+      &   largest=20.0_wp, usual_least=0.02_wp, usual_most=2.0_wp, example='0.30', &
       &   meaning='periods of the modes of the building that the wall stands on'), &
       & property_type('damping', is_list, optional=.true., smallest=0.0_wp, largest=1.0_wp, less=.true., &
-      &   usual_most=0.4_wp, if_more='is it in per cent?', example='0.05', &
+      &   usual_most=0.4_wp, example='0.05', &
       &   meaning='their damping ratios, or one for all; 0.05 if not given'), &
       & property_type('participation', is_list, optional=.true., smallest=-10.0_wp, largest=10.0_wp, example='1.29', &
       &   meaning='their participation factors times their shapes at the level of the wall, no percentages'), &
       & property_type('storeys', is_integer, optional=.true., smallest=1.0_wp, largest=1000.0_wp, example='3', &
       &   meaning='number n of storeys, instead of participation: 3 n / (2 n + 1) level / building_height'), &
-      & property_type('level', unit='m', optional=.true., smallest=0.0_wp, largest=1.0e3_wp, example='9.0', &
+      & property_type('level', unit='m', optional=.true., smallest=0.0_wp, largest=1.0e3_wp, usual_most=150.0_wp, example='9.0', &
       &   meaning='height of the wall''s floor above the ground, with storeys'), &
-      & property_type('building_height', unit='m', optional=.true., positive=.true., largest=1.0e3_wp, example='9.0', &
+      & property_type('building_height', unit='m', optional=.true., positive=.true., largest=1.0e3_wp, usual_most=150.0_wp, &
+      &   example='9.0', &
       &   meaning='height of the building, with storeys'), &
       & property_type('refine', is_integer, optional=.true., smallest=0.0_wp, largest=real(most_parts, wp), zero='auto', &
       &   example='0', meaning='parts that a step of a record is divided into; 0: as many as the shortest '// &

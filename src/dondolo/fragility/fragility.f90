@@ -13,12 +13,17 @@ module dondolo_fragility
    implicit none
    private
 
-   public :: fragility_type, fit_fragility, status_names
-   public :: error_names, log_normal_cdf, mills, normal_cdf
+   public :: fragility_type, fit_fragility, status_names, statuses_with_curve
+   public :: error_names, is_flat, least_ratio, log_normal_cdf, mills, normal_cdf
 
-   !> What can come of a fit; the first two have a curve
-   character(len=13), parameter :: status_names(8) = [character(len=13) :: 'ok', 'extrapolated', 'no_collapse', &
-      & 'all_collapse', 'separated', 'single_level', 'decreasing', 'not_converged']
+   !> Outcomes of a fit; the first three have a curve
+   character(len=13), parameter :: status_names(9) = [character(len=13) :: 'ok', 'extrapolated', 'nearly_flat', &
+      & 'no_collapse', 'all_collapse', 'separated', 'single_level', 'decreasing', 'not_converged']
+   integer, parameter :: statuses_with_curve = 3
+
+   !> Likelihood ratio against no slope from which on a slope is significant: the 95 % quantile of chi-square with one
+   !> degree of freedom
+   real(wp), parameter :: least_ratio = 3.841458820694124_wp
 
    !> What the standard errors of a curve are: those of independent histories, or of clusters of them (dondolo_clustered);
    !> the others have none, for too few clusters of records, or walls of a population, or since one of them determines
@@ -28,7 +33,7 @@ module dondolo_fragility
 
    !> A fitted fragility curve, or why there is none
    type :: fragility_type
-      !> One of status_names; 'extrapolated' is a theta outside the levels
+      !> One of status_names; 'extrapolated' is a theta outside the levels, 'nearly_flat' a slope that is not significant
       character(len=len(status_names)) :: status = 'no_collapse'
       !> Median, in the unit of the levels
       real(wp) :: theta = 0.0_wp
@@ -81,7 +86,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       real(wp) :: x(size(levels)), b(2), information(2, 2), covariance(2, 2), jacobian(2, 2)
-      real(wp) :: centre, spread, logarithm
+      real(wp) :: centre, spread, logarithm, height
       logical :: ok
 
       call check_counts(levels, collapses, histories, error)
@@ -111,8 +116,10 @@ contains
          return
       end if
       fragility%theta = exp(logarithm)
+      height = log_likelihood(b, x, collapses, histories)
+      if (is_flat(height - log_likelihood_of_share(collapses, histories))) fragility%status = 'nearly_flat'
       if (fragility%theta < minval(levels) .or. fragility%theta > maxval(levels)) fragility%status = 'extrapolated'
-      fragility%log_likelihood = log_likelihood(b, x, collapses, histories) &
+      fragility%log_likelihood = height &
          & + sum(log_gamma(histories + 1.0_wp) - log_gamma(collapses + 1.0_wp) &
          & - log_gamma(histories - collapses + 1.0_wp))
 
@@ -203,6 +210,26 @@ contains
 
       height = sum(z*log_normal_cdf(b(1) + b(2)*x) + (n - z)*log_normal_cdf(-b(1) - b(2)*x))
    end function log_likelihood
+
+   !> Log likelihood of one probability for all levels, without the binomial coefficients
+   pure function log_likelihood_of_share(z, n) result(height)
+      !> Collapses, some and not all
+      real(wp), intent(in) :: z(:)
+      !> Histories
+      real(wp), intent(in) :: n(:)
+      !> Its maximum
+      real(wp) :: height
+
+      height = sum(z)*log(sum(z)/sum(n)) + sum(n - z)*log(sum(n - z)/sum(n))
+   end function log_likelihood_of_share
+
+   !> Is a slope so small that it is not significant?
+   pure logical function is_flat(gain)
+      !> Log likelihood of the curve - that without a slope, half of the likelihood ratio statistic
+      real(wp), intent(in) :: gain
+
+      is_flat = 2.0_wp*gain < least_ratio
+   end function is_flat
 
    !> Standard normal distribution function
    elemental function normal_cdf(t) result(p)
@@ -339,7 +366,7 @@ contains
       !> True if theta, beta and what follows from them have values
       logical :: has_fit
 
-      has_fit = self%status == 'ok' .or. self%status == 'extrapolated'
+      has_fit = any(self%status == status_names(:statuses_with_curve))
    end function has_fit
 
    !> Whether the curve has standard errors

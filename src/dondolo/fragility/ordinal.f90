@@ -9,7 +9,7 @@
 module dondolo_ordinal
    use dondolo_clustered, only : cluster_errors, fewest_clusters
    use dondolo_error, only : error_type, raise_input
-   use dondolo_fragility, only : fit_fragility, fragility_type, log_normal_cdf, mills
+   use dondolo_fragility, only : fit_fragility, fragility_type, is_flat, log_normal_cdf, mills
    use dondolo_kinds, only : wp
    use dondolo_lapack, only : invert_symmetric, solve_symmetric
    use dondolo_text, only : to_text
@@ -34,7 +34,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       real(wp), allocatable :: counts(:, :), b(:), information(:, :), covariance(:, :), jacobian(:, :)
-      real(wp) :: x(size(levels)), centre, spread, height
+      real(wp) :: x(size(levels)), centre, spread, height, flat
       integer :: of(size(curves)), k, last
       logical :: ok
 
@@ -55,7 +55,7 @@ contains
       spread = sqrt(sum(histories*(x - centre)**2)/sum(histories))
       x = (x - centre)/spread
       allocate (b(last + 1), information(last + 1, last + 1), covariance(last + 1, last + 1), jacobian(2, last + 1))
-      call maximise(x, counts, b, information, height, ok)
+      call maximise(x, counts, b, information, height, flat, ok)
       if (ok) call invert_symmetric(information, covariance, ok)
       if (.not. b(last + 1) > 0.0_wp) ok = .false.
       do k = 1, size(curves)
@@ -72,6 +72,7 @@ contains
             end if
             curve%theta = exp(centre + curve%beta*cut)
             curve%status = 'ok'
+            if (is_flat(height - flat)) curve%status = 'nearly_flat'
             if (curve%theta < minval(levels) .or. curve%theta > maxval(levels)) curve%status = 'extrapolated'
             curve%log_likelihood = height + sum(log_gamma(histories + 1.0_wp)) - sum(log_gamma(counts + 1.0_wp))
             jacobian = 0.0_wp
@@ -215,7 +216,7 @@ contains
    end subroutine between
 
    !> Newton's method with halved steps on the concave log likelihood
-   subroutine maximise(x, counts, b, information, height, ok)
+   subroutine maximise(x, counts, b, information, height, flat, ok)
       !> Predictor
       real(wp), intent(in) :: x(:)
       !> Histories between one state and the next (levels, 0 to states)
@@ -226,6 +227,8 @@ contains
       real(wp), intent(out) :: information(:, :)
       !> Log likelihood without the multinomial coefficients
       real(wp), intent(out) :: height
+      !> The same without a slope
+      real(wp), intent(out) :: flat
       !> Has it converged?
       logical, intent(out) :: ok
 
@@ -245,10 +248,12 @@ contains
       end do
       b(last + 1) = 0.0_wp
       information = 0.0_wp
+      flat = 0.0_wp
       ok = .false.
       call gradient_of(x, counts, b, gradient, hessian)
       if (.not. gradient(last + 1) > 16.0_wp*epsilon(x)*sum(counts)) return
-      height = log_likelihood(x, counts, b)
+      flat = log_likelihood(x, counts, b)
+      height = flat
       do i = 1, most_steps
          call gradient_of(x, counts, b, gradient, hessian)
          call solve_symmetric(hessian, gradient, change, ok)

@@ -4,7 +4,7 @@
 !> overturning (Giouvanidis and Dimitrakopoulos 2018; Dimitrakopoulos and Paraskeva 2015).
 module dondolo_scaling
    use dondolo_error, only : error_type, raise_input
-   use dondolo_intensity, only : im_help, measure_type, new_measure
+   use dondolo_intensity, only : im_help, measure_type, new_measure, refuse_measure
    use dondolo_kinds, only : wp
    use dondolo_text, only : join, lower
    use dondolo_wall, only : wall_type
@@ -60,7 +60,7 @@ contains
       if (len_trim(name) < len(name)) measure = ''
       call new_measure(scaling%measure, measure, error)
       if (allocated(error)) then
-         error%message = 'im = '''//typed//''': must be one of '//join(scaling_names)//im_help
+         call refuse_measure(typed, scaling_names, error)
       else if (scaling%measure%power() == 0) then
          call raise_input(error, 'im = '''//typed//''': a duration stays as it is when a record is scaled; '// &
             & 'must be one of '//join(scaling_names)//im_help)

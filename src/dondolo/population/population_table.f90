@@ -6,6 +6,7 @@ module dondolo_population_table
    use dondolo_error, only : error_type, problems_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_member, only : member_properties
+   use dondolo_odd_character, only : odd_character
    use dondolo_property, only : find_item, find_property, is_list, is_many, is_text, is_words, item_name, property_type
    use dondolo_settings, only : settings_type
    use dondolo_spelling, only : say_allowed
@@ -51,7 +52,7 @@ contains
       character(len=len(item_name(wall_properties(1)%name, 1))) :: shown(size(wall_properties))
       character(len=len(shown)) :: of_members(size(member_properties))
       character(len=:), allocatable :: allowed
-      integer :: i, at, item
+      integer :: i, at, item, last
 
       do i = 1, size(shown)
          shown(i) = wall_properties(i)%name
@@ -66,7 +67,11 @@ contains
             call find_item(wall_properties, lower(column), at, item)
             if (at > 0) self%items = reshape([self%items, at, item, i], [3, size(self%items, 2) + 1])
             if (at > 0 .or. any(lower(column) == shown) .or. any(lower(column) == of_members)) cycle
-            call say_allowed(lower(column), [shown, of_members], '--template typology', allowed)
+            ! A unit in brackets is no part of a name
+            last = scan(column, '([') - 1
+            if (last < 0) last = len(column)
+            call say_allowed(lower(trim(column(:last))), [shown, of_members], '--template typology', allowed)
+            if (len_trim(odd_character(column)) > 0) allowed = '; it has '//trim(odd_character(column))
             call raise_input(error, file//': column '''//column//''': no such column'//allowed)
          end associate
          call self%table%close()

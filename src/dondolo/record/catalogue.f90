@@ -246,6 +246,8 @@ contains
             & 'where the files do not state them')
       else if (table%column('dt') > 0 .and. table%column('dt_s') == 0) then
          call raise_input(error, file//': column ''dt'': the time step must stand in the column dt_s, in seconds')
+      else if (table%column('unit') > 0 .and. table%column('units') == 0) then
+         call raise_input(error, file//': column ''unit'': the units of the accelerations must stand in the column units')
       else
          do
             call table%next(found, error)

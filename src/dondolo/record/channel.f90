@@ -188,7 +188,8 @@ contains
          if (allocated(error)) return
       else
          if (len_trim(stated) == 0) then
-            call raise_input(error, 'the file does not state its units: units must be given')
+            call raise_input(error, 'the file does not state its units: units must be given, such as ''g'' or ''m/s2''; in a '// &
+               & 'catalogue they are the column units')
             return
          end if
       end if

@@ -2,6 +2,7 @@
 module dondolo_units
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
+   use dondolo_odd_character, only : odd_character
    use dondolo_text, only : join, lower, replaced
    implicit none
    private
@@ -35,6 +36,7 @@ contains
       i = findloc(known == plain_spelling(units), .true., dim=1)
       if (i == 0) then
          call raise_input(error, 'units = '''//trim(units)//''': must be one of '//join(known))
+         if (len_trim(odd_character(units)) > 0) error%message = error%message//'; it has '//trim(odd_character(units))
          return
       end if
       factor = factors(i)

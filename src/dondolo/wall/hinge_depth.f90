@@ -5,8 +5,9 @@
 module dondolo_hinge_depth
    use dondolo_error, only : problems_type
    use dondolo_kinds, only : wp
-   use dondolo_property, only : find_property, name_length
+   use dondolo_property, only : find_property, hint_of, name_length
    use dondolo_text, only : rounded, to_text
+   use dondolo_unit_hint, only : unit_hint
    use dondolo_wall_properties, only : wall_input_type, wall_properties
    implicit none
    private
@@ -45,7 +46,9 @@ contains
    end subroutine read_hinge_depth
 
    !> Check that a hinge is less deep than what it must hold
-   subroutine check_hinge(problems, name, depth, limit, what)
+   subroutine check_hinge(input, problems, name, depth, limit, what)
+      !> What is said of the wall
+      type(wall_input_type), intent(in) :: input
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
       !> Name of the property that the depth of the hinge follows from
@@ -55,17 +58,19 @@ contains
       !> What that is, and where
       character(len=*), intent(in) :: what
 
-      ! So many times too deep it follows from a number in another unit.
-      real(wp), parameter :: absurd = 1000.0_wp
+      ! So many times too deep it follows from a strength in another unit
+      real(wp), parameter :: absurd = 10.0_wp
       character(len=:), allocatable :: hint
 
       if (depth < limit) return
       if (depth > 0.0_wp) then
          hint = ''
-         if (limit > 0.0_wp .and. depth > absurd*limit) then
-            hint = trim(wall_properties(find_property(wall_properties, trim(name)))%if_less)
-            if (len(hint) > 0) hint = ': '//hint
+         if (name /= 'compressive_strength') then
+            hint = trim(unit_hint('m', depth, 0.0_wp, limit, 0.2_wp*limit))
+         else if (depth > absurd*limit) then
+            hint = trim(hint_of(wall_properties(find_property(wall_properties, name)), input%number(name)))
          end if
+         if (len(hint) > 0) hint = ': '//hint
          call problems%note(trim(name)//': puts the hinge at depth '//rounded(depth)//' m, must be less deep than '// &
             & what//hint)
       else

@@ -4,6 +4,7 @@ module dondolo_restitution
    use dondolo_kinds, only : wp
    use dondolo_property, only : choices_length
    use dondolo_text, only : brief, join, to_text
+   use dondolo_unit_hint, only : unit_question
    implicit none
    private
 
@@ -102,7 +103,8 @@ contains
       ratio = max(0.0_wp, self%factor*coefficient)
       if (.not. ratio < 1.0_wp) then
          call raise_input(error, 'restitution_factor = '//to_text(self%factor)// &
-            & ': makes the speed ratio of an impact '//brief(ratio)//', must be less than 1')
+            & ': makes the speed ratio of an impact '//brief(ratio)//', must be less than 1'// &
+            & trim(unit_question('', self%factor, 0.1_wp, 1.2_wp, 0.9_wp)))
          ratio = 0.0_wp
       end if
    end subroutine speed_ratio

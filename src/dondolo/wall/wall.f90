@@ -175,9 +175,9 @@ contains
       half = 0.5_wp*input%number('thickness')
       call read_hinge_depth(input, gravity*input%number('density')*2.0_wp*half*input%number('height') &
          & + input%number('overburden'), problems, depth, name)
-      call check_hinge(problems, name, depth, half, 'half the thickness, '//rounded(half)//' m')
+      call check_hinge(input, problems, name, depth, half, 'half the thickness, '//rounded(half)//' m')
       load = half - input%number('eccentricity')
-      if (input%number('overburden') > 0.0_wp .and. depth > 0.0_wp) call check_hinge(problems, name, depth, load, &
+      if (input%number('overburden') > 0.0_wp .and. depth > 0.0_wp) call check_hinge(input, problems, name, depth, load, &
          & 'the overburden, '//rounded(load)//' m behind the face of the active top hinge')
    end subroutine read_hinges
 

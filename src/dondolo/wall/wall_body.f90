@@ -9,6 +9,7 @@ module dondolo_wall_body
    use dondolo_rigid_body, only : body_of_sections, faces_at, rigid_body_type, same, section_type
    use dondolo_text, only : rounded, to_text
    use dondolo_wall_lists, only : take
+   use dondolo_unit_hint, only : unit_question
    use dondolo_wall_properties, only : is_beyond_bare, wall_input_type
    use dondolo_wall_ties, only : read_ties
    implicit none
@@ -354,13 +355,13 @@ contains
       end if
       wall%actions%hinge = hinge
       wall%actions%edge = edge
-      call check_hinge(problems, name, hinge, wall%body%depth, 'the centroid of the wall, '//rounded(wall%body%depth)//' m')
+      call check_hinge(input, problems, name, hinge, wall%body%depth, 'the centroid of the wall, '//rounded(wall%body%depth)//' m')
       if (.not. edge < wall%body%height) call problems%note('edge_radius = '//to_text(edge)// &
          & ': must be less than the height of the centroid, '//rounded(wall%body%height)//' m')
       do i = 1, size(wall%actions%carried)
          depth = wall%actions%carried(i)%depth
          if (.not. wall%actions%carried(i)%weight > 0.0_wp .or. depth < 0.0_wp) cycle
-         call check_hinge(problems, name, hinge, depth, 'load '//to_text(i)//', load_depth = '//to_text(depth))
+         call check_hinge(input, problems, name, hinge, depth, 'load '//to_text(i)//', load_depth = '//to_text(depth))
       end do
    end subroutine read_hinge
 
@@ -411,10 +412,11 @@ contains
          faces = faces_at(wall%sections, height)
          if (faces(1) > faces(2)) then
             call problems%note(what//' '//to_text(number)//': its height '//to_text(height)//' must lie between 0 and '// &
-               & rounded(tall)//' m, the wall')
+               & rounded(tall)//' m, the wall'//trim(unit_question('m', height, 0.0_wp, tall, 0.5_wp*tall)))
          else if (depth < faces(1) - same*tall .or. depth > faces(2) + same*tall) then
             call problems%note(what//' '//to_text(number)//': its depth '//to_text(depth)//' must lie between '// &
-               & rounded(faces(1))//' and '//rounded(faces(2))//' m, the faces of the wall at its height')
+               & rounded(faces(1))//' and '//rounded(faces(2))//' m, the faces of the wall at its height'// &
+               & trim(unit_question('m', depth, faces(1), faces(2), 0.5_wp*sum(faces))))
          end if
       end subroutine inside
 

@@ -2,8 +2,9 @@
 module dondolo_wall_lists
    use dondolo_error, only : problems_type
    use dondolo_kinds, only : wp
+   use dondolo_property, only : find_property
    use dondolo_text, only : to_text
-   use dondolo_wall_properties, only : wall_input_type
+   use dondolo_wall_properties, only : wall_input_type, wall_properties
    implicit none
    private
 
@@ -11,7 +12,7 @@ module dondolo_wall_lists
 
 contains
 
-   !> Values of a list that goes with another, one for each or one for all
+   !> Values of a list that goes with another: one for each, or one for all where its property allows that
    subroutine take(input, problems, name, of, values, default)
       !> What is said of the wall
       type(wall_input_type), intent(in) :: input
@@ -32,7 +33,10 @@ contains
       needed = size(input%list(of))
       given = input%list(name)
       allocate (values(needed), source=0.0_wp)
-      if (size(given) == 1 .and. needed > 0) then
+      if (size(given) == 1 .and. needed > 1 .and. wall_properties(find_property(wall_properties, name))%one_each) then
+         call problems%note(name//' = '//to_text(given(1))//': is one value for '//to_text(needed)//' values of '//of// &
+            & ', must be one for each, such as '//name//' = '//to_text(given(1))//', '//to_text(given(1)))
+      else if (size(given) == 1 .and. needed > 0) then
          values = given(1)
       else if (size(given) > 0 .and. needed == 0) then
          call problems%note(name//': only with '//of)
@@ -40,7 +44,7 @@ contains
          values = given
       else if (size(given) > 0) then
          call problems%note(name//': has '//to_text(size(given))//' values, must have '//to_text(needed)//' as '//of// &
-            & ', or one for all')
+            & trim(merge('                ', ', or one for all', wall_properties(find_property(wall_properties, name))%one_each)))
       else if (present(default)) then
          values = default
       else

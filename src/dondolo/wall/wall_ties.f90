@@ -5,6 +5,7 @@ module dondolo_wall_ties
    use dondolo_rigid_body, only : faces_at, same, section_type
    use dondolo_text, only : rounded, to_text
    use dondolo_tie, only : new_tie, tie_input_type, tie_type
+   use dondolo_unit_hint, only : unit_question
    use dondolo_wall_lists, only : take
    use dondolo_wall_properties, only : absent_value, wall_input_type
    implicit none
@@ -77,11 +78,12 @@ contains
       faces = faces_at(sections, tie%height)
       if (.not. tie%height > edge + same*tall .or. faces(1) > faces(2)) then
          call problems%note(name//': its tie_height = '//to_text(tie%height)//' must be above the hinge, '//to_text(edge)// &
-            & ' m, and at most '//rounded(tall)//' m, the top of the wall')
+            & ' m, and at most '//rounded(tall)//' m, the top of the wall'//trim(unit_question('m', tie%height, edge, tall, &
+            & tall)))
       else if (tie%depth < faces(1) - outside - same*tall .or. tie%depth > faces(2) + same*tall) then
          call problems%note(name//': its tie_depth = '//to_text(tie%depth)//' must lie between '// &
             & rounded(faces(1) - outside)//' and '//rounded(faces(2))//' m, the faces of the wall at its height and 0.1 m '// &
-            & 'outside for a plate')
+            & 'outside for a plate'//trim(unit_question('m', tie%depth, 0.0_wp, faces(2), 0.5_wp*faces(2))))
       end if
       if (.not. tie%preload < tie%strength) then
          call problems%note(name//': its tie_preload = '//to_text(tie%preload)//' must be less than its tie_strength = '// &

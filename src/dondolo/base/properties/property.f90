@@ -5,12 +5,14 @@
 !> checkpoint and the Python package derive from them.
 module dondolo_property
    use dondolo_kinds, only : wp
+   use dondolo_odd_character, only : odd_character
    use dondolo_text, only : join, lower, to_text
+   use dondolo_unit_hint, only : hint_length, unit_hint
    implicit none
    private
 
    public :: property_type, find_name, find_property, has_owner, number_of_choices, check_number, check_word
-   public :: column_name, default_text, describe_property
+   public :: column_name, default_text, describe_property, hint_of
    public :: is_many, item_name, find_item, number_of_words, word_of
    public :: is_real, is_integer, is_text, is_logical, is_list, is_number_or_name, is_words
    public :: name_length, choices_length, most_choices, blank, no_limit
@@ -80,10 +82,12 @@ module dondolo_property
       logical :: replaced = .false.
       !> Does what is computed depend on it? Files that keep intermediate results belong to one set of values
       logical :: changes_results = .true.
-      !> Range of what is usual: values beyond it are most likely typed in another unit
+      !> Plausible range: values beyond it are most likely given in another unit
       real(wp) :: usual_least = 0.0_wp, usual_most = no_limit
-      !> What may have happened where a value is less, or more
+      !> Question where a value is less, or more; empty: which unit it is most likely in (dondolo_unit_hint)
       character(len=32) :: if_less = '', if_more = ''
+      !> Must a list have a value for each thing? Else one value is that of all
+      logical :: one_each = .false.
    end type property_type
 
 contains
@@ -382,7 +386,41 @@ contains
             end if
          end if
       end associate
+      if (.not. allocated(allowed)) return
+      if (len_trim(hint_of(property, value)) > 0) allowed = allowed//': '//trim(hint_of(property, value))
    end subroutine check_number
+
+   !> The question to ask of a value beyond its range: 'is it in millimetres?'
+   pure function hint_of(property, value) result(text)
+      type(property_type), intent(in) :: property
+      !> A value that is refused, or beyond the plausible range
+      real(wp), intent(in) :: value
+      !> The question, blanks after it; empty: nothing makes the value plausible
+      character(len=hint_length) :: text
+
+      real(wp) :: low, high
+
+      text = ''
+      low = max(property%smallest, property%usual_least, 0.0_wp)
+      high = min(property%largest, property%usual_most)
+      if (.not. (value > 0.0_wp .and. value <= huge(value)) .or. (value >= low .and. value <= high)) return
+      text = property%if_more
+      if (value < low) text = property%if_less
+      if (len_trim(text) > 0 .or. all(property%kind /= [is_real, is_list])) return
+      text = unit_hint(property%unit, value, low, high, usual_value(property))
+   end function hint_of
+
+   !> A usual value of a property: that of a template, else its default; 0 if it has none
+   pure real(wp) function usual_value(property)
+      type(property_type), intent(in) :: property
+
+      integer :: stat
+
+      usual_value = property%default
+      if (len_trim(property%example) == 0) return
+      read (property%example, *, iostat=stat) usual_value
+      if (stat /= 0) usual_value = 0.0_wp
+   end function usual_value
 
    !> What is allowed of a text, if it is not
    pure subroutine check_word(property, word, allowed)
@@ -404,6 +442,8 @@ contains
          allowed = 'must name '//trim(property%names)
       else if (count > 0 .and. .not. property%checked_by_owner) then
          if (.not. any(property%choices(:count) == word)) allowed = 'must be one of '//join(property%choices(:count))
+         if (allocated(allowed) .and. len_trim(odd_character(word)) > 0) allowed = allowed//'; it has '// &
+            & trim(odd_character(word))
       end if
    end subroutine check_word
 

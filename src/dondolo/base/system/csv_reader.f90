@@ -14,6 +14,7 @@ module dondolo_csv_reader
    use dondolo_limits, only : longest_line
    use dondolo_line_reader, only : line_reader_type
    use dondolo_name_index, only : name_index_type
+   use dondolo_odd_character, only : odd_character, odd_length
    use dondolo_text, only : lower, occurrences, to_text
    use dondolo_text_file, only : padding
    implicit none
@@ -258,9 +259,17 @@ contains
          if (len_trim(self%cells(last)%text) > 0) exit
       end do
       associate (row => self%cells)
+         if (index(row(1)%text, 'PK'//achar(3)//achar(4)) == 1) then
+            call raise_input(error, self%lines%file//': is a workbook of a spreadsheet or another archive: save its table as CSV')
+            return
+         end if
          do i = 1, last
             if (len_trim(row(i)%text) == 0) then
                call raise_input(error, self%place()//': column '//to_text(i)//' has no name')
+               return
+            end if
+            if (len_trim(unseen_end(row(i)%text)) > 0) then
+               call raise_input(error, self%place()//': column '''//row(i)%text//''': has '//trim(unseen_end(row(i)%text)))
                return
             end if
             call names%note(lower(row(i)%text), i, before)
@@ -272,6 +281,17 @@ contains
       end associate
       self%columns = self%cells(:last)
    end subroutine take_header
+
+   !> A character at one of the ends of a name that nobody sees, so that the name looks like another; blank if there is none
+   pure function unseen_end(name) result(character_name)
+      character(len=*), intent(in) :: name
+      character(len=odd_length) :: character_name
+
+      ! No such character has more than three bytes
+      character_name = odd_character(name(:min(3, len(name))))
+      if (len_trim(character_name) == 0) character_name = odd_character(name(max(1, len(name) - 2):))
+      if (index(character_name, 'space') == 0 .and. index(character_name, 'invisible') == 0) character_name = ''
+   end function unseen_end
 
    !> Read the text of the next row
    subroutine read_row(self, row, error)

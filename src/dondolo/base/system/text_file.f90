@@ -6,6 +6,7 @@ module dondolo_text_file
    use dondolo_error, only : add_place, error_type, raise_input, raise_missing
    use dondolo_kinds, only : wp
    use dondolo_memory, only : check_room
+   use dondolo_odd_character, only : odd_character
    use dondolo_origin, only : check_regular
    use dondolo_text, only : to_text
    implicit none
@@ -198,6 +199,7 @@ contains
       inquire (file=file, exist=exists, size=bytes)
       if (.not. exists) then
          call raise_missing(error, file//': no such file')
+         if (len_trim(odd_character(file)) > 0) error%message = error%message//'; its name has '//trim(odd_character(file))
          return
       end if
       call check_regular(file, .true., error)

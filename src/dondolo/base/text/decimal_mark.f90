@@ -6,6 +6,7 @@
 module dondolo_decimal_mark
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_real
+   use dondolo_odd_character, only : odd_character
    implicit none
    private
 
@@ -88,6 +89,8 @@ contains
 
       problem = 'must be a number, with a decimal point'
       if (self%has_comma) problem = 'must be a number, with a decimal comma as elsewhere in the table and no point'
+      if (index(cell, '%') > 0) problem = 'must be a number without a per cent sign, such as 0.25 for 25 %'
+      if (len_trim(odd_character(cell)) > 0) problem = 'must be a number, has '//trim(odd_character(cell))
       if (is_ambiguous(self, cell)) problem = 'may be thousands or decimals, and no other number of the table shows '// &
          & 'which: write it in another way'
    end function problem

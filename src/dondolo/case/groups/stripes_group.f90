@@ -1,6 +1,7 @@
 !> The group &stripes: the intensity measure and its levels.
 module dondolo_stripes_group
    use dondolo_error, only : error_type, raise_input
+   use dondolo_even_levels, only : even_levels, settle_levels
    use dondolo_kinds, only : wp
    use dondolo_limits, only : most_levels, most_thresholds
    use dondolo_namelist_group, only : group_type
@@ -31,7 +32,8 @@ module dondolo_stripes_group
       & property_type('last', optional=.true., example='0.8', changes_results=.false., &
       &   meaning='the last of equally spaced levels'), &
       & property_type('count', is_integer, optional=.true., smallest=2.0_wp, largest=real(most_levels, wp), example='8', &
-      &   changes_results=.false., meaning='number of equally spaced levels, both ends included'), &
+      &   changes_results=.false., meaning='number of equally spaced levels, both ends included, '// &
+      &   'rounded to 14 digits; so are levels that are equally spaced but for rounding'), &
       & property_type('edp_thresholds', is_list, optional=.true., example='0.1, 0.4', &
       &   meaning='damage states before collapse, rotation / capacity'), &
       & property_type('states', is_text, word='separate', changes_results=.false., meaning='fits of damage states: each '// &
@@ -97,6 +99,7 @@ contains
       if (.not. allocated(stripes%levels)) return
       call check_levels(stripes%levels, error)
       call group%locate(error)
+      if (.not. allocated(error)) call settle_levels(stripes%levels)
    end subroutine read_stripes_group
 
    !> Check the EDP thresholds, and make collapse the last of them
@@ -140,26 +143,8 @@ contains
          call group%refuse('last', 'must be greater than first = '//to_text(first), error)
          return
       end if
-      allocate (stripes%levels(count))
-      do i = 1, count
-         stripes%levels(i) = decimal((real(count - i, wp)*first + real(i - 1, wp)*last)/real(count - 1, wp))
-      end do
-      stripes%levels(1) = first
-      stripes%levels(count) = last
+      stripes%levels = even_levels(first, last, count)
    end subroutine make_grid
-
-   !> The nearest number of 14 decimal digits: 0.4 and 0.2 are 0.6, not 0.6000000000000001
-   pure function decimal(value) result(rounded)
-      !> Number
-      real(wp), intent(in) :: value
-      !> The nearest short one
-      real(wp) :: rounded
-
-      character(len=32) :: buffer
-
-      write (buffer, '(es32.13e4)') value
-      read (buffer, *) rounded
-   end function decimal
 
    !> What is said of the stripes, as settings; without levels only their measure
    subroutine put(self, settings)

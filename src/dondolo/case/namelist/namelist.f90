@@ -48,11 +48,29 @@ contains
 
       call read_text_file(file, text, error, longest_case)
       if (allocated(error)) return
-      call cut(text, tokens, error)
+      call refuse_table(file, error)
+      if (.not. allocated(error)) call cut(text, tokens, error)
       if (allocated(error)) return
       namelist%file = file
       call take_groups(text, tokens, namelist, error)
    end subroutine read_namelist
+
+   !> Refuse a table or a report in the place of a case
+   subroutine refuse_table(file, error)
+      !> Path of the file
+      character(len=*), intent(in) :: file
+      !> Its name says what it is
+      type(error_type), allocatable, intent(inout) :: error
+
+      character(len=5), parameter :: endings(6) = [character(len=5) :: '.csv', '.xlsx', '.ods', '.json', '.html', '.py']
+      integer :: i
+
+      do i = 1, size(endings)
+         if (index(lower(file), trim(endings(i)), back=.true.) /= len(file) - len_trim(endings(i)) + 1) cycle
+         call raise_input(error, file//': must be a case, a file of groups &name ... /, such as dondolo --template prints')
+         return
+      end do
+   end subroutine refuse_table
 
    !> A group from its name
    function group(self, name) result(found)

@@ -15,7 +15,7 @@ module dondolo_namelist_group
    public :: group_type, variable_type, value_type
 
    !> Digits
-   character(len=*), parameter :: figures = '0123456789'
+   character(len=*), parameter :: figures = '0123456789', letters = 'abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ'
 
    !> One value
    type :: value_type
@@ -259,6 +259,8 @@ contains
          if (size(values) == 2 .and. split_number(values(1), values(2))) then
             call self%refuse(name, 'must be one number; a decimal point is needed: '// &
                & values(1)%text//'.'//values(2)%text, error)
+         else if (size(values) == 2 .and. is_unit(values(1), values(2))) then
+            call self%refuse(name, 'must be a number without a unit', error)
          else if (values(2)%line > values(1)%line) then
             call self%refuse(name, 'must be one value, not '//to_text(size(values))//'; is an = missing in line '// &
                & to_text(values(2)%line)//'?', error)
@@ -280,6 +282,16 @@ contains
       split_number = .not. (first%quoted .or. second%quoted) .and. verify(first%text, figures//'+-') == 0 &
          & .and. verify(second%text, figures) == 0
    end function split_number
+
+   !> Does a second value look like the unit of the first?
+   pure logical function is_unit(first, second)
+      type(value_type), intent(in) :: first, second
+
+      real(wp) :: number
+
+      call to_real(first, number, is_unit)
+      is_unit = is_unit .and. .not. second%quoted .and. second%line == first%line .and. scan(second%text(1:1), letters//'%') == 1
+   end function is_unit
 
    !> Take a text
    subroutine get_text(self, name, value, error)
@@ -467,6 +479,17 @@ contains
       call parse_real(value%text, number, ok)
       if (ok) then
          allowed = 'must be a number without quotes'
+      else if (index(value%text, ';') > 0) then
+         allowed = 'must be a number: a comma separates values, a point decimals, as in 0.2, 0.4'
+      else if (index(value%text, ':') > 0 .or. index(value%text, 'linspace') > 0 .or. index(value%text, 'arange') > 0) then
+         allowed = 'must be a number; first, last and count give equally spaced levels'
+      else if (scan(value%text(1:1), '[({') == 1) then
+         allowed = 'must be a number: a list has no brackets, as in 0.2, 0.4'
+      else if (index(value%text, '%') > 0) then
+         allowed = 'must be a number without a per cent sign, such as 0.25 for 25 %'
+      else if (scan(value%text(1:1), figures//'+-.') == 1 .and. scan(value%text, letters) > 0 .and. &
+         & scan(value%text, 'eEdD') == 0) then
+         allowed = 'must be a number without a unit, such as 0.25'
       else if (.not. value%quoted .and. scan(value%text(1:1), figures//'+-.') == 1 &
          & .and. verify(value%text, figures//'+-.eEdD') == 0 .and. scan(value%text, figures) > 0 &
          & .and. scan(value%text, 'eEdD') > 0) then

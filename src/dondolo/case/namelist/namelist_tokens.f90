@@ -2,6 +2,7 @@
 module dondolo_namelist_tokens
    use dondolo_error, only : error_type, raise_input
    use dondolo_limits, only : most_tokens
+   use dondolo_odd_character, only : odd_character
    use dondolo_plain, only : shown
    use dondolo_text, only : lower, to_text
    use dondolo_text_file, only : text_file_type
@@ -128,7 +129,11 @@ contains
          at = at + 1
          if (at <= len(line)) then
             if (index(blanks//'!&', line(at:at)) == 0) then
-               call raise_input(error, 'text right after a /: quote paths and other strings')
+               if (line(at:at) == '/') then
+                  call raise_input(error, '// is no comment: comments begin with !')
+               else
+                  call raise_input(error, 'text right after a /: quote paths and other strings, and write numbers as decimals')
+               end if
                return
             end if
          end if
@@ -145,6 +150,15 @@ contains
          at = word_end(line, at)
          token%kind = word
          token%text = line(first:at - 1)
+         if (line(first:first) == '#' .or. line(first:first) == '%') then
+            call raise_input(error, line(first:first)//' is no comment: comments begin with !')
+            return
+         end if
+         if (len_trim(odd_character(token%text)) > 0) then
+            call raise_input(error, trim(odd_character(token%text))//' in '//shown(token%text)//': must be an ordinary '// &
+               & 'character of the keyboard')
+            return
+         end if
       end select
       token%typed = line(first:at - 1)
    end subroutine take_token

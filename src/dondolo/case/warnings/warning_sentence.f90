@@ -1,9 +1,10 @@
 !> Warnings as they are read: by people as sentences, by programs as JSON. The only place where a warning is worded.
 module dondolo_warning_sentence
+   use dondolo_fragility, only : least_ratio
    use dondolo_json, only : json_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
-   use dondolo_property, only : find_property, property_type
+   use dondolo_property, only : find_property, hint_of, property_type
    use dondolo_record_table, only : describe_pace, describe_pga
    use dondolo_text, only : rounded, to_text
    use dondolo_wall_properties, only : gravity_property, wall_properties
@@ -43,8 +44,12 @@ contains
          call warning%get_word('im', im)
          text = 'levels up to '//rounded(warning%value('largest'))//' of '//im//', more than '// &
             & to_text(warning%value('limit'))
-         if (im == 'pgv') then
+         if (im == 'pgd' .or. im == 'hi') then
+            text = text//' m: are they in cm?'
+         else if (im(:min(2, len(im))) /= 'sa' .and. im /= 'pga') then
             text = text//' m/s: are they in cm/s?'
+         else if (warning%value('largest') >= 10.0_wp) then
+            text = text//' g: are they in m/s2, cm/s2 or per cent of g?'
          else
             text = text//' g: are they in m/s2 or cm/s2?'
          end if
@@ -91,8 +96,19 @@ contains
          text = 'collapse or not is in doubt, by the estimated error'
          if (warning%value('histories') > 0.0_wp) text = text//', in '//to_text(warning%value('histories_in_doubt'))// &
             & ' of '//to_text(warning%value('histories'))//' histories'
-      case ('curves_without_fit', 'curves_extrapolated', 'population_without_fit', 'population_extrapolated', &
-         & 'union_without_fit', 'union_extrapolated')
+      case ('one_level')
+         text = 'only one level: no curve can be fitted, two at least are needed'
+      case ('all_below_trigger')
+         text = 'every history stays below the trigger: nothing moves, higher levels are needed'
+      case ('one_record')
+         text = 'only one record: its curve says nothing of other earthquakes and has no standard errors'
+      case ('few_clusters')
+         text = 'only '//to_text(warning%value('clusters'))//trim(merge(' cluster ', ' clusters', &
+            & warning%value('clusters') < 2.0_wp))//' of '//to_text(warning%value('records'))//' records: standard '// &
+            & 'errors need at least '//to_text(warning%value('limit'))
+      case ('curves_without_fit', 'curves_extrapolated', 'curves_nearly_flat', 'population_without_fit', &
+         & 'population_extrapolated', 'population_nearly_flat', 'union_without_fit', 'union_extrapolated', &
+         & 'union_nearly_flat')
          call say_of_population(warning, text)
       case default
          call say_of_fit(warning, text)
@@ -104,7 +120,7 @@ contains
       type(warning_type), intent(in) :: warning
       character(len=:), allocatable, intent(out) :: text
 
-      character(len=:), allocatable :: wall, variable, unit
+      character(len=:), allocatable :: wall, variable, unit, hint
       type(property_type) :: property
 
       call warning%get_word('wall', wall)
@@ -115,10 +131,12 @@ contains
       property = gravity_property
       if (variable /= property%name) property = wall_properties(find_property(wall_properties, variable))
       if (warning%code == 'value_below_usual') then
-         text = text//' is less than '//to_text(warning%value('limit'))//unit//': '//trim(property%if_less)
+         text = text//' is less than '//to_text(warning%value('limit'))//unit
       else
-         text = text//' is more than '//to_text(warning%value('limit'))//unit//': '//trim(property%if_more)
+         text = text//' is more than '//to_text(warning%value('limit'))//unit
       end if
+      hint = trim(hint_of(property, warning%value('value')))
+      if (len(hint) > 0) text = text//': '//hint
       call count_walls(warning, text)
    end subroutine say_implausible
 
@@ -169,6 +187,10 @@ contains
                & to_text(warning%value('bracket_high'))
          end if
          text = text//', more levels there are needed'
+      case ('nearly_flat')
+         text = 'collapses hardly become more frequent with the level (likelihood ratio against no slope below '// &
+            & rounded(least_ratio)//', its 95 % quantile): theta = '//rounded(warning%value('theta'))//' and beta = '// &
+            & rounded(warning%value('beta'))//' are not reliable, levels farther apart or more records are needed'
       case default
          text = 'theta = '//rounded(warning%value('theta'))//' lies outside the levels '//levels//': the fit extrapolates'
       end select
@@ -199,9 +221,15 @@ contains
             & '), lies outside the levels: the fit extrapolates'
       case ('union_without_fit')
          text = 'the mechanisms of '''//wall//''' in the same histories have no fit (status '//status//')'
+      case ('union_nearly_flat')
+         text = 'the median of '''//wall//''', '//rounded(warning%value('theta'))//', is not reliable: the probability of '// &
+            & 'collapse hardly increases with the level'
       case ('union_extrapolated')
          text = 'the median of the mechanisms of '''//wall//''' in the same histories, '//rounded(warning%value('theta'))// &
             & ', lies outside the levels: the fit extrapolates'
+      case ('population_nearly_flat')
+         text = 'the median of '//group//', '//rounded(warning%value('theta'))//' (mechanism '//mechanism// &
+            & '), is not reliable: the probability of collapse hardly increases with the level'
       case default
          text = to_text(warning%value('curves'))//' of '//to_text(warning%value('of_curves'))//' '//of
          if (warning%value('curves') > 1.0_wp) then
@@ -211,6 +239,8 @@ contains
          end if
          if (warning%code == 'curves_extrapolated') then
             text = text//'a median outside the levels'
+         else if (warning%code == 'curves_nearly_flat') then
+            text = text//'collapses that hardly become more frequent with the level, so that theta and beta are not reliable'
          else if (warning%value('curves') > 1.0_wp) then
             text = text//'no fit and take part with their fractions of collapse, but not in dispersions'
          else

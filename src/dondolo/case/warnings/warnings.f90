@@ -24,8 +24,9 @@ module dondolo_warnings
    !> A factor that is given may take a record so far from its level
    real(wp), parameter :: off_level = 1.1_wp
 
-   !> Levels that no ground motion has [g], of the PGA and of spectral accelerations
-   real(wp), parameter :: largest_pga = 4.0_wp, largest_sa = 10.0_wp, largest_pgv = 5.0_wp
+   !> Levels that no ground motion has: of the PGA and of spectral accelerations [g], of the others [m/s, m]
+   real(wp), parameter :: largest_pga = 4.0_wp, largest_sa = 10.0_wp, largest_pgv = 5.0_wp, largest_pgd = 5.0_wp, &
+      & largest_hi = 25.0_wp, largest_cav = 200.0_wp, largest_arias = 100.0_wp
 
    !> What there is to say of levels and scale factors
    type :: scale_warning_type
@@ -61,8 +62,8 @@ module dondolo_warnings
    end type scale_warning_type
 
    !> Statuses of a fit that there is something to say of
-   character(len=len(status_names)), parameter :: telling(7) = [character(len=len(status_names)) :: 'no_collapse', &
-      & 'all_collapse', 'separated', 'single_level', 'decreasing', 'not_converged', 'extrapolated']
+   character(len=len(status_names)), parameter :: telling(8) = [character(len=len(status_names)) :: 'no_collapse', &
+      & 'all_collapse', 'separated', 'single_level', 'decreasing', 'not_converged', 'extrapolated', 'nearly_flat']
 
    !> What there is to say of the curves of a population
    type :: fit_warning_type
@@ -99,6 +100,10 @@ contains
       self%im = im
       if (im == 'pga') self%usual = largest_pga
       if (im == 'pgv') self%usual = largest_pgv
+      if (im == 'pgd') self%usual = largest_pgd
+      if (im == 'hi') self%usual = largest_hi
+      if (im == 'cav' .or. im == 'cav-trapz') self%usual = largest_cav
+      if (im == 'arias' .or. im == 'arias-trapz') self%usual = largest_arias
       if (im(:min(2, len(im))) == 'sa') self%usual = largest_sa
    end subroutine look_at_levels
 
@@ -291,9 +296,10 @@ contains
       end do
    end subroutine warn_of_records
 
-   !> Warn of the curve of one wall
+   !> Warn of the curve of one wall, or of counts
    subroutine warn_of_fit(wall, stripes, fragility, warnings)
-      type(wall_type), intent(in) :: wall
+      !> The wall; absent: counts without a wall, of which there is a curve
+      type(wall_type), intent(in), optional :: wall
       type(stripes_type), intent(in) :: stripes
       type(fragility_type), intent(in) :: fragility
       !> Warnings to add to
@@ -304,23 +310,24 @@ contains
 
       if (fragility%status == 'ok') return
       warning%code = fragility%status
-      call warning%about('wall', wall%name())
+      if (present(wall)) call warning%about('wall', wall%name())
       call warning%with('levels', size(stripes%levels))
-      call warning%with('first_level', stripes%levels(1))
-      call warning%with('last_level', stripes%levels(size(stripes%levels)))
+      call warning%with('first_level', minval(stripes%levels))
+      call warning%with('last_level', maxval(stripes%levels))
       select case (fragility%status)
       case ('no_collapse')
          largest = maxval(stripes%response%edp)
          call warning%with('largest_edp', largest)
-         if (.not. largest > 0.0_wp) then
+         if (present(wall) .and. .not. largest > 0.0_wp) then
             warning%code = 'no_motion'
             call warning%with('trigger_g', wall%mechanism%trigger_acceleration()/wall%gravity)
          end if
       case ('separated')
          call warning%with('bracket_low', fragility%bracket(1))
          if (fragility%bracket(2) < huge(fragility%bracket)) call warning%with('bracket_high', fragility%bracket(2))
-      case ('extrapolated')
+      case ('extrapolated', 'nearly_flat')
          call warning%with('theta', fragility%theta)
+         if (fragility%status == 'nearly_flat') call warning%with('beta', fragility%beta)
       end select
       call warnings%add(warning)
    end subroutine warn_of_fit
@@ -361,6 +368,7 @@ contains
          if (self%number(i) == 0) cycle
          warning = warning_type('curves_without_fit')
          if (telling(i) == 'extrapolated') warning%code = 'curves_extrapolated'
+         if (telling(i) == 'nearly_flat') warning%code = 'curves_nearly_flat'
          call warning%about('wall', self%first(i)%text)
          call warning%about('status', trim(telling(i)))
          if (self%several) then
@@ -376,7 +384,8 @@ contains
          associate (curve => typologies(i))
             if (curve%fit%status == 'ok') cycle
             warning = warning_type('population_without_fit')
-            if (curve%fit%has_fit()) warning%code = 'population_extrapolated'
+            if (curve%fit%status == 'extrapolated') warning%code = 'population_extrapolated'
+            if (curve%fit%status == 'nearly_flat') warning%code = 'population_nearly_flat'
             call warning%about('group', curve%group)
             call warning%about('mechanism', trim(curve%mechanism))
             call warning%about('status', trim(curve%fit%status))
@@ -398,7 +407,8 @@ contains
 
       if (curve%status == 'ok') return
       warning = warning_type('union_without_fit')
-      if (curve%has_fit()) warning%code = 'union_extrapolated'
+      if (curve%status == 'extrapolated') warning%code = 'union_extrapolated'
+      if (curve%status == 'nearly_flat') warning%code = 'union_nearly_flat'
       call warning%about('wall', name)
       call warning%about('status', trim(curve%status))
       if (curve%has_fit()) call warning%with('theta', curve%theta)

@@ -9,14 +9,15 @@ module dondolo_intensity
    use dondolo_ground_motion, only : peak_displacement, peak_velocity
    use dondolo_kinds, only : pi, wp
    use dondolo_numbers, only : parse_real
+   use dondolo_odd_character, only : odd_character
    use dondolo_record, only : record_type
    use dondolo_response_spectrum, only : largest_period, pseudo_acceleration, smallest_period, standard_damping
-   use dondolo_text, only : join, lower, to_text
+   use dondolo_text, only : join, lower, replaced, to_text
    implicit none
    private
 
    public :: measure_type, new_measure
-   public :: im_names, im_help
+   public :: im_help, im_names, refuse_measure
 
    !> Names of the intensity measures; T, T1 and T2 stand for periods [s]
    character(len=12), parameter :: im_names(12) = [character(len=12) :: 'pga', 'pgv', 'pgd', 'arias', 'cav', 'arias-trapz', &
@@ -115,9 +116,24 @@ contains
       if (ok) then
          measure%kind = name(:open - 1)
       else
-         call raise_input(error, 'im = '''//typed//''': must be one of '//join(im_names)//im_help)
+         call refuse_measure(typed, im_names, error)
       end if
    end subroutine new_measure
+
+   !> Refuse the name of a measure
+   subroutine refuse_measure(typed, names, error)
+      !> The name
+      character(len=*), intent(in) :: typed
+      !> Names that there are
+      character(len=*), intent(in) :: names(:)
+      !> What is wrong with it
+      type(error_type), allocatable, intent(out) :: error
+
+      call raise_input(error, 'im = '''//typed//''': must be one of '//join(names)//im_help)
+      if (len_trim(odd_character(typed)) > 0) error%message = error%message//'; it has '//trim(odd_character(typed))
+      if (index(typed, '(') > 0 .and. index(typed, ',') > 0) error%message = error%message//'; it must have a decimal point: '''// &
+         & replaced(lower(typed), ',', '.')//''''
+   end subroutine refuse_measure
 
    !> Read a period
    pure subroutine parse_period(text, period, ok)

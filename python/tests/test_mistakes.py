@@ -1,0 +1,233 @@
+"""Mistakes in cases, tables and commands: each message names what is wrong, and --check shows what was understood."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import dondolo as dd
+
+WALL = {"mechanism": "'one_sided'", "height": "2.4", "thickness": "0.3"}
+PARTS = {"wall": "", "records": "catalogue = 'records.csv'", "stripes": "levels = 0.3, 0.5, 0.7"}
+TIE = "tie_height = 2.3, tie_length = 5.0"
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """A folder with three short records and a catalogue."""
+    rng = np.random.default_rng(3)
+    for i in range(3):
+        np.savetxt(tmp_path / f"r{i}.txt", rng.normal(0.0, 1.5, 400), fmt="%.5f")
+    rows = "".join(f"r{i}.txt,0.01,m/s2\n" for i in range(3))
+    (tmp_path / "records.csv").write_text("file,dt_s,units\n" + rows)
+    return tmp_path
+
+
+def case(more: str = "", **groups: str) -> str:
+    """A case with other contents of its groups, and more variables of the wall."""
+    wall = ", ".join(f"{name} = {value}" for name, value in WALL.items())
+    wall = groups.pop("wall", wall + (", " + more if more else ""))
+    parts = {"job": "output = 'out/wall'"} | PARTS | {"wall": wall} | groups
+    return "".join(f"&{name} {text} /\n" for name, text in parts.items())
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        # Loads share depths, never heights
+        (
+            case("load = 8e3, 5e3, load_height = 2.4, load_depth = 0.1, load_inertia = 'both'"),
+            "load_height = 2.4: is one ",
+        ),
+        (
+            case("thrust = 300.0, 200.0, thrust_height = 2.4"),
+            "thrust_height = 2.4: is one value for 2 values of thrust",
+        ),
+        # Units
+        (case(wall="mechanism = 'one_sided', height = 2400, thickness = 0.3"), "is it in millimetres?"),
+        (case(f"{TIE}, tie_area = 201.0"), "is it in mm2 per metre of wall?"),
+        (case(f"{TIE}, tie_area = 2.01"), "is it in cm2 per metre of wall?"),
+        (case(f"{TIE}, tie_area = 2e-5, tie_modulus = 205e3"), "is it in MPa?"),
+        (case("load = 8e3, load_height = 2400, load_depth = 0.1, load_inertia = 'both'"), "is it in millimetres?"),
+        (case("load = 8e3, load_height = 2.4, load_depth = 120, load_inertia = 'both'"), "is it in millimetres?"),
+        (case(f"{TIE}, tie_area = 2e-5".replace("2.3", "2300")), "is it in millimetres?"),
+        (case("restitution_factor = 88"), "must be less than 1: is it in per cent?"),
+        (case("compressive_strength = 1800.0"), "is it in kPa?"),
+        (case(check="ag = 1.9, f0 = 2.4, tc_star = 0.3"), "is it in m/s2?"),
+        (case(check="ag = 19, f0 = 2.4, tc_star = 0.3"), "is it in per cent of g?"),
+        (case(building="period = 250, participation = 1.2"), "is it in milliseconds?"),
+        (case(building="period = 0.25, participation = 1.2, damping = 3"), "is it in per cent?"),
+        # Numbers that are not written as here
+        (case(stripes="levels = 0,3; 0,5"), "a comma separates values, a point decimals"),
+        (case(stripes="levels = 0.3; 0.5"), "a comma separates values, a point decimals"),
+        (case(stripes="levels = linspace(0.3, 0.7, 3)"), "first, last and count give equally spaced levels"),
+        (case(stripes="levels = 0.3:0.2:0.7"), "first, last and count give equally spaced levels"),
+        (case(stripes="levels = [0.3, 0.5]"), "a list has no brackets"),
+        (case(wall="mechanism = 'one_sided', height = 2.4m, thickness = 0.3"), "must be a number without a unit"),
+        (case(wall="mechanism = 'one_sided', height = 2.4 m, thickness = 0.3"), "must be a number without a unit"),
+        (case(building="period = 0.25, participation = 1.2, damping = 3%"), "without a per cent sign"),
+        (case(stripes="im = 'sa(0,3)', levels = 0.3, 0.5"), "it must have a decimal point: 'sa(0.3)'"),
+        (
+            case(stripes="im = 'saavg(0,2:1,5)', levels = 0.3, 0.5"),
+            "it must have a decimal point: 'saavg(0.2:1.5)'",
+        ),
+        # Characters of print
+        (case(wall="mechanism = 'one_sided', height\u00a0= 2.4, thickness = 0.3"), "a no-break space (U+00A0)"),
+        (case(wall="mechanism = 'one_sided', height = 2.4,\u202fthickness = 0.3"), "a no-break space (U+202F)"),
+        (case(wall="mechanism = 'one_sided', \u200bheight = 2.4, thickness = 0.3"), "an invisible character (U+200B)"),
+        (case(wall="mechanism = 'one_sided\u00a0', height = 2.4, thickness = 0.3"), "it has a no-break space (U+00A0)"),
+        (case(stripes="im = 'pga\u00a0', levels = 0.3, 0.5"), "it has a no-break space (U+00A0)"),
+        (case("edge_radius = \u22120.02"), "a dash that is not an ordinary - (U+2212)"),
+        # Comments of other languages
+        ("# a wall\n" + case(), "# is no comment: comments begin with !"),
+        ("// a wall\n" + case(), "// is no comment: comments begin with !"),
+    ],
+)
+def test_message(folder, run, text, message):
+    (folder / "wall.nml").write_text(text, encoding="utf-8")
+    done = run("--check", "wall.nml")
+    assert done.returncode == 2
+    assert message in done.stderr
+    assert len(done.stderr.splitlines()) == 1
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        (case(stripes="levels = 0.5"), "only one level: no curve can be fitted, two at least are needed"),
+        (case(stripes="levels = 0.002, 0.004"), "every history stays below the trigger"),
+        (case(stripes="im = 'pgd', levels = 5, 20"), "more than 5 m: are they in cm?"),
+        (case(stripes="levels = 15, 30"), "are they in m/s2, cm/s2 or per cent of g?"),
+        (case("spring = 40.0, spring_height = 2.4, spring_depth = 0.0"), "is it in kN/m2?"),
+        (
+            case(building="period = 4.0, participation = 1.2"),
+            "period = 4 s is more than 2 s: is it in Hz, a frequency?",
+        ),
+    ],
+)
+def test_warning(folder, run, text, message):
+    (folder / "wall.nml").write_text(text, encoding="utf-8")
+    done = run("--check", "wall.nml")
+    assert done.returncode == 0
+    assert message in done.stdout
+
+
+def test_records_that_are_too_few(folder, run):
+    catalogue = folder / "records.csv"
+    (folder / "wall.nml").write_text(case())
+    lines = catalogue.read_text().splitlines(keepends=True)
+    assert "standard errors need" not in run("--check", "wall.nml").stdout
+    catalogue.write_text("".join(lines[:3]))
+    assert "warning: only 2 clusters of 2 records: standard errors need at least 3" in run("--check", "wall.nml").stdout
+    catalogue.write_text("".join(lines[:2]))
+    assert "warning: only one record: its curve says nothing of other earthquakes" in run("--check", "wall.nml").stdout
+
+
+def test_building(folder, run):
+    (folder / "wall.nml").write_text(
+        case(building="period = 0.4, 0.125, participation = 1.3, -0.25, damping = 0.04, 0.1")
+    )
+    shown = run("--check", "wall.nml").stdout
+    assert "building: mode 1, period 0.4 s (2.5 Hz), damping 0.04, participation 1.3" in shown
+    assert "building: mode 2, period 0.125 s (8 Hz), damping 0.1, participation -0.25" in shown
+    assert "(refine = 0: as many as the shortest period needs)" in shown
+    (folder / "wall.nml").write_text(case(building="period = 0.4, participation = 1.3, damping = 0.05, refine = 3"))
+    shown = run("--check", "wall.nml").stdout
+    # Free vibration down to 1e-4 of its amplitude
+    tail = -np.log(1e-4) * 0.4 / (2.0 * np.pi * 0.05)
+    assert "each step of a record in 3 parts (refine = 3)" in shown
+    assert f"after each record {tail:.4g} s of free vibration" in shown
+    assert f"the longest motion lasts {3.99 + tail:.4g} s" in shown
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (
+            "file,dt_s\nr0.txt,0.01\n",
+            "units must be given, such as 'g' or 'm/s2'; in a catalogue they are the column units",
+        ),
+        (
+            "file,dt_s,unit\nr0.txt,0.01,g\n",
+            "column 'unit': the units of the accelerations must stand in the column units",
+        ),
+        ("file,dt_s,units\nr0.txt,0.01\u00a0,g\n", "must be a number, has a no-break space (U+00A0)"),
+        ("file,dt_s,units\nr0.txt,0.01,g\u00a0\n", "it has a no-break space (U+00A0)"),
+        ("file,dt_s,units\nr0.txt\u200b,0.01,g\n", "no such file; its name has an invisible character (U+200B)"),
+        ("file,dt_s,units\u00a0\nr0.txt,0.01,g\n", "has a no-break space (U+00A0)"),
+        ("PK\x03\x04 a workbook\n", "is a workbook of a spreadsheet or another archive: save its table as CSV"),
+        ("file,dt_s,units\nr0.txt,1%,g\n", "without a per cent sign"),
+    ],
+)
+def test_catalogue(folder, run, content, message):
+    (folder / "wall.nml").write_text(case())
+    (folder / "records.csv").write_text(content, encoding="utf-8")
+    done = run("--check", "wall.nml")
+    assert done.returncode == 2
+    assert message in done.stderr
+
+
+def test_a_unit_in_the_title_of_a_column(folder, run):
+    (folder / "walls.csv").write_text("mechanism,height (m),thickness\none_sided,2.4,0.3\n")
+    groups = {"population": "file = 'walls.csv'", "job": "task = 'typology', output = 'out'"}
+    (folder / "walls.nml").write_text("".join(f"&{name} {text} /\n" for name, text in (PARTS | groups).items() if text))
+    assert "column 'height (m)': no such column; did you mean 'height'?" in run("--check", "walls.nml").stderr
+    assert "records.csv: must be a case, a file of groups &name ... /" in run("--check", "records.csv").stderr
+
+
+@pytest.mark.parametrize("word", ["check", "status", "template", "help", "chek"])
+def test_options_without_dashes(folder, run, word):
+    (folder / "wall.nml").write_text(case())
+    done = run(word, "wall.nml")
+    assert done.returncode == 2
+    assert f"dondolo --{word}" in done.stderr if word != "chek" else "did you mean '--check'?" in done.stderr
+    assert not (folder / "out").exists()
+
+
+def test_a_case_in_the_place_of_results(folder, monkeypatch):
+    monkeypatch.chdir(folder)
+    (folder / "wall.nml").write_text(case())
+    with pytest.raises(
+        dd.InputError, match=r"is a case, .* 'out/wall'; there are none yet, dondolo wall.nml writes them"
+    ):
+        dd.read_results("wall.nml")
+    with pytest.raises(
+        dd.InputError, match=r"'records.csv': is a file, must be what the names of result files begin with"
+    ):
+        dd.read_results("records.csv")
+
+
+def test_prefixes_that_are_nearly_right(folder, run, monkeypatch):
+    monkeypatch.chdir(folder)
+    (folder / "wall.nml").write_text(case())
+    assert run("wall.nml").returncode == 0
+    with pytest.raises(
+        dd.InputError, match=r"is a case, must be what the names of its result files begin with, 'out/wall'$"
+    ):
+        dd.read_results("wall.nml")
+    with pytest.raises(dd.InputError, match=r"'out': is a folder, .* such as 'out/wall'$"):
+        dd.read_results("out")
+    with pytest.raises(dd.InputError, match=r"must be what the names begin with, 'out/wall'$"):
+        dd.read_results("out/wall_")
+    assert dd.read_results("out/wall").stripes is not None
+
+
+def test_levels_are_the_same_numbers(folder, run, monkeypatch):
+    """numpy.linspace and first, last, count give the same stripes to the last bit, and short decimals."""
+    monkeypatch.chdir(folder)
+    wall = dd.OneSidedWall(2.4, 0.3, name="wall")
+    for first, last, count in ((0.1, 1.3, 13), (0.15, 0.9, 8), (0.2, 1.1, 6), (0.07, 0.91, 4)):
+        (folder / "wall.nml").write_text(case(stripes=f"first = {first}, last = {last}, count = {count}"))
+        assert run("wall.nml").returncode == 0
+        of_case = dd.read_results("out/wall").stripes
+        ours = dd.multiple_stripe(
+            wall, dd.read_catalogue("records.csv"), np.linspace(first, last, count), progress=False
+        )
+        assert ours.levels.tobytes() == of_case.levels.tobytes()
+        assert ours.edp.tobytes() == of_case.edp.tobytes()
+    tenths = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8]
+    records = dd.read_catalogue("records.csv")
+    for levels in (np.linspace(0.1, 0.8, 8), np.arange(0.1, 0.85, 0.1), tenths):
+        assert dd.multiple_stripe(wall, records, levels, progress=False).levels.tolist() == tenths
+    uneven = np.geomspace(0.1, 0.8, 4)
+    assert dd.multiple_stripe(wall, records, uneven, progress=False).levels.tobytes() == uneven.tobytes()
