@@ -7,8 +7,8 @@ import dondolo as dd
 
 pytestmark = pytest.mark.slow
 
-#: A restitution next to 1, and slow ground just beyond the trigger of 0.1 g, then still, then beyond it again: the last push
-#: keeps the chain of bounces between from being closed
+#: A restitution next to 1, and slow ground just beyond the trigger of 0.1 g, then still, then beyond it again: the last
+#: push keeps the chain of bounces between from being closed
 HEIGHT, THICKNESS, RESTITUTION, LEVEL = 1.5, 0.15, 0.9999999999, 0.1 * (1.0 + 4.5e-5)
 SHAPE = [0.0, -1.0, 0.0, -1.0, 0.0]
 ERROR = r"record '.*slow.*', scale factor .*: the time history does not get beyond the sample at \d+ s and was given up"
