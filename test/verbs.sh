@@ -73,7 +73,7 @@ try() {
    if [ $status != 0 ]; then
       outcome=FAILED
       why=$(grep -v '^[[:space:]]*$' "$log" | tail -n 1)
-      touch "$logs/failed"
+      name_of "$form" >>"$logs/failed"
    fi
    # shellcheck disable=SC2059,SC2086
    printf "$line" "$form" "$outcome" $(awk '{ printf "%.1f %.1f", $1 / 60, ($2 + $3) / 60 }' <<<"$time") "$why"
@@ -104,10 +104,10 @@ trap - EXIT
 if [ "$(sources)" != "$before" ]; then
    echo "the sources have changed:"
    diff <(echo "$before") <(sources)
-   touch "$logs/failed"
+   echo 'the sources, which have changed' >>"$logs/failed"
 fi
 awk -v s=$((SECONDS - began)) 'BEGIN { printf "verbs: %.1f minutes; what each printed is in out/verbs\n", s / 60 }'
 if [ -e "$logs/failed" ]; then
-   echo "verbs: some have failed"
+   echo "verbs: failed: $(paste -sd, "$logs/failed")"
    exit 1
 fi
