@@ -26,7 +26,7 @@ module dondolo_lanes
 
    !> A batch at its beginning. Each is a copy of it in memory of its own: a batch is larger than the stack that a thread may have,
    !> and gfortran takes a copy on the stack to initialise what is allocated without a source
-   type(lane_batch_type), save, protected :: empty
+   type(lane_batch_type), protected :: empty
 
 contains
 
