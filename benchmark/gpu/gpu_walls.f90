@@ -136,6 +136,8 @@ contains
       type(response_type), intent(inout) :: response(:, :)
 
       type(ensemble_type) :: ensemble
+      ! A history that is given up counts as a collapse, as the comparison of both finds
+      type(error_type), allocatable :: error
       integer :: i
 
       !$omp parallel do schedule(dynamic) default(none) shared(self, response) private(ensemble, error)
