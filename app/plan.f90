@@ -26,7 +26,7 @@ module dondolo_plan
    use dondolo_text, only : counted, rounded, to_text
    use dondolo_warning, only : warnings_type
    use dondolo_warning_sentence, only : warning_sentences
-   use dondolo_warnings, only : scale_warning_type, warn_of_records
+   use dondolo_warnings, only : scale_warning_type, warn_of_events, warn_of_records
    use dondolo_work, only : work_type
    implicit none
    private
@@ -167,6 +167,7 @@ contains
          call warn_of_records(case%suite, case%solver%gravity, warnings, case%history%record)
       else
          call warn_of_records(case%suite, case%solver%gravity, warnings)
+         call warn_of_events(case%suite, warnings)
          call warn_of_plan(size(case%stripes%levels), case%suite%clusters, work, warnings)
       end if
       call scales%warn(warnings)

@@ -198,10 +198,17 @@ check "work: --check knows what stays still" contains stdout \
    "of them $still stay below the trigger and never move; $((40 - still)) will be integrated"
 check "check: records that name no event" contains stdout \
    '4 records in 4 clusters; 4 without event, or station and date, taken as independent of all others but copies'
+check "check: they are warned of once" equal "$(grep -c '^warning: the earthquake of 4 of 4 records is not known' stdout)" 1
 sed 's/place$/event/' records/records.csv >records/events.csv
 sed 's/records.csv/events.csv/' calm.nml >events.nml
 run --check events.nml
 check "check: records of two events" contains stdout '4 records in 2 clusters by event, or by station and date'
+check "check: nothing to warn of" equal "$(grep -c 'the earthquake of' stdout)" 0
+for case in good events; do
+   run $case.nml
+   check "records that name no event, $case: one warning" equal "$(grep -c '^dondolo: warning: the earthquake of' stderr)" \
+      "$([ $case = good ] && echo 1 || echo 0)"
+done
 sed "s/levels = .*/levels = 0.01, 0.02/; /0.6, 1.0/d" good.nml >calm.nml
 run --quiet calm.nml
 check "work: none below the trigger" contains out/deep/wall_walls.csv \
@@ -929,8 +936,8 @@ warned 's/records.csv/bad.csv/' "record 'strong': a PGA of 899.7 g, more than 3 
 good_case | sed 's/records.csv/bad.csv/; s/thickness/density = 18 thickness/; s/0.6, 1.0/0.6, 5.0/' >warn.nml
 run --check warn.nml
 check "check: problems of a record" grep -qE ' strong .*  a PGA of 899.7 g, more than 3 g: wrong units\?; ' stdout
-check "check: warnings last" equal "$(tail -n 5 stdout | cut -c 1-24 | tr '\n' ';')" \
-   ";warning: wall 'wall, one;warning: record 'strong';warning: levels up to 5 ;warning: scale factors a;"
+check "check: warnings last" equal "$(tail -n 6 stdout | cut -c 1-24 | tr '\n' ';')" \
+   ";warning: wall 'wall, one;warning: record 'strong';warning: the earthquake ;warning: levels up to 5 ;warning: scale factors a;"
 warned 's/height = 3.0/height = 0.2/' "wall 'wall, one': the height is less than the thickness: are they swapped?"
 warned 's/thickness/interlock_overlap = 0.4 interlock_course = 0.1 interlock_thickness = 0.3 interlock_spacing = 5 thickness/' \
    "wall 'wall, one': interlock_overlap is more than the thickness of the wall: is it the length of a stone?"

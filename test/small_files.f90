@@ -70,7 +70,7 @@ contains
       character(len=*), intent(in) :: lines
       character(len=:), allocatable :: content
 
-      content = 'EVENT_NAME: EARTHQUAKE'//lf//'NETWORK: XX'//lf//'STATION_CODE: ABC'//lf//'STATION_NAME: '//lf// &
+      content = 'EVENT_NAME: SMALL VALLEY'//lf//'NETWORK: XX'//lf//'STATION_CODE: ABC'//lf//'STATION_NAME: '//lf// &
          & 'SAMPLING_INTERVAL_S: 0.010'//lf//'NDATA: 7'//lf//'UNITS: cm/s^2'//lf//lines//lf// &
          & 'PGA_CM/S^2: -1.500000'//lf//'DATA_TYPE: ACCELERATION'//lf//'STATION_LATITUDE_DEGREE: 43.5'//lf// &
          & 'STATION_LONGITUDE_DEGREE: 12.75'//lf// &

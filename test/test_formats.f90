@@ -3,7 +3,7 @@ program test_formats
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, skip, suite
    use dondolo_catalogue, only : read_catalogue
    use dondolo_csv_reader, only : csv_reader_type
-   use dondolo_dates, only : iso_date, iso_time
+   use dondolo_dates, only : find_moment, make_stamp
    use dondolo_error, only : error_type
    use dondolo_kinds, only : pi, wp
    use dondolo_lines, only : lines_type
@@ -78,23 +78,69 @@ contains
    !> Dates and times
    subroutine test_dates()
       call suite('dates')
-      call check_text(iso_date('19971014', 'dmy'), '1997-10-14', 'digits')
-      call check_text(iso_date('2010/11/14', 'dmy'), '2010-11-14', 'year first')
-      call check_text(iso_date(' 14/11/2010 ', 'dmy'), '2010-11-14', 'day first')
-      call check_text(iso_date('1/2/1990', 'mdy'), '1990-01-02', 'month first')
-      call check_text(iso_date('2009-04-06', 'mdy'), '2009-04-06', 'hyphens')
-      call check_text(iso_date('14/11/2010', 'mdy'), '14/11/2010', 'no month 14')
-      call check_text(iso_date('19971414', 'dmy'), '19971414', 'no month 14 either')
-      call check_text(iso_date('autumn 1997', 'dmy'), 'autumn 1997', 'words')
-      call check_text(iso_date('1/2/90', 'mdy'), '1/2/90', 'two digits of a year')
-      call check_text(iso_date('', 'mdy'), '', 'nothing')
-      call check_text(iso_date('2010/11/14/2', 'dmy'), '2010/11/14/2', 'four numbers')
-      call check_text(iso_time('152309'), '15:23:09', 'digits')
-      call check_text(iso_time('152309.25'), '15:23:09.25', 'decimals')
-      call check_text(iso_time('15:23:09.2'), '15:23:09.2', 'colons')
-      call check_text(iso_time('0712'), '0712', 'four digits')
-      call check_text(iso_time('071240x'), '071240x', 'a letter')
+      call check_moment('19971014', 'dmy', '1997-10-14')
+      call check_moment('2010/11/14', '', '2010-11-14')
+      call check_moment(' 14/11/2010 ', 'dmy', '2010-11-14')
+      call check_moment('14/11/2010', '', '2010-11-14')
+      call check_moment('1/2/1990', 'mdy', '1990-01-02')
+      call check_moment('2009-04-06', 'mdy', '2009-04-06')
+      call check_moment('28-AUG-2018', '', '2018-08-28')
+      call check_moment('Sept. 4, 2010 at noon', '', '2010-09-04')
+      call check_moment('19971014 152309', 'dmy', '1997-10-14T15:23:09')
+      call check_moment('1997/10/14 152309.25', 'dmy', '1997-10-14T15:23:09.25')
+      call check_moment('1997-10-14T15:23:09.2Z', '', '1997-10-14T15:23:09.2Z')
+      call check_moment('2018/02/06-23:50:42+08:00', '', '2018-02-06T23:50:42+08:00')
+      call check_moment('1989 10 18 0004', '', '1989-10-18T00:04')
+      call check_moment('May 2, 1983 4:42 pm PDT', '', '1983-05-02T16:42-07:00')
+      call check_moment('2018 February 12   21:15:54 UT', '', '2018-02-12T21:15:54')
+      call check_moment('8/29/2018, 02:33:  .0 UTC', 'mdy', '2018-08-29T02:33')
+      ! Times that are none are left out
+      call check_moment('1997-10-14 25:10', '', '1997-10-14')
+      call check_moment('1997-10-14 071240x', '', '1997-10-14')
+      ! What is no date of the calendar is none, nor one of which the order is not known
+      call check_moment('14/11/2010', 'mdy', '')
+      call check_moment('3/4/2010', '', '')
+      call check_moment('19971414', 'dmy', '')
+      call check_moment('2019-02-29', '', '')
+      call check_moment('1900-02-29', '', '')
+      call check_moment('2000-02-29', '', '2000-02-29')
+      call check_moment('autumn 1997', 'dmy', '')
+      call check_moment('1/2/90', 'mdy', '')
+      call check_moment('2010/11/14/2', 'dmy', '')
+      call check_moment('To be determined', '', '')
+      call check_moment('', 'mdy', '')
+      ! In the time of Greenwich, over the ends of months and years
+      call check_stamp('2014-12-31T23:49:00+09:00', '20141231T144900Z')
+      call check_stamp('2016-03-01T05:00:29.6+09:30', '20160229T193030Z')
+      call check_stamp('2018-12-31T20:19-07:00', '20190101T031900Z')
+      call check_stamp('2018-12-31T20:19', '20181231T201900Z')
+      call check_stamp('2018-12-31', '')
    end subroutine test_dates
+
+   !> Check how a date is read
+   subroutine check_moment(text, order, expected)
+      !> As of find_moment
+      character(len=*), intent(in) :: text, order
+      !> What it must be
+      character(len=*), intent(in) :: expected
+
+      character(len=:), allocatable :: moment, again
+
+      call find_moment(text, order, moment)
+      call check_text(moment, expected, 'date in '//text)
+      call find_moment(moment, '', again)
+      call check_text(again, moment, 'the same again')
+   end subroutine check_moment
+
+   !> Check a stamp
+   subroutine check_stamp(moment, expected)
+      character(len=*), intent(in) :: moment, expected
+
+      character(len=:), allocatable :: stamp
+
+      call make_stamp(moment, stamp)
+      call check_text(stamp, expected, 'stamp of '//moment)
+   end subroutine check_stamp
 
    !> Columns of equal width
    subroutine test_fixed()
@@ -270,7 +316,7 @@ contains
       call read_content(dyna_content('EVENT_DATE_YYYYMMDD: 14/11/2010'//lf//'EVENT_TIME_HHMMSS: 230819'//lf// &
          & 'MAGNITUDE_W: '//lf//'MAGNITUDE_L: 5.1'//lf//'STREAM: HNE'), record)
       call check_values(record, gal, 'values')
-      call check_metadata(record, 'event', 'EARTHQUAKE')
+      call check_metadata(record, 'event', 'SMALL VALLEY')
       call check_metadata(record, 'date', '2010-11-14T23:08:19')
       call check_metadata(record, 'magnitude', '5.1')
       call check_metadata(record, 'component', 'HNE')
@@ -305,10 +351,10 @@ contains
       call check_values(record, gal, 'no peak')
       ! Names are often those of regions, where there are many earthquakes.
       call read_content(replaced(dyna_content('STREAM: HNE'), 'NETWORK', 'EVENT_ID: IT-2014-0003'//lf//'NETWORK'), record)
-      call check_metadata(record, 'event', 'EARTHQUAKE IT-2014-0003')
-      call read_content(replaced(dyna_content('EVENT_ID: IT-2014-0003'), 'EARTHQUAKE', 'NONAME'), record)
+      call check_metadata(record, 'event', 'SMALL VALLEY IT-2014-0003')
+      call read_content(replaced(dyna_content('EVENT_ID: IT-2014-0003'), 'SMALL VALLEY', 'NONAME'), record)
       call check_metadata(record, 'event', 'IT-2014-0003')
-      call read_content(replaced(dyna_content('STREAM: HNE'), 'EARTHQUAKE', 'NONAME'), record)
+      call read_content(replaced(dyna_content('STREAM: HNE'), 'SMALL VALLEY', 'NONAME'), record)
       call check_metadata(record, 'event', '')
       call check_refused(replaced(dyna_content('STREAM: HNE'), ': ACCELERATION', ': DISPLACEMENT'), &
          & 'DATA_TYPE = ''DISPLACEMENT'': must be ACCELERATION')

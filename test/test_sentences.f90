@@ -6,7 +6,8 @@ program test_sentences
    use checks, only : check, finish, suite
    use dondolo_error, only : error_type
    use dondolo_formats, only : find_format, format_type
-   use dondolo_header_text, only : after, before, find_moment, leading_number, squeezed
+   use dondolo_dates, only : find_moment
+   use dondolo_header_text, only : after, before, leading_number, squeezed
    use dondolo_intensity, only : measure_type, new_measure
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
@@ -103,7 +104,7 @@ contains
          call metadata%set('key', repeat('v', n))
          text = metadata%get('key')//metadata%get('none')//join(['a ', 'bc'])
       case (8)
-         call find_moment(repeat(' ', n)//'06/16/2005, 20:53:26.1 UTC', moment)
+         call find_moment(repeat(' ', n)//'06/16/2005, 20:53:26.1 UTC', 'mdy', moment)
          text = moment//after('Label:'//repeat('x', n), 'label:')//before(repeat('y', n)//'(', '(')// &
             & squeezed(repeat('z  ', n))//leading_number(repeat('1', min(n, 9))//'N')
       case (9)

@@ -98,7 +98,7 @@ def test_walls_that_share_a_plan_have_warnings_of_their_own(few, replace_procedu
     found = {}
     for again in (False, True):
         for name, wall in walls.items():
-            records = few if again else [dd.Record(one.acceleration, one.dt, one.name) for one in few]
+            records = few if again else [one.processed(one.acceleration, "copied") for one in few]
             with pytest.warns(dd.DondoloWarning) as caught:
                 stripes = dd.multiple_stripe(wall, records, levels, progress=False)
             told = [str(one.message) for one in caught], stripes.scale.tolist(), stripes.collapsed.tolist()
@@ -152,12 +152,12 @@ def test_a_kept_study_is_freed_with_its_records(few):
 
 def test_use_after_free(few):
     suite, walls = upload(tuple(few)).number, upload_walls((dd.OneSidedWall(3.0, 0.25),))
-    handle, *_ = _core.records.new_suite(b"a", [2], [0.1], [1.0, 2.0], [0], [0.0], 1)
+    handle, *_ = _core.records.new_suite(b"a", b"\n\n", [2], [0.1], [1.0, 2.0], [0], [0.0], 1)
     study, stat, _ = _core.stripes.new_study(handle, b"pga", [0.1], b"both", b"auto", [1e-8, 1e-10, 1.0, 0.0, 0.0], 1)
     assert stat == 0
     _core.library.free(handle)
     _core.library.free(handle)
-    other, *_ = _core.records.new_suite(b"a", [2], [0.1], [1.0, 2.0], [0], [0.0], 1)
+    other, *_ = _core.records.new_suite(b"a", b"\n\n", [2], [0.1], [1.0, 2.0], [0], [0.0], 1)
     for number in (handle, -1, 0, 1, 2**40, 2**62, walls.number):
         *_, stat, message = _core.records.measure_suite(number, b"pga", 1)
         assert stat == 2

@@ -194,18 +194,19 @@ def test_values_in_other_units_warn(sine):
 def test_a_wrong_time_step_warns(sine):
     """PGV / PGA of a sine is its period / pi; one in ten samples as many seconds is no earthquake's."""
     wall = dd.OneSidedWall(3.0, 0.25)
+    right = dd.Record(sine.acceleration, sine.dt, "right", metadata={"event": "A"})
     for dt, limit, why in (
         (10.0 * sine.dt, "more than 0.5", ", or a baseline that drifts"),
         (0.01 * sine.dt, "less than 0.01", ""),
     ):
-        wrong = dd.Record(sine.acceleration, dt, "wrong")
+        wrong = dd.Record(sine.acceleration, dt, "wrong", metadata={"event": "B"})
         ratio = wrong.intensity("pgv") / wrong.peak_acceleration
         sentence = f"record 'wrong': PGV / PGA = {ratio:.4g} s, {limit} s: wrong time step{why}?"
         with pytest.warns(dd.DondoloWarning) as caught:
             dd.simulate(wall, wrong, 1e-3, history=False)
         assert [str(one.message) for one in caught] == [sentence]
         with pytest.warns(dd.DondoloWarning) as caught:
-            dd.multiple_stripe(wall, [sine, wrong], [0.1], progress=False)
+            dd.multiple_stripe(wall, [right, wrong], [0.1], progress=False)
         assert [str(one.message) for one in caught] == [f"{sentence} (1 of 2 records)"]
         assert caught[0].message.code == "record_pgv_pga"
 

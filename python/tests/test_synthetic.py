@@ -39,6 +39,7 @@ def test_seeds():
 def test_metadata():
     record = dd.synthetic_records(6.5, 12.25, "deep", count=2, seed=7, first=3, deviations=-0.5)[1]
     assert dict(record.metadata) == {
+        "event": record.name,
         "magnitude": "6.5",
         "distance_km": "12.25",
         "site": "deep",

@@ -9,7 +9,7 @@ module dondolo_record_parcel
    implicit none
    private
 
-   public :: set_records, pack_records
+   public :: set_records, set_labels, pack_records
 
 contains
 
@@ -51,6 +51,26 @@ contains
          from_vertical = from_vertical + lengths(i)
       end do
    end subroutine set_records
+
+   !> Give records what their clusters follow from
+   subroutine set_labels(records, labels)
+      !> The records
+      type(record_type), intent(inout) :: records(:)
+      !> Event, station and date of each, three lines, empty where they are not known
+      character(len=*), intent(in) :: labels
+
+      character(len=7), parameter :: keys(3) = [character(len=7) :: 'event', 'station', 'date']
+      character(len=:), allocatable :: label
+      integer :: i, k, at
+
+      at = 1
+      do i = 1, size(records)
+         do k = 1, size(keys)
+            call next_line(labels, at, label)
+            call records(i)%metadata%set(trim(keys(k)), label)
+         end do
+      end do
+   end subroutine set_labels
 
    !> Records in a parcel, after what is in it
    subroutine pack_records(records, parcel, error)

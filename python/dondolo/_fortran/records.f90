@@ -1,10 +1,12 @@
 !> Records: uploading, measuring, reading and making them.
 module records
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
-   use dondolo_boundary, only : check_room, report
+   use dondolo_boundary, only : check_room, next_line, report
    use dondolo_catalogue, only : read_catalogue, record_rows_type
+   use dondolo_clusters, only : cluster_label
    use dondolo_csv_row, only : cell_type
    use dondolo_dead_channel, only : check_motion, check_vertical_motion
+   use dondolo_earthquake, only : find_date, find_earthquake
    use dondolo_energy_measures, only : times_of => significant_times
    use dondolo_error, only : error_type, raise_input
    use dondolo_ground_motion, only : velocity_of => ground_velocity
@@ -12,11 +14,12 @@ module records
    use dondolo_intensity, only : measure_type, new_measure
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
+   use dondolo_metadata, only : metadata_type
    use dondolo_number_table, only : read_table => read_number_table
    use dondolo_parcel, only : parcel_type, send
    use dondolo_reading_notes, only : list_reading_notes
    use dondolo_record, only : new_record, record_type
-   use dondolo_record_parcel, only : pack_records, set_records
+   use dondolo_record_parcel, only : pack_records, set_labels, set_records
    use dondolo_record_reader, only : read_all => read_records, read_record
    use dondolo_record_table, only : record_table
    use dondolo_response_spectrum, only : largest_period, smallest_period, spectral_displacement
@@ -29,13 +32,14 @@ module records
    private
 
    public :: new_suite, measure_suite, check_record, join_vertical, describe_measure, intensities, spectrum, ground_velocity, &
-      & significant_times, check_motions, read_records, read_number_table, catalogue_table, synthetic_record
+      & significant_times, check_motions, labels_of, read_records, read_number_table, catalogue_table, synthetic_record
 
 contains
 
    !> Upload records that Python has checked: a suite
-   subroutine new_suite(names, lengths, dt, r, acceleration, n, have_vertical, vertical, k, threads, handle, stat, message)
-      character(len=*), intent(in) :: names
+   subroutine new_suite(names, labels, lengths, dt, r, acceleration, n, have_vertical, vertical, k, threads, handle, stat, &
+      & message)
+      character(len=*), intent(in) :: names, labels
       integer(c_int), intent(in) :: r, n, k, lengths(r), have_vertical(r), threads
       real(c_double), intent(in) :: dt(r), acceleration(n), vertical(k)
       integer(c_int64_t), intent(out) :: handle
@@ -50,6 +54,7 @@ contains
       call check_threads(threads, error)
       if (.not. allocated(error)) call set_records(records, names, lengths, dt, acceleration, have_vertical, vertical, error)
       if (.not. allocated(error)) then
+         call set_labels(records, labels)
          allocate (suite)
          call make_suite(suite, records, threads)
          content => suite
@@ -134,6 +139,36 @@ contains
       end if
       call report(error, stat, message)
    end subroutine check_motions
+
+   !> What metadata say of the earthquake of a record: three lines of text, its name or origin, the label of the cluster, and
+   !> the date, each empty if it is not known
+   subroutine labels_of(metadata, n, sent, stat, message)
+      !> Keys and values in turn, one a line, and how many pairs
+      character(len=*), intent(in) :: metadata
+      integer(c_int), intent(in) :: n
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(metadata_type) :: known
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: key, label
+      integer :: i, at
+
+      at = 1
+      do i = 1, n
+         call next_line(metadata, at, key)
+         call next_line(metadata, at, label)
+         call known%set(key, label)
+      end do
+      call find_earthquake(known, label)
+      call parcel%lines%add(label)
+      call cluster_label(known, label)
+      call parcel%lines%add(label)
+      call find_date(known, label)
+      call parcel%lines%add(label)
+      call send(parcel, error, sent, stat, message)
+   end subroutine labels_of
 
    !> Name as dondolo writes it, unit of the levels and words of an intensity measure: three lines of text; and the power of a
    !> record's scale that it grows by: an integer. With of_record = 1 those that records have of themselves, durations too;

@@ -20,7 +20,7 @@ module stripes
    use dondolo_wall, only : wall_type
    use dondolo_warning, only : warnings_type
    use dondolo_warning_sentence, only : warning_objects
-   use dondolo_warnings, only : scale_warning_type, warn_of_records
+   use dondolo_warnings, only : scale_warning_type, warn_of_events, warn_of_records
    use dondolo_work, only : work_type
    implicit none
    private
@@ -174,6 +174,8 @@ contains
          call oddities%warn(warnings)
          of_walls = warnings%count
          call warn_of_records(chosen%suite, people(1)%gravity, warnings)
+         ! Histories of one stripe whose level is the factor are points, not counts of clusters
+         if (len(chosen%scaling%name) > 0) call warn_of_events(chosen%suite, warnings)
          call scales%warn(warnings)
          parcel%integers = [merge(0, 1, chosen%scaling%needs_wall()), of_walls, histories, stripes%record - 1, stripes%polarity]
          if (allocated(chosen%factor)) call parcel%add([merge(1, 0, stripes%ran)])

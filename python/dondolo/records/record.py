@@ -207,14 +207,13 @@ class Record:
         return 0.0 if self.vertical is None else max(0.0, -float(self.vertical.min()))
 
     @cached_property
+    def _labels(self) -> suite.Labels:
+        return suite.labels_of(self.metadata)
+
+    @property
     def event(self) -> str:
         """Earthquake of the record, else station and date of the recording, else '': see `Fragility.clusters`."""
-        # As in dondolo_clusters
-        event = self.metadata.get("event", "")
-        if event:
-            return event
-        station, date = self.metadata.get("station", ""), self.metadata.get("date", "")
-        return f"{station} {date}" if station and date else ""
+        return self._labels.cluster
 
     @property
     def duration(self) -> float:

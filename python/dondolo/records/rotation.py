@@ -60,8 +60,11 @@ def check_components(first: Motion, second: Motion) -> None:
         raise InputError(
             f"components '{first.name}' and '{second.name}': dt = {first.dt:g} and {second.dt:g} s: must be the same"
         )
-    for key in ("station", "date"):
-        one, other = (record.metadata.get(key, "") for record in (first, second))
+    pairs = {
+        "station": (first.metadata.get("station", ""), second.metadata.get("station", "")),
+        "date": (first._labels.date, second._labels.date),
+    }
+    for key, (one, other) in pairs.items():
         if one and other and one != other:
             raise InputError(
                 f"components '{first.name}' and '{second.name}': {key} = '{one}' and '{other}': must be the same"

@@ -12,11 +12,33 @@ import numpy as np
 from dondolo._base.arguments import FloatArray, as_number
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
-from dondolo._fortran.library import as_text, check, constants
+from dondolo._fortran.library import as_text, check, constants, receive
 from dondolo.errors import InputError
 
 # What a weak reference refers to, None if it is gone
 _referred = weakref.ref.__call__
+
+
+# What metadata are asked for the labels of a record
+_LABELS = ("event", "station", "date", "event time", "event latitude", "event longitude")
+
+
+class Labels(NamedTuple):
+    """What metadata say of the earthquake of a record, '' where it is not known.
+
+    Attributes
+    ----------
+    earthquake : str
+        Its name or origin.
+    cluster : str
+        Label of the records that depend on each other: the earthquake, else station and date.
+    date : str
+        As ISO 8601 has it.
+    """
+
+    earthquake: str
+    cluster: str
+    date: str
 
 
 class Motion(Protocol):
@@ -42,6 +64,9 @@ class Motion(Protocol):
 
     @property
     def event(self) -> str: ...
+
+    @property
+    def _labels(self) -> Labels: ...
 
     @property
     def checksum(self) -> str: ...
@@ -133,6 +158,7 @@ def upload(records: tuple[Motion, ...], threads: int = 1) -> Suite:
     verticals = [record.vertical for record in records if record.vertical is not None]
     handle, stat, message = _core.records.new_suite(
         "\n".join(record.name for record in records).encode(),
+        "\n".join(line for record in records for line in _label_lines(record)).encode(),
         np.array([len(record) for record in records], dtype=np.int32),
         np.array([record.dt for record in records]),
         np.concatenate([record.acceleration for record in records]),
@@ -168,6 +194,25 @@ def intensities(records: tuple[Motion, ...], im: str, gravity: float | None = No
     values, stat, message = _core.records.intensities(suite.number, as_text("im", im), len(records), pull, 0)
     check(stat, message)
     return np.asarray(values)
+
+
+def labels_of(metadata: Mapping[str, str]) -> Labels:
+    """What metadata say of the earthquake of a record (dondolo_earthquake)."""
+    known = {key: _one_line(metadata[key]) for key in _LABELS if key in metadata}
+    if not known:
+        return Labels("", "", "")
+    text = "\n".join(line for pair in known.items() for line in pair).encode()
+    return Labels(*receive(*_core.records.labels_of(text, len(known))).lines)
+
+
+def _label_lines(record: Motion) -> tuple[str, str, str]:
+    """Labels of a record as a suite takes them."""
+    labels = record._labels
+    return labels.earthquake, _one_line(record.metadata.get("station", "")), labels.date
+
+
+def _one_line(text: str) -> str:
+    return " ".join(text.split())
 
 
 def check_motions(records: tuple[Motion, ...]) -> None:

@@ -47,7 +47,7 @@ def synthetic_records(
     list of Record
         With a time step of 0.005 s, named after the arguments, which their metadata hold too: magnitude,
         distance_km, site, seed, realisation, deviations and format ('synthetic'). They are synthetic: say so where you
-        show them. Realisations are independent of each other, so that they have no event.
+        show them. Realisations are independent of each other, so that each is an event of its own, of its name.
 
     Raises
     ------
@@ -77,6 +77,7 @@ def _realisation(*arguments: Any) -> Record:
     (data,) = unpack_records(parcel, 1)
     magnitude, distance, site, seed, realisation, deviations = arguments
     metadata = {
+        "event": data.name,
         "magnitude": f"{magnitude:.15g}",
         "distance_km": f"{distance:.15g}",
         "site": site.decode(),

@@ -9,6 +9,7 @@ module dondolo_catalogue_source
    use dondolo_checksum, only : crc32_length, crc32_of_file
    use dondolo_csv_reader, only : csv_reader_type
    use dondolo_dead_channel, only : check_vertical_motion
+   use dondolo_earthquake, only : settle_labels
    use dondolo_error, only : add_place, error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_metadata, only : metadata_type
@@ -158,6 +159,7 @@ contains
       if (allocated(error)) return
       record%file = source%path
       call record%metadata%include(source%metadata)
+      call settle_labels(record%metadata)
       if (.not. present(vertical_factor)) return
       if (allocated(source%vertical_error)) then
          error = source%vertical_error

@@ -1,5 +1,6 @@
 !> From a channel of a file to a record: which channel, its time step, its units, and a look at the header's own peak.
 module dondolo_channel
+   use dondolo_earthquake, only : settle_labels
    use dondolo_error, only : add_place, error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_integer, parse_real
@@ -69,6 +70,7 @@ contains
          if (size(samples%channels) > 1) call record%metadata%set('channel', channel%name)
          call record%metadata%set('quantity', 'acceleration')
          call record%metadata%set('units', stated)
+         call settle_labels(record%metadata)
       end associate
    end subroutine as_record
 

@@ -1,5 +1,6 @@
 !> Which records belong together: those of one earthquake are no independent evidence.
 module dondolo_clusters
+   use dondolo_earthquake, only : find_date, find_earthquake
    use dondolo_kinds, only : wp
    use dondolo_metadata, only : metadata_type
    use dondolo_name_index, only : name_index_type
@@ -75,11 +76,12 @@ contains
       !> Label; empty if the metadata give none
       character(len=:), allocatable, intent(out) :: label
 
-      label = metadata%get('event')
-      if (len(label) > 0) return
-      if (len(metadata%get('station')) > 0 .and. len(metadata%get('date')) > 0) then
-         label = metadata%get('station')//' '//metadata%get('date')
-      end if
+      character(len=:), allocatable :: date
+
+      call find_earthquake(metadata, label)
+      if (len(label) > 0 .or. len(metadata%get('station')) == 0) return
+      call find_date(metadata, date)
+      if (len(date) > 0) label = metadata%get('station')//' '//date
    end subroutine cluster_label
 
 end module dondolo_clusters

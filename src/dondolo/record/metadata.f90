@@ -33,6 +33,8 @@ module dondolo_metadata
       procedure :: append
       !> Value of a key
       procedure :: get
+      !> Remove a key
+      procedure :: remove
       !> Set all entries of another list
       procedure :: include
       !> Number of entries
@@ -86,6 +88,25 @@ contains
       if (len(before) > 0) before = before//'; '
       call self%set(key, before//sentence)
    end subroutine append
+
+   !> Remove a key
+   pure subroutine remove(self, key)
+      class(metadata_type), intent(inout) :: self
+      !> Key; one that is not there is left alone
+      character(len=*), intent(in) :: key
+
+      type(entry_type), allocatable :: shorter(:)
+      integer :: i, k
+
+      k = self%find(key)
+      if (k == 0) return
+      allocate (shorter(self%count() - 1))
+      do i = 1, size(shorter)
+         call move_alloc(self%entries(merge(i, i + 1, i < k))%key, shorter(i)%key)
+         call move_alloc(self%entries(merge(i, i + 1, i < k))%value, shorter(i)%value)
+      end do
+      call move_alloc(shorter, self%entries)
+   end subroutine remove
 
    !> Length of the value of a key
    pure integer function value_length(self, key)

@@ -6,6 +6,7 @@
 module dondolo_suite
    use dondolo_clusters, only : cluster_records
    use dondolo_dead_channel, only : is_motion
+   use dondolo_earthquake, only : find_earthquake
    use dondolo_ground_motion, only : peak_velocity
    use dondolo_intensity, only : measure_type
    use dondolo_kinds, only : wp
@@ -51,6 +52,8 @@ module dondolo_suite
       integer, allocatable :: by_duration(:)
       !> Number of the cluster of each: histories of one cluster are no independent evidence
       integer, allocatable :: clusters(:)
+      !> Whether the earthquake of each is known
+      logical, allocatable :: has_event(:)
       !> Measures that were asked for, and how many places are taken
       type(measured_type), private :: measured(most_measures)
       integer, private :: taken = 0
@@ -71,6 +74,7 @@ contains
       !> Number of threads that join them, 0: all that OpenMP gives; one if absent
       integer, intent(in), optional :: threads
 
+      character(len=:), allocatable :: earthquake
       real(wp) :: lowest, highest
       integer :: team, i
 
@@ -83,12 +87,15 @@ contains
       call new_record_set(suite%set, suite%records, threads)
       call find_order([(real(suite%set%strong_blocks(i), wp), i=1, size(suite%records))], suite%by_duration)
       associate (records => size(suite%records))
-         allocate (suite%peaks(records), suite%moves(records), suite%clusters(records), suite%velocities(records))
+         allocate (suite%peaks(records), suite%moves(records), suite%clusters(records), suite%has_event(records), &
+            & suite%velocities(records))
       end associate
       do i = 1, size(suite%records)
          call find_extremes(suite%records(i)%acceleration, lowest, highest)
          suite%peaks(i) = max(-lowest, highest)
          suite%moves(i) = is_motion(lowest, highest)
+         call find_earthquake(suite%records(i)%metadata, earthquake)
+         suite%has_event(i) = len(earthquake) > 0
       end do
       suite%falls = suite%records%largest_fall()
       !$omp parallel do schedule(dynamic) num_threads(team_of(team, size(suite%records))) default(none) shared(suite)

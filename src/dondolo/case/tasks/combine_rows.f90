@@ -15,7 +15,7 @@ module dondolo_combine_rows
    use dondolo_study, only : runs_of, study_type
    use dondolo_typology, only : combine_population, typology_type
    use dondolo_unite_rows, only : unite_rows
-   use dondolo_warnings, only : fit_warning_type, warn_of_records, warn_of_union
+   use dondolo_warnings, only : fit_warning_type, warn_of_events, warn_of_records, warn_of_union
    implicit none
    private
 
@@ -59,6 +59,7 @@ contains
       if (allocated(case%uncertainty)) call find_sensitivity(case, results)
       call case%survey%oddities%warn(results%warnings)
       call warn_of_records(case%suite, case%solver%gravity, results%warnings)
+      call warn_of_events(case%suite, results%warnings)
       call case%survey%scales%warn(results%warnings)
       if (results%population%walls() == 1 .and. results%unions%count() > 0) then
          ! The number of one facade is its union.

@@ -22,7 +22,8 @@ module dondolo_run_case
    use dondolo_study, only : study_type
    use dondolo_tie_tallies, only : tally_ties
    use dondolo_wall, only : wall_type
-   use dondolo_warnings, only : scale_warning_type, warn_of_error, warn_of_errors, warn_of_fall, warn_of_fit, warn_of_records
+   use dondolo_warnings, only : scale_warning_type, warn_of_error, warn_of_errors, warn_of_events, &
+      & warn_of_fall, warn_of_fit, warn_of_records
    use dondolo_work, only : work_type
    implicit none
    private
@@ -163,6 +164,7 @@ contains
       if (allocated(error)) return
       results%work = stripes%work
       call warn_of_records(case%suite, case%solver%gravity, results%warnings)
+      call warn_of_events(case%suite, results%warnings)
       call scales%look(stripes, study, case%wall)
       call scales%warn(results%warnings)
       call warn_of_fit(case%wall, stripes, results%row%curve(size(study%thresholds)), results%warnings)

@@ -55,6 +55,10 @@ contains
          end if
       case ('record_without_motion')
          text = 'record '''//record//''' has a PGA of 0: it cannot be scaled and moves no wall'
+      case ('records_without_event')
+         text = 'the earthquake of '//to_text(warning%value('records_beyond'))//' of '//to_text(warning%value('records'))// &
+            & ' records is not known (the first is '''//record//'''): standard errors take them as independent, and are too '// &
+            & 'small if several are of one earthquake. The key, or the column of the catalogue, event names it'
       case ('record_pga', 'record_pgv_pga')
          if (warning%code == 'record_pga') call describe_pga(warning%value('pga_g'), warning%value('limit_g'), text)
          if (warning%code == 'record_pgv_pga') call describe_pace(warning%value('ratio_s'), warning%value('limit_s'), text)

@@ -16,8 +16,8 @@ module dondolo_warnings
    implicit none
    private
 
-   public :: scale_warning_type, fit_warning_type, warn_of_fall, warn_of_records, warn_of_fit, warn_of_error, warn_of_errors
-   public :: warn_of_union
+   public :: scale_warning_type, fit_warning_type, warn_of_events, warn_of_fall, warn_of_records, warn_of_fit, warn_of_error, &
+      & warn_of_errors, warn_of_union
 
    !> A record scaled by more than this hardly is the earthquake it was
    real(wp), parameter :: large_scale = 10.0_wp
@@ -295,6 +295,22 @@ contains
          call warnings%add(strange(k))
       end do
    end subroutine warn_of_records
+
+   !> Warn of records whose earthquake is not known, which standard errors therefore take as independent
+   subroutine warn_of_events(suite, warnings)
+      type(suite_type), intent(in) :: suite
+      !> Warnings to add to
+      type(warnings_type), intent(inout) :: warnings
+
+      type(warning_type) :: warning
+
+      if (all(suite%has_event) .or. maxval(suite%clusters) == 1) return
+      warning%code = 'records_without_event'
+      call warning%about('record', suite%records(findloc(suite%has_event, .false., dim=1))%name)
+      call warning%with('records_beyond', count(.not. suite%has_event))
+      call warning%with('records', size(suite%records))
+      call warnings%add(warning)
+   end subroutine warn_of_events
 
    !> Warn of the curve of one wall, or of counts
    subroutine warn_of_fit(wall, stripes, fragility, warnings)

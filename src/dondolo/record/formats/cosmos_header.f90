@@ -1,7 +1,8 @@
 !> Headers of a COSMOS file: where their parts are, and what they say of the record.
 module dondolo_cosmos_header
+   use dondolo_dates, only : find_moment
    use dondolo_error, only : error_type
-   use dondolo_header_text, only : after, before, find_moment, leading_number, parse_format, squeezed, table_type
+   use dondolo_header_text, only : after, before, leading_number, parse_format, squeezed, table_type
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_integer, parse_real
    use dondolo_record_format, only : channel_type, raise_at
@@ -171,8 +172,11 @@ contains
          comments = comments//' '//after(text%line(i), '|')
       end do
       associate (metadata => channel%metadata, reals => self%reals, integers => self%integers)
-         call metadata%set('event', event_of(text%line(at(2))))
-         call find_moment(after(text%line(at(4)), 'origin:'), moment)
+         ! Where a name has no day of the week before the date, it has blanks
+         call metadata%set('event', before(adjustl(text%line(at(2))), '  '))
+         call find_moment(after(text%line(at(4)), 'origin:'), 'mdy', moment)
+         call metadata%set('event time', moment)
+         if (len(moment) == 0) call find_start(moment)
          call metadata%set('date', moment)
          line = text%line(at(5))
          code = first_word(after(line, 'code:'), ' ')
@@ -222,6 +226,21 @@ contains
          if (at > self%last_text) at = 0
       end function at
 
+      !> Find the day on which the record begins: by the table of integers, or else in words
+      subroutine find_start(moment)
+         !> The day; empty if it is not stated
+         character(len=:), allocatable, intent(out) :: moment
+
+         integer, parameter :: year = 40, month = 42, day = 43
+
+         associate (integers => self%integers)
+            call find_moment(integers%field(text, year)//'/'//integers%field(text, month)//'/'//integers%field(text, day), &
+               & 'mdy', moment)
+         end associate
+         if (len(moment) == 0) call find_moment(after(text%line(at(8)), 'time:'), 'mdy', moment)
+         moment = moment(:min(10, len(moment)))
+      end subroutine find_start
+
       !> Keep station, channel, network and location as a comment writes them: BMR.BNZ.AK.--
       subroutine keep_code(code)
          !> The comment
@@ -238,23 +257,5 @@ contains
       end subroutine keep_code
 
    end subroutine keep
-
-   !> Name of the earthquake out of the second line
-   pure function event_of(line) result(event)
-      !> The line: the name, then perhaps a date
-      character(len=*), intent(in) :: line
-      !> The name, filled up with blanks
-      character(len=len(line)) :: event
-
-      character(len=*), parameter :: days(7) = ['sun', 'mon', 'tue', 'wed', 'thu', 'fri', 'sat']
-      integer :: i
-
-      ! The date stands after blanks, or after the day of the week
-      event = before(adjustl(line), '  ')
-      if (index(lower(event), 'record of ') == 1) event = after(event, 'record of ')
-      do i = 1, size(days)
-         event = before(event, ' of '//days(i)//' ')
-      end do
-   end function event_of
 
 end module dondolo_cosmos_header

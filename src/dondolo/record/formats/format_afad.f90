@@ -2,7 +2,7 @@
 !> one column for each of them. The values are in gal, the unit of the peaks in the header. Raw values contain the offset of the
 !> instrument.
 module dondolo_format_afad
-   use dondolo_dates, only : iso_date
+   use dondolo_dates, only : find_moment
    use dondolo_error, only : error_type
    use dondolo_header_text, only : after, before, leading_number
    use dondolo_kinds, only : wp
@@ -210,14 +210,15 @@ contains
       !> What it says
       type(metadata_type), intent(inout) :: metadata
 
-      character(len=:), allocatable :: date, day, place
+      character(len=:), allocatable :: date, place
 
-      date = labels%value_of('EARTHQUAKE DATE')
-      day = first_word(date, blanks)
-      place = first_word(after(date, day), blanks)
-      date = trim(iso_date(day, 'dmy'))
-      if (len(date) > 0 .and. len(place) > 0) date = date//'T'//place//'Z'
+      call find_moment(labels%value_of('EARTHQUAKE DATE'), 'dmy', date)
+      if (index(date, 'T') > 0) date = date//'Z'
       call metadata%set('date', date)
+      call metadata%set('event time', date)
+      place = labels%value_of('EPICENTER COORDINATES')
+      call metadata%set('event latitude', signed(place, 'N', 'S'))
+      if (index(place, '-') > 0) call metadata%set('event longitude', signed(place(index(place, '-') + 1:), 'E', 'W'))
       call metadata%set('station', labels%value_of('STATION ID'))
       call metadata%set('magnitude', leading_number(labels%value_of('EARTHQUAKE MAGNITUDE')))
       place = labels%value_of('STATION COORDINATES')

@@ -1,7 +1,7 @@
 !> Standard accelerograms of Mexico (ASA 2.0): lines `KEY : value` in Spanish, then one row a sample, one column of 10
 !> characters a channel.
 module dondolo_format_asa
-   use dondolo_dates, only : iso_date
+   use dondolo_dates, only : find_moment
    use dondolo_error, only : error_type
    use dondolo_header_text, only : after
    use dondolo_kinds, only : wp
@@ -195,13 +195,12 @@ contains
       !> What it says
       type(metadata_type), intent(inout) :: metadata
 
-      character(len=:), allocatable :: date, time, key
+      character(len=:), allocatable :: date, key
       integer :: i
 
-      date = trim(iso_date(labels%value_of('FECHA DEL SISMO [GMT]'), 'dmy'))
-      time = labels%value_of('HORA EPICENTRO (GMT)')
-      if (len(date) > 0 .and. len(time) > 0) date = date//'T'//time//'Z'
+      call find_moment(labels%value_of('FECHA DEL SISMO [GMT]')//' '//labels%value_of('HORA EPICENTRO (GMT)')//'Z', 'dmy', date)
       call metadata%set('date', date)
+      call metadata%set('event time', date)
       call metadata%set('station', labels%value_of('CLAVE DE LA ESTACION'))
       ! /Mb=5.30/Ms=4.80: the first
       call metadata%set('magnitude', first_word(after(labels%value_of('MAGNITUD(ES)'), '='), '/ '))
@@ -211,6 +210,9 @@ contains
             if (label%key == 'COORDENADAS DE LA ESTACION' .and. i < size(labels%labels)) then
                call metadata%set('latitude', coordinate(label%value))
                call metadata%set('longitude', coordinate(labels%labels(i + 1)%value))
+            else if (label%key == 'COORDENADAS DEL EPICENTRO' .and. i < size(labels%labels)) then
+               call metadata%set('event latitude', coordinate(label%value))
+               call metadata%set('event longitude', coordinate(labels%labels(i + 1)%value))
             end if
             if (len(label%key) == 0) then
                call metadata%set(key, metadata%get(key)//' '//label%value)

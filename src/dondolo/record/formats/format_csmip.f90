@@ -5,8 +5,9 @@
 !> Source: Shakal and Huang (1985), Standard tape format for CSMIP strong-motion data tapes, report OSMS 85-03. Later
 !> files state the Fortran format as well: `in cm/sec2. (8f10.6)`.
 module dondolo_format_csmip
+   use dondolo_dates, only : find_moment
    use dondolo_error, only : error_type
-   use dondolo_header_text, only : after, before, find_moment, leading_number, parse_format, squeezed
+   use dondolo_header_text, only : after, before, leading_number, parse_format, squeezed
    use dondolo_kinds, only : wp
    use dondolo_metadata, only : metadata_type
    use dondolo_numbers, only : parse_integer, parse_real
@@ -198,9 +199,11 @@ contains
       end if
       associate (metadata => channel%metadata)
          line = squeezed(text%line(first + 2))
-         if (len(line) == 0) line = squeezed(text%line(first + 8))
+         if (len(line) == 0) line = before(text%line(first + 8), '  ')
          call metadata%set('event', line)
          call find_origin(text%line(first + 3), line)
+         call metadata%set('event time', line)
+         if (len(line) == 0) line = squeezed(before(text%line(first + 3), '(origin'))
          call metadata%set('date', line)
          call find_rest('station no.')
          call read_station(rest, metadata)
@@ -208,6 +211,7 @@ contains
          call metadata%set('component', channel%name)
          call metadata%set('location', after(text%line(first + 7), 'location:'))
          call find_rest('hypocenter')
+         call read_place(after(rest, ':'), 'event ', metadata)
          call read_magnitude(rest, metadata)
          call find_rest('filtered')
          call metadata%set('processing', 'corrected; filtered '//rest)
@@ -252,20 +256,20 @@ contains
    pure subroutine find_origin(line, origin)
       !> The line: local time, then the origin time, whose year has two digits
       character(len=*), intent(in) :: line
-      !> The origin time, or else the local time as the line has it
+      !> The origin time; empty if the line does not state it
       character(len=:), allocatable, intent(out) :: origin
 
       character(len=:), allocatable :: date, year
       integer :: at
 
-      origin = squeezed(before(line, '(origin'))
+      origin = ''
       date = after(after(line, '(origin'), ':')
       at = index(date, '/', back=.true.)
       if (at == 0 .or. at + 2 > len(date)) return
       ! The local time has the whole year
-      year = first_word(after(origin, ','), ' ')
+      year = first_word(after(before(line, '(origin'), ','), ' ')
       if (len(year) /= 4 .or. year(max(len(year) - 1, 1):) /= date(at + 1:at + 2)) return
-      call find_moment(date(:at)//year//date(at + 3:), origin)
+      call find_moment(date(:at)//year//date(at + 3:), 'mdy', origin)
    end subroutine find_origin
 
    !> Number and coordinates of a station: 36456   35.908N, 120.458W     SMA-1  S/N 4384
@@ -275,22 +279,36 @@ contains
       !> Where to keep them
       type(metadata_type), intent(inout) :: metadata
 
-      character(len=:), allocatable :: number, rest
-      integer :: i
+      character(len=:), allocatable :: number
 
       if (len(line) == 0) return
       number = before(line, ' ')
       call metadata%set('station', number)
-      rest = after(line, number)
+      call read_place(after(line, number), '', metadata)
+   end subroutine read_station
+
+   !> Coordinates of a place: 35.908N, 120.458W
+   subroutine read_place(line, whose, metadata)
+      !> They and what follows
+      character(len=*), intent(in) :: line
+      !> What stands before their keys
+      character(len=*), intent(in) :: whose
+      !> Where to keep them
+      type(metadata_type), intent(inout) :: metadata
+
+      character(len=:), allocatable :: number, rest
+      integer :: i
+
+      rest = line
       do i = 1, 2
          number = leading_number(rest)
          if (len(number) == 0) return
          rest = after(rest, number)
          if (index('sw', lower(rest(1:min(1, len(rest))))) > 0 .and. len(rest) > 0) number = '-'//number
-         call metadata%set(trim(merge('latitude ', 'longitude', i == 1)), number)
+         call metadata%set(whose//trim(merge('latitude ', 'longitude', i == 1)), number)
          rest = after(rest, ',')
       end do
-   end subroutine read_station
+   end subroutine read_place
 
    !> Magnitude, the moment magnitude first
    subroutine read_magnitude(line, metadata)

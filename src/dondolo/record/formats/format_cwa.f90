@@ -1,7 +1,7 @@
 !> Files of the Central Weather Administration of Taiwan: header lines `#key: value`, then times and components in
 !> columns of 10 characters. Times are those of Taiwan.
 module dondolo_format_cwa
-   use dondolo_dates, only : iso_date
+   use dondolo_dates, only : find_moment
    use dondolo_equal_steps, only : check_equal_steps
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
@@ -184,12 +184,18 @@ contains
       !> What it says
       type(metadata_type), intent(inout) :: metadata
 
-      character(len=:), allocatable :: date
-      integer :: i
+      character(len=:), allocatable :: date, moment
+      integer :: at, i
 
       date = labels%value_of('#Origin Time(GMT+08)')
-      if (len(date) > 11) date = trim(iso_date(date(:10), 'dmy'))//'T'//date(12:)//'+08:00'
-      call metadata%set('date', date)
+      ! 2018/02/06-23:50:42
+      at = index(date, '-', back=.true.)
+      if (at == 11) date(at:at) = ' '
+      call find_moment(date//'+08:00', 'dmy', moment)
+      call metadata%set('date', moment)
+      call metadata%set('event time', moment)
+      call metadata%set('event latitude', labels%value_of('#EpicenterLatitude(N)'))
+      call metadata%set('event longitude', labels%value_of('#EpicenterLongitude(E)'))
       call metadata%set('station', labels%value_of('#StationCode'))
       call metadata%set('magnitude', labels%value_of('#Magnitude(Ml)'))
       call metadata%set('latitude', labels%value_of('#StationLatitude(N)'))

@@ -2,8 +2,9 @@
 !>
 !> Values of keys may be empty. Dates may be 19971014, 1997/10/14 or 14/10/1997.
 module dondolo_format_dyna
-   use dondolo_dates, only : iso_date, iso_time
+   use dondolo_dates, only : find_moment
    use dondolo_error, only : error_type
+   use dondolo_event_name, only : clean_event
    use dondolo_labels, only : labels_type, read_labels
    use dondolo_metadata, only : metadata_type
    use dondolo_plain, only : shown
@@ -86,14 +87,15 @@ contains
       !> What it says
       type(metadata_type), intent(inout) :: metadata
 
-      character(len=:), allocatable :: event, date, time
+      character(len=:), allocatable :: event, date
 
       call name_event(labels%value_of('EVENT_NAME'), labels%value_of('EVENT_ID'), event)
       call metadata%set('event', event)
-      date = trim(iso_date(labels%value_of('EVENT_DATE_YYYYMMDD'), 'dmy'))
-      time = trim(iso_time(labels%value_of('EVENT_TIME_HHMMSS')))
-      if (len(date) > 0 .and. len(time) > 0) date = date//'T'//time
+      call find_moment(labels%value_of('EVENT_DATE_YYYYMMDD')//' '//labels%value_of('EVENT_TIME_HHMMSS'), 'dmy', date)
       call metadata%set('date', date)
+      call metadata%set('event time', date)
+      call metadata%set('event latitude', labels%value_of('EVENT_LATITUDE_DEGREE'))
+      call metadata%set('event longitude', labels%value_of('EVENT_LONGITUDE_DEGREE'))
       call metadata%set('network', labels%value_of('NETWORK'))
       call metadata%set('station', one_of(labels%value_of('STATION_CODE'), labels%value_of('STATION_NAME')))
       call metadata%set('component', component)
@@ -106,7 +108,7 @@ contains
       call labels%add_to(metadata)
    end subroutine add_metadata
 
-   !> Earthquake: its name and identifier, since names are often those of regions, in which there are many; NONAME is none
+   !> Earthquake: its name and identifier, since names are often those of regions, in which there are many
    pure subroutine name_event(name, identifier, event)
       !> Name
       character(len=*), intent(in) :: name
@@ -115,11 +117,12 @@ contains
       !> Earthquake; empty if neither is known
       character(len=:), allocatable, intent(out) :: event
 
-      event = trim(name)
-      if (event == 'NONAME') event = ''
-      if (len_trim(identifier) == 0) return
-      if (len(event) > 0) event = event//' '
-      event = event//trim(identifier)
+      character(len=:), allocatable :: code
+
+      call clean_event(name, event)
+      call clean_event(identifier, code)
+      if (len(event) > 0 .and. len(code) > 0) event = event//' '
+      event = event//code
    end subroutine name_event
 
    !> A text, or another where it is empty

@@ -4,6 +4,7 @@
 !> Source of all positions: GeoNet, Strong Motion File Formats
 !> (geonet.org.nz/data/supplementary/strong_motion_file_formats).
 module dondolo_format_geonet
+   use dondolo_dates, only : find_moment
    use dondolo_error, only : error_type
    use dondolo_header_text, only : after, before, leading_number, squeezed, table_type
    use dondolo_kinds, only : wp
@@ -190,6 +191,10 @@ contains
          call metadata%set('epicentre', squeezed(text%line(first + 8)))
          call find_origin(moment)
          call metadata%set('date', moment)
+         call metadata%set('event time', moment)
+         line = after(text%line(first + 8), 'epicentre')
+         call metadata%set('event latitude', coordinate(line, 1, nonzero(reals%field(text, 13))))
+         call metadata%set('event longitude', coordinate(line, 2, nonzero(reals%field(text, 14))))
          call metadata%set('time', squeezed(text%line(first + 7)))
          line = after(text%line(first + 1), 'site')
          station = first_word(line, ' ')
@@ -198,8 +203,8 @@ contains
          call metadata%set('site', squeezed(line))
          call metadata%set('component', channel%name)
          call metadata%set('magnitude', nonzero(reals%field(text, 15)))
-         call metadata%set('latitude', coordinate(1, reals%field(text, 11)))
-         call metadata%set('longitude', coordinate(2, reals%field(text, 12)))
+         call metadata%set('latitude', coordinate(after(line, station), 1, reals%field(text, 11)))
+         call metadata%set('longitude', coordinate(after(line, station), 2, reals%field(text, 12)))
          call metadata%set('processing', 'corrected; '//squeezed(text%line(first + 11)))
          call metadata%set('processed', squeezed(after(text%line(first + 5), 'processed')))
          call metadata%set('accelerogram', first_word(after(text%line(first), 'accelerogram'), ' '))
@@ -214,8 +219,10 @@ contains
 
    contains
 
-      !> A coordinate of the site, with the sign that its letter in the second line gives it
-      function coordinate(which, printed) result(signed)
+      !> A coordinate, with the sign that its letter gives it
+      function coordinate(place, which, printed) result(signed)
+         !> Latitude and longitude in words: 39 56 38S  176 35 04E
+         character(len=*), intent(in) :: place
          !> 1 latitude, 2 longitude
          integer, intent(in) :: which
          !> The coordinate in degrees; south and west may stand without sign
@@ -228,7 +235,7 @@ contains
 
          signed = ''
          word = ''
-         rest = after(text%line(first + 1), station)
+         rest = place
          ! Degrees, minutes, seconds and the letter, twice
          do i = 1, 3*which
             word = first_word(rest, ' ')
@@ -246,14 +253,15 @@ contains
 
       !> Find the time of the earthquake
       subroutine find_origin(moment)
-         !> Date and time as ISO 8601 has them, or the words of the header where the table of integers has none
+         !> Date and time as ISO 8601 has them: those of the table of integers, or else those in words
          character(len=:), allocatable, intent(out) :: moment
 
          integer :: number(6), i
          logical :: ok
          character(len=24) :: buffer
+         character(len=:), allocatable :: stated
 
-         moment = squeezed(text%line(first + 7))
+         call find_moment(text%line(first + 7), 'dmy', moment)
          ! Year, month, day, hour, minute, tenths of a second
          do i = 1, 6
             call integers%integer_of(text, i, number(i), ok)
@@ -262,7 +270,8 @@ contains
          if (any(number < 0) .or. any(number > 9999) .or. any(number(2:5) > 60)) return
          write (buffer, '(i4.4, a, i2.2, a, i2.2, a, i2.2, a, i2.2, a, i2.2, a, i1)') number(1), '-', number(2), '-', &
             & number(3), 'T', number(4), ':', number(5), ':', min(number(6)/10, 99), '.', modulo(number(6), 10)
-         if (number(1) > 0) moment = trim(buffer)
+         call find_moment(buffer, 'dmy', stated)
+         if (len(stated) > 0) moment = stated
       end subroutine find_origin
 
    end subroutine read_header

@@ -4,7 +4,7 @@
 !> The counts hold the offset of the instrument, so their mean is removed, which the metadata say. Times are those of
 !> Japan. (National Research Institute for Earth Science and Disaster Resilience, format of the ASCII files.)
 module dondolo_format_knet
-   use dondolo_dates, only : iso_date
+   use dondolo_dates, only : find_moment
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_labels, only : labels_type, read_labels
@@ -121,9 +121,11 @@ contains
 
       character(len=:), allocatable :: date
 
-      date = labels%value_of('Origin Time')
-      if (len(date) > 11) date = trim(iso_date(date(:10), 'dmy'))//'T'//date(12:)//'+09:00'
+      call find_moment(labels%value_of('Origin Time')//'+09:00', 'dmy', date)
       call metadata%set('date', date)
+      call metadata%set('event time', date)
+      call metadata%set('event latitude', labels%value_of('Lat.'))
+      call metadata%set('event longitude', labels%value_of('Long.'))
       call metadata%set('station', labels%value_of('Station Code'))
       call metadata%set('component', component)
       call metadata%set('magnitude', labels%value_of('Mag.'))

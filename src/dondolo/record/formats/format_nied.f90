@@ -3,10 +3,10 @@
 module dondolo_format_nied
    use dondolo_column_cells, only : find_cells, most_cells, unquoted
    use dondolo_column_titles, only : find_units, is_other_quantity
-   use dondolo_dates, only : iso_date
+   use dondolo_dates, only : find_moment
    use dondolo_equal_steps, only : check_equal_steps
    use dondolo_error, only : error_type
-   use dondolo_header_text, only : after, leading_number
+   use dondolo_header_text, only : leading_number
    use dondolo_kinds, only : wp
    use dondolo_last_number, only : find_cut
    use dondolo_metadata, only : metadata_type
@@ -174,7 +174,7 @@ contains
       content = unquoted(text)
       at = scan(content, ' T'//achar(9))
       if (at < 2) return
-      date = iso_date(content(:at - 1), 'dmy')
+      call find_moment(content(:at - 1), 'dmy', date)
       clock = stripped(content(at + 1:))
       if (len(clock) < 8 .or. len_trim(date) /= 10 .or. index(date, '-') /= 5) return
       call parse_integer(date(1:4), year, ok)
@@ -206,15 +206,14 @@ contains
       !> What it says
       type(metadata_type), intent(inout) :: metadata
 
-      character(len=:), allocatable :: date, clock
+      character(len=:), allocatable :: date
       integer :: i
 
-      date = header%get('Origin Time')
-      clock = after(date, ' ')
-      if (len(clock) > 0) then
-         date = trim(iso_date(date(:index(date, ' ') - 1), 'dmy'))//'T'//clock//'+09:00'
-         call metadata%set('date', date)
-      end if
+      call find_moment(header%get('Origin Time')//'+09:00', 'dmy', date)
+      call metadata%set('date', date)
+      call metadata%set('event time', date)
+      call metadata%set('event latitude', header%get('Lat.'))
+      call metadata%set('event longitude', header%get('Long.'))
       call metadata%set('station', header%get('Station Code'))
       call metadata%set('magnitude', header%get('Mag.'))
       call metadata%set('latitude', header%get('Station Lat.'))

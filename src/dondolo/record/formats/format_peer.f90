@@ -4,14 +4,14 @@
 !> older files event and date stand together. The fourth line reads `NPTS=   7999, DT=   .0050 SEC,` or, in older
 !> files, `7999    .0050    NPTS, DT`.
 module dondolo_format_peer
-   use dondolo_dates, only : iso_date
+   use dondolo_dates, only : find_moment, take_moment
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_metadata, only : metadata_type
    use dondolo_numbers, only : parse_integer, parse_real
    use dondolo_plain, only : shown
    use dondolo_record_format, only : raise_at, read_block, samples_type
-   use dondolo_text, only : first_word, lower
+   use dondolo_text, only : first_word, lower, occurrences
    use dondolo_text_file, only : text_file_type
    implicit none
    private
@@ -80,37 +80,30 @@ contains
       !> What it says
       type(metadata_type), intent(inout) :: metadata
 
-      character(len=:), allocatable :: rest, word, date, time
-      integer :: at, comma, last
+      character(len=:), allocatable :: rest, date, time
+      integer :: first, next, comma, last
 
       call metadata%set('description', line)
-      ! The date is the first word with two strokes; a year of two digits is one of the 1900s
-      rest = line
-      at = 1
-      do
-         word = first_word(rest, ' ,')
-         if (len(word) == 0) return
-         at = at + index(rest, word) - 1
-         date = word
-         if (len(date) > 3) then
-            if (date(len(date) - 2:len(date) - 2) == '/') date = date(:len(date) - 2)//'19'//date(len(date) - 1:)
-         end if
-         date = trim(iso_date(date, 'mdy'))
-         if (index(word, '/') > 0 .and. index(date, '/') == 0) exit
-         rest = rest(index(rest, word) + len(word):)
-         at = at + len(word)
-      end do
-      rest = trim(line(:at - 1))
+      call find_date(line, first, next, date)
+      if (first == 0) then
+         ! Four parts are event, date, station and component, whatever stands for the date
+         first = index(line, ',') + 1
+         next = first - 1 + index(line(first:), ',')
+         if (occurrences(line, ',') < 3) return
+         date = line(first:next - 1)
+      end if
+      rest = trim(line(:first - 1))
       if (len(rest) > 0) then
          if (rest(len(rest):) == ',') rest = rest(:len(rest) - 1)
       end if
       call metadata%set('event', rest)
-      rest = line(at + len(word):)
+      rest = line(next:)
       comma = index(rest, ',')
       if (comma == 0) comma = len(rest) + 1
       time = trim(adjustl(rest(:comma - 1)))
-      if (len(time) == 4 .and. verify(time, '0123456789') == 0) date = date//'T'//time(:2)//':'//time(3:)
-      if (len(time) == 5 .and. index(time, ':') == 3 .and. verify(time, '0123456789:') == 0) date = date//'T'//time
+      if (index(date, '-') == 5 .and. len(date) == 10) then
+         call find_moment(date//' '//time, 'mdy', date)
+      end if
       call metadata%set('date', date)
       last = index(rest, ',', back=.true.)
       if (last <= comma) return
@@ -118,6 +111,44 @@ contains
       ! After the component older files name the station again, in brackets
       call metadata%set('component', first_word(rest(last + 1:), ' ('))
    end subroutine add_metadata
+
+   !> Find the date: the first word with two strokes, or else a date in words. A year of two digits is one of the 1900s
+   subroutine find_date(line, first, next, date)
+      !> The line
+      character(len=*), intent(in) :: line
+      !> Where it begins, 0 if there is none, and where what follows begins
+      integer, intent(out) :: first, next
+      !> The date as ISO 8601 has it, or the word where it is none of the calendar
+      character(len=:), allocatable, intent(out) :: date
+
+      character(len=*), parameter :: digits = '0123456789'
+      character(len=:), allocatable :: word
+      integer :: i
+
+      do i = 1, len(line)
+         if (scan(line(i:i), ' ,') > 0) cycle
+         if (i > 1) then
+            if (scan(line(i - 1:i - 1), ' ,') == 0) cycle
+         end if
+         first = i
+         next = i
+         call take_moment(line, 'mdy', next, date)
+         if (len(date) > 0) return
+         word = first_word(line(i:), ' ,')
+         if (occurrences(word, '/') /= 2 .or. scan(word(1:1), digits) == 0) cycle
+         next = i + len(word)
+         date = word
+         if (len(word) > 3) then
+            if (word(len(word) - 2:len(word) - 2) == '/') call find_moment(word(:len(word) - 2)//'19'//word(len(word) - 1:), &
+               & 'mdy', date)
+         end if
+         if (len(date) == 0) date = word
+         return
+      end do
+      first = 0
+      next = 1
+      date = ''
+   end subroutine find_date
 
    !> A text without the punctuation before it
    pure function first_sentence(text) result(sentence)

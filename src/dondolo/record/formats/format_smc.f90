@@ -4,12 +4,13 @@
 !> Source of all positions: USGS National Strong-Motion Program, SMC- and BBF-format Data Files (smcfmt.txt).
 !> Accelerations are in cm/s2 by definition of the format; the file itself does not name its units.
 module dondolo_format_smc
+   use dondolo_dates, only : take_moment
    use dondolo_error, only : error_type
-   use dondolo_header_text, only : after, before, check_not_missing, find_moment, squeezed, table_type
+   use dondolo_header_text, only : after, before, check_not_missing, squeezed, table_type
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_real
    use dondolo_record_format, only : after_block_type, channel_type, raise_at, read_fixed, samples_type
-   use dondolo_text, only : first_word, lower, to_text
+   use dondolo_text, only : lower, to_text
    use dondolo_text_file, only : text_file_type
    implicit none
    private
@@ -160,9 +161,12 @@ contains
       associate (metadata => samples%metadata)
          ! Year, month, day, time, and the name of the earthquake
          line = squeezed(text%line(4))
-         at = verify(line//'x', ' 0123456789:.')
-         call metadata%set('event', line(at:))
-         call find_date(line(:at - 1), date)
+         at = 1
+         call take_moment(line, 'mdy', at, date)
+         call metadata%set('event time', date)
+         i = at - 1 + verify(line(at:)//'x', ' 0123456789:.')
+         call metadata%set('event', line(i:))
+         if (len(date) == 0) date = line(:i - 1)
          call metadata%set('date', date)
          call metadata%set('station', stated(text%line(3)))
          call metadata%set('station name', squeezed(before(after(text%line(6), 'station ='), 'component')))
@@ -211,29 +215,6 @@ contains
       call parse_real(printed, value, ok)
       if (ok) plain = to_text(value)
    end function plain
-
-   !> Find date and time: 1989 10 18 0004
-   pure subroutine find_date(line, date)
-      !> Year, month, day, and perhaps hour and minute
-      character(len=*), intent(in) :: line
-      !> The same as ISO 8601 has it, or the line where it is no date
-      character(len=:), allocatable, intent(out) :: date
-
-      character(len=:), allocatable :: rest, day, slashed
-      integer :: i
-
-      date = squeezed(line)
-      rest = line
-      slashed = ''
-      do i = 1, 3
-         slashed = slashed//'/'//first_word(rest, ' ')
-         rest = after(rest, first_word(rest, ' '))
-      end do
-      call find_moment(slashed(2:), day)
-      if (index(day, '-') == 0) return
-      date = day
-      if (len(rest) == 4 .and. verify(rest, '0123456789') == 0) date = day//'T'//rest(:2)//':'//rest(3:)
-   end subroutine find_date
 
    !> A line of the header, where * says nothing
    pure function stated(line)

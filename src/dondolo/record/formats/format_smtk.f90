@@ -1,7 +1,7 @@
 !> Files of the strong-motion toolkit of the Global Earthquake Model (.cor.acc): lines `key : value`, a line that names
 !> quantity and units, then five values a line in columns of 14 characters that may touch.
 module dondolo_format_smtk
-   use dondolo_dates, only : iso_date
+   use dondolo_dates, only : find_moment
    use dondolo_error, only : error_type
    use dondolo_labels, only : labels_type, read_labels
    use dondolo_plain, only : shown
@@ -70,9 +70,9 @@ contains
                & labels%value_of('Number of Data')//' that the header states')
             return
          end if
-         date = labels%value_of('Event Date & Time')
-         if (len(date) > 11) date = trim(iso_date(date(:10), 'dmy'))//'T'//date(12:)
+         call find_moment(labels%value_of('Event Date & Time'), 'dmy', date)
          call metadata%set('date', date)
+         call metadata%set('event time', date)
          station = labels%value_of('Station Code / Name')
          if (index(station, ' / ') > 0) station = station(:index(station, ' / ') - 1)
          call metadata%set('station', station)

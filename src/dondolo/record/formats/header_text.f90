@@ -1,17 +1,16 @@
 !> Words and numbers out of the header lines of archives: what stands after a label, before a mark, in a format,
 !> in a table of numbers.
 module dondolo_header_text
-   use dondolo_dates, only : iso_date
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_numbers, only : parse_integer, parse_real
    use dondolo_record_format, only : raise_at
-   use dondolo_text, only : blanks, first_word, lower, to_text
+   use dondolo_text, only : blanks, lower, to_text
    use dondolo_text_file, only : text_file_type
    implicit none
    private
 
-   public :: after, before, squeezed, find_moment, leading_number, parse_format, table_type, is_mark, check_not_missing
+   public :: after, before, squeezed, leading_number, parse_format, table_type, is_mark, check_not_missing
 
    !> Digits
    character(len=*), parameter :: digits = '0123456789'
@@ -130,25 +129,6 @@ contains
 
       squeezed = with_single_blanks(text)
    end function squeezed
-
-   !> Date and time that a text begins with: 2005-06-16T20:53:26.1 of '06/16/2005, 20:53:26.1 UTC'
-   pure subroutine find_moment(text, moment)
-      !> Text: a date, with the month first where the year is last, and perhaps a time
-      character(len=*), intent(in) :: text
-      !> The two as ISO 8601 has them, or the text where it begins with no date
-      character(len=:), allocatable, intent(out) :: moment
-
-      character(len=*), parameter :: separators = ' ,'//achar(9)
-      character(len=:), allocatable :: date, time
-
-      moment = first_word(text, separators)
-      time = first_word(after(text, moment), separators)
-      date = trim(iso_date(moment, 'mdy'))
-      moment = squeezed(text)
-      if (index(date, '-') /= 5 .or. index(date, '-', back=.true.) /= 8 .or. len(date) /= 10) return
-      moment = date
-      if (index(time, ':') > 0 .and. verify(time, digits//':.') == 0) moment = moment//'T'//time
-   end subroutine find_moment
 
    !> Length of the number that a text begins with
    pure integer function number_length(text) result(length)
