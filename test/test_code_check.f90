@@ -187,7 +187,7 @@ contains
       type(error_type), allocatable :: error
 
       call suite('wrong input')
-      call refuse([2.0_wp], 'B', 1.35_wp, 'ag = 2: must lie between 0.001 and 1 g')
+      call refuse([2.0_wp], 'B', 1.35_wp, 'ag = 2: must lie between 0.001 and 1 g: is it in m/s2?')
       call refuse([0.1_wp, 0.2_wp], 'B', 1.35_wp, 'ag: has 2 values, must have one, or three: SLD, SLV, SLC')
       call refuse([0.3_wp, 0.2_wp, 0.4_wp], 'B', 1.35_wp, 'ag: must not decrease from SLD to SLC')
       call refuse([0.2_wp], 'F', 1.35_wp, 'soil = ''f'': must be one of ''A'', ''B'', ''C'', ''D'', ''E''')

@@ -3,6 +3,7 @@
 !> Arguments: number of random walls, and number of the first
 program test_grouping
    use checks, only : check, check_ok, finish, suite
+   use dondolo_dead_channel, only : check_motion
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_lane_variants, only : build_variant
@@ -76,7 +77,12 @@ contains
       wall = random_wall(random)
       trigger = min(wall%mechanism%trigger_acceleration(), 500.0_wp)
       do j = 1, size(records)
-         records(j) = random_record(random, trigger, 1 + choice(random, 300))
+         ! Stripes refuse records that do not move, which chance makes too
+         do
+            records(j) = random_record(random, trigger, 1 + choice(random, 300))
+            call check_motion(records(j), error)
+            if (.not. allocated(error)) exit
+         end do
       end do
       solver = random_solver(random, wall)
       levels(1) = trigger/wall%gravity*across(random, 0.5_wp, 2.0_wp)

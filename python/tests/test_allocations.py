@@ -9,7 +9,7 @@ ASKED = {
     "src/dondolo/base/system/text_file.f90": r"src/dondolo/(base/(system/text_file|text/)|case/namelist/"
     r"|record/(formats/|metadata|record_(format|reader|table))|case/tasks/population_case)",
     "src/dondolo/record/catalogue.f90": r"src/dondolo/record/catalogue",
-    "src/dondolo/case/input/read_case.f90": r"src/dondolo/record/(suite|record_set)",
+    "src/dondolo/case/input/read_case.f90": r"src/dondolo/record/(suite|record_set|reading_notes)",
     "src/dondolo/building/floors.f90": r"src/dondolo/building/floor",
     "src/dondolo/fragility/study.f90": r"src/dondolo/fragility/study",
     "src/dondolo/fragility/stripes.f90": r"src/dondolo/(fragility/(stripes|stripe_counts)|motion/common/queue)",
@@ -33,6 +33,9 @@ ASKED = {
 SMALL = {
     "app/arguments": "a word of the command line",
     "app/(synthetic44|benchmark_walls)": "records and walls of a fixed number",
+    "app/union_lines": "levels of a union or two",
+    "src/dondolo/base/system/checksum": "a chunk of a file",
+    "src/dondolo/case/results/replaced": "the beginning of a file, whose length is limited",
     "src/dondolo/(base/properties/|case/input/survey|building/building)": "lists of properties",
     "src/dondolo/wall/(wall_(body|lists|ties)|tie_statics|interlocking)": "lists of properties",
     "src/dondolo/(case/(warnings/|groups/stripes_group|tasks/combine_rows)|fragility/ordinal)": "levels and states",

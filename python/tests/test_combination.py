@@ -275,7 +275,6 @@ def test_walls_without_a_fit():
     assert [str(warning) for warning in stepped.warnings] == [
         "1 of 2 mechanisms of walls has no fit and takes part with its fractions of collapse, but not in dispersions "
         "(separated; the first is 'a')",
-        "the population has no fit (mechanism one_sided, status separated)",
     ]
     step = np.where(LEVELS < 0.5, 0.0, 1.0)
     expected = 1.0 - (1.0 - 0.5 * step) * (1.0 - stepped.curves[1](LEVELS))

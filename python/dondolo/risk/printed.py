@@ -23,7 +23,7 @@ def levelled(values: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
     -------
     ndarray, shape (n,)
         The value before such a rise is raised to the one after it, which is on the safe side for frequencies; larger
-        rises stay.
+        rises stay, and so do those of values with one significant digit, whose last digit is a tenth of them or more.
     ndarray of bool, shape (n,)
         Which values were raised.
     """
@@ -31,7 +31,7 @@ def levelled(values: FloatArray) -> tuple[FloatArray, NDArray[np.bool_]]:
     found = values.copy()
     for i in range(len(values) - 2, -1, -1):
         unit = max(units[i], units[i + 1]) * (1.0 + 1e-6)
-        if found[i] < found[i + 1] <= values[i] + unit:
+        if found[i] < found[i + 1] <= values[i] + unit and unit <= 0.1 * abs(found[i + 1]):
             found[i] = found[i + 1]
     return found, found > values
 

@@ -10,6 +10,10 @@ module dondolo_even_levels
    !> Rounding of an equally spaced list, in units of the last place of its largest number
    real(wp), parameter :: rounding = 16.0_wp
 
+   !> Smallest step of an equally spaced list, in the same units: levels that differ by little more than rounding are as they
+   !> were given
+   real(wp), parameter :: smallest_step = 1.0e4_wp
+
 contains
 
    !> Equally spaced levels, both ends included, each the nearest number of 14 decimal digits: the third of 0.2, 0.4, ... is
@@ -44,6 +48,7 @@ contains
       limit = rounding*spacing(levels(number))
       ! Also excludes NaN and infinity
       if (.not. (levels(1) > 0.0_wp .and. levels(number) > levels(1) .and. levels(number) <= huge(limit))) return
+      if (levels(number) - levels(1) < smallest_step*spacing(levels(number))*real(number - 1, wp)) return
       ! Sums of steps, such as numpy.arange gives, miss their end
       ends = decimal(levels([1, number]))
       if (any(abs(ends - levels([1, number])) > limit)) ends = levels([1, number])
