@@ -10,7 +10,7 @@ printf '\n$ dondolo data/cases/%s.nml\n' "${cases[0]}"
 "$dondolo" "data/cases/${cases[0]}.nml" 2>&1
 for case in "${cases[@]:1}"; do
    printf '\n$ dondolo --quiet data/cases/%s.nml\n' "$case"
-   "$dondolo" --quiet "data/cases/$case.nml" 2>/dev/null
+   "$dondolo" --quiet "data/cases/$case.nml"
    "$python" docs/demo.py "out/$case"
 done
 
@@ -27,8 +27,8 @@ $(find out -name '*.png' -newer "out/${cases[0]}_run.json" | wc -l) figures are 
 
 Next:
   1. Open out/historic_centre_report.html in a browser: curves, tables, inputs and checks of 240 walls.
-  2. Copy data/cases/parapet.nml, put in your wall, and run it: $dondolo --check my_wall.nml, then without --check.
-     docs/tutorial/first_wall.md explains each line (in italiano: docs/tutorial/prima_parete.md).
+  2. Write $dondolo --example parapet into my_wall.nml, put in your wall, and run it: first with --check, then
+     without. docs/tutorial/first_wall.md explains each line (in italiano: docs/tutorial/prima_parete.md).
   3. Use your own accelerograms: $dondolo catalogue FOLDER lists what it can read of them, and docs/ground_motions.md
      tells which to choose. The ones here are synthetic, and serve for examples only.
 TEXT

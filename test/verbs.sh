@@ -2,29 +2,30 @@
 # Each verb of ./run in its smallest form: bash test/verbs.sh [VERB...]
 # Prints one line for each that has ended: what became of it, its minutes and those of processors, and for one that failed its
 # last line. Fails if any fails, or if the sources are not as they were. Two verbs run at once, but those that build by fpm,
-# which share its folder, run one after the other. What they print and write is in out/verbs and out/quick.
+# which share its folder, run one after the other. What they print and write is in out/verbs and out/quick. With DONDOLO_UNTIL,
+# a time in seconds since 1970, none is begun after it; this is said, and is no failure.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 
-# Verbs and their smallest forms, long ones first
+# Verbs and their smallest forms
 by_fpm=(
    'stress 100'
    'attack 5'
    'reference --quick'
-   'coverage decimals'
+   'coverage wall'
    'verification --quick'
    'synthetic44 out/quick/records'
 )
 others=(
    'oldest --quick'
    'wheel python3'
-   'benchmark --quick'
    'mutations --quick'
    'docs'
    'city --quick'
    'figures out/quick/figures'
    'intervals --quick'
    'build gpu'
+   'benchmark --quick'
 )
 wanted=("$@")
 logs=out/verbs
@@ -59,6 +60,7 @@ try() {
    is_wanted "$form" || return 0
    log=$logs/$(name_of "$form").log
    why=$(obstacle "$form")
+   [ "$(date +%s)" -lt "${DONDOLO_UNTIL:-9999999999}" ] || why='no time left'
    if [ -n "$why" ]; then
       # shellcheck disable=SC2059
       printf "$line" "$form" skipped - - "$why"
@@ -95,9 +97,14 @@ began=$SECONDS
 before=$(sources)
 # shellcheck disable=SC2059
 printf "$line" verb outcome minutes 'of CPU' ''
+# In a group of its own, so that what it runs ends with it
+set -m
 (for form in "${others[@]}"; do try "$form"; done) &
 other=$!
-trap 'kill "$other" 2>/dev/null || true' EXIT
+set +m
+trap 'kill -- -"$other" 2>/dev/null || true' EXIT
+trap 'exit 130' INT
+trap 'exit 143' HUP TERM
 for form in "${by_fpm[@]}"; do try "$form"; done
 wait "$other"
 trap - EXIT

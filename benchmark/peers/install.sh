@@ -10,6 +10,7 @@ say() { printf 'benchmark: %s\n' "$*" >&2; }
 
 # Debian's packages, each detected by a file or command that it contains
 packages=()
+command -v g++ >/dev/null || packages+=(g++)
 echo '#include <boost/numeric/odeint.hpp>' | g++ -E -x c++ - >/dev/null 2>&1 || packages+=(libboost-dev)
 echo '#include <cvode/cvode.h>' | g++ -E -x c++ - >/dev/null 2>&1 || packages+=(libsundials-dev)
 command -v octave >/dev/null || packages+=(octave)
@@ -18,6 +19,12 @@ if ((${#packages[@]})) && [ "$(id -u)" = 0 ] && command -v apt-get >/dev/null; t
    apt-get update -qq >&2
    DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${packages[@]}" >/dev/null ||
       say "apt-get could not install all of ${packages[*]}"
+fi
+
+# It measures the limits of the processor, without which nothing is compared.
+if ! command -v g++ >/dev/null; then
+   say 'g++ is not installed'
+   exit 1
 fi
 
 if [ ! -x "$environment/bin/python" ]; then

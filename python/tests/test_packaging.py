@@ -136,7 +136,7 @@ def test_an_unknown_verb_is_refused(root):
 
 
 def test_a_step_shows_its_output_only_if_it_fails(root):
-    """The command of a step that fails is named in the last line, after what it printed."""
+    """What failed and why is the last line, after what it printed: the first error, or else the last line."""
 
     def step(command):
         script = f". {root}/packaging/steps.sh; step 'doing this' bash -c '{command}'"
@@ -144,4 +144,6 @@ def test_a_step_shows_its_output_only_if_it_fails(root):
 
     passed, failed = step("echo much"), step("echo why; exit 3")
     assert (passed.returncode, passed.stdout, passed.stderr) == (0, "", "doing this\n")
-    assert (failed.returncode, failed.stderr) == (3, "doing this\nwhy\nfailed: doing this\n")
+    assert (failed.returncode, failed.stderr) == (3, "doing this\nwhy\nfailed: doing this: why\n")
+    compiler = step("echo start; echo Error: no such symbol >&2; echo hint: see above; exit 1")
+    assert compiler.stderr.splitlines()[-1] == "failed: doing this: Error: no such symbol"
