@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 
 _Table = Literal["typology", "fragility", "stripes", "walls", "unions", "ties"]
 # What is said of the curve of a population, which alternatives do not have
-_OF_POPULATION = ("population_without_fit", "population_extrapolated")
+_OF_POPULATION = ("population_without_fit", "population_extrapolated", "population_nearly_flat")
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
