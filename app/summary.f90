@@ -85,9 +85,10 @@ contains
       if (allocated(case%facade)) on_floors = case%facade%gives(is_of_building)
       if (allocated(case%survey%lengths)) on_floors = on_floors .or. any(case%survey%lengths > 0 .and. is_of_building)
       if (on_floors .and. case%job%task == 'typology') then
-         write (output_unit, '(a)') 'note: records are of the ground; linear buildings move the walls that have one'
+         write (output_unit, '(a)') 'note: records are of the ground; linear buildings move the walls that have one, at their '// &
+            & 'bases and at what they lean on'
       else if (on_floors) then
-         write (output_unit, '(a)') 'note: records are of the ground; a linear building moves the base of the wall'
+         call print_supports(case)
       else if (case%job%task /= 'typology' .or. allocated(results%typologies)) then
          write (output_unit, '(a)') 'note: records are applied at the base of the wall; ground records underestimate '// &
             & 'the demand on parapets, gables, pinnacles and upper storeys'
@@ -98,6 +99,24 @@ contains
          write (output_unit, '(a)') 'written: '//paths%line(i)%text
       end do
    end subroutine print_summary
+
+   !> Print what moves a wall on a building
+   subroutine print_supports(case)
+      type(case_type), intent(in) :: case
+
+      character(len=:), allocatable :: moved
+
+      associate (building => case%wall%building)
+         moved = 'the base of the wall'
+         if (building%share > 0.0_wp) moved = 'both supports of the wall'
+         write (output_unit, '(a)') 'note: records are of the ground; a linear building moves '//moved
+         if (building%share > 0.0_wp .and. case%wall%input%has('participation') &
+            & .and. .not. case%wall%input%has('participation_top')) write (output_unit, '(a)') 'note: base and top of the wall '// &
+            & 'move alike, with one floor; participation_top describes another motion of the top'
+         if (size(case%wall%input%list('tie_height')) > 0) write (output_unit, '(a)') 'note: the ties are anchored to '// &
+            & trim(merge('the building, and move with it     ', 'what the base of the wall stands on', building%share > 0.0_wp))
+      end associate
+   end subroutine print_supports
 
    !> Print what the restitution of a wall of two blocks assumes
    subroutine print_restitution(case)
@@ -166,6 +185,9 @@ contains
       associate (work => results%work)
          write (output_unit, '(a)') 'never moved: '//trim(share(work%still, work%histories))//' histories; rocking: '// &
             & trim(share(work%rocked, work%intervals))//' sample intervals'
+         if (work%drifted > 0) write (output_unit, '(a)') 'note: the supports of walls drift apart by more than 0.2 of the '// &
+            & 'capacity rotation in '//trim(share(work%drifted, work%histories))//' histories, where the motion that the '// &
+            & 'wall feels is approximate, on the safe side'
          if (case%solver%solver%estimate_error) write (output_unit, '(a)') &
             & '(to estimate errors every history was run twice more)'
       end associate

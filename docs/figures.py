@@ -34,6 +34,7 @@ def main() -> None:
     quick_start()
     intensities()
     mechanisms()
+    supports()
     bearing()
     ties()
     interlocking()
@@ -80,6 +81,50 @@ def mechanisms():
         shown.plot(ax, rotation=part * shown.capacity_angle)
         ax.set_title(shown.name, loc="left", family="monospace")
     figure.savefig(figures / "mechanisms.png", dpi=100)
+
+
+def supports():
+    """Draw what moves seven walls: the supports of each, and the building as it leans."""
+    # Levels of the base and of what the wall leans on or is held by, height of the wall and of the building, two blocks or one
+    walls = {
+        "(a) strip": (6.0, 9.0, 3.0, 9.0, True),
+        "(b) facade": (0.0, 9.0, 9.0, 9.0, False),
+        "(c) above a hinge": (4.0, 9.0, 5.0, 9.0, False),
+        "(d) parapet": (9.0, 9.0, 1.5, 9.0, False),
+        "(e) gable": (6.0, 7.5, 3.0, 7.5, False),
+        "(f) free-standing": (9.0, 9.0, 1.8, 9.0, False),
+        "(g) held by nothing": (0.0, 0.0, 9.0, 9.0, False),
+    }
+    lean, thickness = 0.08, 0.5
+    figure, axes = new_axes(1, len(walls), (11.0, 4.2), sharey=True)
+    arrow = {"color": style.BLUE, "linewidth": 1.4}
+    for ax, (name, (base, top, height, house, folds)) in zip(axes, walls.items(), strict=True):
+        ax.plot([0, 0, -2.6, -2.6], [0, house, house, 0], color=style.GREY, linewidth=0.8)
+        ax.plot([0, lean * house, lean * house - 2.6, -2.6], [0, house, house, 0], color=style.GREY, linestyle="--", linewidth=0.8)
+        feet = lean * base
+        turned = lean if top > base else 0.0
+        opening = 0.16 if folds else 0.07 if top > base else 0.13
+        if folds:
+            middle = feet + turned * 0.6 * height + opening * 0.6 * height
+            outline = [(feet, base), (middle, base + 0.6 * height), (feet + turned * height, base + height)]
+            outline += [(x + thickness, y) for x, y in reversed(outline)]
+        else:
+            end = feet + (turned + opening) * height
+            outline = [(feet, base), (end, base + height), (end + thickness, base + height), (feet + thickness, base)]
+        ax.fill(*zip(*outline, strict=True), facecolor=style.BRICK, edgecolor=style.BLACK, linewidth=0.8)
+        ax.annotate("", (feet - 0.1, base), (feet - 1.5, base), arrowprops={"arrowstyle": "-|>", **arrow})
+        if top > base:
+            held = lean * top
+            ax.annotate("", (held - 0.1, top), (held - 1.5, top), arrowprops={"arrowstyle": "->", **arrow})
+            if not folds:
+                ax.plot([feet, held], [base, top], color=style.BLUE, linewidth=1.6)
+        ax.axhline(0.0, color=style.BLACK, linewidth=0.8)
+        ax.set_title(name, loc="left", fontsize=9.0)
+        ax.set(xlim=(-2.9, 3.0), ylim=(-0.3, 12.0), xticks=[])
+        ax.grid(visible=False)
+        ax.spines["bottom"].set_visible(False)
+    axes[0].set_ylabel("height above the ground [m]")
+    figure.savefig(figures / "supports.png", dpi=100)
 
 
 def bearing():

@@ -2,7 +2,8 @@
 program test_floors
    use, intrinsic :: omp_lib, only : omp_get_max_threads
    use checks, only : check, check_close, check_error, check_ok, finish, suite
-   use dondolo_building, only : building_properties, building_type, new_building
+   use dondolo_building, only : building_type
+   use dondolo_building_input, only : building_properties, new_building
    use dondolo_error, only : error_type, problems_type
    use dondolo_floor_motion, only : filter_record
    use dondolo_floors, only : check_floor, floors_type

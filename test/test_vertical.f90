@@ -3,7 +3,8 @@
 !> The first swings of walls with loads under both components are in test_loaded_block.
 program test_vertical
    use checks, only : check, check_close, check_error, check_ok, finish, suite
-   use dondolo_building, only : building_properties, building_type, new_building
+   use dondolo_building, only : building_type
+   use dondolo_building_input, only : building_properties, new_building
    use dondolo_catalogue, only : read_catalogue
    use dondolo_error, only : error_type, problems_type
    use dondolo_floor_motion, only : filter_record

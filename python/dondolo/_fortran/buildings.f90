@@ -2,24 +2,28 @@
 module buildings
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_boundary, only : check_room
-   use dondolo_building, only : building_properties, building_type, new_building
+   use dondolo_building, only : building_type
+   use dondolo_building_input, only : building_properties, new_building
    use dondolo_error, only : error_type, problems_type, raise_input
    use dondolo_floor_motion, only : filter_record, floor_samples
+   use dondolo_handles, only : find_walls
    use dondolo_parcel, only : parcel_type, send
    use dondolo_property, only : is_list
    use dondolo_record, only : new_record, record_type
    use dondolo_settings, only : group_settings_type, new_settings
    use dondolo_settings_check, only : check_settings
    use dondolo_text, only : to_text
+   use dondolo_wall, only : wall_type
    implicit none
    private
 
-   public :: describe_building, floor_motion
+   public :: describe_building, felt_motion, floor_motion
 
 contains
 
-   !> Reals: the damping of each mode, its participation factor times its shape, and how long the building vibrates after a
-   !> record [s]. The numbers are those that were given, in the order of the table, and how many each has
+   !> Reals: of each mode its damping and its participation factor times its shape at the base and at the top; damping and
+   !> participation of the diaphragm, 0 of none; how long the floor vibrates after a record [s]. The numbers are those that were
+   !> given, in the order of the table, and how many each has
    subroutine describe_building(numbers, n, given, q, sent, stat, message)
       integer(c_int), intent(in) :: n, q, given(q)
       real(c_double), intent(in) :: numbers(n)
@@ -31,7 +35,8 @@ contains
       type(error_type), allocatable :: error
 
       call set_building(building, numbers, given, error)
-      if (.not. allocated(error)) parcel%reals = [building%damping, building%participation, building%free_vibration()]
+      if (.not. allocated(error)) parcel%reals = [building%damping, building%participation, building%participation_top, &
+         & building%diaphragm%damping, building%diaphragm%participation, building%free_vibration()]
       call send(parcel, error, sent, stat, message)
    end subroutine describe_building
 
@@ -45,22 +50,64 @@ contains
       integer(c_int), intent(out) :: stat
       character(len=2048), intent(out) :: message
       type(building_type) :: building
-      type(record_type) :: ground, floor
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
 
       call set_building(building, numbers, given, error)
-      if (.not. allocated(error)) call new_record(ground, acceleration, dt, '', error)
-      if (.not. allocated(error) .and. m == k) call ground%set_vertical(vertical, dt, 1.0_c_double, error)
-      if (.not. allocated(error)) call check_room(error, samples=floor_samples(building, ground))
-      if (.not. allocated(error)) call filter_record(building, ground, floor, error)
-      if (.not. allocated(error)) then
-         parcel%integers = [building%parts(dt)]
-         parcel%reals = floor%acceleration
-         if (m == k) parcel%reals = [floor%acceleration, floor%vertical]
-      end if
+      if (.not. allocated(error)) call put_motion(building, acceleration, vertical, dt, parcel, error)
       call send(parcel, error, sent, stat, message)
    end subroutine floor_motion
+
+   !> The motion that a wall on a building feels under a record, which has a vertical component where m = k, or the motion of its
+   !> supports: 'felt', 'base' or 'top'. Integers: into how many parts each step is divided; reals: its samples, and those of its
+   !> vertical component
+   subroutine felt_motion(acceleration, k, vertical, m, dt, walls, what, sent, stat, message)
+      !f2py threadsafe
+      integer(c_int), intent(in) :: k, m
+      integer(c_int64_t), intent(in) :: walls
+      real(c_double), intent(in) :: acceleration(k), vertical(m), dt
+      character(len=*), intent(in) :: what
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(wall_type), pointer :: people(:)
+      type(building_type) :: building
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+
+      call find_walls(walls, people, error)
+      if (.not. allocated(error)) then
+         building = people(1)%building
+         building%refine = building%parts(dt)
+         if (what == 'base') call building%lean(0.0_c_double, 0.0_c_double)
+         if (what == 'top') call building%lean(building%height, 0.0_c_double)
+         call put_motion(building, acceleration, vertical, dt, parcel, error)
+      end if
+      call send(parcel, error, sent, stat, message)
+   end subroutine felt_motion
+
+   !> Put the motion that a building makes of a record
+   subroutine put_motion(building, acceleration, vertical, dt, parcel, error)
+      type(building_type), intent(in) :: building
+      !> Motion of the ground [m/s2]; there is a vertical one if both have as many samples
+      real(c_double), intent(in) :: acceleration(:), vertical(:), dt
+      type(parcel_type), intent(inout) :: parcel
+      !> It would be too long, or lack of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      type(record_type) :: ground, floor
+      logical :: has_vertical
+
+      has_vertical = size(vertical) == size(acceleration)
+      call new_record(ground, acceleration, dt, '', error)
+      if (.not. allocated(error) .and. has_vertical) call ground%set_vertical(vertical, dt, 1.0_c_double, error)
+      if (.not. allocated(error)) call check_room(error, samples=floor_samples(building, ground))
+      if (.not. allocated(error)) call filter_record(building, ground, floor, error)
+      if (allocated(error)) return
+      parcel%integers = [building%parts(dt)]
+      parcel%reals = floor%acceleration
+      if (has_vertical) parcel%reals = [floor%acceleration, floor%vertical]
+   end subroutine put_motion
 
    !> Make a building
    subroutine set_building(building, numbers, given, error)

@@ -10,14 +10,18 @@ from numpy.typing import NDArray
 
 from dondolo._base.arguments import FloatArray, as_array, as_number
 from dondolo._fortran import _core
+from dondolo._fortran.handles import Handle
 from dondolo._fortran.library import properties, receive
 
 
 class BuildingData(NamedTuple):
-    """A building as Fortran has understood it: values of its modes, and how long it vibrates after a record [s]."""
+    """A building as Fortran has understood it: values of its modes at the base and the top of a wall, of its diaphragm (zeros
+    without one), and how long its floor vibrates after a record [s]."""
 
     damping: tuple[float, ...]
     participation: tuple[float, ...]
+    participation_top: tuple[float, ...]
+    diaphragm: tuple[float, float]
     free_vibration: float
 
 
@@ -39,19 +43,37 @@ def building_values(values: Mapping[str, Any]) -> dict[str, Any]:
 def describe_building(values: Mapping[str, Any]) -> BuildingData:
     """Let Fortran check a building and work out its modes."""
     reals = receive(*_core.buildings.describe_building(*_flat(values))).reals.tolist()
-    modes = len(reals) // 2
-    return BuildingData(tuple(reals[:modes]), tuple(reals[modes:-1]), reals[-1])
+    *modes, damping, participation, free_vibration = reals
+    number = len(modes) // 3
+    damped, base, top = (tuple(modes[i * number : (i + 1) * number]) for i in range(3))
+    return BuildingData(damped, base, top, (damping, participation), free_vibration)
 
 
-def floor_motion(
-    acceleration: FloatArray, vertical: FloatArray | None, dt: float, values: Mapping[str, Any]
-) -> tuple[FloatArray, FloatArray | None, int]:
+# Horizontal and vertical motion [m/s2], and into how many parts the steps of a record are divided
+Motion = tuple[FloatArray, FloatArray | None, int]
+
+
+def floor_motion(acceleration: FloatArray, vertical: FloatArray | None, dt: float, values: Mapping[str, Any]) -> Motion:
     """Motion of a floor, horizontal and vertical [m/s2], and into how many parts the steps of a record are divided."""
-    # f2py takes no empty arrays
-    given = np.zeros(1) if vertical is None else vertical
-    parcel = receive(*_core.buildings.floor_motion(acceleration, given, dt, *_flat(values)))
+    return _motion(_core.buildings.floor_motion(acceleration, _or_one(vertical), dt, *_flat(values)), vertical is not None)
+
+
+def felt_motion(acceleration: FloatArray, vertical: FloatArray | None, dt: float, wall: Handle, what: str) -> Motion:
+    """The motion that a wall on a building feels, or that of its base or its top, as `floor_motion` gives that of a floor."""
+    sent = _core.buildings.felt_motion(acceleration, _or_one(vertical), dt, wall.number, what)
+    return _motion(sent, vertical is not None)
+
+
+def _or_one(vertical: FloatArray | None) -> FloatArray:
+    """A vertical component, or the one sample that stands for none: f2py takes no empty arrays."""
+    return np.zeros(1) if vertical is None else vertical
+
+
+def _motion(sent: Any, has_vertical: bool) -> Motion:
+    """A motion out of its parcel."""
+    parcel = receive(*sent)
     parts = int(parcel.integers[0])
-    if vertical is None:
+    if not has_vertical:
         return parcel.reals, None, parts
     horizontal, upwards = np.split(parcel.reals, 2)
     return horizontal, upwards, parts

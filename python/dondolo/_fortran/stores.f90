@@ -71,7 +71,7 @@ contains
       integer(c_int64_t), intent(in) :: handle
       integer(c_int), intent(in) :: w
       integer(c_int), intent(out) :: is_there(w)
-      integer(c_int64_t), intent(out) :: work(7)
+      integer(c_int64_t), intent(out) :: work(8)
       integer(c_int), intent(out) :: stat
       character(len=2048), intent(out) :: message
       type(store_type), pointer :: store

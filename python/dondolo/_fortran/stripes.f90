@@ -221,7 +221,7 @@ contains
       integer(c_int), intent(in) :: one, last, first, count
       real(c_double), intent(inout) :: edp(count), time_of_peak(count), edp_error(count)
       integer(c_int), intent(inout) :: collapsed(count), impacts(count)
-      integer(c_int64_t), intent(out) :: work(7)
+      integer(c_int64_t), intent(out) :: work(8)
       integer(c_int), intent(out) :: stat
       character(len=2048), intent(out) :: message
       type(study_type), pointer :: chosen

@@ -86,7 +86,7 @@ contains
       !> texts, one a line
       type(parcel_type), intent(inout) :: parcel
 
-      integer, parameter :: wall_integers = wall_numbers + 1, wall_reals = 10
+      integer, parameter :: wall_integers = wall_numbers + 1, wall_reals = 12
       integer(c_int), allocatable :: integers(:, :)
       real(c_double), allocatable :: reals(:, :), values(:)
       integer, allocatable :: lengths(:)
@@ -116,7 +116,7 @@ contains
             integers(wall_integers, i) = merge(1, 0, mechanism%two_sided)
             reals(:, i) = [walls(i)%gravity, walls(i)%radius, walls(i)%alpha, &
                & mechanism%frequency_parameter(), mechanism%trigger_acceleration(), mechanism%capacity, &
-               & mechanism%restitution, walls(i)%hinge_depth, with_ties(mechanism)]
+               & mechanism%restitution, walls(i)%hinge_depth, with_ties(mechanism), support_of(walls(i))]
          end associate
       end do
       call parcel%add(reshape(integers, [size(integers)]))
@@ -134,6 +134,16 @@ contains
       if (.not. allocated(mechanism%restraints)) return
       accelerations = [greatest_acceleration(mechanism), plastic_acceleration(mechanism)]
    end function with_ties
+
+   !> Share and tilt of a wall on a building
+   pure function support_of(wall) result(numbers)
+      type(wall_type), intent(in) :: wall
+      !> k and tau [1/s2]; 0 without a building
+      real(c_double) :: numbers(2)
+
+      numbers = 0.0_c_double
+      if (allocated(wall%building)) numbers = [wall%building%share, wall%building%tilt]
+   end function support_of
 
    !> Rows of a population: walls as they were understood, then reals: their weights and the probabilities of their
    !> mechanisms; text: their groups, then their facades

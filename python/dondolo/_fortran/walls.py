@@ -197,5 +197,5 @@ WALL_EXTRAS = frozenset(
 ) | frozenset(BUILDING_NAMES)
 # What stands in the place of those that are not given beside the others of their kind
 WALL_ABSENT = {row.name: row.absent for row in WALL_PROPERTIES if row.absent is not None}
-_WALL_REALS = 10
+_WALL_REALS = 12
 _WALL_INTEGERS = len(WALL_NUMBERS) + 1

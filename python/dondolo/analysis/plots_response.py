@@ -19,6 +19,12 @@ def draw_history(response: Response, ax: Iterable[Axes] | None) -> style.Panels:
     time, acceleration, rotation, after_impact = response._motion()
     axes = above, below = style.panels(ax, 2, (7.2, 4.6), sharex=True, height_ratios=(2, 3))
     wall = response.wall
+    if wall.support_share > 0.0:
+        for at, colour, dashes in (("base", style.BLUE, "-"), ("top", style.PURPLE, (0, (3, 1)))):
+            support = response.record.under(wall, at=at)
+            shown = support.time <= time[-1]
+            values = response.scale * support.acceleration[shown] / wall.gravity
+            above.plot(support.time[shown], values, color=colour, linewidth=0.6, linestyle=dashes, label=at, alpha=0.8)
     above.plot(time, acceleration / wall.gravity, color=style.GREY, linewidth=0.8)
     trigger = wall.trigger_acceleration / wall.gravity
     for sign in (-1.0, 1.0) if wall.two_sided else (-1.0,):

@@ -91,8 +91,10 @@ class Response(Shown, Saved):
 
     @property
     def _support(self) -> str:
-        """What the wall stands on, whose acceleration moves it."""
-        return "ground" if self.wall.building is None else "floor"
+        """What moves the wall: the ground, the floor that it stands on, or what it feels of both its supports."""
+        if self.wall.building is None:
+            return "ground"
+        return "felt" if self.wall.support_share > 0.0 else "floor"
 
     @property
     def ties(self) -> TieStates:

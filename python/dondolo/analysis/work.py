@@ -30,6 +30,9 @@ class Work(NamedTuple):
         Evaluations of the terms of the equation of motion.
     impacts : int
         Impacts that were located.
+    drifted : int
+        Histories in which the supports of a wall on a building drift apart by more than 0.2 of its capacity rotation: the
+        motion that it feels is approximate there, on the safe side (docs/theory.md, section 1).
     """
 
     histories: int = 0
@@ -39,6 +42,7 @@ class Work(NamedTuple):
     steps: int = 0
     evaluations: int = 0
     impacts: int = 0
+    drifted: int = 0
 
     @classmethod
     def total(cls, parts: Iterable[Work]) -> Work:

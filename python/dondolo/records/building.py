@@ -25,7 +25,7 @@ Values = float | Sequence[float]
 @part_of_results
 @dataclass(frozen=True, repr=False)
 class Building:
-    """A linear building that a wall stands on or hangs from, as the wall's level sees it.
+    """A linear building that a wall stands on and leans on.
 
     Parameters
     ----------
@@ -41,6 +41,17 @@ class Building:
         Height of the wall's floor above the ground, with storeys [m].
     building_height : float, optional
         Height of the building, with storeys [m].
+    level_top : float, optional
+        Height above the ground up to which the building moves the wall, with storeys; that of the top of the wall or of the
+        building if not given [m].
+    participation_top : float or sequence of float, optional
+        Participation factors times shapes at the top of the wall, with participation; the same if not given.
+    diaphragm_period : float, optional
+        Period of the flexible floor that holds the top of a two_block wall; rigid if not given [s].
+    diaphragm_damping : float, optional
+        Its damping ratio, 0.05 if not given.
+    diaphragm_participation : float, optional
+        Its participation factor times its shape where the wall is, 1.27 if not given.
     refine : int, optional
         Parts that a step of a record is divided into; 0: as many as the shortest period needs, 0 if not given.
 
@@ -52,7 +63,9 @@ class Building:
     Notes
     -----
     The floor moves with u_g'' + sum participation d'', d'' + 2 damping omega d' + omega^2 d = -u_g'' for each mode;
-    what the modes leave out of the building moves with the ground. The building stays linear: docs/floors.md.
+    what the modes leave out of the building moves with the ground. A wall that leans on the building, or spans between two of
+    its floors, feels both of its supports (`Wall.support_share`, `Record.under`); level_top equal to level lets it move with
+    its base alone. The building stays linear: docs/floors.md.
 
     Examples
     --------
@@ -72,12 +85,20 @@ class Building:
     storeys: int | None = None
     level: float | None = None
     building_height: float | None = None
+    level_top: float | None = None
+    participation_top: Values | None = None
+    diaphragm_period: float | None = None
+    diaphragm_damping: float | None = None
+    diaphragm_participation: float | None = None
     refine: int | None = None
 
     def __post_init__(self) -> None:
         values = building_values(vars(self))
         data = describe_building(values)
-        for name, value in (values | {"damping": data.damping, "_data": data}).items():
+        filled = {"damping": data.damping, "_data": data}
+        if values["diaphragm_period"] is not None:
+            filled |= dict(zip(("diaphragm_damping", "diaphragm_participation"), data.diaphragm, strict=True))
+        for name, value in (values | filled).items():
             object.__setattr__(self, name, value)
 
     def _values(self) -> dict[str, Any]:

@@ -7,12 +7,12 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, as_count, as_number, instance_of
+from dondolo._base.arguments import FloatArray, as_array, as_count, as_number, instance_of, one_of
 from dondolo._base.shown import html_of
 from dondolo._fortran import _core
 from dondolo._fortran.buildings import floor_motion
@@ -461,6 +461,40 @@ class Record:
         instance_of("building", building, Building, "no building")
         values, upwards, parts = floor_motion(self.acceleration, self.vertical, self.dt, building._values())
         return self.processed(values, f"on a floor of {building!r}", dt=self.dt / parts, vertical=upwards)
+
+    def under(self, wall: Any, *, at: Literal["felt", "base", "top"] = "felt") -> Record:
+        """The motion that moves a wall on a building under the record.
+
+        Parameters
+        ----------
+        wall : Wall
+            A wall with a building.
+        at : {'felt', 'base', 'top'}
+            What the wall feels of both its supports, or the motion of one of them.
+
+        Returns
+        -------
+        Record
+            a_base + k (a_top - a_base) - tau delta, with k and tau of the wall (`Wall.support_share`, `Wall.support_tilt`) and
+            delta the relative displacement of top and base; or the absolute acceleration of one of them. The same wall
+            without a building has the same histories under it, to the bit.
+
+        Raises
+        ------
+        InputError
+            What is given is no wall, or a wall without a building.
+
+        Notes
+        -----
+        docs/theory.md, section 1. Analyses filter by themselves, and scale by measures of the ground motion.
+        """
+        one_of("at", at, ("felt", "base", "top"))
+        felt = getattr(wall, "_felt", lambda *_: None)(self.acceleration, self.vertical, self.dt, at)
+        if felt is None:
+            raise InputError("wall: must be a wall with a building")
+        values, upwards, parts = felt
+        what = "felt by" if at == "felt" else f"at the {at} of"
+        return self.processed(values, f"{what} {wall!r}", dt=self.dt / parts, vertical=upwards)
 
     def reverse(self) -> Record:
         """The record of the other polarity; its vertical component stays as it is.

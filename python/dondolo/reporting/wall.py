@@ -175,7 +175,7 @@ def motion(motion: Response) -> dict[str, Any]:
     return {
         "record": motion.record.name,
         "scale": f"{motion.scale:.4g}",
-        "on_floor": motion.wall.building is not None,
+        "support": motion._support,
         "history": None if motion.time is None else figure(motion.plot, alt),
         "wall": figure(motion.plot_peak, f"The wall at its largest rotation: {outcome}."),
     }

@@ -28,6 +28,16 @@ def property_columns(walls: Sequence[Wall], heads: Mapping[str, str]) -> tables.
     return table
 
 
+def _support_columns(walls: Sequence[Wall]) -> tables.Table:
+    """What walls feel of their supports; no columns where none stands on a building."""
+    if all(wall.building is None for wall in walls):
+        return {}
+    return {
+        "support_share": [None if wall.building is None else wall.support_share for wall in walls],
+        "support_tilt_1_s2": [None if wall.building is None else wall.support_tilt for wall in walls],
+    }
+
+
 def numbered(name: str, number: int) -> str:
     """Name of one value of a list: the number stands behind its first word."""
     stem, *rest = name.split("_", 1)
@@ -56,5 +66,6 @@ def walls_table(
         "weight": list(weights),
         "group": list(groups),
         "p_occ": list(p_occ),
+        **_support_columns(walls),
         **({"facade": list(facades)} if any(facades) else {}),
     }

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from dondolo._base.arguments import FloatArray, as_number, instance_of, one_of
 from dondolo._base.shown import html_of
 from dondolo._fortran import _core
-from dondolo._fortran.buildings import BUILDING_NAMES
+from dondolo._fortran.buildings import BUILDING_NAMES, Motion, felt_motion
 from dondolo._fortran.handles import Handle
 from dondolo._fortran.library import check, with_units
 from dondolo._fortran.walls import (
@@ -185,6 +185,20 @@ class Wall:
     def plastic_acceleration(self) -> float:
         """Acceleration that moves a wall whose ties all yield, alpha_0 g of design [m/s2]; without ties the trigger."""
         return self._static(8)
+
+    @property
+    def support_share(self) -> float:
+        """Share k of the relative acceleration of its top and its base that moves a wall on a building; 0 if it feels its base alone."""
+        return self._static(9)
+
+    @property
+    def support_tilt(self) -> float:
+        """Tilt tau, which the relative displacement of top and base is taken times [1/s2]; 0 if the wall feels its base alone."""
+        return self._static(10)
+
+    def _felt(self, acceleration: FloatArray, vertical: FloatArray | None, dt: float, what: str) -> Motion | None:
+        """The motion that the wall feels under one of the ground, or that of its base or its top; None without a building."""
+        return None if self.building is None else felt_motion(acceleration, vertical, dt, upload((self,)), what)
 
     @property
     def two_sided(self) -> bool:

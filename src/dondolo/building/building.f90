@@ -1,19 +1,11 @@
-!> A building that a wall stands on or hangs from: linear, its modes by period, damping and participation at the level of
-!> the wall (docs/theory.md, section 1).
+!> A building that a wall stands on and leans on: linear, its modes by period, damping and participation at the base of the
+!> wall and at its top, where a flexible diaphragm may hold it (docs/theory.md, section 1).
 module dondolo_building
-   use dondolo_error, only : problems_type
    use dondolo_kinds, only : pi, wp
-   use dondolo_property, only : is_integer, is_list, property_type
-   use dondolo_settings, only : settings_type
-   use dondolo_text, only : to_text
    implicit none
    private
 
-   public :: building_type, new_building
-   public :: building_properties, building_rows
-
-   !> Damping of a mode unless it is given
-   real(wp), parameter :: usual_damping = 0.05_wp
+   public :: building_type, diaphragm_type, most_parts
 
    !> Part of the amplitude of a mode by which straight lines between refined samples may miss it
    real(wp), parameter :: tolerance = 1.0e-3_wp
@@ -21,44 +13,51 @@ module dondolo_building
    !> Part of its amplitude that the free vibration after a record is followed to, and the most periods that it is
    real(wp), parameter :: still = 1.0e-4_wp, most_periods = 300.0_wp
 
+   !> Free vibration of a diaphragm on a building, over that of the longer lasting of the two: two of equal period and damping in
+   !> series die as x exp(-x), down to the same part at x = 12.8 in place of 9.2
+   real(wp), parameter :: in_series = 1.4_wp
+
    !> Most parts that a step of a record is divided into
    integer, parameter :: most_parts = 100
 
-   !> Properties of a building, none of which a wall on the ground has
-   type(property_type), parameter :: building_rows(*) = [ &
-      & property_type('period', is_list, unit='s', optional=.true., positive=.true., smallest=1.0e-6_wp, &
-      &   largest=20.0_wp, usual_least=0.02_wp, usual_most=2.0_wp, example='0.30', &
-      &   meaning='periods of the modes of the building that the wall stands on'), &
-      & property_type('damping', is_list, optional=.true., smallest=0.0_wp, largest=1.0_wp, less=.true., &
-      &   usual_most=0.4_wp, example='0.05', &
-      &   meaning='their damping ratios, or one for all; 0.05 if not given'), &
-      & property_type('participation', is_list, optional=.true., smallest=-10.0_wp, largest=10.0_wp, example='1.29', &
-      &   meaning='their participation factors times their shapes at the level of the wall, no percentages'), &
-      & property_type('storeys', is_integer, optional=.true., smallest=1.0_wp, largest=1000.0_wp, example='3', &
-      &   meaning='number n of storeys, instead of participation: 3 n / (2 n + 1) level / building_height'), &
-      & property_type('level', unit='m', optional=.true., smallest=0.0_wp, largest=1.0e3_wp, usual_most=150.0_wp, example='9.0', &
-      &   meaning='height of the wall''s floor above the ground, with storeys'), &
-      & property_type('building_height', unit='m', optional=.true., positive=.true., largest=1.0e3_wp, usual_most=150.0_wp, &
-      &   example='9.0', &
-      &   meaning='height of the building, with storeys'), &
-      & property_type('refine', is_integer, optional=.true., smallest=0.0_wp, largest=real(most_parts, wp), zero='auto', &
-      &   example='0', meaning='parts that a step of a record is divided into; 0: as many as the shortest '// &
-      &   'period needs, 0 if not given')]
+   !> A flexible floor between the building and the top of a wall
+   type :: diaphragm_type
+      !> Period [s]; 0: the floor is rigid
+      real(wp) :: period = 0.0_wp
+      !> Damping ratio, at least 0 and below 1
+      real(wp) :: damping = 0.0_wp
+      !> Participation factor times shape where the wall is
+      real(wp) :: participation = 0.0_wp
+   end type diaphragm_type
 
-   !> The same where pointers can point
-   type(property_type), target, protected :: building_properties(size(building_rows)) = building_rows
-
-   !> A building as a wall at one level sees it
+   !> A building as one wall sees it
    type :: building_type
       !> Periods of its modes [s]
       real(wp), allocatable :: period(:)
       !> Their damping ratios, at least 0 and below 1
       real(wp), allocatable :: damping(:)
-      !> Their participation factors times their shapes at the level
-      real(wp), allocatable :: participation(:)
+      !> Their participation factors times their shapes at the base of the wall, and at its top
+      real(wp), allocatable :: participation(:), participation_top(:)
+      !> What holds the top
+      type(diaphragm_type) :: diaphragm
+      !> Height of the line from the base to the top [m]; 0: the wall touches nothing but its base
+      real(wp) :: height = 0.0_wp
+      !> Level of the top above the ground, where modes follow from levels [m]
+      real(wp) :: level_top = 0.0_wp
+      !> Share k of the relative acceleration of top and base that moves the wall, and tilt tau, which their relative
+      !> displacement is taken times [1/s2]; 0 where the wall is not known
+      real(wp) :: share = 0.0_wp, tilt = 0.0_wp
       !> Parts of a step; 0: as many as it needs
       integer :: refine = 0
    contains
+      !> Let a wall lean on it
+      procedure :: lean
+      !> Participation of its modes as the wall feels them
+      procedure :: felt
+      !> Relative displacement of top and base for a unit of each mode
+      procedure :: drifts
+      !> Does a flexible diaphragm move the wall?
+      procedure :: has_diaphragm
       !> Parts that a step of a record is divided into
       procedure :: parts
       !> How long it vibrates after a record
@@ -69,110 +68,41 @@ module dondolo_building
 
 contains
 
-   !> Make a building of what is said of it, its ranges checked
-   subroutine new_building(building, input, problems)
-      type(building_type), intent(out) :: building
-      !> Values of building_properties, among others; the damping that each mode has is set
-      class(settings_type), intent(inout) :: input
-      !> Takes what is missing or does not agree: `variable = value: what is allowed`
-      type(problems_type), intent(inout) :: problems
+   !> Let a wall lean on it
+   pure subroutine lean(self, share, tilt)
+      class(building_type), intent(inout) :: self
+      !> k h [m] and tau h [m/s2] of its mechanism
+      real(wp), intent(in) :: share, tilt
 
-      building%period = input%list('period')
-      if (size(building%period) == 0) then
-         call problems%note('period: must be given of a building')
-         return
-      end if
-      call check_whole('storeys')
-      call check_whole('refine')
-      building%refine = nint(input%number('refine'))
-      call take_damping(building, input%list('damping'), problems)
-      call take_participation(building, input, problems)
-      call input%set('damping', building%damping)
+      if (.not. self%height > 0.0_wp) return
+      self%share = share/self%height
+      self%tilt = tilt/self%height
+   end subroutine lean
 
-   contains
+   !> Participation of the modes as the wall feels them; equal ones at base and top stay the same to the bit
+   pure function felt(self)
+      class(building_type), intent(in) :: self
+      !> P = p + k (p' - p)
+      real(wp) :: felt(size(self%period))
 
-      !> Check that a number is whole: cells of tables may be any
-      subroutine check_whole(name)
-         !> Name of the property
-         character(len=*), intent(in) :: name
+      felt = self%participation + self%share*(self%participation_top - self%participation)
+   end function felt
 
-         associate (number => input%number(name))
-            if (abs(number - anint(number)) > 0.0_wp) call problems%note(name//' = '//to_text(number)// &
-               & ': must be a whole number')
-         end associate
-      end subroutine check_whole
+   !> Relative displacement of top and base for a unit of each mode
+   pure function drifts(self)
+      class(building_type), intent(in) :: self
+      !> p' - p
+      real(wp) :: drifts(size(self%period))
 
-   end subroutine new_building
+      drifts = self%participation_top - self%participation
+   end function drifts
 
-   !> Damping of the modes: one for each, or one for all
-   subroutine take_damping(building, given, problems)
-      !> The building with its periods: its damping is set
-      type(building_type), intent(inout) :: building
-      !> What was given
-      real(wp), intent(in) :: given(:)
-      !> Takes a list of another length
-      type(problems_type), intent(inout) :: problems
+   !> Does a flexible diaphragm move the wall?
+   pure logical function has_diaphragm(self)
+      class(building_type), intent(in) :: self
 
-      associate (modes => size(building%period))
-         allocate (building%damping(modes), source=usual_damping)
-         if (size(given) == 1) then
-            building%damping = given(1)
-         else if (size(given) == modes) then
-            building%damping = given
-         else if (size(given) > 0) then
-            call problems%note('damping: has '//to_text(size(given))//' values, must have '//to_text(modes)// &
-               & ' as period, or one for all')
-         end if
-      end associate
-   end subroutine take_damping
-
-   !> Participation of the modes: as given, or of one mode that grows in proportion to height
-   subroutine take_participation(building, input, problems)
-      !> The building with its periods: its participation is set
-      type(building_type), intent(inout) :: building
-      !> What is said of it
-      class(settings_type), intent(in) :: input
-      !> Takes what is missing, too much, or does not agree
-      type(problems_type), intent(inout) :: problems
-
-      character(len=15), parameter :: names(3) = [character(len=15) :: 'storeys', 'level', 'building_height']
-      real(wp) :: storeys, level, height
-      logical :: given(3)
-      integer :: i
-
-      associate (modes => size(building%period))
-         if (input%has('participation')) then
-            building%participation = input%list('participation')
-            if (size(building%participation) /= modes) call problems%note('participation: has '// &
-               & to_text(size(building%participation))//' values, must have '//to_text(modes)//' as period')
-            do i = 1, size(names)
-               if (input%has(trim(names(i)))) call problems%note(trim(names(i))//' = '// &
-                  & to_text(input%number(trim(names(i))))// &
-                  & ': give either participation or storeys, level and building_height')
-            end do
-            return
-         end if
-         if (modes > 1) then
-            call problems%note('participation: must be given of '//to_text(modes)//' modes')
-            return
-         end if
-         given = [(input%has(trim(names(i))), i=1, size(names))]
-         if (.not. any(given)) then
-            call problems%note('participation: must be given, or storeys, level and building_height in its place')
-            return
-         else if (.not. all(given)) then
-            call problems%note(trim(names(findloc(given, .false., dim=1)))// &
-               & ': must be given, storeys, level and building_height belong together')
-            return
-         end if
-         storeys = input%number('storeys')
-         level = input%number('level')
-         height = input%number('building_height')
-         if (level > height) call problems%note('level = '//to_text(level)//': must be at most building_height = '// &
-            & to_text(height))
-         building%participation = [3.0_wp*storeys/(2.0_wp*storeys + 1.0_wp)*level/height]
-      end associate
-   end subroutine take_participation
+      has_diaphragm = self%diaphragm%period > 0.0_wp .and. abs(self%share) > 0.0_wp
+   end function has_diaphragm
 
    !> Parts that a step of a record is divided into, so that straight lines between their ends miss no more of a mode's
    !> amplitude than the tolerance: (omega dt/n)**2/8. Beyond most_parts the mode follows the ground
@@ -185,7 +115,9 @@ contains
 
       parts = self%refine
       if (parts > 0) return
-      needed = 2.0_wp*pi*dt/sqrt(8.0_wp*tolerance)*maxval([0.0_wp, 1.0_wp/pack(self%period, moves(self))])
+      needed = maxval([0.0_wp, 1.0_wp/pack(self%period, moves(self))])
+      if (self%has_diaphragm()) needed = max(needed, 1.0_wp/self%diaphragm%period)
+      needed = 2.0_wp*pi*dt/sqrt(8.0_wp*tolerance)*needed
       parts = max(1, ceiling(min(needed, real(most_parts, wp))))
    end function parts
 
@@ -193,32 +125,51 @@ contains
    pure real(wp) function free_vibration(self) result(time)
       class(building_type), intent(in) :: self
 
-      integer :: k
-
-      time = 0.0_wp
-      do k = 1, size(self%period)
-         if (.not. abs(self%participation(k)) > 0.0_wp) cycle
-         time = max(time, self%period(k)*min(most_periods, -log(still)/(2.0_wp*pi*max(self%damping(k), tiny(time)))))
-      end do
+      time = maxval([0.0_wp, pack(lasting(self%period, self%damping), moves(self))])
+      if (self%has_diaphragm()) time = in_series*max(time, lasting(self%diaphragm%period, self%diaphragm%damping))
    end function free_vibration
+
+   !> How long a mode vibrates freely, until little is left of its amplitude [s]
+   elemental real(wp) function lasting(period, damping)
+      !> [s]
+      real(wp), intent(in) :: period
+      !> Damping ratio
+      real(wp), intent(in) :: damping
+
+      lasting = period*min(most_periods, -log(still)/(2.0_wp*pi*max(damping, tiny(damping))))
+   end function lasting
 
    !> Is another building the same?
    pure logical function equals(self, other)
       class(building_type), intent(in) :: self
       type(building_type), intent(in) :: other
 
-      equals = size(self%period) == size(other%period) .and. self%refine == other%refine
+      equals = size(self%period) == size(other%period) .and. self%refine == other%refine &
+         & .and. (self%has_diaphragm() .eqv. other%has_diaphragm())
       if (equals) equals = .not. any(abs(self%period - other%period) + abs(self%damping - other%damping) &
-         & + abs(self%participation - other%participation) > 0.0_wp)
+         & + abs(self%felt() - other%felt()) + abs(self%tilt*self%drifts() - other%tilt*other%drifts()) > 0.0_wp)
+      if (equals .and. self%has_diaphragm()) equals = .not. any(abs(of_diaphragm(self) - of_diaphragm(other)) > 0.0_wp) &
+         & .and. .not. any(abs(self%participation_top - other%participation_top) > 0.0_wp)
    end function equals
 
-   !> Which modes move the level at all?
+   !> What the motion of a wall under a diaphragm depends on besides its modes
+   pure function of_diaphragm(building) result(numbers)
+      type(building_type), intent(in) :: building
+      real(wp) :: numbers(5)
+
+      associate (diaphragm => building%diaphragm)
+         numbers = [diaphragm%period, diaphragm%damping, diaphragm%participation, building%share, building%tilt]
+      end associate
+   end function of_diaphragm
+
+   !> Which modes move the wall at all?
    pure function moves(building)
       class(building_type), intent(in) :: building
       !> An answer for each mode
       logical :: moves(size(building%period))
 
-      moves = abs(building%participation) > 0.0_wp
+      moves = abs(building%felt()) > 0.0_wp .or. abs(building%tilt*building%drifts()) > 0.0_wp &
+         & .or. (building%has_diaphragm() .and. abs(building%participation_top) > 0.0_wp)
    end function moves
 
 end module dondolo_building

@@ -34,6 +34,8 @@ module dondolo_floors
       type(suite_type), pointer :: ground => null()
       !> Motions; not allocated: they are not made yet
       type(suite_type), allocatable :: motions
+      !> Greatest drift of the supports of its wall in each of them [rad]
+      real(wp), allocatable :: drift(:)
       !> How many walls need them now, and when the last of them took them
       integer :: users = 0
       integer(int64) :: taken = 0
@@ -86,7 +88,7 @@ contains
    end subroutine check_floor
 
    !> Take the motions of a floor; the first who does makes them
-   subroutine take(self, building, ground, threads, place, motions)
+   subroutine take(self, building, ground, threads, place, motions, drift)
       class(floors_type), intent(inout), target :: self
       !> The building, which check_floor has checked
       type(building_type), intent(in) :: building
@@ -98,6 +100,8 @@ contains
       integer, intent(out) :: place
       !> Motions of the floor
       type(suite_type), pointer, intent(out) :: motions
+      !> Greatest drift of the supports of the wall in each of them [rad]
+      real(wp), allocatable, intent(out), optional :: drift(:)
 
       !$omp critical (dondolo_floors)
       if (.not. allocated(self%floor)) allocate (self%floor(2*largest_threads))
@@ -113,6 +117,7 @@ contains
          call omp_unset_lock(floor%making)
       end associate
       motions => self%floor(place)%motions
+      if (present(drift)) drift = self%floor(place)%drift
    end subroutine take
 
    !> Give motions back
@@ -195,10 +200,12 @@ contains
       integer :: i
 
       allocate (records(size(floor%ground%records)))
+      if (allocated(floor%drift)) deallocate (floor%drift)
+      allocate (floor%drift(size(records)))
       !$omp parallel do schedule(dynamic) num_threads(team_of(threads, size(records))) default(none) &
       !$omp & shared(floor, records) private(error)
       do i = 1, size(records)
-         call filter_record(floor%building, floor%ground%records(i), records(i), error)
+         call filter_record(floor%building, floor%ground%records(i), records(i), error, floor%drift(i))
       end do
       !$omp end parallel do
       allocate (floor%motions)

@@ -3,6 +3,7 @@
 !>
 !> Section 3.3 of Nale et al. The histories of a wall run together, on several threads (dondolo_ensemble).
 module dondolo_stripes
+   use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_certificate, only : certified_type
    use dondolo_ensemble, only : ensemble_type, run_ensemble
    use dondolo_error, only : error_type
@@ -21,6 +22,9 @@ module dondolo_stripes
 
    public :: stripes_type, multiple_stripe, plan_stripes, planned_work, run_histories, run_part, histories_of, take_motions, &
       & find_lifts
+
+   !> Drift of the supports, as a part of the capacity rotation, up to which the motion that a wall feels is measured to be good
+   real(wp), parameter :: largest_drift = 0.2_wp
 
    !> Memory that a history of the plan takes while it is run, once or three times [bytes]
    real(wp), parameter :: bytes_of_history = 114.0_wp, bytes_of_three_runs = 214.0_wp
@@ -194,7 +198,7 @@ contains
       type(floors_type), pointer :: floors
       type(suite_type), pointer :: motions
       integer, allocatable :: record(:), polarity(:)
-      real(wp), allocatable :: scales(:, :)
+      real(wp), allocatable :: scales(:, :), drift(:)
       integer :: i, j, k, place
 
       call choose_polarities(study, wall, record, polarity)
@@ -211,13 +215,16 @@ contains
             ensemble%scale(k - range(1) + 1) = real(polarity(i), wp)*scales(record(i), j)
          end do
       end do
-      call take_motions(study, wall, threads, own, floors, place, motions)
+      call take_motions(study, wall, threads, own, floors, place, motions, drift)
       call run_ensemble(ensemble, wall%mechanism, motions, study%solver, threads, error, progress)
       if (place > 0) call floors%give_back(place)
+      ! With estimated errors every history counts as often as it was run
+      if (allocated(drift)) ensemble%work%drifted = count(abs(ensemble%scale)*drift(ensemble%record) &
+         & > largest_drift*wall%mechanism%capacity, kind=int64)*ensemble%work%histories/max(1, size(ensemble%record))
    end subroutine run_part
 
    !> Motions that a wall is tried with: those of the ground, or of the floor that it stands on
-   subroutine take_motions(study, wall, threads, own, floors, place, motions)
+   subroutine take_motions(study, wall, threads, own, floors, place, motions, drift)
       !> What it is tried with
       type(study_type), intent(in) :: study
       type(wall_type), intent(in) :: wall
@@ -230,12 +237,14 @@ contains
       integer, intent(out) :: place
       !> Motions
       type(suite_type), pointer, intent(out) :: motions
+      !> Greatest drift of the supports in each of them [rad]; not allocated: there is no building
+      real(wp), allocatable, intent(out), optional :: drift(:)
 
       floors => own
       if (associated(study%floors)) floors => study%floors
       place = 0
       motions => study%suite
-      if (allocated(wall%building)) call floors%take(wall%building, study%suite, threads, place, motions)
+      if (allocated(wall%building)) call floors%take(wall%building, study%suite, threads, place, motions, drift)
    end subroutine take_motions
 
    !> Histories of all stripes of a wall

@@ -50,7 +50,7 @@ module dondolo_row_result
    end type row_result_type
 
    !> Counts of work, bytes of them, and of the results of a history: edp and time of the peak, impacts
-   integer, parameter :: work_counts = 8, work_bytes = 8*work_counts
+   integer, parameter :: work_counts = 9, work_bytes = 8*work_counts
    integer, parameter :: real_bytes = storage_size(1.0_wp)/8, history_bytes = 2*real_bytes + 4
    !> Bytes of what the histories of a stripe do to a tie
    integer, parameter :: tally_bytes = 2*real_bytes + 2*4
@@ -192,7 +192,7 @@ contains
       integer(int64) :: at, number
 
       bytes(:work_bytes) = transfer([row%work%histories, row%work%still, row%work%in_lanes, row%work%intervals, &
-         & row%work%rocked, row%work%steps, row%work%evaluations, row%work%impacts], bytes(:work_bytes))
+         & row%work%rocked, row%work%steps, row%work%evaluations, row%work%impacts, row%work%drifted], bytes(:work_bytes))
       at = work_bytes
       bytes(at + 1:at + len(row%flags)) = row%flags
       at = at + len(row%flags)
@@ -236,7 +236,7 @@ contains
 
       counts = transfer(bytes(:work_bytes), counts)
       row%work = work_type(histories=counts(1), still=counts(2), in_lanes=counts(3), intervals=counts(4), &
-         & rocked=counts(5), steps=counts(6), evaluations=counts(7), impacts=counts(8))
+         & rocked=counts(5), steps=counts(6), evaluations=counts(7), impacts=counts(8), drifted=counts(9))
       at = work_bytes
       flags = bytes_of_flags(shape, row%histories)
       row%flags = bytes(at + 1:at + flags)

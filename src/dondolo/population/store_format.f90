@@ -17,7 +17,7 @@ module dondolo_store_format
    public :: identity_type, make_head, read_head, bytes_of_entry, pack_entry, read_entry, unpack_entries, is_cut_head
 
    !> What the file begins with, and the number of the format
-   character(len=*), parameter :: mark = 'dondolo counts ', format_number = '4'
+   character(len=*), parameter :: mark = 'dondolo counts ', format_number = '5'
 
    !> Bytes of the first line - mark, format, length of the head behind this line, fingerprint of it, end of line - and the
    !> longest head; bytes of a row before its contents, the last 16 a fingerprint

@@ -83,6 +83,8 @@ contains
          if (input%has('participation')) call problems%note('participation: not with hinge_level = '//to_text(level)// &
             & ', give storeys, level and building_height, from which every hinge takes its own')
          call input%set('level', input%number('level') + level)
+         ! Above what the building holds a part leans on nothing
+         if (input%has('level_top')) call input%set('level_top', max(input%number('level_top'), input%number('level')))
       end if
       if (problems%count > 0) return
       call cut_sections(input, level, face)

@@ -65,6 +65,7 @@ module dondolo_loaded_block
       procedure :: terms
       procedure :: potential
       procedure :: geometric_end
+      procedure :: support
       procedure :: hold
       !> Restoring moment G - Q
       procedure, private :: moment
@@ -169,6 +170,8 @@ contains
          call add_spring(mechanism%spring, actions%springs(i), actions)
       end do
       mechanism%is_sprung = mechanism%spring%w > 0.0_wp
+      mechanism%free_thrust = mechanism%thrust
+      mechanism%free_spring = mechanism%spring
       call check_rest(mechanism, body, actions, error)
       if (.not. allocated(error)) call find_capacity(mechanism, error)
       if (allocated(error)) return
@@ -190,8 +193,6 @@ contains
 
       mechanism%restraints = actions%ties
       mechanism%ties = count(.not. actions%ties%is_friction)
-      mechanism%free_thrust = mechanism%thrust
-      mechanism%free_spring = mechanism%spring
       associate (ties => mechanism%restraints)
          mechanism%preload = sum(ties%preload*lever(ties%edge, ties%e, ties%f, 0.0_wp))
          mode = merge(flowing, elastic, ties%is_friction)
@@ -332,6 +333,35 @@ contains
       q = atan2(self%e, self%f) + acos(max(-1.0_wp, -self%edge/hypot(self%e, self%f)))
    end function geometric_end
 
+   !> What a one-sided block carries turns with it and with what it leans on; ties and springs are fixed to what it leans on
+   !> (docs/theory.md, section 1): k h = J(0)/L(0) and tau h = B/L(0)
+   pure subroutine support(self, share, tilt)
+      class(loaded_block_type), intent(in) :: self
+      !> k h [m]
+      real(wp), intent(out) :: share
+      !> tau h [m/s2]
+      real(wp), intent(out) :: tilt
+
+      real(wp) :: j, c, g, l, load
+
+      share = 0.0_wp
+      tilt = 0.0_wp
+      if (self%two_sided) return
+      call self%terms(0.0_wp, j, c, g, l, load)
+      share = j/l
+      tilt = turning(self)/l
+   end subroutine support
+
+   !> The static quantity B: minus the slope of the moment of all weights and thrusts over the rotation, at rest [N m]
+   pure real(wp) function turning(block)
+      type(loaded_block_type), intent(in) :: block
+
+      associate (thrust => block%free_thrust)
+         turning = block%gravity*(block%whole%f + block%lifted%f) + block%dead%f + thrust%e &
+            & + sum(block%fading%force*block%fading%e)
+      end associate
+   end function turning
+
    !> Restoring moment G - Q
    elemental real(wp) function moment(self, q)
       class(loaded_block_type), intent(in) :: self
@@ -373,7 +403,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       integer, parameter :: parts = 2000
-      real(wp) :: holding, turning, below, above, end_of_all
+      real(wp) :: holding, below, above, end_of_all
       logical :: falls(0:parts)
       integer :: i
 
@@ -381,11 +411,10 @@ contains
       if (.not. mechanism%spring%w > 0.0_wp .and. size(mechanism%fading) == 0) then
          associate (m => mechanism)
             holding = m%gravity*(m%whole%e + m%lifted%e) + m%dead%e - m%thrust%f
-            turning = m%gravity*(m%whole%f + m%lifted%f) + m%dead%f + m%thrust%e
             if (m%edge*m%thrust%w > 0.0_wp) then
-               mechanism%capacity = acos(m%edge*m%thrust%w/hypot(holding, turning)) - atan2(turning, holding)
+               mechanism%capacity = acos(m%edge*m%thrust%w/hypot(holding, turning(m))) - atan2(turning(m), holding)
             else
-               mechanism%capacity = atan2(holding, turning)
+               mechanism%capacity = atan2(holding, turning(m))
             end if
          end associate
          return

@@ -41,6 +41,8 @@ module dondolo_mechanism
       procedure(potential_interface), deferred :: potential
       !> Rotation that the geometry cannot pass
       procedure(rotation_interface), deferred :: geometric_end
+      !> How the motion of its supports moves it
+      procedure(support_interface), deferred :: support
       !> Set the forces of the ties
       procedure :: hold
       !> Does friction hold it?
@@ -88,6 +90,18 @@ module dondolo_mechanism
          !> Rotation [rad]
          real(wp) :: q
       end function rotation_interface
+
+      !> How the motion of its supports moves a wall: with h the height of the line through them, a the acceleration of each and
+      !> delta the displacement of the upper less that of the lower one, it moves as on a ground that accelerates by
+      !> a_base + k (a_top - a_base) - tau delta (docs/theory.md, section 1)
+      pure subroutine support_interface(self, share, tilt)
+         import :: mechanism_type, wp
+         class(mechanism_type), intent(in) :: self
+         !> k h [m]; 0: the wall touches nothing but its base
+         real(wp), intent(out) :: share
+         !> tau h [m/s2]
+         real(wp), intent(out) :: tilt
+      end subroutine support_interface
 
    end interface
 

@@ -28,6 +28,7 @@ module dondolo_single_block
       procedure :: terms
       procedure :: potential
       procedure :: geometric_end
+      procedure :: support
    end type single_block_type
 
 contains
@@ -91,5 +92,21 @@ contains
 
       q = self%alpha + right_angle
    end function geometric_end
+
+   !> A one-sided block turns with what it leans on until it leaves it: k h = J/L and tau h = g at q = 0, with L = M h_c.
+   !> A free-standing one touches its base alone
+   pure subroutine support(self, share, tilt)
+      class(single_block_type), intent(in) :: self
+      !> k h [m]
+      real(wp), intent(out) :: share
+      !> tau h [m/s2]
+      real(wp), intent(out) :: tilt
+
+      share = 0.0_wp
+      tilt = 0.0_wp
+      if (self%two_sided) return
+      share = self%inertia/(self%lever*cos(self%alpha))
+      tilt = self%gravity
+   end subroutine support
 
 end module dondolo_single_block

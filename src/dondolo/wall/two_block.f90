@@ -46,6 +46,7 @@ module dondolo_two_block
       procedure :: terms
       procedure :: potential
       procedure :: geometric_end
+      procedure :: support
    end type two_block_type
 
 contains
@@ -180,6 +181,33 @@ contains
          q = self%lower%alpha + asin(self%upper%radius/self%lower%radius)
       end if
    end function geometric_end
+
+   !> The supports of a strip are the hinges at its base and its top, h = H apart (docs/theory.md, section 1):
+   !>
+   !>     k = (1 + r)/3 + [4 b^2 + 2 (m_v/M) Y(0) (b - e)]/(r H^2)      Y(0) = b (2 + K) + e K      K = r/(1 - r)
+   !>     tau = (g/H) {1 - 4 [b^2 + nu b (b + e)]/(r (1 - r) H^2)}      nu = N/(g M (1 - r))
+   pure subroutine support(self, share, tilt)
+      class(two_block_type), intent(in) :: self
+      !> k H [m]
+      real(wp), intent(out) :: share
+      !> tau H [m/s2]
+      real(wp), intent(out) :: tilt
+
+      real(wp) :: height, r, k, mass, rise, nu
+
+      associate (lower => self%lower, upper => self%upper, b => self%lower%b, load => self%overburden)
+         r = lower%radius*cos(lower%alpha)
+         height = r + upper%radius*cos(upper%alpha)
+         r = r/height
+         height = 2.0_wp*height
+         k = r/(1.0_wp - r)
+         mass = lower%mass + upper%mass
+         rise = b*(2.0_wp + k) + load%eccentricity*k
+         nu = load%weight/(self%gravity*mass*(1.0_wp - r))
+         share = (1.0_wp + r)*height/3.0_wp + (4.0_wp*b**2 + 2.0_wp*load%lifted/mass*rise*self%load_lever)/(r*height)
+         tilt = self%gravity*(1.0_wp - 4.0_wp*(b**2 + nu*b*(b + load%eccentricity))/(r*(1.0_wp - r)*height**2))
+      end associate
+   end subroutine support
 
    !> Check that the wall stands: a load beyond an inner hinge far behind the face can fold it by itself
    pure subroutine check_rest(mechanism, error)

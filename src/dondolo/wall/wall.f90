@@ -1,7 +1,8 @@
 !> A wall: what the user says of it, and the mechanism that follows. Here names become types.
 module dondolo_wall
    use dondolo_block, only : block_type, new_block
-   use dondolo_building, only : building_type, new_building
+   use dondolo_building, only : building_type
+   use dondolo_building_input, only : leans, new_building, spans, touches_base
    use dondolo_error, only : error_type, problems_type
    use dondolo_free_standing, only : free_standing_type, new_free_standing
    use dondolo_hinge_depth, only : check_hinge, read_hinge_depth
@@ -95,6 +96,7 @@ contains
       type(wall_body_type) :: body
       type(wall_input_type) :: above
       real(wp), allocatable :: levels(:)
+      real(wp) :: share, tilt
 
       if (present(gravity)) wall%gravity = gravity
       call understand(wall, input, problems, body)
@@ -115,7 +117,25 @@ contains
       else
          call build_loaded(wall, body, error)
       end if
+      if (allocated(error) .or. .not. allocated(wall%building)) return
+      call wall%mechanism%support(share, tilt)
+      call wall%building%lean(share, tilt)
    end subroutine new_wall
+
+   !> What a wall touches of the building that it stands on
+   pure integer function contact_of(mechanism) result(contact)
+      !> Name of its mechanism
+      character(len=*), intent(in) :: mechanism
+
+      select case (mechanism)
+      case ('one_sided')
+         contact = leans
+      case ('two_block')
+         contact = spans
+      case default
+         contact = touches_base
+      end select
+   end function contact_of
 
    !> Fill in defaults and check all that is said of a wall, but whether it stands
    subroutine understand(wall, input, problems, body)
@@ -143,7 +163,7 @@ contains
       call check_settings(wall%input, problems, 'mechanism', mechanism)
       if (problems%count == 0 .and. wall%input%gives(is_of_building)) then
          allocate (wall%building)
-         call new_building(wall%building, wall%input, problems)
+         call new_building(wall%building, wall%input, problems, contact_of(mechanism), wall%input%number('height'))
       end if
       call check_number(gravity_property, wall%gravity, allowed)
       if (allocated(allowed)) call problems%note('gravity = '//to_text(wall%gravity)//': '//allowed)

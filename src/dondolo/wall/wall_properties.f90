@@ -3,7 +3,7 @@
 !>
 !> To add one: a row here, and its value where a mechanism is built (dondolo_wall).
 module dondolo_wall_properties
-   use dondolo_building, only : building_rows
+   use dondolo_building_input, only : building_rows
    use dondolo_kinds, only : wp
    use dondolo_property, only : blank, choices_length, find_name, find_property, is_integer, is_list, is_text, is_words, &
       & most_choices, property_type

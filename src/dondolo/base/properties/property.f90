@@ -23,7 +23,7 @@ module dondolo_property
       & is_words = 7
 
    !> Length of a name
-   integer, parameter :: name_length = 20
+   integer, parameter :: name_length = 24
 
    !> Length of a choice, and how many a property can have
    integer, parameter :: choices_length = 16, most_choices = 8

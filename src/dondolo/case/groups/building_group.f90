@@ -1,6 +1,7 @@
 !> The group &building: what the wall stands on, where that is not the ground.
 module dondolo_building_group
-   use dondolo_building, only : building_properties, building_type, new_building
+   use dondolo_building, only : building_type
+   use dondolo_building_input, only : building_properties, new_building
    use dondolo_error, only : error_type, problems_type
    use dondolo_namelist_group, only : group_type
    use dondolo_settings, only : group_settings_type, new_settings

@@ -1,6 +1,6 @@
 !> All tables of properties, by the name of their group in a namelist.
 module dondolo_property_tables
-   use dondolo_building, only : building_properties
+   use dondolo_building_input, only : building_properties
    use dondolo_check_input, only : check_properties
    use dondolo_history_group, only : history_properties
    use dondolo_job_group, only : job_properties

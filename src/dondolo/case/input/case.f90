@@ -1,6 +1,6 @@
 !> A case: everything a user asks for in one namelist file.
 module dondolo_case
-   use dondolo_building, only : building_properties
+   use dondolo_building_input, only : building_properties
    use dondolo_echo, only : echo_type
    use dondolo_check_input, only : check_input_type, check_properties, put_check
    use dondolo_history_group, only : history_input_type

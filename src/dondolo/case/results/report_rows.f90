@@ -12,7 +12,7 @@ module dondolo_report_rows
    use dondolo_typology, only : typology_type
    use dondolo_unions, only : union_type
    use dondolo_wall, only : wall_type
-   use dondolo_wall_properties, only : is_extra, wall_properties
+   use dondolo_wall_properties, only : is_extra, is_of_building, wall_properties
    implicit none
    private
 
@@ -26,6 +26,7 @@ module dondolo_report_rows
       & no_errors = ',,,,,'
    character(len=*), parameter :: &
       & wall_tail = ',alpha_rad,p_rad_s,trigger_acceleration_m_s2,capacity_rad,restitution,weight,group,p_occ', &
+      & support_head = ',support_share,support_tilt_1_s2', &
       & stripes_head = 'wall,mechanism,im,im_level,histories,collapses,fraction,edp_threshold', &
       & fragility_head = 'wall,mechanism,im,theta,beta,se_ln_theta,se_beta,log_likelihood,status,bracket_low,'// &
       & 'bracket_high,edp_threshold,theta_low,theta_high,beta_low,beta_high,errors,clusters,degrees_of_freedom,'// &
@@ -84,6 +85,7 @@ contains
          head = head//trim(column_name(wall_properties(i)))
       end do
       head = head//wall_tail
+      if (any(lengths > 0 .and. is_of_building)) head = head//support_head
       if (has_facades) head = head//',facade'
    end subroutine make_wall_head
 
@@ -132,6 +134,13 @@ contains
             & to_table(wall%mechanism%trigger_acceleration())//','//to_table(wall%mechanism%capacity)//','// &
             & to_table(wall%mechanism%restitution)//','//to_table(member%weight)//','// &
             & text_cell(member%group, is_safe)//','//to_table(member%p_occ)
+         if (any(lengths > 0 .and. is_of_building)) then
+            if (allocated(wall%building)) then
+               row = row//','//to_table(wall%building%share)//','//to_table(wall%building%tilt)
+            else
+               row = row//',,'
+            end if
+         end if
          if (has_facades) row = row//','//text_cell(member%facade, is_safe)
       end associate
    end subroutine make_wall_row

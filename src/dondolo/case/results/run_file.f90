@@ -206,6 +206,9 @@ contains
 
       call json%open_object('floor')
       call json%put('participation', building%participation)
+      call json%put('participation_top', building%participation_top)
+      call json%put('support_share', building%share)
+      call json%put('support_tilt_1_s2', building%tilt)
       call json%put('free_vibration_s', building%free_vibration())
       call json%open_array('parts')
       do i = 1, size(dt)

@@ -7,8 +7,8 @@ module dondolo_work
    public :: work_type, work_names
 
    !> Names of the counts, in the order of `counts`
-   character(len=11), parameter :: work_names(7) = [character(len=11) :: 'histories', 'still', 'intervals', 'rocked', &
-      & 'steps', 'evaluations', 'impacts']
+   character(len=11), parameter :: work_names(8) = [character(len=11) :: 'histories', 'still', 'intervals', 'rocked', &
+      & 'steps', 'evaluations', 'impacts', 'drifted']
 
    !> Counts over histories
    type :: work_type
@@ -20,6 +20,8 @@ module dondolo_work
       integer(int64) :: steps = 0, evaluations = 0
       !> Impacts that were located
       integer(int64) :: impacts = 0
+      !> Histories in which the supports of the wall drift apart by more than a motion of both is good for
+      integer(int64) :: drifted = 0
    contains
       !> Add other counts
       procedure :: add
@@ -43,6 +45,7 @@ contains
       self%steps = self%steps + other%steps
       self%evaluations = self%evaluations + other%evaluations
       self%impacts = self%impacts + other%impacts
+      self%drifted = self%drifted + other%drifted
    end subroutine add
 
    !> The counts as an array, in the order of work_names
@@ -51,7 +54,8 @@ contains
       !> The same
       integer(int64) :: counts(size(work_names))
 
-      counts = [self%histories, self%still, self%intervals, self%rocked, self%steps, self%evaluations, self%impacts]
+      counts = [self%histories, self%still, self%intervals, self%rocked, self%steps, self%evaluations, self%impacts, &
+         & self%drifted]
    end function counts
 
 end module dondolo_work

@@ -1,0 +1,125 @@
+"""Walls between moving supports: what they feel, by every route, and the medians of the full two-support models."""
+
+import os
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import dondolo as dd
+
+RECORDS = os.environ.get("DONDOLO_RECORDS")
+
+
+def house(level: float, **more: object) -> dd.Building:
+    """A house of three storeys and 9 m."""
+    return dd.Building(0.3, storeys=3, level=level, building_height=9.0, **more)
+
+
+def strip(building: dd.Building | None) -> dd.TwoBlockWall:
+    """A strip of an upper storey."""
+    return dd.TwoBlockWall(
+        3.0, 0.25, hinge=0.6, overburden=5e3, overburden_inertia=0.0, restitution_factor=0.87, building=building
+    )
+
+
+def facade(building: dd.Building | None) -> dd.OneSidedWall:
+    """A facade as tall as the house."""
+    return dd.OneSidedWall(9.0, 0.5, building=building)
+
+
+def test_share_and_tilt():
+    wall = dd.TwoBlockWall(3.0, 0.25, hinge=0.6, building=house(6.0))
+    assert wall.support_share == pytest.approx(0.544907407407407, rel=1e-12)
+    assert wall.support_tilt == pytest.approx(3.175381944444444, rel=1e-12)
+    assert facade(house(0.0)).support_share == pytest.approx(6.018518518518519 / 9.0, rel=1e-12)
+    assert facade(None).support_share == facade(None).support_tilt == 0.0
+    assert facade(house(0.0, level_top=0.0)).support_share == 0.0
+    assert dd.FreeStandingWall(1.0, 0.3, building=house(9.0)).support_share == 0.0
+
+
+@pytest.mark.parametrize("engine", ["rk45", "lanes"])
+@pytest.mark.parametrize("wall", [strip, facade], ids=["strip", "facade"])
+@pytest.mark.parametrize("more", [{}, {"diaphragm_period": 0.4}], ids=["rigid", "diaphragm"])
+def test_a_wall_on_a_building_is_a_wall_under_what_it_feels(engine, wall, more):
+    if more and wall is facade:
+        pytest.skip("a facade leans on transverse walls")
+    level = 6.0 if wall is strip else 0.0
+    on_building = wall(house(level, **more))
+    for record in dd.example_records()[:3]:
+        for scale in (1.0, -2.0):
+            one = dd.simulate(on_building, record, scale=scale, solver=dd.Solver(engine=engine), history=False)
+            other = dd.simulate(wall(None), record.under(on_building), scale=scale, solver=dd.Solver(engine=engine), history=False)
+            assert (one.edp, one.collapsed, one.impacts) == (other.edp, other.collapsed, other.impacts)
+
+
+def test_motions_of_the_supports():
+    record = dd.example_records()[0]
+    wall = strip(house(6.0))
+    base, top, felt = (record.under(wall, at=place) for place in ("base", "top", "felt"))
+    floor = record.on_floor(dd.Building(0.3, participation=6 / 7, refine=round(record.dt / base.dt)))
+    assert base.acceleration == pytest.approx(floor.acceleration, abs=1e-12)
+    roof = record.on_floor(dd.Building(0.3, participation=9 / 7, refine=round(record.dt / base.dt)))
+    assert top.acceleration == pytest.approx(roof.acceleration, abs=1e-12)
+    # What is left is the tilt times the relative displacement: its second differences are the relative acceleration
+    mixed = base.acceleration + wall.support_share * (top.acceleration - base.acceleration)
+    drift = (mixed - felt.acceleration) / wall.support_tilt
+    relative = (top.acceleration - base.acceleration)[1:-1]
+    # Of the record itself: behind it the ground stops at once
+    inside = slice(0, (len(record.acceleration) - 2) * round(record.dt / base.dt))
+    differences = np.diff(drift, 2)[inside] / base.dt**2
+    assert differences == pytest.approx(relative[inside], abs=0.02 * np.abs(relative).max())
+
+
+def test_a_cut_facade_keeps_its_top():
+    whole = dd.OneSidedWall(section_height=[4.0, 3.5, 3.0], section_thickness=[0.6, 0.45, 0.3], building=house(0.0))
+    parts = dd.facade(whole, hinge_level=[0.0, 4.0]).walls
+    assert [part.building.level for part in parts] == [0.0, 4.0]
+    above = dd.OneSidedWall(section_height=[3.5, 3.0], section_thickness=[0.45, 0.3], building=house(4.0))
+    # The building ends at 9 m: the upper part leans on 5 m of it
+    assert parts[1].support_share == pytest.approx(above.support_share, rel=1e-12)
+    assert parts[0].support_share == whole.support_share
+    held = dd.OneSidedWall(
+        section_height=[4.0, 3.5, 3.0], section_thickness=[0.6, 0.45, 0.3], building=house(0.0, level_top=0.0)
+    )
+    assert [part.support_share for part in dd.facade(held, hinge_level=[0.0, 4.0]).walls] == [0.0, 0.0]
+
+
+def test_tables_name_what_walls_feel():
+    frame = strip(house(6.0)).to_frame()
+    assert frame["support_share"][0] == strip(house(6.0)).support_share
+    assert frame["support_tilt_1_s2"][0] == strip(house(6.0)).support_tilt
+    assert "support_share" not in strip(None).to_frame()
+
+
+def test_drifts_are_counted():
+    records = dd.example_records()[:4]
+    soft = dd.multiple_stripe(strip(house(6.0, diaphragm_period=0.8)), records, [0.3, 0.6], progress=False)
+    rigid = dd.multiple_stripe(strip(house(6.0)), records, [0.01], progress=False)
+    assert soft.work.drifted > 0
+    assert rigid.work.drifted == 0
+    with pytest.raises(dd.InputError, match="wall: must be a wall with a building"):
+        records[0].under(strip(None))
+    with pytest.raises(dd.InputError, match="at = 'roof': must be one of"):
+        records[0].under(strip(house(6.0)), at="roof")
+
+
+# Medians of the full two-support Lagrangian and of the unilateral facade, by an independent program
+FULL = [
+    (strip, 6.0, {}, 0.552),
+    (strip, 3.0, {}, 0.659),
+    (strip, 0.0, {}, 0.830),
+    (strip, 6.0, {"diaphragm_period": 0.2, "diaphragm_participation": 1.3}, 0.432),
+    (strip, 6.0, {"diaphragm_period": 0.4, "diaphragm_participation": 1.3}, 0.310),
+    (strip, 6.0, {"diaphragm_period": 0.8, "diaphragm_participation": 1.3}, 0.489),
+    (facade, 0.0, {}, 0.319),
+]
+
+
+@pytest.mark.skipif(RECORDS is None, reason="DONDOLO_RECORDS is not set")
+@pytest.mark.parametrize(("wall", "level", "more", "theta"), FULL)
+def test_medians_of_the_full_models(wall, level, more, theta):
+    records = dd.read_catalogue(Path(RECORDS or "") / "italy44.csv")
+    levels = np.r_[np.arange(0.05, 0.6, 0.05), np.arange(0.6, 2.01, 0.1)]
+    stripes = dd.multiple_stripe(wall(house(level, **more)), records, levels, polarity="both", progress=False)
+    assert stripes.fit().theta == pytest.approx(theta, rel=0.05)
