@@ -91,7 +91,7 @@ contains
          call print_supports(case)
       else if (case%job%task /= 'typology' .or. allocated(results%typologies)) then
          write (output_unit, '(a)') 'note: records are applied at the base of the wall; ground records underestimate '// &
-            & 'the demand on parapets, gables, pinnacles and upper storeys'
+            & 'the demand on parapets, gables, pinnacles, upper storeys and facades that lean on a building'
       end if
       write (output_unit, '(a)') ''
       if (case%job%task /= 'history') call print_work(case, results, seconds, threads)

@@ -452,7 +452,8 @@ contains
             end do
             call check_close(greatest(wall, base(:samples(k), k) + share*relative(:samples(k)) &
                & - tilt*delta(:samples(k))), peak(k), 1.0e-9_wp, 'peak')
-            call check_close(greatest(wall, base(:samples(k), k) + share*relative(:samples(k))), untilted(k), 1.0e-7_wp, 'peak without tilt')
+            call check_close(greatest(wall, base(:samples(k), k) + share*relative(:samples(k))), untilted(k), 1.0e-7_wp, &
+               & 'peak without tilt')
          end associate
       end do
    end subroutine test_swings
