@@ -19,6 +19,7 @@ module counting_mechanism
       procedure :: terms
       procedure :: potential
       procedure :: geometric_end
+      procedure :: support
    end type counting_type
 
    ! The motion is pure, a counter is not. The interface says what does no harm here.
@@ -68,6 +69,13 @@ contains
 
       q = self%counted%geometric_end()
    end function geometric_end
+
+   pure subroutine support(self, share, tilt)
+      class(counting_type), intent(in) :: self
+      real(wp), intent(out) :: share, tilt
+
+      call self%counted%support(share, tilt)
+   end subroutine support
 
 end module counting_mechanism
 

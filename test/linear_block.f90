@@ -15,6 +15,7 @@ module linear_block
       procedure :: terms
       procedure :: potential
       procedure :: geometric_end
+      procedure :: support
       procedure :: motion
       procedure :: peak_after
    end type linear_block_type
@@ -59,6 +60,14 @@ contains
 
       q = huge(self%p2)
    end function geometric_end
+
+   pure subroutine support(self, share, tilt)
+      class(linear_block_type), intent(in) :: self
+      real(wp), intent(out) :: share, tilt
+
+      share = 0.0_wp*self%p2
+      tilt = 0.0_wp
+   end subroutine support
 
    !> Rotation and velocity after a time t, in closed form, under a push -s u_g''/(alpha g) = x + r t
    pure function motion(self, start, x, r, t) result(state)
