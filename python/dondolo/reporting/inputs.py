@@ -153,6 +153,11 @@ def _wall_facts(run: Run) -> Facts:
         ("speed ratio of impacts", number(wall.restitution_coefficient)),
         ("gravity", number(wall.gravity, unit=" m/s2")),
     ]
+    if wall.support_share > 0.0:
+        pairs += [
+            (("share ", Symbol("k"), " of the relative acceleration of its supports"), number(wall.support_share)),
+            (("tilt ", Symbol("τ"), " by their relative displacement"), number(wall.support_tilt, unit=" 1/s2")),
+        ]
     if isinstance(run.results, Typology):
         weights, p_occ = run.population.weights, run.population.p_occ
         pairs += [("weight", number(weights[0])), (Symbol("p", "occ"), number(p_occ[0]))]
