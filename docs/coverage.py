@@ -398,10 +398,10 @@ available as `naive_covariance`, and in the columns `naive_se_*` of `*_fragility
 
 **Clusters.** Histories of one cluster may depend on each other in any way; clusters are independent. A cluster is the
 record with its polarities and levels; records with the same `event` (a column of the catalogue, or the header of the
-file) are one cluster. Without a name, equal origin time and epicentre are one event. Without these, components with the same
-station and date are one cluster, and without these a record that is given more than once. Records whose event is not known
-count as independent, though those of one earthquake are not, and the run warns of them: state which belong together in a
-column `event`, or by `Stripes.fit(events=...)`, which sets other labels.
+file) are one cluster. Without a name, equal origin time and epicentre are one event. Without these, components with
+the same station and date are one cluster, and without these a record that is given more than once. Records whose event
+is not known count as independent, though those of one earthquake are not, and the run warns of them: state which
+belong together in a column `event`, or by `Stripes.fit(events=...)`, which sets other labels.
 
 **Estimator.** With s_g the score of cluster g and I_g its part of the information I of the probit regression, the
 covariance is I⁻¹ (Σ r_g r_gᵀ) I⁻¹ with r_g = I (I - I_g)⁻¹ s_g (Liang and Zeger 1986; correction of Mancl and DeRouen

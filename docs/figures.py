@@ -85,7 +85,7 @@ def mechanisms():
 
 def supports():
     """Draw what moves seven walls: the supports of each, and the building as it leans."""
-    # Levels of the base and of what the wall leans on or is held by, height of the wall and of the building, two blocks or one
+    # Levels of the base and of what holds the wall, height of the wall and of the building, two blocks or one
     walls = {
         "(a) strip": (6.0, 9.0, 3.0, 9.0, True),
         "(b) facade": (0.0, 9.0, 9.0, 9.0, False),
@@ -100,7 +100,13 @@ def supports():
     arrow = {"color": style.BLUE, "linewidth": 1.4}
     for ax, (name, (base, top, height, house, folds)) in zip(axes, walls.items(), strict=True):
         ax.plot([0, 0, -2.6, -2.6], [0, house, house, 0], color=style.GREY, linewidth=0.8)
-        ax.plot([0, lean * house, lean * house - 2.6, -2.6], [0, house, house, 0], color=style.GREY, linestyle="--", linewidth=0.8)
+        ax.plot(
+            [0, lean * house, lean * house - 2.6, -2.6],
+            [0, house, house, 0],
+            color=style.GREY,
+            linestyle="--",
+            linewidth=0.8,
+        )
         feet = lean * base
         turned = lean if top > base else 0.0
         opening = 0.16 if folds else 0.07 if top > base else 0.13

@@ -12,7 +12,7 @@ STOREYS = {"storeys": 3, "building_height": 9.0}
 
 
 def run(wall: dd.Wall) -> str:
-    """Median and dispersion of a wall, and the share of its histories whose supports drift beyond 0.2 of its capacity."""
+    """Median and dispersion of a wall, and the share of its histories with drifts beyond 0.2 of its capacity."""
     stripes = dd.multiple_stripe(wall, records, levels, polarity="both", progress=False)
     curve = stripes.fit()
     drifted = stripes.work.drifted / stripes.work.histories

@@ -185,7 +185,7 @@ def test_another_build(finished, tmp_path):
         length = head_of(content) - len(line) - 1
         head = re.sub(rb"(?m)^%s = .*$" % name.encode(), name.encode() + b" = " + other, rest[:length])
         # Fingerprints are those of the store.
-        first = b"dondolo counts 4 %08d " % len(head)
+        first = b"dondolo counts 5 %08d " % len(head)
         path.write_bytes(first + fingerprint(head, b"") + b"\n" + head + rest[length:])
         with pytest.raises(dd.InputError, match=f"another study: {why}$"):
             dd.typology(**study.arguments(checkpoint=path))

@@ -49,7 +49,9 @@ def test_a_wall_on_a_building_is_a_wall_under_what_it_feels(engine, wall, more):
     for record in dd.example_records()[:3]:
         for scale in (1.0, -2.0):
             one = dd.simulate(on_building, record, scale=scale, solver=dd.Solver(engine=engine), history=False)
-            other = dd.simulate(wall(None), record.under(on_building), scale=scale, solver=dd.Solver(engine=engine), history=False)
+            other = dd.simulate(
+                wall(None), record.under(on_building), scale=scale, solver=dd.Solver(engine=engine), history=False
+            )
             assert (one.edp, one.collapsed, one.impacts) == (other.edp, other.collapsed, other.impacts)
 
 

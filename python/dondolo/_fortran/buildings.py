@@ -15,8 +15,11 @@ from dondolo._fortran.library import properties, receive
 
 
 class BuildingData(NamedTuple):
-    """A building as Fortran has understood it: values of its modes at the base and the top of a wall, of its diaphragm (zeros
-    without one), and how long its floor vibrates after a record [s]."""
+    """A building as Fortran has understood it.
+
+    Values of its modes at the base and the top of a wall, of its diaphragm (zeros without one), and how long its floor
+    vibrates after a record [s].
+    """
 
     damping: tuple[float, ...]
     participation: tuple[float, ...]
@@ -55,11 +58,13 @@ Motion = tuple[FloatArray, FloatArray | None, int]
 
 def floor_motion(acceleration: FloatArray, vertical: FloatArray | None, dt: float, values: Mapping[str, Any]) -> Motion:
     """Motion of a floor, horizontal and vertical [m/s2], and into how many parts the steps of a record are divided."""
-    return _motion(_core.buildings.floor_motion(acceleration, _or_one(vertical), dt, *_flat(values)), vertical is not None)
+    return _motion(
+        _core.buildings.floor_motion(acceleration, _or_one(vertical), dt, *_flat(values)), vertical is not None
+    )
 
 
 def felt_motion(acceleration: FloatArray, vertical: FloatArray | None, dt: float, wall: Handle, what: str) -> Motion:
-    """The motion that a wall on a building feels, or that of its base or its top, as `floor_motion` gives that of a floor."""
+    """The motion that a wall on a building feels, or that of its base or its top, as of `floor_motion`."""
     sent = _core.buildings.felt_motion(acceleration, _or_one(vertical), dt, wall.number, what)
     return _motion(sent, vertical is not None)
 

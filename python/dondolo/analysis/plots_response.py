@@ -20,8 +20,9 @@ def draw_history(response: Response, ax: Iterable[Axes] | None) -> style.Panels:
     axes = above, below = style.panels(ax, 2, (7.2, 4.6), sharex=True, height_ratios=(2, 3))
     wall = response.wall
     if wall.support_share > 0.0:
-        for at, colour, dashes in (("base", style.BLUE, "-"), ("top", style.PURPLE, (0, (3, 1)))):
-            support = response.record.under(wall, at=at)
+        motions = response.record.under(wall, at="base"), response.record.under(wall, at="top")
+        looks = ("base", style.BLUE, "-"), ("top", style.PURPLE, (0, (3, 1)))
+        for support, (at, colour, dashes) in zip(motions, looks, strict=True):
             shown = support.time <= time[-1]
             values = response.scale * support.acceleration[shown] / wall.gravity
             above.plot(support.time[shown], values, color=colour, linewidth=0.6, linestyle=dashes, label=at, alpha=0.8)

@@ -42,8 +42,8 @@ class Building:
     building_height : float, optional
         Height of the building, with storeys [m].
     level_top : float, optional
-        Height above the ground up to which the building moves the wall, with storeys; that of the top of the wall or of the
-        building if not given [m].
+        Height above the ground up to which the building moves the wall, with storeys; that of the top of the wall or of
+        the building if not given [m].
     participation_top : float or sequence of float, optional
         Participation factors times shapes at the top of the wall, with participation; the same if not given.
     diaphragm_period : float, optional
@@ -63,9 +63,9 @@ class Building:
     Notes
     -----
     The floor moves with u_g'' + sum participation d'', d'' + 2 damping omega d' + omega^2 d = -u_g'' for each mode;
-    what the modes leave out of the building moves with the ground. A wall that leans on the building, or spans between two of
-    its floors, feels both of its supports (`Wall.support_share`, `Record.under`); level_top equal to level lets it move with
-    its base alone. The building stays linear: docs/floors.md.
+    what the modes leave out of the building moves with the ground. A wall that leans on the building, or spans between
+    two of its floors, feels both of its supports (`Wall.support_share`, `Record.under`); level_top equal to level lets
+    it move with its base alone. The building stays linear: docs/floors.md.
 
     Examples
     --------
@@ -95,9 +95,9 @@ class Building:
     def __post_init__(self) -> None:
         values = building_values(vars(self))
         data = describe_building(values)
-        filled = {"damping": data.damping, "_data": data}
+        filled: dict[str, Any] = {"damping": data.damping, "_data": data}
         if values["diaphragm_period"] is not None:
-            filled |= dict(zip(("diaphragm_damping", "diaphragm_participation"), data.diaphragm, strict=True))
+            filled["diaphragm_damping"], filled["diaphragm_participation"] = data.diaphragm
         for name, value in (values | filled).items():
             object.__setattr__(self, name, value)
 

@@ -475,9 +475,9 @@ class Record:
         Returns
         -------
         Record
-            a_base + k (a_top - a_base) - tau delta, with k and tau of the wall (`Wall.support_share`, `Wall.support_tilt`) and
-            delta the relative displacement of top and base; or the absolute acceleration of one of them. The same wall
-            without a building has the same histories under it, to the bit.
+            a_base + k (a_top - a_base) - tau delta, with k and tau of the wall (`Wall.support_share`,
+            `Wall.support_tilt`) and delta the relative displacement of top and base; or the absolute acceleration of
+            one of them. The same wall without a building has the same histories under it, to the bit.
 
         Raises
         ------
@@ -487,6 +487,14 @@ class Record:
         Notes
         -----
         docs/theory.md, section 1. Analyses filter by themselves, and scale by measures of the ground motion.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> wall = dd.TwoBlockWall(3.0, 0.25, building=dd.Building(0.3, storeys=3, level=6.0, building_height=9.0))
+        >>> record = dd.example_records()[0]
+        >>> record.under(wall).dt < record.dt
+        True
         """
         one_of("at", at, ("felt", "base", "top"))
         felt = getattr(wall, "_felt", lambda *_: None)(self.acceleration, self.vertical, self.dt, at)

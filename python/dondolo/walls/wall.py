@@ -188,16 +188,16 @@ class Wall:
 
     @property
     def support_share(self) -> float:
-        """Share k of the relative acceleration of its top and its base that moves a wall on a building; 0 if it feels its base alone."""
+        """Share k of the acceleration of its top relative to its base that moves the wall; 0 without a top support."""
         return self._static(9)
 
     @property
     def support_tilt(self) -> float:
-        """Tilt tau, which the relative displacement of top and base is taken times [1/s2]; 0 if the wall feels its base alone."""
+        """Tilt tau, the factor on the relative displacement of top and base [1/s2]; 0 without a top support."""
         return self._static(10)
 
     def _felt(self, acceleration: FloatArray, vertical: FloatArray | None, dt: float, what: str) -> Motion | None:
-        """The motion that the wall feels under one of the ground, or that of its base or its top; None without a building."""
+        """The motion that the wall feels, or that of its base or its top; None without a building."""
         return None if self.building is None else felt_motion(acceleration, vertical, dt, upload((self,)), what)
 
     @property
