@@ -133,7 +133,9 @@ def fit(levels, collapses, count):
         z = (np.log(levels) - p[0]) / np.exp(p[1])
         return -np.sum(collapses * norm.logcdf(z) + (count - collapses) * norm.logcdf(-z))
 
-    found = minimize(lack, [np.mean(np.log(levels)), np.log(0.4)], method="Nelder-Mead", options={"xatol": 1e-5, "fatol": 1e-8})
+    found = minimize(
+        lack, [np.mean(np.log(levels)), np.log(0.4)], method="Nelder-Mead", options={"xatol": 1e-5, "fatol": 1e-8}
+    )
     return np.exp(found.x)
 
 
