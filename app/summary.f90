@@ -187,7 +187,7 @@ contains
             & trim(share(work%rocked, work%intervals))//' sample intervals'
          if (work%drifted > 0) write (output_unit, '(a)') 'note: the supports of walls drift apart by more than 0.2 of the '// &
             & 'capacity rotation in '//trim(share(work%drifted, work%histories))//' histories, where the motion that the '// &
-            & 'wall feels is approximate, on the safe side'
+            & 'wall feels is approximate'
          if (case%solver%solver%estimate_error) write (output_unit, '(a)') &
             & '(to estimate errors every history was run twice more)'
       end associate

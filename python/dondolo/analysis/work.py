@@ -32,7 +32,7 @@ class Work(NamedTuple):
         Impacts that were located.
     drifted : int
         Histories in which the supports of a wall on a building drift apart by more than 0.2 of its capacity rotation:
-        the motion that it feels is approximate there, on the safe side (docs/theory.md, section 1).
+        the motion that it feels is approximate there (docs/theory.md, section 1).
     """
 
     histories: int = 0
