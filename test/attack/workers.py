@@ -99,7 +99,9 @@ class Workers:
         self.study.clean()
         self.study.out.mkdir()
         began = time.monotonic()
-        subprocess.run(command, check=True, capture_output=True)
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            raise RuntimeError(f"an undisturbed run ended with {done.returncode}: {done.stderr.strip()[-2000:]}")
         return self.study.contents(), time.monotonic() - began
 
 
