@@ -84,6 +84,9 @@ class Workers:
                 code = process.wait()
                 tally.failures.append(f"{what}:{number}: HANGS after the kill of a worker")
             again = subprocess.run(self.command("typology"), capture_output=True, text=True, check=False)
+            # What the killed run has left of its workers would be in the way of the next one
+            with suppress(ProcessLookupError):
+                os.killpg(process.pid, signal.SIGKILL)
             tally.cases += 1
             tally.read += code == 0
             tally.refused += code != 0
