@@ -158,7 +158,7 @@ contains
          & ' g, greatest static acceleration '//rounded(greatest_acceleration(wall%mechanism)/wall%gravity)// &
          & ' g, rigid-plastic '//rounded(plastic_acceleration(wall%mechanism)/wall%gravity)//' g (alpha_0 of design)')
       if (.not. allocated(wall%building)) call print_line('anchors', 'at rest, as is what the wall leans on; a building '// &
-         & '(&building) that moves both takes a third to a half of theta')
+         & '(&building) that moves both lowers theta')
    end subroutine print_ties
 
    !> A rotation that may never be reached
