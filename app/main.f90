@@ -85,14 +85,16 @@ contains
       !> What went wrong
       type(error_type), allocatable, intent(out) :: error
 
-      type(case_type) :: case
-      type(results_type) :: results
+      ! On the heap: stacks may be small.
+      type(case_type), allocatable :: case
+      type(results_type), allocatable :: results
       type(result_files_type) :: files
       type(lines_type) :: warnings, replaced
       integer(int64) :: start, finish, rate
       integer :: threads
       logical :: has_results
 
+      allocate (case, results)
       if (allocated(arguments%rows)) then
          call read_case(arguments%case_file, case, error, arguments%rows)
       else

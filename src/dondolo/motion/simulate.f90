@@ -44,10 +44,11 @@ contains
       !> What was computed, without the time history
       type(work_type), intent(out), optional :: work
 
-      type(lane_constants_type) :: constants
+      ! Large ones are on the heap: stacks may be small.
+      type(lane_constants_type), allocatable :: constants
       type(response_type) :: again
-      type(ensemble_type) :: ensemble
-      type(suite_type) :: suite
+      type(ensemble_type), allocatable :: ensemble
+      type(suite_type), allocatable :: suite
       type(record_type), allocatable :: records(:)
       type(rest_type) :: rest
       real(wp) :: time, side
@@ -70,6 +71,7 @@ contains
          call rest%next_start(record, scale, interval, time, side, found)
          if (.not. found) return
       end if
+      allocate (constants, ensemble, suite)
       ensemble%record = [1]
       ensemble%scale = [scale]
       records = [record]

@@ -87,10 +87,13 @@ contains
       integer, intent(out) :: begin
 
       integer, parameter :: most = 512
-      type(print_type) :: number, final, others(most), column(compared_lines + 1)
+      type(print_type) :: number, final, column(compared_lines + 1)
+      ! On the heap: threads may have small stacks.
+      type(print_type), allocatable :: others(:)
       integer :: at, line, cell, cells, wanted, count, aligned, lines
       logical :: found
 
+      allocate (others(most))
       lines = size(first)
       cells = 0
       count = 0
