@@ -5,6 +5,7 @@ module dondolo_summary
    use dondolo_certificate, only : in_double, in_quadruple, not_computable
    use dondolo_check_lines, only : print_check, print_verdicts
    use dondolo_design_lines, only : print_designs
+   use dondolo_drift_note, only : make_drift_note, share_of
    use dondolo_error_estimate, only : runs_of_estimate
    use dondolo_fit_lines, only : bar, fractiles, make_head, print_fit, print_population_errors
    use dondolo_kinds, only : wp
@@ -14,12 +15,12 @@ module dondolo_summary
    use dondolo_name_column, only : name_width
    use dondolo_results, only : results_type, row_counts_type
    use dondolo_source_rows, only : make_model_sentence, make_source_sentence
+   use dondolo_support_notes, only : supports_type
    use dondolo_tested_restitution, only : make_restitution_sentence
    use dondolo_text, only : counted, left, right, rounded, to_text
    use dondolo_tie_rows, only : make_tie_sentence
    use dondolo_typology, only : whole_population
    use dondolo_union_lines, only : print_facade, print_unions, print_verdict_rows
-   use dondolo_wall_properties, only : is_of_building
    implicit none
    private
 
@@ -38,8 +39,9 @@ contains
       !> Number of threads
       integer, intent(in) :: threads
 
+      type(supports_type) :: supports
+      type(lines_type) :: notes
       integer :: i
-      logical :: on_floors
 
       if (len(case%job%title) > 0) write (output_unit, '(a)') case%job%title, ''
       select case (case%job%task)
@@ -81,14 +83,12 @@ contains
       if (case%job%task /= 'typology') call print_restitution(case)
       if (case%suite%has_vertical) write (output_unit, '(a)') 'note: vertical ground motion is applied: the recorded '// &
          & 'components, scaled as their records'//trim(factor_note(case))
-      on_floors = allocated(case%wall%building)
-      if (allocated(case%facade)) on_floors = case%facade%gives(is_of_building)
-      if (allocated(case%survey%lengths)) on_floors = on_floors .or. any(case%survey%lengths > 0 .and. is_of_building)
-      if (on_floors .and. case%job%task == 'typology') then
-         write (output_unit, '(a)') 'note: records are of the ground; linear buildings move the walls that have one, at their '// &
-            & 'bases and at what they lean on'
-      else if (on_floors) then
-         call print_supports(case)
+      call find_supports(case, supports)
+      call supports%make_notes(notes)
+      if (notes%count > 0) then
+         do i = 1, notes%count
+            write (output_unit, '(a)') 'note: '//notes%line(i)%text
+         end do
       else if (case%job%task /= 'typology' .or. allocated(results%typologies)) then
          write (output_unit, '(a)') 'note: records are applied at the base of the wall; ground records underestimate '// &
             & 'the demand on parapets, gables, pinnacles, upper storeys and facades that lean on a building'
@@ -100,23 +100,17 @@ contains
       end do
    end subroutine print_summary
 
-   !> Print what moves a wall on a building
-   subroutine print_supports(case)
+   !> What moves the walls of a case
+   subroutine find_supports(case, supports)
       type(case_type), intent(in) :: case
+      type(supports_type), intent(out) :: supports
 
-      character(len=:), allocatable :: moved
-
-      associate (building => case%wall%building)
-         moved = 'the base of the wall'
-         if (building%share > 0.0_wp) moved = 'both supports of the wall'
-         write (output_unit, '(a)') 'note: records are of the ground; a linear building moves '//moved
-         if (building%share > 0.0_wp .and. case%wall%input%has('participation') &
-            & .and. .not. case%wall%input%has('participation_top')) write (output_unit, '(a)') 'note: base and top of the wall '// &
-            & 'move alike, with one floor; participation_top describes another motion of the top'
-         if (size(case%wall%input%list('tie_height')) > 0) write (output_unit, '(a)') 'note: the ties are anchored to '// &
-            & trim(merge('the building, and move with it     ', 'what the base of the wall stands on', building%share > 0.0_wp))
-      end associate
-   end subroutine print_supports
+      if (case%job%task == 'typology') then
+         supports = case%survey%supports
+      else
+         call supports%look(case%wall)
+      end if
+   end subroutine find_supports
 
    !> Print what the restitution of a wall of two blocks assumes
    subroutine print_restitution(case)
@@ -166,7 +160,7 @@ contains
       !> Number of threads
       integer, intent(in) :: threads
 
-      character(len=:), allocatable :: engines
+      character(len=:), allocatable :: engines, drift
       integer(int64) :: histories
 
       call results%name_engines(engines)
@@ -183,30 +177,14 @@ contains
          write (output_unit, '(a)') to_text(histories)//' histories, engine '//engines
       end if
       associate (work => results%work)
-         write (output_unit, '(a)') 'never moved: '//trim(share(work%still, work%histories))//' histories; rocking: '// &
-            & trim(share(work%rocked, work%intervals))//' sample intervals'
-         if (work%drifted > 0) write (output_unit, '(a)') 'note: the supports of walls drift apart by more than 0.2 of the '// &
-            & 'capacity rotation in '//trim(share(work%drifted, work%histories))//' histories, where the motion that the '// &
-            & 'wall feels is approximate'
+         write (output_unit, '(a)') 'never moved: '//trim(share_of(work%still, work%histories))//' histories; rocking: '// &
+            & trim(share_of(work%rocked, work%intervals))//' sample intervals'
+         call make_drift_note(work, drift)
+         if (len(drift) > 0) write (output_unit, '(a)') 'note: '//drift
          if (case%solver%solver%estimate_error) write (output_unit, '(a)') &
             & '(to estimate errors every history was run twice more)'
       end associate
    end subroutine print_work
-
-   !> A part of a whole: both counts and the percentage
-   pure function share(part, whole) result(text)
-      !> The part
-      integer(int64), intent(in) :: part
-      !> The whole
-      integer(int64), intent(in) :: whole
-      !> Text that the name of what is counted can follow, filled up with blanks
-      character(len=56) :: text
-
-      character(len=8) :: percent
-
-      write (percent, '(f8.1)') 100.0_wp*real(part, wp)/real(max(whole, 1_int64), wp)
-      text = trim(adjustl(percent))//' %, '//to_text(part)//' of '//to_text(whole)
-   end function share
 
    !> Print the response of a time history
    subroutine print_history(case, results)

@@ -106,6 +106,60 @@ def test_drifts_are_counted():
         records[0].under(strip(house(6.0)), at="roof")
 
 
+NOTES = {
+    "one floor": ("participation = 1.1", ["both supports", "give participation_top", "to the building"]),
+    "two supports": ("participation = 0.1, participation_top = 1.3", ["both supports", "to the building"]),
+    "held by nothing": (
+        "storeys = 3, level = 0.0, level_top = 0.0, building_height = 8.0",
+        ["moves the base of the wall", "what the base of the wall stands on"],
+    ),
+}
+
+
+@pytest.mark.parametrize(("building", "words"), NOTES.values(), ids=NOTES)
+def test_python_and_the_executable_give_the_same_notes(building, words, run, tmp_path):
+    case = tmp_path / "case.nml"
+    case.write_text(
+        f"""&job task = 'stripes', output = 'case' /
+&wall mechanism = 'one_sided', height = 8.0, thickness = 0.45, tie_height = 7.0, tie_area = 6e-5, tie_length = 7.5 /
+&building period = 0.35, {building} /
+&records catalogue = '{Path(__file__).parents[2] / "data/records/synthetic44.csv"}' /
+&stripes levels = 0.1, 0.3, 0.9 /
+"""
+    )
+    stripes = dd.run_case(case, progress=False).stripes
+    notes = [text for name, text in stripes._facts() if name == "note"]
+    assert len(notes) - len(words) == (stripes.work.drifted > 0)
+    assert all(word in note for word, note in zip(words, notes, strict=False))
+    printed = [line.removeprefix("note: ") for line in run(case).stdout.splitlines() if line.startswith("note: ")]
+    assert printed == notes
+    motion = dd.simulate(stripes.wall, dd.example_records()[0], history=False)
+    assert [text for name, text in motion._facts() if name == "note"] == notes[: len(words)]
+
+
+def test_notes_count_the_walls_of_a_population():
+    leaning = dd.OneSidedWall(8.0, 0.45, building=dd.Building(0.3, participation=1.1))
+    found = dd.typology(
+        dd.Population((leaning, facade(house(0.0)), facade(None))), dd.example_records()[:3], [0.3, 0.6], progress=False
+    )
+    notes = [text for name, text in found._facts() if name == "note"]
+    assert "linear buildings move the walls that have one" in notes[0]
+    assert notes[1].startswith("both ends of 1 wall move with one floor; give participation_top")
+    assert len(notes) == 2 + (found.work.drifted > 0)
+
+
+def test_the_share_of_histories_that_drift_apart_is_said():
+    stripes = dd.multiple_stripe(
+        strip(house(6.0, diaphragm_period=0.8)), dd.example_records()[:4], [0.3, 0.6], progress=False
+    )
+    drifted, histories = stripes.work.drifted, stripes.work.histories
+    note = dict(stripes._facts())["note"]
+    assert (
+        f"by more than 0.2 of the capacity rotation in {100 * drifted / histories:.1f} %, {drifted} of {histories}"
+        in note
+    )
+
+
 # Medians of the full two-support Lagrangian and of the unilateral facade, by an independent program
 FULL = [
     (strip, 6.0, {}, 0.552),

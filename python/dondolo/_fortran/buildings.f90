@@ -1,9 +1,11 @@
 !> Buildings, and the motions of their floors.
 module buildings
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_boundary, only : check_room
    use dondolo_building, only : building_type
    use dondolo_building_input, only : building_properties, new_building
+   use dondolo_drift_note, only : make_drift_note
    use dondolo_error, only : error_type, problems_type, raise_input
    use dondolo_floor_motion, only : filter_record, floor_samples
    use dondolo_handles, only : find_walls
@@ -12,12 +14,14 @@ module buildings
    use dondolo_record, only : new_record, record_type
    use dondolo_settings, only : group_settings_type, new_settings
    use dondolo_settings_check, only : check_settings
+   use dondolo_support_notes, only : supports_type
    use dondolo_text, only : to_text
    use dondolo_wall, only : wall_type
+   use dondolo_work, only : work_type
    implicit none
    private
 
-   public :: describe_building, felt_motion, floor_motion
+   public :: describe_building, drift_note, felt_motion, floor_motion, support_notes
 
 contains
 
@@ -85,6 +89,45 @@ contains
       end if
       call send(parcel, error, sent, stat, message)
    end subroutine felt_motion
+
+   !> What there is to say of the supports that move walls, as lines; none where no wall has a building
+   subroutine support_notes(walls, sent, stat, message)
+      integer(c_int64_t), intent(in) :: walls
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(wall_type), pointer :: people(:)
+      type(supports_type) :: supports
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+      integer :: i
+
+      call find_walls(walls, people, error)
+      if (.not. allocated(error)) then
+         do i = 1, size(people)
+            call supports%look(people(i))
+         end do
+         call supports%make_notes(parcel%lines)
+      end if
+      call send(parcel, error, sent, stat, message)
+   end subroutine support_notes
+
+   !> What there is to say of histories whose supports drift apart, as a line, empty where there are none
+   subroutine drift_note(drifted, histories, sent, stat, message)
+      integer(c_int64_t), intent(in) :: drifted, histories
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(work_type) :: work
+      character(len=:), allocatable :: line
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+
+      work = work_type(drifted=int(drifted, int64), histories=int(histories, int64))
+      call make_drift_note(work, line)
+      call parcel%lines%add(line)
+      call send(parcel, error, sent, stat, message)
+   end subroutine drift_note
 
    !> Put the motion that a building makes of a record
    subroutine put_motion(building, acceleration, vertical, dt, parcel, error)

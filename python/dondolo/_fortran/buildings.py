@@ -69,6 +69,17 @@ def felt_motion(acceleration: FloatArray, vertical: FloatArray | None, dt: float
     return _motion(sent, vertical is not None)
 
 
+def support_notes(walls: Handle) -> list[str]:
+    """What there is to say of the supports that move walls; nothing where no wall has a building."""
+    return receive(*_core.buildings.support_notes(walls.number)).lines
+
+
+def drift_note(drifted: int, histories: int) -> str:
+    """What there is to say of histories whose supports drift apart; empty where there are none."""
+    (line,) = receive(*_core.buildings.drift_note(drifted, histories)).lines
+    return line
+
+
 def _or_one(vertical: FloatArray | None) -> FloatArray:
     """A vertical component, or the one sample that stands for none: f2py takes no empty arrays."""
     return np.zeros(1) if vertical is None else vertical

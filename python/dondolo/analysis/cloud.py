@@ -64,7 +64,7 @@ from dondolo.curves.regression import Logistic, Regression, logistic_regression,
 from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted
 from dondolo.records.record import Record
 from dondolo.records.record_set import scaled_records
-from dondolo.walls.wall import Wall
+from dondolo.walls.wall import Wall, notes_on_supports
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -326,6 +326,8 @@ class Cloud(tables.Tabular, Saved):
                 )
                 for model, what in models
             ),
+            *notes_on_supports((self.wall,)),
+            *self.work._notes(),
         ]
 
 

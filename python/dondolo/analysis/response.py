@@ -24,7 +24,7 @@ from dondolo.figures.style import Panels
 from dondolo.records.record import Record
 from dondolo.records.suite import place_of
 from dondolo.walls.ties import TieStates, number_of_ties, states_of_ties
-from dondolo.walls.wall import Wall, upload
+from dondolo.walls.wall import Wall, notes_on_supports, upload
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -276,7 +276,7 @@ class Response(Shown, Saved):
         for number, (elongation, energy, broken) in enumerate(zip(*self.ties, strict=True), 1):
             end = "broken" if broken else "stretched for good" if elongation > 0.0 else "as it was"
             facts.append((f"tie {number}", f"{end}, {elongation:.4g} m, {energy:.4g} J/m"))
-        return facts
+        return [*facts, *notes_on_supports((self.wall,))]
 
     def _table(self) -> tables.Table:
         self._motion()

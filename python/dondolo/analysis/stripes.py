@@ -29,7 +29,7 @@ from dondolo.curves.sample import Sample, cluster_labels, given_labels
 from dondolo.errors import InputError, silent
 from dondolo.walls.table import walls_table
 from dondolo.walls.ties import states_of_ties
-from dondolo.walls.wall import Wall, upload
+from dondolo.walls.wall import Wall, notes_on_supports, upload
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -492,4 +492,4 @@ class Stripes(Shown, Saved):
         restitution = restitution_sentence(upload((self.wall,)))
         if restitution:
             facts.insert(1, ("restitution", restitution))
-        return facts
+        return [*facts, *notes_on_supports((self.wall,)), *self.work._notes()]

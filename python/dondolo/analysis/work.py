@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import NamedTuple
 
+from dondolo._fortran.buildings import drift_note
 from dondolo._storage.saved import part_of_results
 
 
@@ -48,6 +49,11 @@ class Work(NamedTuple):
     def total(cls, parts: Iterable[Work]) -> Work:
         """The sum of counts."""
         return cls(*map(sum, zip(cls(), *parts, strict=True)))
+
+    def _notes(self) -> list[tuple[str, str]]:
+        """What there is to say of supports that drift apart, as facts."""
+        note = drift_note(self.drifted, self.histories)
+        return [("note", note)] if note else []
 
     def __str__(self) -> str:
         return (

@@ -33,7 +33,7 @@ from dondolo.populations.flags import Flags
 from dondolo.populations.rows import curves_of_rows, curves_of_walls, packed, packed_walls, unpacked, unpacked_walls
 from dondolo.populations.tie_counts import TieCounts, tie_table
 from dondolo.walls.population import Population
-from dondolo.walls.wall import Wall
+from dondolo.walls.wall import Wall, notes_on_supports
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -561,6 +561,7 @@ class Typology(Shown, Saved):
 
     def _facts(self) -> list[tuple[str, str]]:
         fitted = sum(curve.has_fit for curve in self.combined.values())
+        notes = [*notes_on_supports(self.walls), *self.work._notes()]
         facts = [
             ("walls", f"{len(self.combined)}, {fitted} of them with a curve"),
             ("levels", levels_in_words(self.levels, self.im)),
@@ -569,18 +570,23 @@ class Typology(Shown, Saved):
             facts.append(("damage states", " ".join(f"{edp:g}" for edp in self.edp_thresholds)))
         if self.are_alternatives:
             facts[0] = ("designs", f"{len(self.walls)}, {fitted} of them with a curve")
-            return [*facts, *((name, parameters(one)) for name, one in self.combined.items()), ("work", str(self.work))]
+            return [
+                *facts,
+                *((name, parameters(one)) for name, one in self.combined.items()),
+                ("work", str(self.work)),
+                *notes,
+            ]
         if self.facade and self.knows_unions:
             facts[0] = ("facade", f"{self.facade}, {len(self.walls)} mechanisms, counted in the same histories")
             facts += self.unions[self.facade]._facts()
             facts.append(("taken as independent", parameters(self.combined[self.facade])))
-            return [*facts, ("work", str(self.work))]
+            return [*facts, ("work", str(self.work)), *notes]
         whole = self["all"]
         facts += whole.fit._facts()
         if whole.fitted > 0.0:
             text = f"{shown_dispersion(whole.beta_walls):.3g} between walls, {whole.beta_records:.3g} between records"
             facts.append(("dispersion", text))
-        return [*facts, ("work", str(self.work))]
+        return [*facts, ("work", str(self.work)), *notes]
 
 
 def typology_table(typology: Typology) -> tables.Table:

@@ -32,7 +32,7 @@ from dondolo.reporting.numerals import number, parameter, percent, whole
 from dondolo.reporting.run import Run
 from dondolo.reporting.statuses import status_table
 from dondolo.walls.population import Population
-from dondolo.walls.wall import Wall, effective_property
+from dondolo.walls.wall import Wall, effective_property, notes_on_supports
 
 # What stands behind properties of a wall in place of their units
 _UNITS = {"hinge": "of the height", "eccentricity": "m, to the outer side", "restitution": "model"}
@@ -133,7 +133,12 @@ def walls(run: Run) -> dict[str, Any]:
         ),
         ("Statics of the walls, and their curves of collapse.", _statics(run)),
     ]
-    return {"facts": [*facts, *people._ranges()], "tables": tables, "drawing": None, "drawings": drawings}
+    return {
+        "facts": [*facts, *people._ranges(), *notes_on_supports(people.walls)],
+        "tables": tables,
+        "drawing": None,
+        "drawings": drawings,
+    }
 
 
 def _wall_facts(run: Run) -> Facts:
@@ -158,6 +163,7 @@ def _wall_facts(run: Run) -> Facts:
             (("share ", Symbol("k"), " of the relative acceleration of its supports"), number(wall.support_share)),
             (("tilt ", Symbol("τ"), " by their relative displacement"), number(wall.support_tilt, unit=" 1/s2")),
         ]
+    pairs += notes_on_supports((wall,))
     if isinstance(run.results, Typology):
         weights, p_occ = run.population.weights, run.population.p_occ
         pairs += [("weight", number(weights[0])), (Symbol("p", "occ"), number(p_occ[0]))]
@@ -353,6 +359,7 @@ def checks(run: Run) -> dict[str, Any]:
         ("of these with rocking", (whole(work.rocked), " (", percent(work.rocked / max(work.intervals, 1)), ")")),
         ("steps of the integration", whole(work.steps)),
         ("impacts located", whole(work.impacts)),
+        *work._notes(),
     ]
     return {"statuses": status_table(states), "facts": pairs}
 

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from dondolo._base.arguments import FloatArray, as_number, instance_of, one_of
 from dondolo._base.shown import html_of
 from dondolo._fortran import _core
-from dondolo._fortran.buildings import BUILDING_NAMES, Motion, felt_motion
+from dondolo._fortran.buildings import BUILDING_NAMES, Motion, felt_motion, support_notes
 from dondolo._fortran.handles import Handle
 from dondolo._fortran.library import check, with_units
 from dondolo._fortran.walls import (
@@ -331,6 +331,13 @@ def upload(walls: tuple[Wall, ...]) -> Handle:
     # Another thread may have uploaded it in the meantime, and uses its handle.
     handle: Handle = alone.setdefault("_handle", Handle(number))
     return handle
+
+
+def notes_on_supports(walls: tuple[Wall, ...]) -> list[tuple[str, str]]:
+    """What there is to say of the supports that move walls, as facts, as the executable prints it."""
+    if all(wall.building is None for wall in walls):
+        return []
+    return [("note", note) for note in support_notes(upload(walls))]
 
 
 def property_of(wall: Wall, name: str) -> Any:

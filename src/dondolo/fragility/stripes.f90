@@ -5,6 +5,7 @@
 module dondolo_stripes
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_certificate, only : certified_type
+   use dondolo_drift_note, only : largest_drift
    use dondolo_ensemble, only : ensemble_type, run_ensemble
    use dondolo_error, only : error_type
    use dondolo_floors, only : floors_type
@@ -22,9 +23,6 @@ module dondolo_stripes
 
    public :: stripes_type, multiple_stripe, plan_stripes, planned_work, run_histories, run_part, histories_of, take_motions, &
       & find_lifts
-
-   !> Drift of the supports, as a part of the capacity rotation, up to which the motion that a wall feels is measured to be good
-   real(wp), parameter :: largest_drift = 0.2_wp
 
    !> Memory that a history of the plan takes while it is run, once or three times [bytes]
    real(wp), parameter :: bytes_of_history = 114.0_wp, bytes_of_three_runs = 214.0_wp

@@ -17,6 +17,7 @@ module dondolo_survey
    use dondolo_solver, only : check_limit
    use dondolo_stripes, only : plan_stripes, stripes_type
    use dondolo_study, only : study_type
+   use dondolo_support_notes, only : supports_type
    use dondolo_text, only : to_text
    use dondolo_variants, only : stated_wall_type
    use dondolo_wall_properties, only : wall_properties
@@ -50,6 +51,8 @@ module dondolo_survey
       type(fingerprint_type) :: fingerprint, walls_fingerprint
       !> How many values each property of a wall has at most
       integer, allocatable :: lengths(:)
+      !> What moves the walls
+      type(supports_type) :: supports
       !> Rows of walls with friction, and the name of the first
       integer :: rubbing = 0
       character(len=:), allocatable :: first_rubbing
@@ -97,6 +100,7 @@ contains
             survey%has_facades = survey%has_facades .or. len(member%facade) > 0
             call survey%roster%add(member)
             survey%lengths = max(survey%lengths, member%wall%input%lengths())
+            call survey%supports%look(member%wall)
             call add_wall(survey%walls_fingerprint, member%wall)
             if (member%wall%mechanism%has_friction()) survey%rubbing = survey%rubbing + 1
             if (survey%rubbing == 1 .and. .not. allocated(survey%first_rubbing)) survey%first_rubbing = member%wall%name()

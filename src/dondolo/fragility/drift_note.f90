@@ -1,0 +1,45 @@
+!> How far supports of a wall may drift apart, and what a run says of histories in which they drift further.
+module dondolo_drift_note
+   use, intrinsic :: iso_fortran_env, only : int64
+   use dondolo_kinds, only : wp
+   use dondolo_text, only : rounded, to_text
+   use dondolo_work, only : work_type
+   implicit none
+   private
+
+   public :: largest_drift, make_drift_note, share_of
+
+   !> Drift of the supports, as a part of the capacity rotation, up to which the motion that a wall feels is measured to be good
+   real(wp), parameter :: largest_drift = 0.2_wp
+
+contains
+
+   !> Make the sentence
+   subroutine make_drift_note(work, line)
+      !> Counts of the histories
+      type(work_type), intent(in) :: work
+      !> The sentence; empty if none drifts as far
+      character(len=:), allocatable, intent(out) :: line
+
+      line = ''
+      if (work%drifted > 0) line = 'the supports of walls drift apart by more than '//rounded(largest_drift)// &
+         & ' of the capacity rotation in '//trim(share_of(work%drifted, work%histories))//' histories, where the motion that '// &
+         & 'the wall feels is approximate'
+   end subroutine make_drift_note
+
+   !> A part of a whole: the percentage and both counts
+   pure function share_of(part, whole) result(text)
+      !> The part
+      integer(int64), intent(in) :: part
+      !> The whole
+      integer(int64), intent(in) :: whole
+      !> Text that the name of what is counted can follow, filled up with blanks
+      character(len=56) :: text
+
+      character(len=8) :: percent
+
+      write (percent, '(f8.1)') 100.0_wp*real(part, wp)/real(max(whole, 1_int64), wp)
+      text = trim(adjustl(percent))//' %, '//to_text(part)//' of '//to_text(whole)
+   end function share_of
+
+end module dondolo_drift_note
