@@ -48,7 +48,7 @@ contains
       call report(error, stat, message)
       if (allocated(error)) return
       worst = k + 1
-      !$omp parallel do default(none) private(curve, error, sentence, this) &
+      !$omp parallel do if(k > 1) default(none) private(curve, error, sentence, this) &
       !$omp & shared(k, levels, collapses, histories, curves, statuses, worst, stat, message)
       do i = 1, k
          call fit_fragility(curve, levels, collapses(:, i), histories(:, i), error)
@@ -91,7 +91,7 @@ contains
       call check_room(error, reals=40.0_c_double*m)
       call report(error, stat, message)
       if (allocated(error)) return
-      !$omp parallel do default(none) private(curve, changes) &
+      !$omp parallel do if(k > 1) default(none) private(curve, changes) &
       !$omp & shared(k, h, levels, collapses, histories, curves, statuses, covariances) &
       !$omp & shared(errors, clusters)
       do i = 1, k
