@@ -199,23 +199,17 @@ def speeds(results, turns):
     first = [each for each in results if each.wall == results[0].wall]
     lanes = references(first)["lanes"]
     mine = next(each for each in first if each.name == lanes[0])
-    variant = mine.version.split()[-1]
     factors = {}
     for name, best, what in compared(first):
         factors[name] = rounded(ratio(turns, (best.name, best.setting), lanes, what).median)
-    words = []
-    for program in ("Boost.odeint", "heyoka", "SciPy"):
-        if program in factors:
-            words.append(f"{factors[program]} times as fast as {program}")
-            if f"{program}, as accurate" in factors:
-                words[-1] += f" ({factors[f'{program}, as accurate']} at dondolo's accuracy)"
-            if f"{program}, own steps" in factors:
-                words[-1] += f" called from Python ({factors[f'{program}, own steps']} of its own steps)"
-    times = Spread.of(times_of(turns, *lanes).values())
-    median, lower, upper = (rounded(value, 3) for value in (times.median, times.lower, times.upper))
+    words = [
+        f"{factors[program]} times as fast as {program}{' called from Python' if program == 'heyoka' else ''}"
+        for program in ("Boost.odeint", "heyoka", "SciPy")
+        if program in factors
+    ]
+    median = rounded(Spread.of(times_of(turns, *lanes).values()).median, 3)
     sentence = (
-        f"{mine.histories} time histories of one wall under recorded motions take "
-        f"{median} ms (quartiles {lower} and {upper}) on one core in a call from Python (`{variant}`): "
-        f"{', '.join(words)}, each at its cheapest setting that is accurate enough, all warm and in the same rounds."
+        f"{mine.histories} time histories of one wall take {median} ms on one core: {', '.join(words)}, "
+        "each at its cheapest setting that is accurate enough."
     )
     return paragraph(sentence, indent="  ")[:-1]

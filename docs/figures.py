@@ -31,6 +31,7 @@ from sabetta_pugliese import Model, mean_frequency  # noqa: E402
 def main() -> None:
     """Draw all figures."""
     figures.mkdir(parents=True, exist_ok=True)
+    front()
     quick_start()
     intensities()
     mechanisms()
@@ -49,6 +50,27 @@ def new_axes(rows, columns, size, **options):
     """Create a figure of several axes in the style of dondolo."""
     with plt.rc_context(style.RC):
         return plt.subplots(rows, columns, figsize=size, layout="constrained", **options)
+
+
+def front():
+    """Draw the README's first picture: a wall that rocks, one of its time histories, and its fragility curve."""
+    wall = dd.OneSidedWall(height=1.5, thickness=0.25, name="parapet")
+    response = dd.simulate(wall, next(r for r in records if r.name == "22_norcia_2016_m6.5_b"), 1.134)
+    stripes = dd.multiple_stripe(wall, records, levels=np.linspace(0.1, 1.2, 12), polarity="both")
+    with plt.rc_context(style.RC):
+        figure = plt.figure(figsize=(11.0, 3.6), layout="constrained")
+        grid = figure.add_gridspec(2, 3, width_ratios=[0.7, 1.3, 1.3])
+        drawing, ground, rotation, curve = (
+            figure.add_subplot(place) for place in (grid[:, 0], grid[0, 1], grid[1, 1], grid[:, 2])
+        )
+    ground.sharex(rotation)
+    response.plot_peak(drawing)
+    response.plot([ground, rotation])
+    stripes.fit().plot(curve)
+    curve.set_ylim(0.0, 1.25)
+    for ax, title in ((drawing, "A wall rocks"), (ground, "under each record"), (curve, "How likely is it to fall?")):
+        ax.set_title(title, loc="left")
+    figure.savefig(figures / "front.png", dpi=110)
 
 
 def quick_start():

@@ -59,13 +59,29 @@ def test_both_languages_show_the_same(root):
 
 def test_readme(root, executable, tmp_path):
     page = (root / "README.md").read_text(encoding="utf-8")
-    summary = next(block for block in blocks(page, "text") if block.startswith("Facade strip"))
-    said = shell("dondolo --example two_block >two_block.nml && dondolo two_block.nml", tmp_path, executable)
+    assert len(page.splitlines()) <= 120
+    lines = [line.split("  #")[0].strip() for line in commands(page) if line.startswith("dondolo")]
+    assert len(lines) == 3
+    said = [said for line in lines for said in shell(line, tmp_path, executable)]
+    summary = next(block for block in blocks(page, "text"))
     assert [line for line in summary.splitlines() if line not in said] == []
+    (tmp_path / "script.py").write_text("".join(blocks(page, "python")))
+    assert shell(f"{sys.executable} script.py", tmp_path, executable)
+    for written in ("out/parapet_report.html", "stripes.png", "fragility.png"):
+        assert (tmp_path / written).stat().st_size > 500
+
+
+def test_cases(root, executable, tmp_path):
+    page = (root / "docs/cases.md").read_text(encoding="utf-8")
     (tmp_path / "data").symlink_to(root / "data")
     case = next(block for block in blocks(page, "fortran") if block.startswith("&job"))
     (tmp_path / "parapet.nml").write_text(case)
-    shell("dondolo --check parapet.nml && dondolo parapet.nml", tmp_path, executable)
-    message = next(block for block in blocks(page, "text") if block.startswith("dondolo: parapet.nml"))
+    for line in commands(page):
+        shell(line, tmp_path, executable)
+    assert (tmp_path / "out/parapet_run.json").is_file()
+    message = next(block for block in blocks(page, "text"))
     (tmp_path / "parapet.nml").write_text(case.replace("thickness = 0.25 ", "thickness = -0.25 "))
     assert shell("dondolo parapet.nml 2>&1 || true", tmp_path, executable) == message.splitlines()
+    table = page[page.index("| name |") : page.index("The walls of the populations")]
+    ready = {case.stem for case in (root / "data/cases").glob("*.nml")}
+    assert set(re.findall(r"`(\w+)`", table)) == ready
