@@ -20,6 +20,7 @@ program dondolo_main
    use dondolo_reports, only : check_reports, write_reports
    use dondolo_replaced, only : describe_replaced, list_outdated
    use dondolo_result_files, only : result_files_type
+   use dondolo_result_tables, only : table_suffixes
    use dondolo_results, only : results_type
    use dondolo_run_case, only : run_case
    use dondolo_population_case, only : merge_population
@@ -114,7 +115,7 @@ contains
       call print_lines('note', replaced)
       threads = team(case%job%threads)
       call end_in_order()
-      if (has_results) call files%claim(case%job%output, error)
+      if (has_results) call files%claim(case%job%output, table_suffixes(), error)
       if (allocated(error)) return
       call system_clock(start, rate)
       if (arguments%action == 'merge') then

@@ -2,6 +2,7 @@
 program test_case
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, suite
    use dondolo_case, only : case_type
+   use dondolo_columns, only : columns_type, integer_column, real_column, text_column
    use dondolo_read_case, only : read_case
    use dondolo_error, only : error_type, status_input
    use dondolo_error_estimate, only : runs_of_estimate
@@ -13,6 +14,7 @@ program test_case
    use dondolo_population, only : read_population
    use dondolo_reports, only : check_reports, write_reports
    use dondolo_result_files, only : published_run, result_files_type
+   use dondolo_result_tables, only : list_tables, table_kind_type, table_suffixes
    use dondolo_results, only : results_type
    use dondolo_run_case, only : plan_case, run_case
    use dondolo_system, only : is_folder, remove_folder, same_file
@@ -52,6 +54,7 @@ program test_case
    call test_record_sets()
    call test_work()
    call test_output()
+   call test_tables()
    call finish()
 
 contains
@@ -431,9 +434,9 @@ contains
       call check_reports(case, error)
       call check_ok(error, 'a folder that can be made')
       call check(.not. is_folder(scratch//'/out'), 'the trial leaves no folder')
-      call files%claim(case%job%output, error)
+      call files%claim(case%job%output, table_suffixes(), error)
       call check_ok(error, 'an output that nobody writes')
-      call second%claim(case%job%output, error)
+      call second%claim(case%job%output, table_suffixes(), error)
       call check_error(error, 'x: ', 'an output that another run writes')
       call run_case(case, results, error, threads=1)
       call write_reports(case, results, files, error)
@@ -452,6 +455,73 @@ contains
       call check_reports(case, error)
       call check_error(error, 'a.nml: &job: output = '''//scratch//'/a.nml/x'': the folder', 'a file for a folder')
    end subroutine test_output
+
+   !> Tables in memory are those of the files, and a row that differs from the first is found out
+   subroutine test_tables()
+      type(case_type) :: case
+      type(results_type) :: results
+      type(table_kind_type), allocatable :: kinds(:)
+      type(columns_type) :: table, odd
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: head
+      character(len=1024) :: line
+      integer :: i, k, rows, unit, stat
+
+      call suite('tables')
+      call write_file('a.nml', stripes_case)
+      call read_case(scratch//'/a.nml', case, error)
+      call run_case(case, results, error, threads=1)
+      call check_ok(error, 'a run')
+      call list_tables(kinds)
+      do k = 1, size(kinds)
+         if (.not. kinds(k)%is_of(case)) cycle
+         table = columns_type()
+         call kinds(k)%fill(case, results, table, error)
+         call check_ok(error, trim(kinds(k)%suffix)//' in memory')
+         head = ''
+         do i = 1, table%names%count
+            head = head//','//table%names%line(i)%text
+         end do
+         ! As test_output has written it
+         open (newunit=unit, file=scratch//'/out/x'//trim(kinds(k)%suffix), action='read', status='old')
+         rows = -1
+         do
+            read (unit, '(a)', iostat=stat) line
+            if (stat /= 0) exit
+            if (line(1:1) == '#') cycle
+            if (rows == -1) call check_text(head(2:), trim(line), 'columns of '//trim(kinds(k)%suffix))
+            rows = rows + 1
+         end do
+         close (unit)
+         call check(rows == table%rows .and. rows > 0, 'as many rows')
+      end do
+      associate (column => table%columns)
+         call check(column(1)%kind == text_column .and. column(1)%text(:column(1)%length) == repeat('it''s'//lf, table%rows), &
+            & 'texts, each ended')
+         call check(column(12)%kind == real_column, 'numbers')
+         call check_close(column(12)%number(1), 0.9_wp, 0.0_wp, 'the threshold of the curve')
+      end associate
+
+      call odd%put('a', 1)
+      call odd%put('b', 2.0_wp, given=.false.)
+      call odd%end_row()
+      call check(odd%is_regular .and. odd%columns(1)%kind == integer_column, 'a row makes the columns')
+      call check(.not. odd%columns(2)%number(1) >= 0.0_wp .and. .not. odd%columns(2)%number(1) < 0.0_wp, 'no number')
+      call odd%put('a', 1)
+      call odd%put('c', 2.0_wp)
+      call odd%end_row()
+      call check(.not. odd%is_regular, 'another name')
+      odd%is_regular = .true.
+      call odd%put('a', 1)
+      call odd%end_row()
+      call check(.not. odd%is_regular, 'a column is left out')
+      odd%is_regular = .true.
+      call odd%put('a', 'x')
+      call odd%put('b', 2.0_wp)
+      call odd%put('c', 2.0_wp)
+      call odd%end_row()
+      call check(.not. odd%is_regular, 'a column too many, and another kind')
+   end subroutine test_tables
 
    !> A file that must be refused
    subroutine check_refused(content, part)

@@ -12,6 +12,7 @@ program test_run_population
    use dondolo_population, only : read_population
    use dondolo_reports, only : write_reports
    use dondolo_result_files, only : result_files_type
+   use dondolo_result_tables, only : table_suffixes
    use dondolo_results, only : results_type
    use dondolo_run_case, only : plan_case, run_case
    use dondolo_population_case, only : find_start, merge_population, store_path
@@ -782,7 +783,7 @@ contains
 
       elsewhere = case
       elsewhere%job%output = scratch//'/'//name//'/z'
-      call files%claim(elsewhere%job%output, error)
+      call files%claim(elsewhere%job%output, table_suffixes(), error)
       if (.not. allocated(error)) call write_reports(elsewhere, results, files, error)
       call check_ok(error, 'tables '//name)
       call files%close()

@@ -9,11 +9,12 @@ module cases
    use dondolo_member, only : member_type
    use dondolo_population, only : read_population
    use dondolo_record_parcel, only : pack_records
+   use dondolo_result_tables, only : table_suffixes
    use dondolo_wall_parcel, only : pack_members
    implicit none
    private
 
-   public :: read_case
+   public :: read_case, result_tables
 
 contains
 
@@ -72,6 +73,23 @@ contains
       end if
       call send(parcel, error, sent, stat, message)
    end subroutine read_case
+
+   !> What the names of the tables of results end with, of any case: a line each
+   subroutine result_tables(sent, stat, message)
+      integer(c_int64_t), intent(out) :: sent(4)
+      integer(c_int), intent(out) :: stat
+      character(len=2048), intent(out) :: message
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+      integer :: i
+
+      associate (suffixes => table_suffixes())
+         do i = 1, size(suffixes)
+            call parcel%lines%add(trim(suffixes(i)))
+         end do
+      end associate
+      call send(parcel, error, sent, stat, message)
+   end subroutine result_tables
 
    !> Add the check of a case
    subroutine pack_check(case, parcel)

@@ -18,18 +18,13 @@ from pathlib import Path
 from typing import NamedTuple
 
 from dondolo._base.files import create, new_run, release, synchronize, thing
-from dondolo._fortran.library import warn
+from dondolo._fortran import _core
+from dondolo._fortran.library import receive, warn
 from dondolo._fortran.origins import check_replaced, outdated, replaced
 from dondolo.errors import DondoloError, DondoloWarning, InputError
 
 # What the names of the files of a set end with, of any task
-TABLES = tuple(
-    f"_{name}.csv"
-    for name in (
-        *("walls", "histories", "stripes", "fragility", "typology", "history", "check", "checks", "unions", "ties"),
-        *("sources", "designs"),
-    )
-)
+TABLES = tuple(receive(*_core.cases.result_tables()).lines)
 RUN_FILE = "_run.json"
 _LOCK_MARK, _TABLE_MARK = "dondolo lock", "# dondolo "
 # How often, and after how many seconds, a lock is tried again: who only looks at it has it for a moment

@@ -1,11 +1,10 @@
 !> The sheet of a check: every number with its name, symbol, formula and unit, in the order of the calculation.
 module dondolo_check_sheet
    use dondolo_kinds, only : wp
-   use dondolo_text, only : to_table
    implicit none
    private
 
-   public :: sheet_type, sheet_head
+   public :: sheet_type
 
    !> Length of the names of methods, states and quantities, and of a formula's
    integer, parameter :: name_length = 20
@@ -69,9 +68,6 @@ module dondolo_check_sheet
       character(len=name_length) :: formula = ''
    end type sheet_row_type
 
-   !> Names of the columns of a sheet as a table
-   character(len=*), parameter :: sheet_head = 'method,limit_state,quantity,symbol,value,unit,formula,meaning'
-
    !> A sheet
    type :: sheet_type
       !> Its lines
@@ -81,8 +77,6 @@ module dondolo_check_sheet
       procedure :: add
       !> The value of a line
       procedure :: value
-      !> A line as a row of a table
-      procedure :: make_row
    end type sheet_type
 
 contains
@@ -136,20 +130,5 @@ contains
          end associate
       end do
    end function value
-
-   !> A line as a row of a table; no cell needs quotes but the meaning
-   pure subroutine make_row(self, at, line)
-      class(sheet_type), intent(in) :: self
-      !> Number of the line
-      integer, intent(in) :: at
-      !> The row
-      character(len=:), allocatable, intent(out) :: line
-
-      associate (row => self%rows(at))
-         line = trim(row%method)//','//trim(row%state)//','//trim(row%quantity%name)//','//trim(row%quantity%symbol)// &
-            & ','//to_table(row%value)//','//trim(row%quantity%unit)//','//trim(row%formula)//',"'// &
-            & trim(row%quantity%meaning)//'"'
-      end associate
-   end subroutine make_row
 
 end module dondolo_check_sheet

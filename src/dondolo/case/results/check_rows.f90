@@ -2,30 +2,24 @@
 module dondolo_check_rows
    use dondolo_case, only : case_type
    use dondolo_check_sheet, only : sheet_type
-   use dondolo_csv_row, only : text_cell
    use dondolo_error, only : error_type
    use dondolo_fragility, only : fragility_type
    use dondolo_kinds, only : wp
    use dondolo_kinematic, only : kinematic_type, new_kinematic
    use dondolo_ntc_check, only : check_ntc
    use dondolo_member, only : member_type
-   use dondolo_report_rows, only : make_wall_cells
-   use dondolo_text, only : to_table
+   use dondolo_table, only : table_type
+   use dondolo_text, only : lower
    use dondolo_wall, only : wall_type
    implicit none
    private
 
-   public :: check_wall, make_check_row, verdicts_type
-   public :: check_row_head, check_methods, check_states, shown_verdicts
+   public :: check_wall, put_check, put_sheet_row, verdicts_type
+   public :: check_methods, check_states, shown_verdicts
 
    !> The kinematic checks: method and limit state
    character(len=*), parameter :: check_methods(4) = [character(len=9) :: 'linear', 'linear', 'nonlinear', 'nonlinear'], &
       & check_states(4) = [character(len=3) :: 'SLD', 'SLV', 'SLV', 'SLC']
-
-   !> Names of the columns of the table of checks
-   character(len=*), parameter :: check_row_head = 'wall,mechanism,group,alpha_0,mass_ratio,d_0_m,'// &
-      & 'linear_sld_g,linear_sld_ratio,linear_slv_g,linear_slv_ratio,nonlinear_slv_g,nonlinear_slv_ratio,'// &
-      & 'nonlinear_slc_g,nonlinear_slc_ratio,probability_site,probability_nonlinear_slv,note'
 
    !> Rows that are shown one by one
    integer, parameter :: shown_verdicts = 20
@@ -76,66 +70,101 @@ contains
       end if
    end subroutine check_wall
 
-   !> The check of a row of a population as a row of a table; why there is none in its last cell
-   subroutine make_check_row(case, member, curve, verdicts, row)
+   !> The check of a row of a population; why there is none in its last cell
+   subroutine put_check(table, case, member, curve, verdicts)
+      class(table_type), intent(inout) :: table
       type(case_type), intent(in) :: case
       type(member_type), intent(in) :: member
       !> Its curve of collapse
       type(fragility_type), intent(in) :: curve
       !> Counts the row
       type(verdicts_type), intent(inout) :: verdicts
-      !> Row
-      character(len=:), allocatable, intent(out) :: row
 
       type(sheet_type) :: sheet
       type(error_type), allocatable :: error
-      character(len=:), allocatable :: cells
+      character(len=:), allocatable :: note, name
       integer :: i
 
-      call make_wall_cells(member%wall, case%job%spreadsheet_safe, cells)
-      row = cells//','//text_cell(member%group, case%job%spreadsheet_safe)
       call check_wall(case, member%wall, sheet, error, curve)
-      if (allocated(error)) then
-         verdicts%others = verdicts%others + 1
-         row = row//repeat(',', 14)//text_cell(error%message, case%job%spreadsheet_safe)
-         return
-      end if
-      verdicts%checked = verdicts%checked + 1
-      row = row//','//to_table(sheet%value('mechanism', '', 'alpha_0'))//','// &
-         & to_table(sheet%value('mechanism', '', 'mass_ratio'))//','//to_table(sheet%value('mechanism', '', 'd_0'))
+      note = ''
+      if (allocated(error)) note = error%message
+      call count_verdict(verdicts, member, sheet, .not. allocated(error))
+      call table%put('group', member%group)
+      call put_value('alpha_0', 'mechanism', '', 'alpha_0')
+      call put_value('mass_ratio', 'mechanism', '', 'mass_ratio')
+      call put_value('d_0_m', 'mechanism', '', 'd_0')
       do i = 1, size(check_states)
-         associate (ratio => sheet%value(check_methods(i), check_states(i), 'ratio'))
-            row = row//','//to_table(sheet%value(check_methods(i), check_states(i), 'capacity_pga'))//','//to_table(ratio)
-            if (ratio >= 1.0_wp) verdicts%verified(i) = verdicts%verified(i) + 1
-            verdicts%least(i) = min(verdicts%least(i), ratio)
-            if (verdicts%checked <= shown_verdicts) verdicts%first(verdicts%checked)%ratio(i) = ratio
-         end associate
+         name = trim(check_methods(i))//'_'//lower(check_states(i))
+         call put_value(name//'_g', check_methods(i), check_states(i), 'capacity_pga')
+         call put_value(name//'_ratio', check_methods(i), check_states(i), 'ratio')
       end do
-      if (verdicts%checked <= shown_verdicts) then
-         associate (verdict => verdicts%first(verdicts%checked))
-            verdict%name = member%wall%name()
-            verdict%multiplier = sheet%value('mechanism', '', 'alpha_0')
-            verdict%probability = sheet%value('site', 'SLV', 'probability')
-         end associate
-      end if
-      row = row//','//trim(chance('site'))//','//trim(chance('nonlinear'))//','
+      call put_value('probability_site', 'site', 'SLV', 'probability')
+      call put_value('probability_nonlinear_slv', 'nonlinear', 'SLV', 'probability')
+      call table%put('note', note)
 
    contains
 
-      !> Probability of collapse at the peak acceleration of SLV; empty where there is none
-      function chance(method) result(cell)
-         !> 'site', or the check that says what the wall withstands
-         character(len=*), intent(in) :: method
-         !> Cell
-         character(len=48) :: cell
+      !> Put a value of the sheet; a probability is less than 0 where there is none
+      subroutine put_value(name, method, state, quantity)
+         !> Name of the column
+         character(len=*), intent(in) :: name
+         !> Part of the check, limit state and quantity
+         character(len=*), intent(in) :: method, state, quantity
 
          real(wp) :: value
 
-         value = sheet%value(method, 'SLV', 'probability')
-         cell = ''
-         if (value >= 0.0_wp) cell = to_table(value)
-      end function chance
+         value = -1.0_wp
+         if (.not. allocated(error)) value = sheet%value(method, state, quantity)
+         call table%put(name, value, .not. allocated(error) .and. .not. (quantity == 'probability' .and. value < 0.0_wp))
+      end subroutine put_value
 
-   end subroutine make_check_row
+   end subroutine put_check
+
+   !> Count the check of a row
+   subroutine count_verdict(verdicts, member, sheet, is_checked)
+      type(verdicts_type), intent(inout) :: verdicts
+      type(member_type), intent(in) :: member
+      type(sheet_type), intent(in) :: sheet
+      !> Can the wall be checked?
+      logical, intent(in) :: is_checked
+
+      real(wp) :: ratio(size(check_states))
+      integer :: i
+
+      if (.not. is_checked) then
+         verdicts%others = verdicts%others + 1
+         return
+      end if
+      verdicts%checked = verdicts%checked + 1
+      ratio = [(sheet%value(check_methods(i), check_states(i), 'ratio'), i=1, size(check_states))]
+      where (ratio >= 1.0_wp) verdicts%verified = verdicts%verified + 1
+      verdicts%least = min(verdicts%least, ratio)
+      if (verdicts%checked > shown_verdicts) return
+      associate (verdict => verdicts%first(verdicts%checked))
+         verdict%name = member%wall%name()
+         verdict%multiplier = sheet%value('mechanism', '', 'alpha_0')
+         verdict%ratio = ratio
+         verdict%probability = sheet%value('site', 'SLV', 'probability')
+      end associate
+   end subroutine count_verdict
+
+   !> A line of a sheet; the meaning of a quantity may have commas
+   subroutine put_sheet_row(table, sheet, number)
+      class(table_type), intent(inout) :: table
+      type(sheet_type), intent(in) :: sheet
+      !> Number of the line
+      integer, intent(in) :: number
+
+      associate (row => sheet%rows(number))
+         call table%put('method', trim(row%method))
+         call table%put('limit_state', trim(row%state))
+         call table%put('quantity', trim(row%quantity%name))
+         call table%put('symbol', trim(row%quantity%symbol))
+         call table%put('value', row%value)
+         call table%put('unit', trim(row%quantity%unit))
+         call table%put('formula', trim(row%formula))
+         call table%put('meaning', trim(row%quantity%meaning), is_quoted=.true.)
+      end associate
+   end subroutine put_sheet_row
 
 end module dondolo_check_rows

@@ -1,49 +1,45 @@
 !> Designs of one wall compared on the same records: for people and tables.
 module dondolo_design_rows
-   use dondolo_csv_row, only : text_cell
    use dondolo_designs, only : design_type
    use dondolo_kinds, only : wp
-   use dondolo_text, only : rounded, to_table
+   use dondolo_table, only : table_type
+   use dondolo_text, only : rounded
    implicit none
    private
 
-   public :: design_head, make_design_row, make_design_sentence
-
-   !> Names of the columns of the table of designs
-   character(len=*), parameter :: design_head = 'design,im,theta,beta,se_ln_theta,status,ratio,ratio_low,ratio_high,p_value,'// &
-      & 'steel_kg_m,gain_per_kg,alpha_0_g,static_ratio'
+   public :: put_design, make_design_sentence
 
 contains
 
    !> A design as a row
-   subroutine make_design_row(design, first, im, is_safe, row)
+   subroutine put_design(table, design, first, im)
+      class(table_type), intent(inout) :: table
       type(design_type), intent(in) :: design, first
       !> Intensity measure
       character(len=*), intent(in) :: im
-      !> Are texts to be no formulas in a spreadsheet?
-      logical, intent(in) :: is_safe
-      !> Row
-      character(len=:), allocatable, intent(out) :: row
 
-      row = text_cell(design%name, is_safe)//','//im//','
-      if (design%curve%has_fit()) then
-         row = row//to_table(design%curve%theta)//','//to_table(design%curve%beta)//','
-         if (design%curve%has_errors()) row = row//to_table(design%curve%se_ln_theta())
-         row = row//','
-      else
-         row = row//',,,'
-      end if
-      row = row//trim(design%curve%status)//','
-      if (design%is_compared) then
-         row = row//to_table(design%ratio)//','//to_table(design%low)//','//to_table(design%high)//','// &
-            & to_table(design%p_value)//','
-      else
-         row = row//',,,,'
-      end if
-      row = row//to_table(design%steel)//','
-      if (design%is_compared .and. design%steel > first%steel) row = row//to_table(design%gain_per_kg(first))
-      row = row//','//to_table(design%alpha_0)//','//to_table(design%alpha_0/first%alpha_0)
-   end subroutine make_design_row
+      real(wp) :: gain
+      logical :: has_fit, has_gain
+
+      has_fit = design%curve%has_fit()
+      has_gain = design%is_compared .and. design%steel > first%steel
+      gain = 0.0_wp
+      if (has_gain) gain = design%gain_per_kg(first)
+      call table%put('design', design%name)
+      call table%put('im', im)
+      call table%put('theta', design%curve%theta, has_fit)
+      call table%put('beta', design%curve%beta, has_fit)
+      call table%put('se_ln_theta', design%curve%se_ln_theta(), has_fit .and. design%curve%has_errors())
+      call table%put('status', trim(design%curve%status))
+      call table%put('ratio', design%ratio, design%is_compared)
+      call table%put('ratio_low', design%low, design%is_compared)
+      call table%put('ratio_high', design%high, design%is_compared)
+      call table%put('p_value', design%p_value, design%is_compared)
+      call table%put('steel_kg_m', design%steel)
+      call table%put('gain_per_kg', gain, has_gain)
+      call table%put('alpha_0_g', design%alpha_0)
+      call table%put('static_ratio', design%alpha_0/first%alpha_0)
+   end subroutine put_design
 
    !> A design beside the first, for people
    subroutine make_design_sentence(design, first, line)

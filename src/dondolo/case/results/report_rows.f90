@@ -1,14 +1,13 @@
-!> The rows of the result tables, as lines of text.
+!> The rows of the result tables: what stands in them under which name.
 module dondolo_report_rows
    use dondolo_certificate, only : certified_type, status_names
    use dondolo_clustered, only : parameter_intervals
-   use dondolo_csv_row, only : text_cell
    use dondolo_fragility, only : fragility_type
    use dondolo_kinds, only : wp
    use dondolo_member, only : member_type
-   use dondolo_property, only : column_name, is_list, is_many, is_words, word_of
+   use dondolo_property, only : column_name, is_many, is_text, is_words, property_type, word_of
    use dondolo_response, only : response_type
-   use dondolo_text, only : to_table, to_text
+   use dondolo_table, only : table_type
    use dondolo_typology, only : typology_type
    use dondolo_unions, only : union_type
    use dondolo_wall, only : wall_type
@@ -16,194 +15,199 @@ module dondolo_report_rows
    implicit none
    private
 
-   public :: make_wall_head, make_wall_row, stripes_head, make_stripes_row, fragility_head, make_fragility_row
-   public :: union_head, make_union_row
-   public :: certified_head, make_certified_cells, uplift_head
-   public :: typology_head, make_typology_row, history_head, make_history_row, make_wall_cells
-
-   !> Names of the columns of each table
-   character(len=*), parameter :: error_columns = 'se_ln_theta,se_beta,cov_ln_theta_beta,errors,clusters,degrees_of_freedom', &
-      & no_errors = ',,,,,'
-   character(len=*), parameter :: &
-      & wall_tail = ',alpha_rad,p_rad_s,trigger_acceleration_m_s2,capacity_rad,restitution,weight,group,p_occ', &
-      & support_head = ',support_share,support_tilt_1_s2', &
-      & stripes_head = 'wall,mechanism,im,im_level,histories,collapses,fraction,edp_threshold', &
-      & fragility_head = 'wall,mechanism,im,theta,beta,se_ln_theta,se_beta,log_likelihood,status,bracket_low,'// &
-      & 'bracket_high,edp_threshold,theta_low,theta_high,beta_low,beta_high,errors,clusters,degrees_of_freedom,'// &
-      & 'naive_se_ln_theta,naive_se_beta,cov_ln_theta_beta', &
-      & typology_head = 'mechanism,im,im_level,weight,mean_fraction,mean_curve,theta,beta,status,group,fractile_16,'// &
-      & 'fractile_50,fractile_84,beta_walls,beta_records,saturation,edp_threshold,'//error_columns, &
-      & union_head = 'wall,group,mechanisms,im,im_level,histories,collapses,fraction,independent_fraction,'// &
-      & 'edp_threshold,theta,beta,status,'//error_columns//',independent_theta,independent_beta', &
-      & certified_head = ',status,edp_lowest,edp_highest', &
-      & uplift_head = ',uplift', &
-      & history_head = 'wall,mechanism,record,polarity,im,im_level,scale,edp,collapsed,impacts,time_of_peak_s'
+   public :: put_names, put_wall, put_stripe, put_fragility, put_typology, put_union, put_history, put_certified
 
 contains
 
-   !> How a history is certified
-   pure subroutine make_certified_cells(certified, cells)
-      type(certified_type), intent(in) :: certified
-      !> Cells that follow those of its error
-      character(len=:), allocatable, intent(out) :: cells
-
-      cells = ','//trim(status_names(certified%status))//','//to_table(certified%lowest)//','//to_table(certified%highest)
-   end subroutine make_certified_cells
-
-   !> Name and mechanism of a wall
-   pure subroutine make_wall_cells(wall, is_safe, cells)
+   !> Name and mechanism of a wall, which most rows begin with
+   subroutine put_names(table, wall)
+      class(table_type), intent(inout) :: table
       type(wall_type), intent(in) :: wall
-      !> Are texts to be no formulas in a spreadsheet?
-      logical, intent(in) :: is_safe
-      !> Two cells
-      character(len=:), allocatable, intent(out) :: cells
 
-      cells = text_cell(wall%name(), is_safe)//','//wall%mechanism_name()
-   end subroutine make_wall_cells
+      call table%put('wall', wall%name())
+      call table%put('mechanism', wall%mechanism_name())
+   end subroutine put_names
 
-   !> Names of the columns of a wall: its properties, and what follows from them
-   subroutine make_wall_head(lengths, has_facades, head)
+   !> A wall: its properties, empty cells for those that it does not have, and what follows from them
+   subroutine put_wall(table, member, lengths, has_facades)
+      class(table_type), intent(inout) :: table
+      !> The wall, one mechanism of it
+      type(member_type), intent(in) :: member
       !> How many values each property has at most; as many columns has a list
       integer, intent(in) :: lengths(:)
       !> Are there walls that are part of a facade?
       logical, intent(in) :: has_facades
-      !> Names
-      character(len=:), allocatable, intent(out) :: head
 
-      integer :: i, k
+      integer :: i
 
-      head = ''
       do i = 1, size(wall_properties)
          if (wall_properties(i)%replaced .or. (is_extra(i) .and. lengths(i) == 0)) cycle
-         if (is_many(wall_properties(i)%kind)) then
-            do k = 1, lengths(i)
-               head = head//','//trim(column_name(wall_properties(i), k))
-            end do
-            cycle
-         end if
-         if (len(head) > 0) head = head//','
-         head = head//trim(column_name(wall_properties(i)))
+         call put_property(table, member%wall, wall_properties(i), lengths(i))
       end do
-      head = head//wall_tail
-      if (any(lengths > 0 .and. is_of_building)) head = head//support_head
-      if (has_facades) head = head//',facade'
-   end subroutine make_wall_head
+      associate (wall => member%wall)
+         call table%put('alpha_rad', wall%alpha)
+         call table%put('p_rad_s', wall%mechanism%frequency_parameter())
+         call table%put('trigger_acceleration_m_s2', wall%mechanism%trigger_acceleration())
+         call table%put('capacity_rad', wall%mechanism%capacity)
+         call table%put('restitution', wall%mechanism%restitution)
+      end associate
+      call table%put('weight', member%weight)
+      call table%put('group', member%group)
+      call table%put('p_occ', member%p_occ)
+      if (any(lengths > 0 .and. is_of_building)) call put_support(table, member%wall)
+      if (has_facades) call table%put('facade', member%facade)
+   end subroutine put_wall
 
-   !> A wall: its properties, empty cells for those that it does not have, and its static quantities
-   subroutine make_wall_row(member, lengths, has_facades, is_safe, row)
-      !> The wall, one mechanism of it
-      type(member_type), intent(in) :: member
-      !> How many values each property has at most
-      integer, intent(in) :: lengths(:)
-      !> Are there walls that are part of a facade?
-      logical, intent(in) :: has_facades
-      !> Are texts to be no formulas in a spreadsheet?
-      logical, intent(in) :: is_safe
-      !> Row
-      character(len=:), allocatable, intent(out) :: row
+   !> A property of a wall, of a list all values
+   subroutine put_property(table, wall, property, length)
+      class(table_type), intent(inout) :: table
+      type(wall_type), intent(in) :: wall
+      type(property_type), intent(in) :: property
+      !> Columns of a list
+      integer, intent(in) :: length
 
       real(wp), allocatable :: values(:)
-      integer :: i, k
+      integer :: k
 
-      row = ''
-      associate (wall => member%wall)
-         do i = 1, size(wall_properties)
-            associate (name => wall_properties(i)%name)
-               if (wall_properties(i)%replaced .or. (is_extra(i) .and. lengths(i) == 0)) cycle
-               if (wall_properties(i)%kind == is_list) values = wall%input%list(name)
-               if (is_many(wall_properties(i)%kind)) then
-                  do k = 1, lengths(i)
-                     row = row//','
-                     if (wall_properties(i)%kind == is_words) then
-                        row = row//trim(word_of(wall%input%word(name), k))
-                     else if (k <= size(values)) then
-                        row = row//to_table(values(k))
-                     end if
-                  end do
-                  cycle
-               end if
-               if (i > 1) row = row//','
-               if (wall%input%has_word(name)) then
-                  row = row//text_cell(wall%input%word(name), is_safe)
-               else if (wall%input%has(name)) then
-                  row = row//to_table(wall%input%number(name))
-               end if
-            end associate
+      if (property%kind == is_text) then
+         call table%put(trim(column_name(property)), wall%input%word(property%name))
+      else if (.not. is_many(property%kind)) then
+         call table%put(trim(column_name(property)), wall%input%number(property%name), wall%input%has(property%name))
+      else if (property%kind == is_words) then
+         do k = 1, length
+            call table%put(trim(column_name(property, k)), trim(word_of(wall%input%word(property%name), k)))
          end do
-         row = row//','//to_table(wall%alpha)//','//to_table(wall%mechanism%frequency_parameter())//','// &
-            & to_table(wall%mechanism%trigger_acceleration())//','//to_table(wall%mechanism%capacity)//','// &
-            & to_table(wall%mechanism%restitution)//','//to_table(member%weight)//','// &
-            & text_cell(member%group, is_safe)//','//to_table(member%p_occ)
-         if (any(lengths > 0 .and. is_of_building)) then
-            if (allocated(wall%building)) then
-               row = row//','//to_table(wall%building%share)//','//to_table(wall%building%tilt)
-            else
-               row = row//',,'
-            end if
-         end if
-         if (has_facades) row = row//','//text_cell(member%facade, is_safe)
-      end associate
-   end subroutine make_wall_row
+      else
+         allocate (values(length), source=0.0_wp)
+         associate (own => wall%input%list(property%name))
+            values(:size(own)) = own
+            do k = 1, length
+               call table%put(trim(column_name(property, k)), values(k), k <= size(own))
+            end do
+         end associate
+      end if
+   end subroutine put_property
+
+   !> What a wall feels of its supports, if it stands on a building
+   subroutine put_support(table, wall)
+      class(table_type), intent(inout) :: table
+      type(wall_type), intent(in) :: wall
+
+      real(wp) :: share, tilt
+
+      share = 0.0_wp
+      tilt = 0.0_wp
+      if (allocated(wall%building)) then
+         share = wall%building%share
+         tilt = wall%building%tilt
+      end if
+      call table%put('support_share', share, allocated(wall%building))
+      call table%put('support_tilt_1_s2', tilt, allocated(wall%building))
+   end subroutine put_support
 
    !> Histories that reach an EDP threshold at a level
-   pure subroutine make_stripes_row(cells, im, level, histories, reached, threshold, row)
-      !> Name and mechanism of the wall
-      character(len=*), intent(in) :: cells
+   subroutine put_stripe(table, im, level, histories, reached, threshold)
+      class(table_type), intent(inout) :: table
       !> Intensity measure
       character(len=*), intent(in) :: im
       !> Level
       real(wp), intent(in) :: level
-      !> Histories
-      integer, intent(in) :: histories
-      !> Those that reach the threshold
-      integer, intent(in) :: reached
+      !> Histories, and those that reach the threshold
+      integer, intent(in) :: histories, reached
       !> The threshold
       real(wp), intent(in) :: threshold
-      !> Row
-      character(len=:), allocatable, intent(out) :: row
 
-      row = cells//','//im//','//to_table(level)//','//to_text(histories)//','//to_text(reached)//','// &
-         & to_table(real(reached, wp)/real(histories, wp))//','//to_table(threshold)
-   end subroutine make_stripes_row
+      call table%put('im', im)
+      call table%put('im_level', level)
+      call table%put('histories', histories)
+      call table%put('collapses', reached)
+      call table%put('fraction', real(reached, wp)/real(histories, wp))
+      call table%put('edp_threshold', threshold)
+   end subroutine put_stripe
 
    !> The curve of a wall with its standard errors and 95 % intervals; cells are empty without a fit, without standard
    !> errors, and where a side is open
-   pure subroutine make_fragility_row(cells, im, curve, threshold, row)
-      !> Name and mechanism of the wall
-      character(len=*), intent(in) :: cells
+   subroutine put_fragility(table, im, curve, threshold)
+      class(table_type), intent(inout) :: table
       !> Intensity measure
       character(len=*), intent(in) :: im
       type(fragility_type), intent(in) :: curve
       !> Its EDP threshold
       real(wp), intent(in) :: threshold
-      !> Row
-      character(len=:), allocatable, intent(out) :: row
 
-      character(len=:), allocatable :: fit, intervals
       real(wp) :: bounds(2, 2)
+      logical :: has_fit, has_errors
 
-      fit = ',,,,'
-      intervals = ',,,,,,,,,'
-      if (curve%has_fit()) then
-         fit = ','
-         intervals = ',,,'
-         if (curve%has_errors()) then
-            fit = to_table(curve%se_ln_theta())//','//to_table(curve%se_beta())
-            bounds = parameter_intervals(curve)
-            intervals = trim(bound(bounds(1, 1)))//','//trim(bound(bounds(2, 1)))//','//trim(bound(bounds(1, 2)))//','// &
-               & trim(bound(bounds(2, 2)))
-         end if
-         fit = to_table(curve%theta)//','//to_table(curve%beta)//','//fit//','//to_table(curve%log_likelihood)
-         intervals = intervals//','//trim(curve%errors)//','//to_text(curve%clusters)//','//trim(freedom(curve))//','// &
-            & to_table(sqrt(curve%naive(1, 1)))//','//to_table(sqrt(curve%naive(2, 2)))//','
-         if (curve%has_errors()) intervals = intervals//to_table(curve%covariance(1, 2))
-      end if
-      row = cells//','//im//','//fit//','//trim(curve%status)//','//trim(bound(curve%bracket(1)))//','// &
-         & trim(bound(curve%bracket(2)))//','//to_table(threshold)//','//intervals
-   end subroutine make_fragility_row
+      has_fit = curve%has_fit()
+      has_errors = has_fit .and. curve%has_errors()
+      bounds = 0.0_wp
+      if (has_errors) bounds = parameter_intervals(curve)
+      call table%put('im', im)
+      call table%put('theta', curve%theta, has_fit)
+      call table%put('beta', curve%beta, has_fit)
+      call table%put('se_ln_theta', curve%se_ln_theta(), has_errors)
+      call table%put('se_beta', curve%se_beta(), has_errors)
+      call table%put('log_likelihood', curve%log_likelihood, has_fit)
+      call table%put('status', trim(curve%status))
+      call put_bound(table, 'bracket_low', curve%bracket(1))
+      call put_bound(table, 'bracket_high', curve%bracket(2))
+      call table%put('edp_threshold', threshold)
+      call put_bound(table, 'theta_low', bounds(1, 1))
+      call put_bound(table, 'theta_high', bounds(2, 1))
+      call put_bound(table, 'beta_low', bounds(1, 2))
+      call put_bound(table, 'beta_high', bounds(2, 2))
+      call put_kind_of_errors(table, curve, has_fit)
+      call table%put('naive_se_ln_theta', sqrt(curve%naive(1, 1)), has_fit)
+      call table%put('naive_se_beta', sqrt(curve%naive(2, 2)), has_fit)
+      call table%put('cov_ln_theta_beta', curve%covariance(1, 2), has_errors)
+   end subroutine put_fragility
+
+   !> A bound, empty where its side is open: 0 or huge
+   subroutine put_bound(table, name, value)
+      class(table_type), intent(inout) :: table
+      !> Name of the column
+      character(len=*), intent(in) :: name
+      real(wp), intent(in) :: value
+
+      call table%put(name, value, value > 0.0_wp .and. value < huge(value))
+   end subroutine put_bound
+
+   !> What the standard errors of a curve are; degrees of freedom of records alone are whole numbers
+   subroutine put_kind_of_errors(table, curve, given)
+      class(table_type), intent(inout) :: table
+      type(fragility_type), intent(in) :: curve
+      !> Is there anything to say?
+      logical, intent(in) :: given
+
+      real(wp) :: degrees
+
+      degrees = curve%degrees_of_freedom
+      if (curve%errors /= 'clustered') degrees = real(max(curve%clusters - 1, 0), wp)
+      call table%put('errors', trim(curve%errors), given)
+      call table%put('clusters', curve%clusters, given)
+      call table%put_degrees('degrees_of_freedom', degrees, given)
+   end subroutine put_kind_of_errors
+
+   !> Standard errors of a curve
+   subroutine put_errors(table, curve, given)
+      class(table_type), intent(inout) :: table
+      type(fragility_type), intent(in) :: curve
+      !> Are they known?
+      logical, intent(in) :: given
+
+      logical :: has_fit, has_errors
+
+      has_fit = given .and. curve%has_fit()
+      has_errors = has_fit .and. curve%has_errors()
+      call table%put('se_ln_theta', curve%se_ln_theta(), has_errors)
+      call table%put('se_beta', curve%se_beta(), has_errors)
+      call table%put('cov_ln_theta_beta', curve%covariance(1, 2), has_errors)
+      call put_kind_of_errors(table, curve, has_fit)
+   end subroutine put_errors
 
    !> A curve of the population at a level
-   pure subroutine make_typology_row(typology, im, level, threshold, is_safe, row)
+   subroutine put_typology(table, typology, im, level, threshold)
+      class(table_type), intent(inout) :: table
       type(typology_type), intent(in) :: typology
       !> Intensity measure
       character(len=*), intent(in) :: im
@@ -211,28 +215,32 @@ contains
       integer, intent(in) :: level
       !> EDP threshold
       real(wp), intent(in) :: threshold
-      !> Are texts to be no formulas in a spreadsheet?
-      logical, intent(in) :: is_safe
-      !> Row
-      character(len=:), allocatable, intent(out) :: row
 
-      character(len=:), allocatable :: fit, dispersion, errors
-
-      fit = ','
-      if (typology%fit%has_fit()) fit = to_table(typology%fit%theta)//','//to_table(typology%fit%beta)
-      call make_error_cells(typology%fit, errors)
-      dispersion = ','
-      if (typology%fitted > 0.0_wp) dispersion = to_table(typology%beta_walls)//','//to_table(typology%beta_records)
-      row = typology%mechanism//','//im//','//to_table(typology%levels(level))//','//to_table(typology%weight)//','// &
-         & to_table(typology%mean_fraction(level))//','//to_table(typology%mean_curve(level))//','//fit//','// &
-         & trim(typology%fit%status)//','//text_cell(typology%group, is_safe)//','// &
-         & to_table(typology%fractile(1, level))//','//to_table(typology%fractile(2, level))//','// &
-         & to_table(typology%fractile(3, level))//','//dispersion//','//to_table(typology%saturation)//','//to_table(threshold)// &
-         & ','//errors
-   end subroutine make_typology_row
+      associate (fit => typology%fit)
+         call table%put('mechanism', typology%mechanism)
+         call table%put('im', im)
+         call table%put('im_level', typology%levels(level))
+         call table%put('weight', typology%weight)
+         call table%put('mean_fraction', typology%mean_fraction(level))
+         call table%put('mean_curve', typology%mean_curve(level))
+         call table%put('theta', fit%theta, fit%has_fit())
+         call table%put('beta', fit%beta, fit%has_fit())
+         call table%put('status', trim(fit%status))
+         call table%put('group', typology%group)
+         call table%put('fractile_16', typology%fractile(1, level))
+         call table%put('fractile_50', typology%fractile(2, level))
+         call table%put('fractile_84', typology%fractile(3, level))
+         call table%put('beta_walls', typology%beta_walls, typology%fitted > 0.0_wp)
+         call table%put('beta_records', typology%beta_records, typology%fitted > 0.0_wp)
+         call table%put('saturation', typology%saturation)
+         call table%put('edp_threshold', threshold)
+         call put_errors(table, fit, given=.true.)
+      end associate
+   end subroutine put_typology
 
    !> A wall with several mechanisms, or a mean, at a level; cells are empty where a mean has no counts, and without a fit
-   pure subroutine make_union_row(union, im, level, number, state, threshold, is_safe, row)
+   subroutine put_union(table, union, im, level, number, state, threshold)
+      class(table_type), intent(inout) :: table
       type(union_type), intent(in) :: union
       !> Intensity measure
       character(len=*), intent(in) :: im
@@ -243,52 +251,34 @@ contains
       integer, intent(in) :: state
       !> Its EDP threshold
       real(wp), intent(in) :: threshold
-      !> Are texts to be no formulas in a spreadsheet?
-      logical, intent(in) :: is_safe
-      !> Row
-      character(len=:), allocatable, intent(out) :: row
 
-      character(len=:), allocatable :: counts, fit, errors, product
+      logical :: is_wall
 
-      counts = ',,'
-      errors = no_errors
+      is_wall = union%rows(1) > 0
       associate (curve => union%curve(state), other => union%product(state))
-         if (union%rows(1) > 0) then
-            counts = to_text(nint(union%histories(number)))//','// &
-               & to_table(union%histories(number)*union%fraction(number, state))//','
-            call make_error_cells(curve, errors)
-         end if
-         fit = ','
-         if (curve%has_fit()) fit = to_table(curve%theta)//','//to_table(curve%beta)
-         fit = fit//','//trim(curve%status)
-         product = ','
-         if (other%has_fit()) product = to_table(other%theta)//','//to_table(other%beta)
+         call table%put('wall', union%name)
+         call table%put('group', union%group)
+         call table%put('mechanisms', union%rows(2) - union%rows(1) + 1, is_wall)
+         call table%put('im', im)
+         call table%put('im_level', level)
+         call table%put('histories', nint(union%histories(number)), is_wall)
+         call table%put('collapses', union%histories(number)*union%fraction(number, state), is_wall)
+         call table%put('fraction', union%fraction(number, state))
+         call table%put('independent_fraction', union%independent(number, state))
+         call table%put('edp_threshold', threshold)
+         call table%put('theta', curve%theta, curve%has_fit())
+         call table%put('beta', curve%beta, curve%has_fit())
+         call table%put('status', trim(curve%status))
+         call put_errors(table, curve, is_wall)
+         call table%put('independent_theta', other%theta, other%has_fit())
+         call table%put('independent_beta', other%beta, other%has_fit())
       end associate
-      row = text_cell(union%name, is_safe)//','//text_cell(union%group, is_safe)//','
-      if (union%rows(1) > 0) row = row//to_text(union%rows(2) - union%rows(1) + 1)
-      row = row//','//im//','//to_table(level)//','//counts//to_table(union%fraction(number, state))//','// &
-         & to_table(union%independent(number, state))//','//to_table(threshold)//','//fit//','//errors//','//product
-   end subroutine make_union_row
-
-   !> Standard errors of a curve; cells are empty without a fit, and without standard errors
-   pure subroutine make_error_cells(curve, cells)
-      type(fragility_type), intent(in) :: curve
-      !> Cells of `error_columns`
-      character(len=:), allocatable, intent(out) :: cells
-
-      cells = no_errors
-      if (.not. curve%has_fit()) return
-      cells = ',,'
-      if (curve%has_errors()) cells = to_table(curve%se_ln_theta())//','//to_table(curve%se_beta())//','// &
-         & to_table(curve%covariance(1, 2))
-      cells = cells//','//trim(curve%errors)//','//to_text(curve%clusters)//','//trim(freedom(curve))
-   end subroutine make_error_cells
+   end subroutine put_union
 
    !> A history
-   pure subroutine make_history_row(cells, record, polarity, im, level, scale, response, row)
-      !> Name and mechanism of the wall
-      character(len=*), intent(in) :: cells
-      !> Name of the record, as a cell
+   subroutine put_history(table, record, polarity, im, level, scale, response)
+      class(table_type), intent(inout) :: table
+      !> Name of the record
       character(len=*), intent(in) :: record
       !> +1 as recorded, -1 reversed
       integer, intent(in) :: polarity
@@ -299,41 +289,26 @@ contains
       !> Factor on the record
       real(wp), intent(in) :: scale
       type(response_type), intent(in) :: response
-      !> Row
-      character(len=:), allocatable, intent(out) :: row
 
-      row = cells//','//record//','//trim(merge('reversed   ', 'as_recorded', polarity < 0))//','//im//','// &
-         & to_table(level)//','//to_table(scale)//','//to_table(response%edp)//','// &
-         & to_text(merge(1, 0, response%collapsed))//','//to_text(response%impacts)//','// &
-         & to_table(response%time_of_peak)
-   end subroutine make_history_row
+      call table%put('record', record)
+      call table%put('polarity', trim(merge('reversed   ', 'as_recorded', polarity < 0)))
+      call table%put('im', im)
+      call table%put('im_level', level)
+      call table%put('scale', scale)
+      call table%put('edp', response%edp)
+      call table%put('collapsed', response%collapsed)
+      call table%put('impacts', response%impacts)
+      call table%put('time_of_peak_s', response%time_of_peak)
+   end subroutine put_history
 
-   !> Degrees of freedom of a curve, where those of records alone are whole numbers; filled up with blanks
-   pure function freedom(curve) result(cell)
-      type(fragility_type), intent(in) :: curve
-      !> Cell
-      character(len=48) :: cell
+   !> How a history is certified
+   subroutine put_certified(table, certified)
+      class(table_type), intent(inout) :: table
+      type(certified_type), intent(in) :: certified
 
-      real(wp) :: degrees
-
-      degrees = curve%degrees_of_freedom
-      if (curve%errors /= 'clustered') degrees = real(max(curve%clusters - 1, 0), wp)
-      if (degrees == anint(degrees)) then
-         cell = to_text(nint(degrees))
-      else
-         cell = to_table(degrees)
-      end if
-   end function freedom
-
-   !> A bound of the median, filled up with blanks
-   pure function bound(value) result(cell)
-      !> The bound, 0 or huge where the side is open
-      real(wp), intent(in) :: value
-      !> Cell, empty where the side is open
-      character(len=48) :: cell
-
-      cell = ''
-      if (value > 0.0_wp .and. value < huge(value)) cell = to_table(value)
-   end function bound
+      call table%put('status', trim(status_names(certified%status)))
+      call table%put('edp_lowest', certified%lowest)
+      call table%put('edp_highest', certified%highest)
+   end subroutine put_certified
 
 end module dondolo_report_rows

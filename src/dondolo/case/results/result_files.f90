@@ -26,15 +26,13 @@ module dondolo_result_files
    implicit none
    private
 
-   public :: result_files_type, written_type, check_output, make_folders, published_run, run_suffix
+   public :: result_files_type, written_type, check_output, make_folders, published_run, run_suffix, suffix_length
 
    !> What the name of the file ends with that publishes the set
    character(len=*), parameter :: run_suffix = '_run.json'
 
-   !> What the names of tables can end with, of any task
-   character(len=15), parameter :: all_suffixes(12) = [character(len=15) :: '_walls.csv', '_histories.csv', &
-      & '_stripes.csv', '_fragility.csv', '_typology.csv', '_history.csv', '_check.csv', '_checks.csv', '_unions.csv', &
-      & '_ties.csv', '_sources.csv', '_designs.csv']
+   !> Length of what the name of a table ends with, with room
+   integer, parameter :: suffix_length = 15
 
    !> What every table begins with
    character(len=*), parameter :: mark = '# dondolo '
@@ -45,7 +43,7 @@ module dondolo_result_files
    !> A file that was written
    type :: written_type
       !> What its name ends with
-      character(len=15) :: suffix = ''
+      character(len=suffix_length) :: suffix = ''
       !> Its length
       integer(int64) :: bytes = 0
       !> CRC-32 of what follows the line that names the run: the same for the same results
@@ -58,6 +56,8 @@ module dondolo_result_files
       character(len=:), allocatable :: prefix
       !> The lock of the prefix, with the name of the run
       type(lock_type) :: lock
+      !> What the names of tables can end with, of any run
+      character(len=suffix_length), allocatable :: tables(:)
       !> The files, in the order in which they were begun
       type(written_type), allocatable :: written(:)
       !> Folders that were made for them
@@ -200,10 +200,12 @@ contains
    end function folder_end
 
    !> Take the lock of a prefix, and end what a killed run has left
-   subroutine claim(self, prefix, error)
+   subroutine claim(self, prefix, tables, error)
       class(result_files_type), intent(inout) :: self
       !> What the names of the files begin with
       character(len=*), intent(in) :: prefix
+      !> What the names of tables can end with, of any run
+      character(len=suffix_length), intent(in) :: tables(:)
       !> Another run writes them, or they cannot be written
       type(error_type), allocatable, intent(out) :: error
 
@@ -211,6 +213,7 @@ contains
       integer :: i
 
       self%prefix = prefix
+      self%tables = tables
       allocate (self%written(0))
       do i = 1, tries
          call make_folders(prefix, self%made, ok)
@@ -223,16 +226,18 @@ contains
          if (error%stat /= status_failure) exit
       end do
       if (.not. allocated(error)) then
-         call end_publishing(prefix, self%lock%killed)
+         call end_publishing(prefix, tables, self%lock%killed)
          call self%lock%sign(error)
       end if
       if (allocated(error)) call remove_folders(self%made)
    end subroutine claim
 
    !> Rename tables of the published set that have not their names yet, and remove those that a killed run has not published
-   subroutine end_publishing(prefix, killed)
+   subroutine end_publishing(prefix, tables, killed)
       !> What the names of the files begin with
       character(len=*), intent(in) :: prefix
+      !> What the names of tables can end with
+      character(len=suffix_length), intent(in) :: tables(:)
       !> Name of a run that was killed; blank if there was none
       character(len=run_length), intent(in) :: killed
 
@@ -243,9 +248,9 @@ contains
       logical :: ok
 
       published = published_run(prefix)
-      do i = 1, size(all_suffixes)
-         path = prefix//trim(all_suffixes(i))
-         call check_replaced(path, kind_of(all_suffixes(i)), error)
+      do i = 1, size(tables)
+         path = prefix//trim(tables(i))
+         call check_replaced(path, kind_of(tables(i)), error)
          if (len_trim(published) > 0 .and. .not. allocated(error)) call rename_file(staged(path, published), path, ok)
          if (len_trim(killed) > 0 .and. killed /= published) call remove_file(staged(path, killed))
       end do
@@ -354,8 +359,8 @@ contains
          end associate
       end do
       call synchronize_folder(self%prefix, ok)
-      do i = 1, size(all_suffixes)
-         if (.not. is_written(self, all_suffixes(i))) call remove_old(self%prefix//trim(all_suffixes(i)), inputs)
+      do i = 1, size(self%tables)
+         if (.not. is_written(self, self%tables(i))) call remove_old(self%prefix//trim(self%tables(i)), inputs)
       end do
    end subroutine publish
 

@@ -12,7 +12,7 @@ module dondolo_run_file
    use dondolo_kinds, only : wp
    use dondolo_metadata, only : metadata_type
    use dondolo_paths, only : beside
-   use dondolo_result_files, only : result_files_type
+   use dondolo_result_files, only : written_type
    use dondolo_results, only : results_type
    use dondolo_echo, only : echo_type
    use dondolo_version, only : dondolo_version_text
@@ -22,7 +22,7 @@ module dondolo_run_file
    implicit none
    private
 
-   public :: write_run, shape_of, shape_names
+   public :: make_run, shape_of, shape_names
 
    !> What a shape counts
    character(len=*), parameter :: shape_names(*) = [character(len=7) :: 'walls', 'levels', 'states', 'records']
@@ -35,31 +35,35 @@ module dondolo_run_file
 
 contains
 
-   !> Write the file of the run
-   subroutine write_run(case, results, files)
+   !> Make the text of the file of a run
+   subroutine make_run(case, results, run, written, text)
       type(case_type), intent(in) :: case
       type(results_type), intent(in) :: results
-      !> Files; this one was begun
-      type(result_files_type), intent(inout) :: files
+      !> Name of the run; empty for results in memory
+      character(len=*), intent(in) :: run
+      !> The tables of its set
+      type(written_type), intent(in) :: written(:)
+      !> Text
+      character(len=:), allocatable, intent(out) :: text
 
       type(json_type) :: json
       type(echo_type) :: echo
-      character(len=:), allocatable :: text
+      character(len=:), allocatable :: engines
 
       call json%open_object()
       call json%put('format', format)
-      call json%put('run', files%lock%run)
+      call json%put('run', run)
       call json%put('version', dondolo_version_text)
       call json%put('compiler', compiler_version())
       call json%put('real_bits', storage_size(1.0_wp))
-      call results%name_engines(text)
-      call json%put('engine', text)
+      call results%name_engines(engines)
+      call json%put('engine', engines)
       call case%echo(echo)
       call echo%to_json(json)
       call put_inputs(case, json)
       call put_shape(case, json)
       if (allocated(case%wall%building)) call put_floor(case%wall%building, case%suite%records%dt, json)
-      call put_files(files, json)
+      call put_files(written, json)
       if (case%job%task == 'history') then
          call put_history(case, results, json)
       else
@@ -70,8 +74,7 @@ contains
       call put_warnings(results%warnings, json)
       call json%close_object()
       call json%get(text)
-      call files%line(text)
-   end subroutine write_run
+   end subroutine make_run
 
    !> Put the files that the case is made of, with their lengths and checksums
    subroutine put_inputs(case, json)
@@ -219,19 +222,19 @@ contains
    end subroutine put_floor
 
    !> Put the tables of the set
-   subroutine put_files(files, json)
-      !> The files; all but this one are finished
-      type(result_files_type), intent(in) :: files
+   subroutine put_files(written, json)
+      !> The tables, finished
+      type(written_type), intent(in) :: written(:)
       type(json_type), intent(inout) :: json
 
       integer :: i
 
       call json%open_array('files')
-      do i = 1, size(files%written) - 1
+      do i = 1, size(written)
          call json%open_object()
-         call json%put('name', trim(files%written(i)%suffix))
-         call json%put('bytes', files%written(i)%bytes)
-         call json%put('crc32', files%written(i)%checksum)
+         call json%put('name', trim(written(i)%suffix))
+         call json%put('bytes', written(i)%bytes)
+         call json%put('crc32', written(i)%checksum)
          call json%close_object()
       end do
       call json%close_array()

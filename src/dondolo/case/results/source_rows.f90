@@ -1,56 +1,68 @@
 !> What the curve of a wall with variants owes to each of its uncertain properties: for people and tables.
 module dondolo_source_rows
    use dondolo_case, only : case_type
-   use dondolo_csv_row, only : text_cell
    use dondolo_fragility, only : fragility_type
    use dondolo_kinds, only : wp
    use dondolo_results, only : results_type
-   use dondolo_text, only : rounded, to_table, to_text
+   use dondolo_table, only : table_type
+   use dondolo_text, only : rounded, to_text
    use dondolo_typology, only : whole_population
    implicit none
    private
 
-   public :: source_head, make_source_row, make_source_sentence, make_model_sentence
-
-   !> Names of the columns of the table of sources
-   character(len=*), parameter :: source_head = 'source,distribution,value_5,value_50,value_95,theta_5,theta_95,first,'// &
-      & 'first_low,first_high,total,total_low,total_high'
+   public :: put_source, make_source_sentence, make_model_sentence
 
 contains
 
    !> A source as a row
-   subroutine make_source_row(case, results, source, row)
+   subroutine put_source(table, case, results, source)
+      class(table_type), intent(inout) :: table
       type(case_type), intent(in) :: case
       type(results_type), intent(in) :: results
       !> Its number
       integer, intent(in) :: source
-      !> Row
-      character(len=:), allocatable, intent(out) :: row
 
       type(fragility_type) :: curve
       integer :: i
 
       associate (wall => case%facade, name => case%facade%sources(source))
-         row = trim(name)//','//text_cell(case%uncertainty%word(trim(name)), case%job%spreadsheet_safe)//','// &
-            & to_table(wall%values(source, wall%row_of_end(source, 1)))//','// &
-            & to_table(wall%values(source, wall%samples + 2))//','// &
-            & to_table(wall%values(source, wall%row_of_end(source, 2)))
+         call table%put('source', trim(name))
+         call table%put('distribution', case%uncertainty%word(trim(name)))
+         call table%put('value_5', wall%values(source, wall%row_of_end(source, 1)))
+         call table%put('value_50', wall%values(source, wall%samples + 2))
+         call table%put('value_95', wall%values(source, wall%row_of_end(source, 2)))
          do i = 1, 2
-            row = row//','
             curve = collapse_of(results, wall%row_of_end(source, i))
-            if (curve%has_fit()) row = row//to_table(curve%theta)
+            call table%put(trim(merge('theta_5 ', 'theta_95', i == 1)), curve%theta, curve%has_fit())
          end do
       end associate
-      if (allocated(results%sensitivity)) then
-         associate (found => results%sensitivity)
-            row = row//','//to_table(found%first(source))//','//to_table(found%first_interval(1, source))//','// &
-               & to_table(found%first_interval(2, source))//','//to_table(found%total(source))//','// &
-               & to_table(found%total_interval(1, source))//','//to_table(found%total_interval(2, source))
-         end associate
-      else
-         row = row//',,,,,,'
+      call put_indices(table, results, source)
+   end subroutine put_source
+
+   !> Sobol indices of a source, if there are any
+   subroutine put_indices(table, results, source)
+      class(table_type), intent(inout) :: table
+      type(results_type), intent(in) :: results
+      !> Its number
+      integer, intent(in) :: source
+
+      real(wp) :: first(3), total(3)
+      logical :: given
+
+      first = 0.0_wp
+      total = 0.0_wp
+      given = allocated(results%sensitivity)
+      if (given) then
+         first = [results%sensitivity%first(source), results%sensitivity%first_interval(:, source)]
+         total = [results%sensitivity%total(source), results%sensitivity%total_interval(:, source)]
       end if
-   end subroutine make_source_row
+      call table%put('first', first(1), given)
+      call table%put('first_low', first(2), given)
+      call table%put('first_high', first(3), given)
+      call table%put('total', total(1), given)
+      call table%put('total_low', total(2), given)
+      call table%put('total_high', total(3), given)
+   end subroutine put_indices
 
    !> A source in words
    subroutine make_source_sentence(case, results, source, line)

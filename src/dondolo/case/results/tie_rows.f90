@@ -3,23 +3,19 @@ module dondolo_tie_rows
    use dondolo_json, only : json_type
    use dondolo_kinds, only : wp
    use dondolo_response, only : tie_response_type
+   use dondolo_table, only : table_type
    use dondolo_text, only : rounded, to_table, to_text
    use dondolo_tie_tallies, only : tie_tally_type
    implicit none
    private
 
-   public :: tie_head, make_tie_row, make_tie_comment, make_tie_sentence, put_tie
-
-   !> Names of the columns of the table of ties
-   character(len=*), parameter :: tie_head = 'wall,mechanism,im,im_level,tie,histories,yielded,broken,share_yielded,'// &
-      & 'share_broken,mean_plastic_elongation_m,largest_plastic_elongation_m'
+   public :: put_tally, make_tie_comment, make_tie_sentence, put_tie
 
 contains
 
    !> A tie at a level: how many histories make it yield and break
-   subroutine make_tie_row(cells, im, level, tie, tally, histories, row)
-      !> Name and mechanism of the wall
-      character(len=*), intent(in) :: cells
+   subroutine put_tally(table, im, level, tie, tally, histories)
+      class(table_type), intent(inout) :: table
       !> Intensity measure
       character(len=*), intent(in) :: im
       !> Level
@@ -30,16 +26,21 @@ contains
       type(tie_tally_type), intent(in) :: tally
       !> Histories that were run at the level
       integer, intent(in) :: histories
-      !> Row
-      character(len=:), allocatable, intent(out) :: row
 
       real(wp) :: share
 
       share = 1.0_wp/real(histories, wp)
-      row = cells//','//im//','//to_table(level)//','//to_text(tie)//','//to_text(histories)//','//to_text(tally%yielded)// &
-         & ','//to_text(tally%broken)//','//to_table(share*real(tally%yielded, wp))//','// &
-         & to_table(share*real(tally%broken, wp))//','//to_table(tally%mean)//','//to_table(tally%largest)
-   end subroutine make_tie_row
+      call table%put('im', im)
+      call table%put('im_level', level)
+      call table%put('tie', tie)
+      call table%put('histories', histories)
+      call table%put('yielded', tally%yielded)
+      call table%put('broken', tally%broken)
+      call table%put('share_yielded', share*real(tally%yielded, wp))
+      call table%put('share_broken', share*real(tally%broken, wp))
+      call table%put('mean_plastic_elongation_m', tally%mean)
+      call table%put('largest_plastic_elongation_m', tally%largest)
+   end subroutine put_tally
 
    !> A tie in the head of the table of a history
    subroutine make_tie_comment(number, tie, line)
@@ -49,7 +50,7 @@ contains
       !> Line
       character(len=:), allocatable, intent(out) :: line
 
-      line = '# tie '//to_text(number)//': plastic_elongation_m = '//to_table(tie%plastic_elongation)//', energy_j_m = '// &
+      line = 'tie '//to_text(number)//': plastic_elongation_m = '//to_table(tie%plastic_elongation)//', energy_j_m = '// &
          & to_table(tie%energy)//', broken = '//to_text(merge(1, 0, tie%broken))
       if (tie%time_of_yield >= 0.0_wp) line = line//', time_of_yield_s = '//to_table(tie%time_of_yield)
       if (tie%time_of_fracture >= 0.0_wp) line = line//', time_of_fracture_s = '//to_table(tie%time_of_fracture)

@@ -1,0 +1,348 @@
+!> The tables of results: one list of what their names end with, when there is one, and what stands in it.
+module dondolo_result_tables
+   use dondolo_case, only : case_type
+   use dondolo_check_rows, only : put_sheet_row
+   use dondolo_design_rows, only : put_design
+   use dondolo_error, only : error_type, raise_failure
+   use dondolo_lines, only : lines_type
+   use dondolo_property, only : find_property
+   use dondolo_report_rows, only : put_typology, put_union
+   use dondolo_result_files, only : suffix_length
+   use dondolo_results, only : results_type
+   use dondolo_row_tables, only : put_checks, put_fragilities, put_histories, put_stripes, put_ties, put_walls
+   use dondolo_source_rows, only : put_source
+   use dondolo_table, only : table_type
+   use dondolo_text, only : to_table, to_text
+   use dondolo_tie_rows, only : make_tie_comment
+   use dondolo_unions, only : union_type
+   use dondolo_wall_properties, only : wall_properties
+   implicit none
+   private
+
+   public :: table_kind_type, list_tables, table_suffixes
+
+   abstract interface
+
+      !> Has a case such a table?
+      logical function exists_interface(case)
+         import :: case_type
+         type(case_type), intent(in) :: case
+      end function exists_interface
+
+      !> Put all rows of a table
+      subroutine put_interface(case, results, table, error)
+         import :: case_type, results_type, table_type, error_type
+         type(case_type), intent(in), target :: case
+         type(results_type), intent(inout) :: results
+         class(table_type), intent(inout) :: table
+         !> A file that is read again has changed
+         type(error_type), allocatable, intent(out) :: error
+      end subroutine put_interface
+
+      !> List what is said above the names of the columns
+      subroutine facts_interface(case, results, lines)
+         import :: case_type, results_type, lines_type
+         type(case_type), intent(in) :: case
+         type(results_type), intent(in) :: results
+         type(lines_type), intent(out) :: lines
+      end subroutine facts_interface
+
+   end interface
+
+   !> A kind of table
+   type :: table_kind_type
+      !> What the name of its file ends with
+      character(len=suffix_length) :: suffix = ''
+      !> Has a case such a table? Null: every case has
+      procedure(exists_interface), pointer, nopass, private :: exists => null()
+      !> Put its rows
+      procedure(put_interface), pointer, nopass, private :: put => null()
+      !> List what is said above it, besides what all tables say; null: nothing
+      procedure(facts_interface), pointer, nopass :: facts => null()
+   contains
+      !> Has a case such a table?
+      procedure :: is_of
+      !> Fill a table
+      procedure :: fill
+   end type table_kind_type
+
+contains
+
+   !> List all kinds of tables, in the order in which those of a case are written
+   subroutine list_tables(kinds)
+      type(table_kind_type), allocatable, intent(out) :: kinds(:)
+
+      allocate (kinds(0))
+      call add('_walls.csv', put_walls)
+      call add('_histories.csv', put_histories, keeps_histories)
+      call add('_history.csv', put_motion, is_history, list_motion)
+      call add('_stripes.csv', put_stripes, is_no_history)
+      call add('_fragility.csv', put_fragilities, is_no_history)
+      call add('_typology.csv', put_typologies, has_means)
+      call add('_ties.csv', put_ties, has_ties)
+      call add('_unions.csv', put_unions, has_unions)
+      call add('_designs.csv', put_designs, has_designs)
+      call add('_check.csv', put_sheet, has_check)
+      call add('_checks.csv', put_checks, has_checks)
+      call add('_sources.csv', put_sources, has_sources)
+
+   contains
+
+      !> Add a kind
+      subroutine add(suffix, put, exists, facts)
+         character(len=*), intent(in) :: suffix
+         procedure(put_interface) :: put
+         procedure(exists_interface), optional :: exists
+         procedure(facts_interface), optional :: facts
+
+         type(table_kind_type) :: kind
+
+         kind%suffix = suffix
+         if (present(exists)) kind%exists => exists
+         kind%put => put
+         if (present(facts)) kind%facts => facts
+         kinds = [kinds, kind]
+      end subroutine add
+
+   end subroutine list_tables
+
+   !> What the names of tables can end with, of any case
+   function table_suffixes() result(suffixes)
+      character(len=suffix_length), allocatable :: suffixes(:)
+
+      type(table_kind_type), allocatable :: kinds(:)
+
+      call list_tables(kinds)
+      suffixes = kinds%suffix
+   end function table_suffixes
+
+   !> Fill a table of this kind
+   subroutine fill(self, case, results, table, error)
+      class(table_kind_type), intent(in) :: self
+      type(case_type), intent(in), target :: case
+      type(results_type), intent(inout) :: results
+      class(table_type), intent(inout) :: table
+      !> A file that is read again has changed; or its rows differ in their columns, an error of the program
+      type(error_type), allocatable, intent(out) :: error
+
+      call self%put(case, results, table, error)
+      if (.not. allocated(error) .and. .not. table%is_regular) call raise_failure(error, trim(self%suffix)// &
+         & ': its rows differ in their columns')
+   end subroutine fill
+
+   !> Has a case such a table?
+   logical function is_of(self, case)
+      class(table_kind_type), intent(in) :: self
+      type(case_type), intent(in) :: case
+
+      is_of = .true.
+      if (associated(self%exists)) is_of = self%exists(case)
+   end function is_of
+
+   !> Is the task one history?
+   logical function is_history(case)
+      type(case_type), intent(in) :: case
+
+      is_history = case%job%task == 'history'
+   end function is_history
+
+   !> Is the task another?
+   logical function is_no_history(case)
+      type(case_type), intent(in) :: case
+
+      is_no_history = case%job%task /= 'history'
+   end function is_no_history
+
+   !> Are all histories kept?
+   logical function keeps_histories(case)
+      type(case_type), intent(in) :: case
+
+      keeps_histories = case%job%task == 'stripes' .or. (case%job%task == 'typology' .and. case%job%histories)
+   end function keeps_histories
+
+   !> Is there a mean over walls?
+   logical function has_means(case)
+      type(case_type), intent(in) :: case
+
+      has_means = case%job%task == 'typology' .and. .not. case%designs
+   end function has_means
+
+   !> Has a wall ties, whose histories are counted?
+   logical function has_ties(case)
+      type(case_type), intent(in) :: case
+
+      has_ties = .false.
+      if (case%job%task == 'stripes') has_ties = case%wall%mechanism%ties > 0
+      if (case%job%task == 'typology') has_ties = case%survey%lengths(find_property(wall_properties, 'tie_height')) > 0
+   end function has_ties
+
+   !> Has a wall several mechanisms?
+   logical function has_unions(case)
+      type(case_type), intent(in) :: case
+
+      has_unions = case%job%task == 'typology' .and. case%survey%walls < case%survey%rows
+   end function has_unions
+
+   !> Are the walls designs?
+   logical function has_designs(case)
+      type(case_type), intent(in) :: case
+
+      has_designs = case%job%task == 'typology' .and. case%designs
+   end function has_designs
+
+   !> Is the one wall checked?
+   logical function has_check(case)
+      type(case_type), intent(in) :: case
+
+      has_check = case%job%task == 'stripes' .and. allocated(case%check)
+   end function has_check
+
+   !> Are the walls of a population checked?
+   logical function has_checks(case)
+      type(case_type), intent(in) :: case
+
+      has_checks = case%job%task == 'typology' .and. allocated(case%check)
+   end function has_checks
+
+   !> Is it a wall with variants?
+   logical function has_sources(case)
+      type(case_type), intent(in) :: case
+
+      has_sources = case%job%task == 'typology' .and. allocated(case%uncertainty)
+   end function has_sources
+
+   !> Curves of the population
+   subroutine put_typologies(case, results, table, error)
+      type(case_type), intent(in), target :: case
+      type(results_type), intent(inout) :: results
+      class(table_type), intent(inout) :: table
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i, j, k
+
+      do k = 1, size(case%stripes%thresholds)
+         do i = 1, size(results%typologies, 1)
+            do j = 1, size(case%stripes%levels)
+               call put_typology(table, results%typologies(i, k), case%stripes%scaling%name, j, case%stripes%thresholds(k))
+               call table%end_row()
+            end do
+         end do
+      end do
+   end subroutine put_typologies
+
+   !> Walls with several mechanisms, of the same histories
+   subroutine put_unions(case, results, table, error)
+      type(case_type), intent(in), target :: case
+      type(results_type), intent(inout) :: results
+      class(table_type), intent(inout) :: table
+      type(error_type), allocatable, intent(out) :: error
+
+      type(union_type) :: union
+      integer :: i, j, k
+
+      do i = 1, results%unions%count()
+         call results%unions%get(i, results%population, union)
+         do k = 1, size(case%stripes%thresholds)
+            do j = 1, size(case%stripes%levels)
+               call put_union(table, union, case%stripes%scaling%name, case%stripes%levels(j), j, k, &
+                  & case%stripes%thresholds(k))
+               call table%end_row()
+            end do
+         end do
+      end do
+   end subroutine put_unions
+
+   !> Designs of one wall, each beside the first
+   subroutine put_designs(case, results, table, error)
+      type(case_type), intent(in), target :: case
+      type(results_type), intent(inout) :: results
+      class(table_type), intent(inout) :: table
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i
+
+      do i = 1, size(results%designs)
+         call put_design(table, results%designs(i), results%designs(1), case%stripes%scaling%name)
+         call table%end_row()
+      end do
+   end subroutine put_designs
+
+   !> The uncertain properties of a wall with variants
+   subroutine put_sources(case, results, table, error)
+      type(case_type), intent(in), target :: case
+      type(results_type), intent(inout) :: results
+      class(table_type), intent(inout) :: table
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i
+
+      do i = 1, size(case%facade%sources)
+         call put_source(table, case, results, i)
+         call table%end_row()
+      end do
+   end subroutine put_sources
+
+   !> The sheet of the check
+   subroutine put_sheet(case, results, table, error)
+      type(case_type), intent(in), target :: case
+      type(results_type), intent(inout) :: results
+      class(table_type), intent(inout) :: table
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i
+
+      if (.not. allocated(case%check)) return
+      do i = 1, size(results%check%rows)
+         call put_sheet_row(table, results%check, i)
+         call table%end_row()
+      end do
+   end subroutine put_sheet
+
+   !> The time history
+   subroutine put_motion(case, results, table, error)
+      type(case_type), intent(in), target :: case
+      type(results_type), intent(inout) :: results
+      class(table_type), intent(inout) :: table
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: i
+
+      associate (trace => results%trace, capacity => case%wall%mechanism%capacity)
+         do i = 1, trace%rows
+            call table%put('time_s', trace%time(i))
+            call table%put('ground_acceleration_m_s2', trace%acceleration(i))
+            call table%put('rotation_rad', trace%rotation(i))
+            call table%put('velocity_rad_s', trace%velocity(i))
+            call table%put('edp', abs(trace%rotation(i))/capacity)
+            call table%put('side', nint(trace%side(i)))
+            call table%put('after_impact', trace%after_impact(i))
+            call table%end_row()
+         end do
+      end associate
+   end subroutine put_motion
+
+   !> What comes of a time history
+   subroutine list_motion(case, results, lines)
+      type(case_type), intent(in) :: case
+      type(results_type), intent(in) :: results
+      type(lines_type), intent(out) :: lines
+
+      character(len=:), allocatable :: line
+      integer :: i
+
+      associate (response => results%response, trace => results%trace)
+         call lines%add('record: '//case%suite%records(case%history%record)%name)
+         call lines%add('scale: '//to_table(case%history_scale()))
+         call lines%add('edp: '//to_table(response%edp))
+         call lines%add('collapsed: '//to_text(merge(1, 0, response%collapsed)))
+         call lines%add('impacts: '//to_text(response%impacts))
+         call lines%add('time_of_peak_s: '//to_table(response%time_of_peak))
+         if (case%solver%solver%estimate_error) call lines%add('edp_error: '//to_table(response%edp_error))
+         do i = 1, size(trace%ties)
+            call make_tie_comment(i, trace%ties(i), line)
+            call lines%add(line)
+         end do
+      end associate
+   end subroutine list_motion
+
+end module dondolo_result_tables

@@ -1,0 +1,307 @@
+!> Tables of walls, row by row: of the one wall of a case, or of a population as its rows come out of its table and of the
+!> files of counts.
+module dondolo_row_tables
+   use dondolo_case, only : case_type
+   use dondolo_check_rows, only : put_check, verdicts_type
+   use dondolo_error, only : error_type, raise_failure
+   use dondolo_member, only : member_type
+   use dondolo_population, only : population_reader_type
+   use dondolo_report_rows, only : put_certified, put_fragility, put_history, put_names, put_stripe, put_wall
+   use dondolo_results, only : results_type, row_counts_type
+   use dondolo_row_result, only : row_result_type
+   use dondolo_stripes, only : find_lifts, plan_stripes, stripes_type
+   use dondolo_study, only : study_type
+   use dondolo_table, only : table_type
+   use dondolo_tie_rows, only : put_tally
+   implicit none
+   private
+
+   public :: put_walls, put_histories, put_stripes, put_fragilities, put_ties, put_checks
+
+   !> What there is of a row
+   integer, parameter :: of_walls = 1, of_histories = 2, of_stripes = 3, of_curves = 4, of_ties = 5, of_checks = 6
+
+contains
+
+   !> Walls
+   subroutine put_walls(case, results, table, error)
+      type(case_type), intent(in), target :: case
+      type(results_type), intent(inout) :: results
+      class(table_type), intent(inout) :: table
+      !> The population or a store has changed
+      type(error_type), allocatable, intent(out) :: error
+
+      call each_row(case, results, of_walls, table, error)
+   end subroutine put_walls
+
+   !> All histories
+   subroutine put_histories(case, results, table, error)
+      type(case_type), intent(in), target :: case
+      type(results_type), intent(inout) :: results
+      class(table_type), intent(inout) :: table
+      !> The population or a store has changed
+      type(error_type), allocatable, intent(out) :: error
+
+      call each_row(case, results, of_histories, table, error)
+   end subroutine put_histories
+
+   !> Histories that reach each threshold at every level
+   subroutine put_stripes(case, results, table, error)
+      type(case_type), intent(in), target :: case
+      type(results_type), intent(inout) :: results
+      class(table_type), intent(inout) :: table
+      !> The population or a store has changed
+      type(error_type), allocatable, intent(out) :: error
+
+      call each_row(case, results, of_stripes, table, error)
+   end subroutine put_stripes
+
+   !> Curves
+   subroutine put_fragilities(case, results, table, error)
+      type(case_type), intent(in), target :: case
+      type(results_type), intent(inout) :: results
+      class(table_type), intent(inout) :: table
+      !> The population or a store has changed
+      type(error_type), allocatable, intent(out) :: error
+
+      call each_row(case, results, of_curves, table, error)
+   end subroutine put_fragilities
+
+   !> What the histories do to the ties of each wall
+   subroutine put_ties(case, results, table, error)
+      type(case_type), intent(in), target :: case
+      type(results_type), intent(inout) :: results
+      class(table_type), intent(inout) :: table
+      !> The population or a store has changed
+      type(error_type), allocatable, intent(out) :: error
+
+      call each_row(case, results, of_ties, table, error)
+   end subroutine put_ties
+
+   !> Checks by a building code of a population
+   subroutine put_checks(case, results, table, error)
+      type(case_type), intent(in), target :: case
+      !> Its verdicts are counted
+      type(results_type), intent(inout) :: results
+      class(table_type), intent(inout) :: table
+      !> The population or a store has changed
+      type(error_type), allocatable, intent(out) :: error
+
+      type(verdicts_type) :: none_yet
+
+      results%verdicts = none_yet
+      call each_row(case, results, of_checks, table, error)
+   end subroutine put_checks
+
+   !> Put each row of a population, or the one wall of a case
+   subroutine each_row(case, results, what, table, error)
+      type(case_type), intent(in), target :: case
+      type(results_type), intent(inout) :: results
+      !> What is put of it, such as of_walls
+      integer, intent(in) :: what
+      class(table_type), intent(inout) :: table
+      !> The population or a store has changed, or histories cannot be chosen again
+      type(error_type), allocatable, intent(out) :: error
+
+      type(population_reader_type) :: reader
+      type(member_type) :: member
+      type(row_counts_type) :: row
+      integer :: i, rows
+      logical :: found
+
+      if (case%job%task /= 'typology') then
+         member%wall = case%wall
+         member%group = ''
+         member%facade = ''
+         call put_row(case, member, results%row, what, results%verdicts, table, error)
+         return
+      end if
+      rows = results%population%rows()
+      call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false., facade=case%facade)
+      do i = 1, rows + 1
+         if (allocated(error)) exit
+         call reader%next(member, found, error)
+         if (.not. allocated(error) .and. (found .neqv. i <= rows)) then
+            call raise_failure(error, case%population_path()//': has changed while it was read')
+         end if
+         if (allocated(error) .or. .not. found) exit
+         row%histories = results%population%histories(:, i)
+         row%reached = results%population%reached(:, :, i)
+         row%curve = results%population%curve(:, i)
+         if (what == of_histories .or. (what == of_ties .and. member%wall%mechanism%ties > 0)) then
+            call read_stored(results, i, row, error)
+         end if
+         if (.not. allocated(error)) call put_row(case, member, row, what, results%verdicts, table, error)
+      end do
+      call reader%close()
+      do i = 1, size(results%stores)
+         call results%stores(i)%close()
+      end do
+   end subroutine each_row
+
+   !> What a store has of a row of a population
+   subroutine read_stored(results, number, row, error)
+      type(results_type), intent(inout) :: results
+      !> Number of the row
+      integer, intent(in) :: number
+      !> The row: what happens to its ties is set, and its histories if they are kept
+      type(row_counts_type), intent(inout) :: row
+      !> A store has changed
+      type(error_type), allocatable, intent(out) :: error
+
+      type(row_result_type) :: stored
+      integer :: k
+
+      do k = 1, size(results%stores) - 1
+         if (number <= results%stores(k)%identity%last) exit
+      end do
+      call results%stores(k)%read(number, stored, error)
+      if (allocated(error)) return
+      call move_alloc(stored%tallies, row%tallies)
+      if (allocated(row%response)) deallocate (row%response)
+      if (allocated(stored%response)) call move_alloc(stored%response, row%response)
+   end subroutine read_stored
+
+   !> Put a row
+   subroutine put_row(case, member, row, what, verdicts, table, error)
+      type(case_type), intent(in), target :: case
+      type(member_type), intent(in) :: member
+      type(row_counts_type), intent(in) :: row
+      !> What is put of it
+      integer, intent(in) :: what
+      !> Counts of what came of the checks
+      type(verdicts_type), intent(inout) :: verdicts
+      class(table_type), intent(inout) :: table
+      !> Its histories cannot be chosen again
+      type(error_type), allocatable, intent(out) :: error
+
+      select case (what)
+      case (of_walls)
+         call put_wall_row(case, member, table)
+      case (of_histories)
+         call put_history_rows(case, member, row, table, error)
+      case (of_stripes)
+         call put_stripe_rows(case, member, row, table)
+      case (of_curves)
+         call put_fragility_rows(case, member, row, table)
+      case (of_ties)
+         call put_tie_rows(case, member, row, table)
+      case (of_checks)
+         call put_names(table, member%wall)
+         call put_check(table, case, member, row%curve(size(row%curve)), verdicts)
+         call table%end_row()
+      end select
+   end subroutine put_row
+
+   !> A wall
+   subroutine put_wall_row(case, member, table)
+      type(case_type), intent(in) :: case
+      type(member_type), intent(in) :: member
+      class(table_type), intent(inout) :: table
+
+      integer, allocatable :: lengths(:)
+
+      if (case%job%task == 'typology') then
+         lengths = case%survey%lengths
+      else
+         lengths = case%wall%input%lengths()
+      end if
+      call put_wall(table, member, lengths, case%survey%has_facades)
+      call table%end_row()
+   end subroutine put_wall_row
+
+   !> All histories of a row
+   subroutine put_history_rows(case, member, row, table, error)
+      type(case_type), intent(in), target :: case
+      type(member_type), intent(in) :: member
+      type(row_counts_type), intent(in) :: row
+      class(table_type), intent(inout) :: table
+      !> They cannot be chosen again
+      type(error_type), allocatable, intent(out) :: error
+
+      type(study_type) :: study
+      type(stripes_type) :: plan
+      logical, allocatable :: lifts(:, :)
+      integer :: i, j
+
+      call case%make_study(study)
+      call plan_stripes(plan, member%wall, study, error)
+      if (allocated(error)) return
+      if (tells_uplift(case)) call find_lifts(plan, case%suite%falls, member%wall%gravity, lifts)
+      do j = 1, size(plan%levels)
+         do i = 1, size(plan%record)
+            if (.not. plan%ran(i, j)) cycle
+            call put_names(table, member%wall)
+            call put_history(table, case%suite%records(plan%record(i))%name, plan%polarity(i), plan%im, plan%levels(j), &
+               & plan%scale(i, j), row%response(i, j))
+            if (case%solver%solver%estimate_error) call table%put('edp_error', row%response(i, j)%edp_error)
+            if (case%solver%solver%certify) call put_certified(table, row%certified(i, j))
+            if (allocated(lifts)) call table%put('uplift', lifts(i, j))
+            call table%end_row()
+         end do
+      end do
+   end subroutine put_history_rows
+
+   !> Do the tables say in which histories the ground falls away from the wall? Those of one wall do
+   pure logical function tells_uplift(case)
+      type(case_type), intent(in) :: case
+
+      tells_uplift = case%job%task == 'stripes' .and. case%suite%has_vertical
+   end function tells_uplift
+
+   !> Histories of a row that reach each threshold at every level
+   subroutine put_stripe_rows(case, member, row, table)
+      type(case_type), intent(in) :: case
+      type(member_type), intent(in) :: member
+      type(row_counts_type), intent(in) :: row
+      class(table_type), intent(inout) :: table
+
+      integer :: j, k
+
+      do k = 1, size(case%stripes%thresholds)
+         do j = 1, size(case%stripes%levels)
+            call put_names(table, member%wall)
+            call put_stripe(table, case%stripes%scaling%name, case%stripes%levels(j), row%histories(j), row%reached(j, k), &
+               & case%stripes%thresholds(k))
+            if (allocated(row%uplift)) call table%put('uplift', row%uplift(j))
+            call table%end_row()
+         end do
+      end do
+   end subroutine put_stripe_rows
+
+   !> Curves of a row
+   subroutine put_fragility_rows(case, member, row, table)
+      type(case_type), intent(in) :: case
+      type(member_type), intent(in) :: member
+      type(row_counts_type), intent(in) :: row
+      class(table_type), intent(inout) :: table
+
+      integer :: k
+
+      do k = 1, size(case%stripes%thresholds)
+         call put_names(table, member%wall)
+         call put_fragility(table, case%stripes%scaling%name, row%curve(k), case%stripes%thresholds(k))
+         call table%end_row()
+      end do
+   end subroutine put_fragility_rows
+
+   !> What the histories of a wall do to its ties
+   subroutine put_tie_rows(case, member, row, table)
+      type(case_type), intent(in) :: case
+      type(member_type), intent(in) :: member
+      type(row_counts_type), intent(in) :: row
+      class(table_type), intent(inout) :: table
+
+      integer :: i, j
+
+      if (member%wall%mechanism%ties == 0) return
+      do j = 1, size(case%stripes%levels)
+         do i = 1, size(row%tallies, 1)
+            call put_names(table, member%wall)
+            call put_tally(table, case%stripes%scaling%name, case%stripes%levels(j), i, row%tallies(i, j), row%histories(j))
+            call table%end_row()
+         end do
+      end do
+   end subroutine put_tie_rows
+
+end module dondolo_row_tables
