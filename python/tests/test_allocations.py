@@ -42,6 +42,7 @@ SMALL = {
     "src/dondolo/fragility/tie_tallies": "levels and ties of a wall",
     "src/dondolo/motion/(common/grip|lanes/normal_form)": "ties of a wall",
     "src/dondolo/motion/lanes/lanes": "lanes, whose number is fixed",
+    "src/dondolo/record/last_number": "prints of a fixed number",
     "src/dondolo/record/synthetic/": "harmonics of a record whose duration is limited",
     "src/dondolo/base/system/(line_reader|number_table)": "a line, or so many numbers as the reader allows",
     "src/dondolo/population/store_format": "a head, or a row, whose length is limited",

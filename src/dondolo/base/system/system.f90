@@ -268,9 +268,8 @@ contains
       integer, parameter :: room = 8192
       character(kind=c_char, len=:), allocatable :: real_first, real_second
 
-      allocate (real_first, real_second, mold=repeat(c_null_char, room))
-      real_first(:) = ''
-      real_second(:) = ''
+      real_first = repeat(' ', room)
+      real_second = real_first
       same_file = .false.
       if (.not. c_associated(c_realpath(first//c_null_char, real_first))) return
       if (.not. c_associated(c_realpath(second//c_null_char, real_second))) return
