@@ -16,7 +16,7 @@ module dondolo_plan
    use dondolo_plan_wall, only : print_body, print_head, print_row, print_wall
    use dondolo_plausibility, only : wall_warning_type
    use dondolo_member, only : member_type
-   use dondolo_population, only : population_reader_type
+   use dondolo_population_reader, only : population_reader_type
    use dondolo_population_case, only : find_start
    use dondolo_record, only : record_type
    use dondolo_record_table, only : record_table

@@ -11,7 +11,6 @@ module dondolo_union_lines
    use dondolo_results, only : results_type, shown_rows
    use dondolo_text, only : counted, left, right, rounded, to_text
    use dondolo_unions, only : union_type
-   use dondolo_wall_curves, only : wall_curves_type
    implicit none
    private
 
@@ -78,7 +77,7 @@ contains
       associate (population => results%population)
          union%name = results%shown(1)%name
          union%rows = 1
-         union%saturation = population%p_occ(1)
+         union%saturation = population%row(1)%p_occ
          union%curve = population%curve(:, 1)
          union%histories = real(population%histories(:, 1), wp)
          allocate (union%fraction(size(case%stripes%levels), size(union%curve)))
@@ -179,7 +178,7 @@ contains
       associate (spectrum => case%check%spectrum(2))
          do i = 1, min(size(results%unions%wall), shown_rows)
             call results%unions%get(i, results%population, union)
-            call print_chance(union, results%population%wall(results%unions%wall(i), size(union%curve)), spectrum%pga)
+            call print_chance(union, spectrum%pga)
          end do
       end associate
 
@@ -196,21 +195,21 @@ contains
 
       !> Print the probability that a facade collapses at the peak acceleration of the site. Its curve is fitted on its own,
       !> so that far below its levels it may be less than that of a mechanism, which bounds it
-      subroutine print_chance(union, curves, pga)
+      subroutine print_chance(union, pga)
          type(union_type), intent(in) :: union
-         !> Curves of its mechanisms
-         type(wall_curves_type), intent(in) :: curves
          !> a_g S of SLV [g]
          real(wp), intent(in) :: pga
 
-         real(wp) :: survival, chances(size(curves%curve))
+         real(wp) :: survival, chances(union%rows(1):union%rows(2))
          integer :: k, last
 
          last = size(union%curve)
          if (.not. union%curve(last)%has_fit()) return
          chances = 0.0_wp
-         do k = 1, size(chances)
-            if (curves%curve(k)%has_fit()) chances(k) = curves%p_occ(k)*curves%curve(k)%probability(pga)
+         do k = union%rows(1), union%rows(2)
+            associate (curve => results%population%curve(last, k))
+               if (curve%has_fit()) chances(k) = results%population%row(k)%p_occ*curve%probability(pga)
+            end associate
          end do
          survival = product(1.0_wp - chances)
          write (output_unit, '(a)') ''''//union%name//''': probability of collapse at a_g S = '//rounded(pga)//' g: '// &

@@ -32,15 +32,14 @@ module dondolo
    use dondolo_mechanism, only : mechanism_type
    use dondolo_metadata, only : entry_type, metadata_type
    use dondolo_member, only : member_type
-   use dondolo_population, only : population_reader_type, read_population
-   use dondolo_population_counts, only : new_population_counts, population_counts_type
+   use dondolo_population, only : population_type
+   use dondolo_population_reader, only : population_reader_type, read_population
    use dondolo_record, only : new_record, record_type
    use dondolo_record_reader, only : read_record, read_records
    use dondolo_reports, only : check_reports, write_reports
    use dondolo_response, only : response_type, tie_response_type, trace_type
    use dondolo_response_spectrum, only : pseudo_acceleration, spectral_displacement
    use dondolo_results, only : results_type
-   use dondolo_roster, only : roster_type
    use dondolo_run_case, only : run_case
    use dondolo_population_case, only : merge_population
    use dondolo_scaling, only : new_scaling, scaling_names, scaling_type
@@ -55,7 +54,6 @@ module dondolo
    use dondolo_typology, only : combine_population, typology_type
    use dondolo_version, only : dondolo_version_text
    use dondolo_wall, only : mechanism_names, new_wall, wall_input_type, wall_type
-   use dondolo_wall_curves, only : wall_curves_type
    implicit none
    private
 
@@ -74,8 +72,7 @@ module dondolo
    public :: suite_type, new_suite, study_type, new_study
    public :: stripes_type, multiple_stripe, polarity_names, progress_interface
    public :: scaling_type, new_scaling, scaling_names
-   public :: fragility_type, fit_fragility, typology_type, combine_population
-   public :: wall_curves_type, roster_type, population_counts_type, new_population_counts
+   public :: fragility_type, fit_fragility, typology_type, combine_population, population_type
    ! Cases
    public :: case_type, read_case, results_type, run_case, merge_population, check_reports, write_reports
    public :: member_type, population_reader_type, read_population

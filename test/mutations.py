@@ -248,8 +248,8 @@ EDITS = [
     ),
     Edit(
         "the curves of one mechanism ignore its probabilities of occurrence",
-        "merge(population%weight*population%p_occ, 0.0_wp, population%mechanism == number)",
-        "merge(population%weight, 0.0_wp, population%mechanism == number)",
+        "if (column <= self%rows) weight = weight*row%p_occ",
+        "",
         "test_typology.f90",
     ),
     # Walls of several mechanisms
@@ -267,14 +267,14 @@ EDITS = [
     ),
     Edit(
         "a wall has as many histories as the mechanism with most of them",
-        "combined_histories = minval(self%histories, dim=2)",
-        "combined_histories = maxval(self%histories, dim=2)",
+        "histories = minval(self%histories(:, of(1):of(2)), dim=2)",
+        "histories = maxval(self%histories(:, of(1):of(2)), dim=2)",
         "test_typology.f90",
     ),
     Edit(
         "the curve of a wall is fitted to fractions that do not tend to 1",
-        "if (self%occurrence() > 0.0_wp) part = min(part/self%occurrence(), 1.0_wp)",
-        "part = min(part, 1.0_wp)",
+        "self%fraction(column, state), self%occurrence(column), &",
+        "self%fraction(column, state), 1.0_wp, &",
         "test_typology.f90",
     ),
     Edit(
@@ -285,27 +285,27 @@ EDITS = [
     ),
     # Means and dispersions of a population
     Edit(
-        "the mean curve ignores the weights of the walls",
-        "sums%curve = sums%curve + weight*p",
-        "sums%curve = sums%curve + p",
+        "a mean ignores the weights of the walls",
+        "mean = mean + self%weight(i)*p(:, self%column(i))",
+        "mean = mean + sum(self%weight)/real(size(self%weight), wp)*p(:, self%column(i))",
         "test_typology.f90",
     ),
     Edit(
         "the dispersion between walls is taken from the first wall, not from the mean",
-        "sums%squares = sums%squares + part*distance*(log(fit%theta) - sums%centre)",
-        "sums%squares = sums%squares + part*distance**2",
+        "squares = squares + share*distance*(log(fit%theta) - centre)",
+        "squares = squares + share*distance**2",
         "test_typology.f90",
     ),
     Edit(
         "the dispersion between records is the mean of beta squared, without its root",
-        "curve%beta_records = sqrt(sums%beta_squares/sums%fitted)",
-        "curve%beta_records = sums%beta_squares/sums%fitted",
+        "curve%beta_records = sqrt(beta_squares/fitted)",
+        "curve%beta_records = beta_squares/fitted",
         "test_typology.f90",
     ),
     Edit(
         "the mean is fitted as if it tended to 1",
-        "if (curve%saturation > 0.0_wp) share = min(share/curve%saturation, 1.0_wp)",
-        "share = min(share, 1.0_wp)",
+        "curve%mean_fraction, curve%saturation, curve%histories, error)",
+        "curve%mean_fraction, 1.0_wp, curve%histories, error)",
         "test_typology.f90",
     ),
     # Fits of fragility curves

@@ -11,7 +11,7 @@ program test_case
    use dondolo_namelist, only : namelist_type, read_namelist
    use dondolo_namelist_group, only : group_type
    use dondolo_member, only : member_type
-   use dondolo_population, only : read_population
+   use dondolo_population_reader, only : read_population
    use dondolo_reports, only : check_reports, write_reports
    use dondolo_result_files, only : published_run, result_files_type
    use dondolo_result_tables, only : list_tables, table_kind_type, table_suffixes

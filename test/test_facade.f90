@@ -6,7 +6,7 @@ program test_facade
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_member, only : member_type
-   use dondolo_population, only : population_reader_type, read_population
+   use dondolo_population_reader, only : population_reader_type, read_population
    use dondolo_variants, only : stated_wall_type
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    implicit none

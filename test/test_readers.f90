@@ -17,7 +17,7 @@ program test_readers
    use dondolo_lines, only : lines_type
    use dondolo_number_table, only : read_number_table
    use dondolo_member, only : member_type
-   use dondolo_population, only : read_population
+   use dondolo_population_reader, only : read_population
    use dondolo_record, only : largest_acceleration, record_type
    use dondolo_record_reader, only : read_records
    use dondolo_row_result, only : row_result_type

@@ -9,7 +9,7 @@ program test_run_population
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_member, only : member_type
-   use dondolo_population, only : read_population
+   use dondolo_population_reader, only : read_population
    use dondolo_reports, only : write_reports
    use dondolo_result_files, only : result_files_type
    use dondolo_result_tables, only : table_suffixes

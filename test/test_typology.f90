@@ -2,24 +2,36 @@
 program test_typology
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, suite
    use dondolo_error, only : error_type
-   use dondolo_fractiles, only : weighted_fractiles
    use dondolo_fragility, only : fit_fragility, fragility_type
    use dondolo_kinds, only : wp
-   use dondolo_members, only : choose_members, members_type, population_probabilities
-   use dondolo_population_counts, only : new_population_counts, population_counts_type
-   use dondolo_roster, only : number_of_group, roster_row_type, roster_type
+   use dondolo_population, only : part_type, population_type
    use dondolo_stripes, only : stripes_type
    use dondolo_study, only : check_thresholds
    use dondolo_text, only : to_text
    use dondolo_typology, only : combine_population, fractile_shares, typology_type, whole_population
-   use dondolo_wall, only : mechanism_names
-   use dondolo_wall_curves, only : wall_curves_type
+   use dondolo_weights, only : weighted_fractiles, weights_of, weights_type
    implicit none
 
    !> Levels of all populations here
    real(wp), parameter :: x(3) = [0.1_wp, 0.2_wp, 0.4_wp]
    !> Collapses of five walls of 44 histories; the second and the last have no curve
    integer, parameter :: z(3, 5) = reshape([4, 20, 40, 0, 0, 10, 1, 9, 30, 10, 30, 43, 0, 44, 44], [3, 5])
+
+   !> A wall and what came of it
+   type :: counted_wall_type
+      !> Name of its group, empty if it has none
+      character(len=:), allocatable :: group
+      !> Its weight
+      real(wp) :: weight = 1.0_wp
+      !> Its mechanisms, and the probability that each can occur
+      character(len=13), allocatable :: mechanism(:)
+      real(wp), allocatable :: p_occ(:)
+      !> Histories of each in each stripe, and how many collapse (levels, mechanisms)
+      integer, allocatable :: histories(:, :), reached(:, :)
+      !> Curve of each, and that of the wall as a whole
+      type(fragility_type), allocatable :: curve(:)
+      type(fragility_type) :: combined
+   end type counted_wall_type
 
    call test_one_wall()
    call test_mean()
@@ -55,10 +67,9 @@ contains
       !> Histories of a stripe of each mechanism, 44 if absent
       integer, intent(in), optional :: histories(:)
       !> The wall
-      type(wall_curves_type) :: wall
+      type(counted_wall_type) :: wall
 
-      type(error_type), allocatable :: error
-      integer :: i
+      type(population_type) :: alone
 
       wall%group = ''
       if (present(group)) wall%group = group
@@ -68,48 +79,33 @@ contains
       if (present(p_occ)) wall%p_occ = p_occ
       allocate (wall%histories(size(x), size(rows)), source=44)
       if (present(histories)) wall%histories = spread(histories, 1, size(x))
-      allocate (wall%curve(size(rows)), wall%fraction(size(x), size(rows)))
-      do i = 1, size(rows)
-         wall%fraction(:, i) = real(z(:, rows(i)), wp)/real(wall%histories(:, i), wp)
-         call fit_fragility(wall%curve(i), x, real(z(:, rows(i)), wp), real(wall%histories(:, i), wp), error)
-         call check_ok(error, 'fit')
-      end do
-      call wall%fit(x, error)
-      call check_ok(error, 'wall')
+      wall%reached = z(:, rows)
+      alone = population_of([wall])
+      wall%curve = alone%curve(1, :size(rows))
+      wall%combined = alone%curve(1, size(rows) + 1)
    end function wall_of
 
    !> A population of walls
    function population_of(walls) result(population)
       !> The walls
-      type(wall_curves_type), intent(in) :: walls(:)
+      type(counted_wall_type), intent(in) :: walls(:)
       !> The population, fitted
-      type(population_counts_type) :: population
+      type(population_type) :: population
 
-      type(roster_type) :: roster
       type(error_type), allocatable :: error
       integer :: i, m, row
 
-      allocate (roster%row(4*size(walls)))
-      do i = 1, size(walls)
-         associate (wall => walls(i))
-            if (len(wall%group) > 0 .and. number_of_group(roster%groups, wall%group) == 0) then
-               call roster%groups%add(wall%group)
-            end if
-            do m = 1, size(wall%p_occ)
-               roster%count = roster%count + 1
-               roster%row(roster%count) = roster_row_type(m > 1, findloc(mechanism_names == wall%mechanism(m), .true., &
-                  & dim=1), number_of_group(roster%groups, wall%group), wall%weight, wall%p_occ(m))
-            end do
-         end associate
-      end do
-      call new_population_counts(population, roster, x, 1, error)
-      call check_ok(error, 'population')
       do i = 1, size(walls)
          do m = 1, size(walls(i)%p_occ)
-            row = population%first(i) + m - 1
-            population%histories(:, row) = walls(i)%histories(:, m)
-            population%reached(:, 1, row) = nint(walls(i)%fraction(:, m)*real(walls(i)%histories(:, m), wp))
+            call population%add(trim(walls(i)%mechanism(m)), walls(i)%group, walls(i)%weight, walls(i)%p_occ(m), m > 1)
          end do
+      end do
+      call population%begin(x, 1, error)
+      call check_ok(error, 'population')
+      do i = 1, size(walls)
+         row = population%first(i)
+         population%histories(:, row:row + size(walls(i)%p_occ) - 1) = walls(i)%histories
+         population%reached(:, 1, row:row + size(walls(i)%p_occ) - 1) = walls(i)%reached
       end do
       call population%fit(error)
       call check_ok(error, 'curves')
@@ -118,7 +114,7 @@ contains
    !> The curves of a population that must be fine
    function combined(walls) result(typologies)
       !> The walls
-      type(wall_curves_type), intent(in) :: walls(:)
+      type(counted_wall_type), intent(in) :: walls(:)
       !> The curves
       type(typology_type), allocatable :: typologies(:)
 
@@ -145,7 +141,7 @@ contains
 
    !> Where all walls that can collapse do, rounding of the saturation makes up no survivors
    subroutine test_all_that_can()
-      type(wall_curves_type) :: wall
+      type(counted_wall_type) :: wall
       type(typology_type), allocatable :: curves(:)
       type(error_type), allocatable :: error
       real(wp) :: p_occ
@@ -168,7 +164,7 @@ contains
 
    !> A weight of a mechanism that is too small for a number counts as none
    subroutine test_weights_beyond_numbers()
-      type(wall_curves_type) :: walls(2)
+      type(counted_wall_type) :: walls(2)
       type(typology_type), allocatable :: curves(:)
       integer :: k
 
@@ -189,7 +185,7 @@ contains
       integer :: i
 
       call suite('signed zero')
-      call weighted_fractiles([-0.0_wp, -0.0_wp, 0.5_wp, 0.75_wp, 1.0_wp], spread(1.0_wp, 1, 5), 5.0_wp, &
+      call weighted_fractiles([-0.0_wp, -0.0_wp, 0.5_wp, 0.75_wp, 1.0_wp], spread(1.0_wp, 1, 5), &
          & [0.16_wp, 0.5_wp, 0.84_wp], values)
       call check_close(values(1), 0.0_wp, 0.0_wp, 'zero')
       call check(sign(1.0_wp, values(1)) > 0.0_wp, 'without its sign')
@@ -200,7 +196,7 @@ contains
 
    !> One wall of one mechanism is its own population
    subroutine test_one_wall()
-      type(wall_curves_type) :: wall
+      type(counted_wall_type) :: wall
       type(typology_type), allocatable :: curves(:)
       integer :: k
 
@@ -225,7 +221,7 @@ contains
 
    !> Weighted means, and the lognormal fitted to them
    subroutine test_mean()
-      type(wall_curves_type) :: walls(2)
+      type(counted_wall_type) :: walls(2)
       type(typology_type), allocatable :: curves(:)
       type(fragility_type) :: fit
       type(error_type), allocatable :: error
@@ -255,8 +251,9 @@ contains
 
    !> Mechanisms in series, each with its chance to occur
    subroutine test_mixed_wall()
-      type(wall_curves_type) :: mixed, plain, low, high
+      type(counted_wall_type) :: mixed, plain, low, high
       type(typology_type), allocatable :: curves(:)
+      type(population_type) :: population
       type(fragility_type) :: fit
       type(error_type), allocatable :: error
       real(wp) :: f(3), p(3), rest(3), can
@@ -268,7 +265,11 @@ contains
       p = 1.0_wp - (1.0_wp - 0.3_wp*mixed%curve(1)%probability(x))*(1.0_wp - 0.8_wp*mixed%curve(2)%probability(x))
       ! A mechanism can occur in this share of such walls; their capacities are what the lognormal describes.
       can = 1.0_wp - 0.7_wp*0.2_wp
-      call check_close(mixed%occurrence(), can, 1.0e-15_wp, 'what the wall can come to')
+      population = population_of([mixed])
+      call check_close(population%occurrence(3), can, 1.0e-15_wp, 'what the wall can come to')
+      call check_close(population%occurrence(1), 1.0_wp, 0.0_wp, 'a mechanism if it can occur')
+      call check(all(population%histories_of(3) == 44), 'no more histories than the mechanism with fewer')
+      call check(all(abs(f - population%fraction(3, 1)) < 1.0e-15_wp), 'fractions of the wall')
       call fit_fragility(fit, x, 44.0_wp*f/can, spread(44.0_wp, 1, 3), error)
       call check_close(mixed%combined%theta, fit%theta, 1.0e-12_wp, 'theta of the wall')
       call check_close(mixed%combined%se_beta(), fit%se_beta(), 1.0e-11_wp, 'it counts the fewer histories')
@@ -333,7 +334,7 @@ contains
    subroutine test_dispersion()
       !> Weights; the second wall has no curve
       real(wp), parameter :: w(4) = [2.0_wp, 3.0_wp, 1.0_wp, 5.0_wp]
-      type(wall_curves_type) :: walls(4)
+      type(counted_wall_type) :: walls(4)
       type(typology_type), allocatable :: curves(:)
       real(wp) :: ln(4), beta(4), share(4), mean
       integer :: i
@@ -356,7 +357,7 @@ contains
 
    !> Curves by group
    subroutine test_groups()
-      type(wall_curves_type) :: walls(4)
+      type(counted_wall_type) :: walls(4)
       type(typology_type), allocatable :: curves(:), alone(:)
 
       call suite('groups')
@@ -381,7 +382,7 @@ contains
 
    !> Walls of no weight leave no trace
    subroutine test_weights_of_nothing()
-      type(wall_curves_type) :: walls(3)
+      type(counted_wall_type) :: walls(3)
       type(typology_type), allocatable :: curves(:)
       type(error_type), allocatable :: error
 
@@ -400,7 +401,7 @@ contains
 
    !> A column of names is no group
    subroutine test_too_many_groups()
-      type(wall_curves_type) :: walls(66), one
+      type(counted_wall_type) :: walls(66), one
       type(typology_type), allocatable :: curves(:)
       type(error_type), allocatable :: error
       integer :: i
@@ -448,7 +449,7 @@ contains
       !> Their fractiles
       real(wp) :: found(3)
 
-      call weighted_fractiles(pack(numbers, weights > 0.0_wp), pack(weights, weights > 0.0_wp), sum(weights), &
+      call weighted_fractiles(pack(numbers, weights > 0.0_wp), pack(weights, weights > 0.0_wp), &
          & fractile_shares, found)
    end function fractiles_of
 
@@ -508,7 +509,7 @@ contains
 
    !> The order of the walls changes rounding and the order of the curves, nothing else
    subroutine test_order()
-      type(wall_curves_type) :: walls(4)
+      type(counted_wall_type) :: walls(4)
       type(typology_type), allocatable :: there(:), back(:), again(:)
 
       call suite('order')
@@ -532,9 +533,9 @@ contains
 
    !> At levels that were not run: curves where there are fits, lines between the fractions where there are none
    subroutine test_any_level()
-      type(population_counts_type) :: population
-      type(members_type) :: members
-      type(wall_curves_type) :: walls(3)
+      type(population_type) :: population
+      type(weights_type) :: weights
+      type(counted_wall_type) :: walls(3)
       type(error_type), allocatable :: error
       real(wp), allocatable :: p(:, :)
       real(wp), parameter :: levels(6) = [0.0_wp, 0.05_wp, 0.1_wp, 0.3_wp, 0.4_wp, 2.0_wp], &
@@ -547,7 +548,7 @@ contains
       walls(2) = wall_of([2], ['one_sided'], 1.0_wp, group='b')
       walls(3) = wall_of([4], ['one_sided'], 4.0_wp, group='b')
       population = population_of(walls)
-      call population_probabilities(population, 1, levels, p, error)
+      call population%probabilities(1, levels, p, error)
       call check_ok(error, 'probabilities')
       call check(all(shape(p) == [6, 7]), 'rows and walls')
       do k = 1, size(levels)
@@ -556,22 +557,34 @@ contains
             & 'mechanisms in series', atol=1.0e-16_wp)
          call check_close(p(k, 4), walls(3)%curve(1)%probability(levels(k)), 0.0_wp, 'a wall with a fit')
       end do
-      call choose_members(members, population, 'all', 0)
-      mean = members%mean(p)
-      fractiles = members%fractiles(p, [0.9_wp, 0.1_wp])
+      weights = weights_of(population, population%part('all', ''))
+      mean = weights%mean(p)
+      fractiles = weights%fractiles(p, [0.9_wp, 0.1_wp])
       do k = 1, size(levels)
          call check_close(mean(k), (2.0_wp*p(k, 5) + p(k, 6) + 4.0_wp*p(k, 7))/7.0_wp, 1.0e-14_wp, 'mean', atol=1.0e-16_wp)
          call check(all(abs(fractiles(:, k) - [maxval(p(k, 5:)), minval(p(k, 5:))]) <= 0.0_wp), 'fractiles')
       end do
-      call choose_members(members, population, 'one_sided', number_of_group(population%groups, 'b'))
-      call check(all(members%column == [3, 4]) .and. all(members%weight >= [1.0_wp, 4.0_wp]), 'a mechanism of a group')
-      call choose_members(members, population, 'one_sided', 0)
-      call check(all(members%column == [1, 3, 4]), 'a mechanism')
-      call check_close(members%weight(1), 0.6_wp, 1.0e-15_wp, 'counts as often as it can occur')
-      call choose_members(members, population, 'all', 1)
-      call check(all(members%column == [6, 7]), 'a group')
-      walls(2)%fraction = reshape([0.25_wp, 0.5_wp], [2, 1])
-      p = walls(2)%probabilities([1.0_wp, 2.0_wp], [0.5_wp, 1.5_wp, 2.5_wp])
+      weights = weights_of(population, population%part('one_sided', 'b'))
+      call check(all(weights%column == [3, 4]) .and. all(weights%weight >= [1.0_wp, 4.0_wp]), 'a mechanism of a group')
+      weights = weights_of(population, population%part('one_sided', ''))
+      call check(all(weights%column == [1, 3, 4]), 'a mechanism')
+      call check_close(weights%weight(1), 0.6_wp, 1.0e-15_wp, 'counts as often as it can occur')
+      weights = weights_of(population, part_type(group=1))
+      call check(all(weights%column == [6, 7]), 'a group')
+      call population%probabilities(1, levels, p, error, [3])
+      call check_ok(error, 'some columns')
+      do k = 1, size(levels)
+         call check_close(p(k, 3), lines(k), 1.0e-15_wp, 'the column that was asked for', atol=1.0e-16_wp)
+      end do
+
+      ! A row that was not fitted
+      population = population_type()
+      call population%add('one_sided', '', 1.0_wp, 1.0_wp, .false.)
+      call population%begin([1.0_wp, 2.0_wp], 1, error)
+      call check_ok(error, 'two levels')
+      population%histories = 4
+      population%reached(:, 1, 1) = [1, 2]
+      call population%probabilities(1, [0.5_wp, 1.5_wp, 2.5_wp], p, error)
       call check(all(abs(p(:, 1) - [0.125_wp, 0.375_wp, 0.5_wp]) <= 0.0_wp), 'between two fractions')
    end subroutine test_any_level
 

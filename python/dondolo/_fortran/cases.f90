@@ -7,7 +7,7 @@ module cases
    use dondolo_error, only : error_type
    use dondolo_parcel, only : parcel_type, send
    use dondolo_member, only : member_type
-   use dondolo_population, only : read_population
+   use dondolo_population_reader, only : read_population
    use dondolo_record_parcel, only : pack_records
    use dondolo_result_tables, only : table_suffixes
    use dondolo_wall_parcel, only : pack_members

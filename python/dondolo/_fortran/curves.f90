@@ -7,19 +7,18 @@ module curves
    use dondolo_fragility, only : error_names, fit_fragility, fragility_type, status_names
    use dondolo_handles, only : find_walls
    use dondolo_lines, only : lines_type
-   use dondolo_members, only : choose_members, members_type, population_probabilities
    use dondolo_ordinal, only : ordinal_fit => fit_ordinal, ordinal_errors
    use dondolo_parcel, only : parcel_type, send
-   use dondolo_population_counts, only : new_population_counts, population_counts_type
-   use dondolo_roster, only : number_of_group, roster_row_type, roster_type
+   use dondolo_population, only : population_type
+   use dondolo_series, only : series => in_series
    use dondolo_stripes, only : stripes_type
    use dondolo_student, only : quantile => student_quantile
    use dondolo_typology, only : combine_population, typology_type
-   use dondolo_wall, only : mechanism_names, wall_type
-   use dondolo_wall_curves, only : combined => in_series, wall_curves_type
+   use dondolo_wall, only : wall_type
    use dondolo_warning, only : warnings_type
    use dondolo_warning_sentence, only : warning_objects
    use dondolo_warnings, only : fit_warning_type, warn_of_fit, warn_of_the_union => warn_of_union
+   use dondolo_weights, only : weights_of, weights_type
    implicit none
    private
 
@@ -186,7 +185,7 @@ contains
       certain = 1
       first = 1
       do i = 1, w
-         whole(:, i) = combined(certain(:rows(i)), p(:, first:first + rows(i) - 1))
+         whole(:, i) = series(certain(:rows(i)), p(:, first:first + rows(i) - 1))
          first = first + rows(i)
       end do
    end subroutine in_series
@@ -259,15 +258,13 @@ contains
       integer(c_int64_t), intent(out) :: sent(4)
       integer(c_int), intent(out) :: stat
       character(len=2048), intent(out) :: message
-      type(population_counts_type) :: population
-      type(wall_curves_type) :: wall
+      type(population_type) :: population
       type(typology_type), allocatable :: groups(:)
       type(fit_warning_type) :: fits
       type(lines_type) :: words
       type(warnings_type) :: warnings
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
-      real(c_double), allocatable :: parts(:, :), whole(:, :)
       integer :: i
 
       call check_room(error, r + w, reals=16.0_c_double*m*(real(r, c_double) + w))
@@ -279,17 +276,10 @@ contains
          do i = 1, r
             call fits%look(population%curve(1, i), words%line(i)%text)
          end do
-         allocate (whole(m, w))
-         do i = 1, w
-            wall = population%wall(i, 1)
-            parts = wall%fractions()
-            whole(:, i) = parts(:, size(parts, 2))
-         end do
-         parcel%integers = [size(groups), (status_code(population%curve(1, i)), i=1, r), &
-            & (status_code(population%combined(1, i)), i=1, w), (status_code(groups(i)%fit), i=1, size(groups)), &
-            & (groups(i)%walls, i=1, size(groups))]
-         parcel%reals = [(pack_curve(population%curve(1, i)), i=1, r), (pack_curve(population%combined(1, i)), i=1, w), &
-            & whole, (groups(i)%weight, groups(i)%beta_walls, groups(i)%beta_records, groups(i)%fitted, &
+         parcel%integers = [size(groups), (status_code(population%curve(1, i)), i=1, r + w), &
+            & (status_code(groups(i)%fit), i=1, size(groups)), (groups(i)%walls, i=1, size(groups))]
+         parcel%reals = [(pack_curve(population%curve(1, i)), i=1, r + w), (population%fraction(r + i, 1), i=1, w), &
+            & (groups(i)%weight, groups(i)%beta_walls, groups(i)%beta_records, groups(i)%fitted, &
             & groups(i)%saturation, groups(i)%histories, groups(i)%mean_fraction, groups(i)%mean_curve, groups(i)%fractile, &
             & pack_curve(groups(i)%fit), i=1, size(groups))]
          do i = 1, size(groups)
@@ -309,7 +299,7 @@ contains
 
    !> A curve of a population at n levels x: its weighted mean, and its fractiles for k shares of the weight. curves and
    !> statuses are those of the rows; mechanism 'all': the walls as a whole; group: empty for the whole population. With
-   !> probabilities = 1 a parcel has their number as integer and their probabilities as reals (members, n)
+   !> probabilities = 1 a parcel has their number as integer and their probabilities as reals (rows or walls, n)
    subroutine curve_of_population(texts, levels, collapses, m, r, histories, shares, rows, w, curves, statuses, mechanism, group, &
          & x, n, q, k, probabilities, mean, fractiles, sent, stat, message)
       character(len=*), intent(in) :: texts, mechanism, group
@@ -321,8 +311,8 @@ contains
       character(len=2048), intent(out) :: message
       ! Numbers that are held at a time: a few tens of MB
       integer, parameter :: most = 2000000
-      type(population_counts_type) :: population
-      type(members_type) :: members
+      type(population_type) :: population
+      type(weights_type) :: weights
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
       real(c_double), allocatable :: p(:, :), all(:, :)
@@ -334,24 +324,24 @@ contains
       if (.not. allocated(error)) call new_population(population, texts, levels, collapses, histories, shares, rows, error)
       if (.not. allocated(error)) then
          call set_curves(population, curves, statuses)
-         call choose_members(members, population, mechanism, number_of_group(population%groups, group))
+         weights = weights_of(population, population%part(mechanism, group))
          if (probabilities == 1) then
-            call check_room(error, reals=4.0_c_double*real(size(members%column), c_double)*n)
-            if (.not. allocated(error)) allocate (all(size(members%column), n))
+            call check_room(error, reals=4.0_c_double*real(size(weights%column), c_double)*n)
+            if (.not. allocated(error)) allocate (all(size(weights%column), n))
          end if
       end if
       part = max(1, most/(r + w))
       do first = 1, n, part
          if (allocated(error)) exit
          last = min(first + part - 1, n)
-         call population_probabilities(population, 1, x(first:last), p, error, members)
+         call population%probabilities(1, x(first:last), p, error, weights%column)
          if (allocated(error)) exit
-         mean(first:last) = members%mean(p)
-         fractiles(:, first:last) = members%fractiles(p, q)
-         if (probabilities == 1) all(:, first:last) = transpose(p(:, members%column))
+         mean(first:last) = weights%mean(p)
+         fractiles(:, first:last) = weights%fractiles(p, q)
+         if (probabilities == 1) all(:, first:last) = transpose(p(:, weights%column))
       end do
       if (.not. allocated(error) .and. probabilities == 1) then
-         parcel%integers = [size(members%column)]
+         parcel%integers = [size(weights%column)]
          parcel%reals = reshape(all, [size(all)])
       end if
       call send(parcel, error, sent, stat, message)
@@ -360,7 +350,7 @@ contains
    !> A population with the counts of one damage state, without curves
    subroutine new_population(population, texts, levels, collapses, histories, shares, rows, error)
       !> The population
-      type(population_counts_type), intent(out) :: population
+      type(population_type), intent(out) :: population
       !> Two lines a row: mechanism and group
       character(len=*), intent(in) :: texts
       !> Levels of intensity
@@ -376,33 +366,18 @@ contains
       !> Lack of memory
       type(error_type), allocatable, intent(out) :: error
 
-      type(roster_type) :: roster
       type(lines_type) :: words
-      integer :: i, first, group
+      integer :: i, k, row
 
       call split_lines(texts, words)
-      roster%count = size(histories, 2)
-      allocate (roster%row(roster%count))
-      do i = 1, roster%count
-         group = 0
-         associate (name => words%line(2*i)%text)
-            if (len(name) > 0) then
-               group = number_of_group(roster%groups, name)
-               if (group == 0) then
-                  call roster%groups%add(name)
-                  group = roster%groups%count
-               end if
-            end if
-         end associate
-         roster%row(i) = roster_row_type(.true., findloc(mechanism_names == words%line(2*i - 1)%text, .true., dim=1), &
-            & group, shares(1, i), shares(2, i))
-      end do
-      first = 1
+      row = 0
       do i = 1, size(rows)
-         roster%row(first)%continues = .false.
-         first = first + rows(i)
+         do k = 1, rows(i)
+            row = row + 1
+            call population%add(words%line(2*row - 1)%text, words%line(2*row)%text, shares(1, row), shares(2, row), k > 1)
+         end do
       end do
-      call new_population_counts(population, roster, levels, 1, error)
+      call population%begin(levels, 1, error)
       if (allocated(error)) return
       population%histories = histories
       population%reached(:, 1, :) = collapses
@@ -411,7 +386,7 @@ contains
    !> Set the curves of the rows of a population: those that were fitted to it before
    subroutine set_curves(population, curves, statuses)
       !> The population
-      type(population_counts_type), intent(inout) :: population
+      type(population_type), intent(inout) :: population
       !> Their numbers, of which theta and beta come first (8, rows)
       real(c_double), intent(in) :: curves(:, :)
       !> Places of their statuses among the names

@@ -7,7 +7,7 @@ module walls
    use dondolo_mechanism, only : mechanism_type
    use dondolo_parcel, only : parcel_type, send
    use dondolo_member, only : member_type
-   use dondolo_population, only : read_population
+   use dondolo_population_reader, only : read_population
    use dondolo_text, only : to_text
    use dondolo_tie_statics, only : ties_after
    use dondolo_wall, only : wall_type

@@ -1,355 +1,371 @@
-!> A population of walls: a CSV table with one row a mechanism of a wall, its columns those of &wall, and weight, group,
-!> p_occ and facade; or one facade alone, as &wall says it.
+!> A population of walls: its rows with their weights and groups, how many of their histories reach each damage state, and
+!> their curves. All curves of the population are made of it.
 !>
-!> A cell that is empty was not given. A wall without a name is called 'wall' with the number of its row. Rows with the
-!> same name are mechanisms of the same wall, rows of the same facade those of the facade; they stand one after the other.
-!> A row with hinge levels becomes a row for each: the walls 'NAME at Z m' of the facade NAME. Rows are read one by one, so
-!> that a table may be longer than the memory.
+!> A row is one mechanism of a wall; the rows of a wall stand one after the other. What rows and walls both have stands in
+!> columns: first those of the rows, behind them those of the walls as a whole, whose mechanisms are in series. It is kept
+!> in memory, in arrays: about 300 bytes a row and state at 20 levels; geometry is not kept.
 module dondolo_population
-   use dondolo_error, only : add_place, error_type, problems_type, raise_input
-   use dondolo_hinge_level, only : find_hinge_levels, has_hinge_level
+   use dondolo_error, only : error_type
+   use dondolo_fragility, only : fit_fragility, fragility_type
    use dondolo_kinds, only : wp
-   use dondolo_limits, only : most_walls
-   use dondolo_member, only : member_properties, member_type
+   use dondolo_lines, only : lines_type
    use dondolo_memory, only : check_room
-   use dondolo_population_roll, only : population_roll_type
-   use dondolo_property, only : find_property
-   use dondolo_settings, only : group_settings_type, new_settings
-   use dondolo_settings_check, only : check_settings
-   use dondolo_text, only : to_text
-   use dondolo_variants, only : stated_wall_type
-   use dondolo_wall, only : new_wall
-   use dondolo_wall_properties, only : wall_input_type, wall_properties
+   use dondolo_series, only : fit_share, in_series, occurrence_of
+   use dondolo_wall, only : mechanism_names
    implicit none
    private
 
-   public :: population_reader_type, read_population
+   public :: population_type, row_type, part_type
 
-   !> Memory that a row takes where all are kept [bytes]
-   real(wp), parameter :: bytes_of_row = 4000.0_wp
+   !> A row: one mechanism of a wall
+   type :: row_type
+      !> Number of the wall
+      integer :: wall = 0
+      !> Number of the mechanism among mechanism_names
+      integer :: mechanism = 0
+      !> Number of the group of the wall; 0: none
+      integer :: group = 0
+      !> Weight of the wall, >= 0
+      real(wp) :: weight = 1.0_wp
+      !> Probability that the mechanism can occur
+      real(wp) :: p_occ = 1.0_wp
+   end type row_type
 
-   !> A population that is being read
-   type, extends(population_roll_type) :: population_reader_type
-      !> Gravity [m/s2]
-      real(wp), allocatable :: gravity
-      !> Are all rows so far right, and has one of them a weight?
-      logical :: is_right = .true., has_weight = .false.
-      !> Can a row become several?
-      logical :: has_hinges = .false.
-      !> What is read instead of a table: a facade, or a wall with variants; not allocated: the table
-      type(stated_wall_type), allocatable :: facade
-      !> Path of what is read, for messages
-      character(len=:), allocatable :: file
-      !> What the row says, hinges that it has, and the number of the last that was given out
-      type(wall_input_type) :: input
-      type(member_type) :: own
+   !> A part of a population: the rows of one mechanism, or the walls as a whole, of one group or of all
+   type :: part_type
+      !> Number of the mechanism among mechanism_names, 0: the walls as a whole
+      integer :: mechanism = 0
+      !> Number of the group, 0: all walls
+      integer :: group = 0
+   end type part_type
+
+   !> A population
+   type :: population_type
+      !> How many rows and walls there are
+      integer :: rows = 0, walls = 0
+      !> The rows; those beyond `rows` are room
+      type(row_type), allocatable :: row(:)
+      !> Names of the groups, in the order in which they appear
+      type(lines_type) :: groups
+      !> First row of each wall, and behind them the number of rows + 1
+      integer, allocatable :: first(:)
+      !> Levels of intensity
       real(wp), allocatable :: levels(:)
-      integer :: level = 0
+      !> Histories of each row in each stripe (levels, rows)
+      integer, allocatable :: histories(:, :)
+      !> How many of them reach each damage state (levels, states, rows)
+      integer, allocatable :: reached(:, :, :)
+      !> Curves (states, columns). That of a wall is the lognormal of what can collapse: fitted to its fractions / occurrence,
+      !> or that of its mechanism, if one always can occur
+      type(fragility_type), allocatable :: curve(:, :)
    contains
-      !> Open a population
-      procedure :: open => open_population
-      !> Read the next row
-      procedure :: next
-      !> Pass over rows
-      procedure :: skip
-      !> Where the row that was read last is
-      procedure :: place
-      !> Close it before its end is reached
-      procedure :: close => close_population
-   end type population_reader_type
+      !> Add a row
+      procedure :: add
+      !> All rows are there: make room for their histories
+      procedure :: begin
+      !> Fit the curves
+      procedure :: fit
+      !> Rows of a wall
+      procedure :: rows_of
+      !> Has a wall several rows?
+      procedure :: is_several
+      !> Weights of columns in a part
+      procedure :: weight_in
+      !> Number of a group
+      procedure :: number_of_group
+      !> Part of a mechanism and a group
+      procedure :: part
+      !> Probability that a column can collapse
+      procedure :: occurrence
+      !> Histories of a column
+      procedure :: histories_of
+      !> Fractions of collapse of a column
+      procedure :: fraction
+      !> Probabilities of collapse of columns
+      procedure :: probabilities
+   end type population_type
 
 contains
 
-   !> Read all of a population
-   subroutine read_population(file, members, error, gravity, note, facade)
-      !> Path of the table
-      character(len=*), intent(in) :: file
-      !> Its rows
-      type(member_type), allocatable, intent(out) :: members(:)
-      !> Everything that is wrong, or lack of memory
-      type(error_type), allocatable, intent(out) :: error
-      !> Gravity [m/s2], standard if absent
-      real(wp), intent(in), optional :: gravity
-      !> How the table was read, where there is something to say of it, else empty
-      character(len=:), allocatable, intent(out), optional :: note
-      !> The facade, or the wall with variants, that is the whole population; absent: the table
-      type(stated_wall_type), intent(in), optional :: facade
+   !> Add a row
+   subroutine add(self, mechanism, group, weight, p_occ, continues)
+      class(population_type), intent(inout) :: self
+      !> One of mechanism_names
+      character(len=*), intent(in) :: mechanism
+      !> Name of the group, empty if there is none
+      character(len=*), intent(in) :: group
+      !> Weight of the wall, >= 0
+      real(wp), intent(in) :: weight
+      !> Probability that the mechanism can occur
+      real(wp), intent(in) :: p_occ
+      !> Is it a further mechanism of the wall in the row before?
+      logical, intent(in) :: continues
 
-      type(population_reader_type) :: reader
-      type(problems_type) :: problems
-      type(member_type), allocatable :: more(:)
-      logical :: found
-      integer :: rows
+      type(row_type), allocatable :: more(:)
 
-      call reader%open(file, error, gravity, facade=facade)
-      if (allocated(error)) return
-      allocate (members(64))
-      rows = 0
-      do
-         if (rows == size(members)) then
-            call check_room(2.0_wp*bytes_of_row*real(rows, wp), error)
-            if (allocated(error)) then
-               call reader%close()
-               return
-            end if
-            allocate (more(2*rows))
-            more(:rows) = members
-            call move_alloc(more, members)
-         end if
-         call reader%next(members(rows + 1), found, error)
-         if (found .and. .not. allocated(error)) rows = rows + 1
-         call problems%take(error)
-         if (.not. found) exit
-      end do
-      members = members(:rows)
-      if (present(note)) note = reader%table%note()
-      call problems%raise(error)
-   end subroutine read_population
+      if (.not. allocated(self%row)) allocate (self%row(64))
+      if (self%rows == size(self%row)) then
+         allocate (more(2*self%rows))
+         more(:self%rows) = self%row
+         call move_alloc(more, self%row)
+      end if
+      self%rows = self%rows + 1
+      if (.not. continues) self%walls = self%walls + 1
+      if (len(group) > 0 .and. self%number_of_group(group) == 0) call self%groups%add(group)
+      self%row(self%rows) = row_type(self%walls, findloc(mechanism_names == mechanism, .true., dim=1), &
+         & self%number_of_group(group), weight, p_occ)
+   end subroutine add
 
-   !> Open a population
-   subroutine open_population(self, file, error, gravity, is_checked, facade)
-      class(population_reader_type), intent(inout) :: self
-      !> Path of the table, or of what says the facade
-      character(len=*), intent(in) :: file
-      !> No table, or a column that does not exist
-      type(error_type), allocatable, intent(out) :: error
-      !> Gravity [m/s2], standard if absent
-      real(wp), intent(in), optional :: gravity
-      !> Is the table as a whole to be checked? Yes if absent
-      logical, intent(in), optional :: is_checked
-      !> The facade, or the wall with variants, that is the whole population; absent: there is a table
-      type(stated_wall_type), intent(in), optional :: facade
-
-      self%row = 0
-      self%mechanisms = ''
-      self%name = ''
-      self%file = file
-      allocate (self%levels(0))
-      if (present(gravity)) self%gravity = gravity
-      if (present(is_checked)) self%is_checked = is_checked
-      self%has_hinges = present(facade)
-      if (present(facade)) self%facade = facade
-      if (present(facade)) return
-      call self%open_table(file, error)
-      if (allocated(error)) return
-      self%has_hinges = self%wall_columns(find_property(wall_properties, 'hinge_at')) > 0 &
-         & .or. any(self%items(1, :) == find_property(wall_properties, 'hinge_level'))
-   end subroutine open_population
-
-   !> Read the next row; after an error the rows behind it can be read
-   subroutine next(self, member, found, error)
-      class(population_reader_type), intent(inout) :: self
-      type(member_type), intent(out) :: member
-      !> Was there a row, right or wrong?
-      logical, intent(out) :: found
-      !> Everything that is wrong with it, or at the end with the table
+   !> All rows are there: make room for their histories, of which there are none so far
+   subroutine begin(self, levels, states, error)
+      class(population_type), intent(inout) :: self
+      !> Levels of intensity
+      real(wp), intent(in) :: levels(:)
+      !> Number of damage states
+      integer, intent(in) :: states
+      !> Lack of memory
       type(error_type), allocatable, intent(out) :: error
 
-      found = self%level < size(self%levels)
-      if (.not. found) call read_next(self, found, error)
-      if (.not. found) then
-         if (.not. allocated(error)) call check_end(self, error)
-         return
-      end if
-      self%row = self%row + 1
-      if (self%row > most_walls) then
-         call raise_input(error, self%place()//': more than '//to_text(most_walls)//' rows')
-         found = .false.
-         call self%close()
-      end if
-      self%is_right = self%is_right .and. .not. allocated(error)
-      if (allocated(error)) return
-      call make_member(self, member, error)
-      if (.not. allocated(error)) then
-         call self%place_row(member, error)
-      else if (self%wall%has_name) then
-         ! Rows behind a wall that is wrong do not go on with the one before it.
-         self%wall%has_name = self%name == member%wall%name() .or. &
-            & (len(member%facade) > 0 .and. self%wall%facade == member%facade)
-      end if
-      if (.not. allocated(self%facade)) then
-         call add_place(error, self%place())
-      else if (self%facade%is_uncertain()) then
-         call add_place(error, self%file//': &uncertainty: variant '''//trim(self%input%word('name'))//'''')
-      end if
-      self%is_right = self%is_right .and. .not. allocated(error)
-      self%has_weight = self%has_weight .or. member%weight > 0.0_wp
-   end subroutine next
-
-   !> Read the next row of the table, or the facade once, or the next variant
-   subroutine read_next(self, found, error)
-      class(population_reader_type), intent(inout) :: self
-      !> Was there one?
-      logical, intent(out) :: found
-      !> It is no row
-      type(error_type), allocatable, intent(out) :: error
-
-      self%level = 0
-      self%levels = [real(wp) ::]
-      if (.not. allocated(self%facade)) then
-         call self%table%next(found, error)
-         return
-      end if
-      found = self%row < self%facade%rows()
-   end subroutine read_next
-
-   !> Make the next member: that of the row, or of the next hinge of the row before
-   subroutine make_member(self, member, error)
-      class(population_reader_type), intent(inout) :: self
-      !> The member: all but whether it continues the wall before
-      type(member_type), intent(inout) :: member
-      !> Everything that is wrong with it
-      type(error_type), allocatable, intent(out) :: error
-
-      type(wall_input_type) :: input
-      type(problems_type) :: problems
-      type(error_type), allocatable :: wrong
-
-      if (size(self%levels) == 0) then
-         call read_own(self, wrong)
-         call read_row(self, problems)
-         ! What cannot be read would be told of once more as missing
-         if (problems%count == 0 .and. has_hinge_level(self%input)) call find_levels(self)
-      end if
-      input = self%input
-      if (problems%count == 0 .and. size(self%levels) > 0) then
-         self%level = self%level + 1
-         call input%clear('hinge_at')
-         call input%set('hinge_level', [self%levels(self%level)])
-         call input%set('name', trim(input%word('name'))//' at '//to_text(anint(self%levels(self%level)*1.0e6_wp)/1.0e6_wp)//' m')
-      end if
-      member = self%own
-      call member%wall%input%set('name', trim(input%word('name')))
-      if (problems%count == 0) call new_wall(member%wall, input, error, self%gravity)
-      ! What is wrong with a facade is wrong with all of its walls: the others are not tried
-      if (allocated(error) .or. allocated(wrong) .or. problems%count > 0) self%levels = [real(wp) ::]
-      call problems%take(error)
-      call problems%take(wrong)
-      call problems%raise(error)
-   end subroutine make_member
-
-   !> Find the hinges of the row; none if they are wrong, which is said where the wall is made
-   subroutine find_levels(self)
-      class(population_reader_type), intent(inout) :: self
-
-      type(problems_type) :: problems
-
-      self%level = 0
-      call find_hinge_levels(self%input, problems, self%levels)
-      if (problems%count > 0) self%levels = [real(wp) ::]
-      if (len(self%own%facade) == 0) self%own%facade = trim(self%input%word('name'))
-      self%own%has_name = .true.
-   end subroutine find_levels
-
-   !> Length of the place
-   pure integer function place_length(self)
-      class(population_reader_type), intent(in) :: self
-
-      place_length = len(self%file)
-      if (.not. allocated(self%facade)) place_length = len(self%table%place())
-   end function place_length
-
-   !> Where the row that was read last is
-   pure function place(self)
-      class(population_reader_type), intent(in) :: self
-      !> File and line; of a facade the file
-      character(len=place_length(self)) :: place
-
-      if (allocated(self%facade)) then
-         place = self%file
-      else
-         place = self%table%place()
-      end if
-   end function place
-
-   !> Check that there are walls, and that one of them has a weight
-   subroutine check_end(self, error)
-      !> The reader, at the end of the table
-      type(population_reader_type), intent(in) :: self
-      !> There is none
-      type(error_type), allocatable, intent(out) :: error
-
-      if (self%row == 0) then
-         call raise_input(error, self%file//': no walls under the header')
-      else if (self%is_checked .and. self%is_right .and. .not. self%has_weight) then
-         call raise_input(error, self%file//': weight: must be positive for at least one wall')
-      end if
-   end subroutine check_end
-
-   !> Pass over rows
-   subroutine skip(self, rows, error)
-      class(population_reader_type), intent(inout) :: self
-      !> Number of rows
-      integer, intent(in) :: rows
-      !> One of them is no row, or the last is wrong; a table that ends before is none
-      type(error_type), allocatable, intent(out) :: error
-
-      type(member_type) :: member
-      logical :: found
+      real(wp), parameter :: bytes_of_row = 64.0_wp, bytes_of_count = 4.0_wp, bytes_of_curve = 192.0_wp
       integer :: i
 
-      do i = 1, rows - 1
-         if (self%has_hinges) then
-            ! How many rows a row becomes is known once it is read
-            call self%next(member, found, error)
-         else
-            call self%table%next(found, error)
-            self%row = self%row + 1
-         end if
-         if (allocated(error)) return
+      call check_room(real(self%rows, wp)*(bytes_of_row + real(states, wp)*bytes_of_count*real(size(levels), wp)) &
+         & + real(self%rows + self%walls, wp)*real(states, wp)*bytes_of_curve, error)
+      if (allocated(error)) return
+      self%levels = levels
+      self%row = self%row(:self%rows)
+      self%first = [(0, i=1, self%walls), self%rows + 1]
+      do i = self%rows, 1, -1
+         self%first(self%row(i)%wall) = i
       end do
-      ! The row after may go on with the wall of the last
-      if (rows > 0) call self%next(member, found, error)
-   end subroutine skip
+      allocate (self%histories(size(levels), self%rows), self%reached(size(levels), states, self%rows), source=0)
+      allocate (self%curve(states, self%rows + self%walls))
+   end subroutine begin
 
-   !> Read what a row says of its wall
-   subroutine read_row(self, problems)
-      !> The reader, with a row: what it says is set
-      class(population_reader_type), intent(inout) :: self
-      !> Takes every cell that is not a number
-      type(problems_type), intent(inout) :: problems
-
-      self%input = wall_input_type()
-      self%own%has_name = .true.
-      if (allocated(self%facade)) then
-         self%input = self%facade%wall_input_type
-         if (self%facade%is_uncertain()) call self%facade%vary(self%row, self%input)
-         return
-      end if
-      call self%input%set('name', 'wall '//to_text(self%row))
-      self%own%has_name = self%is_given(self%wall_columns(find_property(wall_properties, 'name')))
-      call self%read_cells(self%wall_columns, self%input, problems)
-      call self%read_lists(self%input, problems)
-   end subroutine read_row
-
-   !> Read what a row says of its weight, its group, its mechanism and its facade
-   subroutine read_own(self, error)
-      !> The reader, with a row: all but what is said of its wall is set
-      class(population_reader_type), intent(inout) :: self
-      !> Every cell that is not a number or out of range
+   !> Fit the curves of all rows and walls, in all states
+   subroutine fit(self, error)
+      !> The population: the curves are set
+      class(population_type), intent(inout) :: self
+      !> Counts of the first wall that cannot be fitted
       type(error_type), allocatable, intent(out) :: error
 
-      type(group_settings_type) :: own
-      type(problems_type) :: problems
+      type(error_type), allocatable :: trouble
+      integer :: i, k, first_failed
 
-      call new_settings(own, member_properties)
-      if (.not. allocated(self%facade)) call self%read_cells(self%member_columns, own, problems)
-      call own%fill()
-      call check_settings(own, problems)
-      ! Spreadsheets round to -0, whose bits do not stand in the order of its value.
-      self%own%weight = abs(own%number('weight'))
-      if (allocated(self%facade)) self%own%weight = self%facade%weight(self%row)
-      self%own%p_occ = abs(own%number('p_occ'))
-      self%own%group = own%word('group')
-      self%own%facade = trim(own%word('facade'))
-      call problems%raise(error)
-   end subroutine read_own
+      first_failed = huge(1)
+      !$omp parallel do default(none) private(k, trouble) shared(self, first_failed, error) schedule(dynamic, 8)
+      do i = 1, self%walls
+         do k = 1, size(self%curve, 1)
+            call fit_wall(self, i, k, trouble)
+            if (.not. allocated(trouble)) cycle
+            !$omp critical (first_wall_that_failed)
+            if (i < first_failed) then
+               first_failed = i
+               call move_alloc(trouble, error)
+            end if
+            !$omp end critical (first_wall_that_failed)
+            exit
+         end do
+      end do
+      !$omp end parallel do
+   end subroutine fit
 
-   !> Close it before its end is reached
-   subroutine close_population(self)
-      class(population_reader_type), intent(inout) :: self
+   !> Fit the curves of a wall
+   subroutine fit_wall(self, wall, state, error)
+      class(population_type), intent(inout) :: self
+      !> Number of the wall
+      integer, intent(in) :: wall
+      !> Number of the state
+      integer, intent(in) :: state
+      !> Counts that cannot be fitted
+      type(error_type), allocatable, intent(out) :: error
 
-      call self%table%close()
-   end subroutine close_population
+      integer :: i, column
+
+      do i = self%first(wall), self%first(wall + 1) - 1
+         call fit_fragility(self%curve(state, i), self%levels, real(self%reached(:, state, i), wp), &
+            & real(self%histories(:, i), wp), error)
+         if (allocated(error)) return
+      end do
+      column = self%rows + wall
+      i = self%first(wall)
+      self%curve(state, column) = self%curve(state, i)
+      if (.not. (self%is_several(wall) .or. self%row(i)%p_occ < 1.0_wp)) return
+      call fit_share(self%curve(state, column), self%levels, self%fraction(column, state), self%occurrence(column), &
+         & real(self%histories_of(column), wp), error)
+   end subroutine fit_wall
+
+   !> Rows of a wall, or of a row itself
+   pure function rows_of(self, column) result(rows)
+      class(population_type), intent(in) :: self
+      !> Number of the column
+      integer, intent(in) :: column
+      !> First and last row
+      integer :: rows(2)
+
+      rows = column
+      if (column > self%rows) rows = [self%first(column - self%rows), self%first(column - self%rows + 1) - 1]
+   end function rows_of
+
+   !> Has a wall several rows?
+   elemental logical function is_several(self, wall)
+      class(population_type), intent(in) :: self
+      !> Number of the wall
+      integer, intent(in) :: wall
+
+      is_several = self%first(wall + 1) - self%first(wall) > 1
+   end function is_several
+
+   !> Weight of a column in a part of the population; 0: it does not belong to it. A row counts as often as it can occur
+   elemental real(wp) function weight_in(self, part, column) result(weight)
+      class(population_type), intent(in) :: self
+      type(part_type), intent(in) :: part
+      !> Number of the column
+      integer, intent(in) :: column
+
+      integer :: i
+
+      i = column
+      if (column > self%rows) i = self%first(column - self%rows)
+      associate (row => self%row(i))
+         weight = row%weight
+         ! A product too small for a number counts as none.
+         if (column <= self%rows) weight = weight*row%p_occ
+         if (part%mechanism /= merge(row%mechanism, 0, column <= self%rows)) weight = 0.0_wp
+         if (part%group > 0 .and. part%group /= row%group) weight = 0.0_wp
+      end associate
+   end function weight_in
+
+   !> Number of a group
+   pure integer function number_of_group(self, name) result(number)
+      class(population_type), intent(in) :: self
+      !> Name of a group; there is none of an empty name, whose number is 0
+      character(len=*), intent(in) :: name
+
+      do number = self%groups%count, 1, -1
+         if (self%groups%line(number)%text == name) exit
+      end do
+   end function number_of_group
+
+   !> Part of a mechanism and a group
+   pure type(part_type) function part(self, mechanism, group)
+      class(population_type), intent(in) :: self
+      !> One of mechanism_names; any other name, such as 'all': the walls as a whole
+      character(len=*), intent(in) :: mechanism
+      !> Name of a group, empty for all walls
+      character(len=*), intent(in) :: group
+
+      part = part_type(findloc(mechanism_names == mechanism, .true., dim=1), self%number_of_group(group))
+   end function part
+
+   !> Probability that any mechanism of a column can occur, of which a row is what collapses if it does: 1 for a row
+   pure real(wp) function occurrence(self, column)
+      class(population_type), intent(in) :: self
+      !> Number of the column
+      integer, intent(in) :: column
+
+      occurrence = 1.0_wp
+      if (column <= self%rows) return
+      associate (of => self%rows_of(column))
+         occurrence = occurrence_of(self%row(of(1):of(2))%p_occ)
+      end associate
+   end function occurrence
+
+   !> Histories of a column in each stripe; a wall has no more than its rows have
+   pure function histories_of(self, column) result(histories)
+      class(population_type), intent(in) :: self
+      !> Number of the column
+      integer, intent(in) :: column
+      !> Histories (levels)
+      integer :: histories(size(self%levels))
+
+      associate (of => self%rows_of(column))
+         histories = minval(self%histories(:, of(1):of(2)), dim=2)
+      end associate
+   end function histories_of
+
+   !> Fractions of collapse of a column
+   pure function fraction(self, column, state) result(whole)
+      class(population_type), intent(in) :: self
+      !> Numbers of the column and of the damage state
+      integer, intent(in) :: column, state
+      !> Fractions (levels): of a row if it can occur
+      real(wp) :: whole(size(self%levels))
+
+      integer :: of(2)
+
+      of = self%rows_of(column)
+      associate (rows => real(self%reached(:, state, of(1):of(2)), wp)/real(self%histories(:, of(1):of(2)), wp))
+         if (column <= self%rows) whole = rows(:, 1)
+         if (column > self%rows) whole = in_series(self%row(of(1):of(2))%p_occ, rows)
+      end associate
+   end function fraction
+
+   !> Probabilities of collapse at any levels. A row without a fit takes part with its fractions: between the levels they are
+   !> interpolated linearly, from 0 at x = 0; above the highest level they stay
+   subroutine probabilities(self, state, x, p, error, columns)
+      !> The population, fitted
+      class(population_type), intent(in) :: self
+      !> Number of the damage state
+      integer, intent(in) :: state
+      !> Levels of intensity, not negative
+      real(wp), intent(in) :: x(:)
+      !> Probabilities (x, columns): of a row if it can occur
+      real(wp), allocatable, intent(out) :: p(:, :)
+      !> Lack of memory
+      type(error_type), allocatable, intent(out) :: error
+      !> Which columns are needed, all if absent; those of other walls are left undefined
+      integer, intent(in), optional :: columns(:)
+
+      logical, allocatable :: needed(:)
+      integer :: i, k, of(2)
+
+      call check_room(real(storage_size(p)/8, wp)*real(size(x), wp)*real(self%rows + self%walls, wp), error)
+      if (allocated(error)) return
+      allocate (p(size(x), self%rows + self%walls))
+      allocate (needed(size(p, 2)), source=.not. present(columns))
+      if (present(columns)) needed(columns) = .true.
+      do i = self%rows + 1, self%rows + self%walls
+         of = self%rows_of(i)
+         if (.not. (needed(i) .or. any(needed(of(1):of(2))))) cycle
+         do k = of(1), of(2)
+            if (self%curve(state, k)%has_fit()) then
+               p(:, k) = self%curve(state, k)%probability(x)
+            else
+               p(:, k) = interpolated(self%levels, self%fraction(k, state), x)
+            end if
+         end do
+         p(:, i) = in_series(self%row(of(1):of(2))%p_occ, p(:, of(1):of(2)))
+      end do
+   end subroutine probabilities
+
+   !> Fractions at any levels, on the lines between those that are known
+   pure function interpolated(levels, fractions, x) result(p)
+      !> Levels of intensity, positive and increasing
+      real(wp), intent(in) :: levels(:)
+      !> Fractions there
+      real(wp), intent(in) :: fractions(:)
+      !> Levels that are asked for
+      real(wp), intent(in) :: x(:)
+      !> Fractions at these
+      real(wp) :: p(size(x))
+
+      real(wp) :: below, before
+      integer :: i, j
+
+      do i = 1, size(x)
+         j = count(levels <= x(i))
+         below = 0.0_wp
+         before = 0.0_wp
+         if (j > 0) then
+            below = fractions(j)
+            before = levels(j)
+         end if
+         p(i) = below
+         if (j < size(levels) .and. x(i) > before) then
+            p(i) = below + (fractions(j + 1) - below)*(x(i) - before)/(levels(j + 1) - before)
+         end if
+      end do
+   end function interpolated
 
 end module dondolo_population

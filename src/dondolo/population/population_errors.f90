@@ -10,11 +10,9 @@ module dondolo_population_errors
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_memory, only : check_room
-   use dondolo_population_counts, only : population_counts_type
-   use dondolo_roster, only : number_of_group
+   use dondolo_population, only : part_type, population_type
+   use dondolo_series, only : in_series, series_slopes
    use dondolo_typology, only : typology_type
-   use dondolo_wall, only : mechanism_names
-   use dondolo_wall_curves, only : in_series, series_slopes
    implicit none
    private
 
@@ -22,8 +20,8 @@ module dondolo_population_errors
 
    !> What is known of a curve from the walls so far
    type :: curve_sums_type
-      !> Number of its mechanism among mechanism_names, 0 for all together
-      integer :: mechanism = 0
+      !> The part of the population that it is of
+      type(part_type) :: part
       !> Sum of the weights of what can collapse in all its walls
       real(wp) :: total = 0.0_wp
       !> Sum of weights and deviations of the clusters of records (levels, clusters)
@@ -43,13 +41,11 @@ module dondolo_population_errors
       !> Levels of intensity
       real(wp), allocatable :: levels(:)
       !> Records of each cluster that run at each level, over all records (levels, clusters)
-      real(wp), allocatable :: part(:, :)
+      real(wp), allocatable :: share(:, :)
       !> The sum over the clusters
       real(wp), allocatable :: run(:)
       !> The curves (curve, state)
       type(curve_sums_type), allocatable :: curve(:, :)
-      !> First curve of each group, from 0 for the whole population, and behind them the number of curves + 1
-      integer, allocatable :: first(:)
    contains
       !> Take the curves
       procedure :: begin
@@ -62,43 +58,35 @@ module dondolo_population_errors
 contains
 
    !> Take the curves
-   subroutine begin(self, typologies, population, part, error)
+   subroutine begin(self, typologies, population, share, error)
       class(population_errors_type), intent(out) :: self
       !> Curves (curve, state), those of a group one after the other
       type(typology_type), intent(in) :: typologies(:, :)
       !> The population, fitted
-      type(population_counts_type), intent(in) :: population
+      type(population_type), intent(in) :: population
       !> Records of each cluster that run at each level, over all records (levels, clusters)
-      real(wp), intent(in) :: part(:, :)
+      real(wp), intent(in) :: share(:, :)
       !> Lack of memory
       type(error_type), allocatable, intent(out) :: error
 
       real(wp), parameter :: bytes_of_number = real(storage_size(1.0_wp)/8, wp)
-      integer :: i, k, group
+      integer :: i, k
 
-      call check_room(bytes_of_number*real(size(typologies), wp)*real(size(part) + 10*size(part, 1), wp), error)
+      call check_room(bytes_of_number*real(size(typologies), wp)*real(size(share) + 10*size(share, 1), wp), error)
       if (allocated(error)) return
       self%levels = population%levels
-      self%part = part
-      self%run = sum(part, dim=2)
+      self%share = share
+      self%run = sum(share, dim=2)
       allocate (self%curve(size(typologies, 1), size(typologies, 2)))
-      allocate (self%first(0:population%groups%count + 1), source=0)
-      do i = size(typologies, 1), 1, -1
-         group = number_of_group(population%groups, typologies(i, 1)%group)
-         self%first(group) = i
-         do k = 1, size(typologies, 2)
+      do k = 1, size(typologies, 2)
+         do i = 1, size(typologies, 1)
             associate (curve => self%curve(i, k), typology => typologies(i, k))
-               curve%mechanism = max(findloc(mechanism_names == typology%mechanism, .true., dim=1), 0)
+               curve%part = typology%part
                curve%total = typology%weight*typology%saturation
-               allocate (curve%deviation(size(part, 1), size(part, 2)), source=0.0_wp)
+               allocate (curve%deviation(size(share, 1), size(share, 2)), source=0.0_wp)
                if (typology%fit%has_fit()) call curve%fit%begin(typology%fit, self%levels, self%run)
             end associate
          end do
-      end do
-      ! Groups whose walls have no weight have no curves, and alternatives have none at all.
-      self%first(population%groups%count + 1) = size(typologies, 1) + 1
-      do group = population%groups%count, 0, -1
-         if (self%first(group) == 0) self%first(group) = self%first(group + 1)
       end do
    end subroutine begin
 
@@ -106,51 +94,39 @@ contains
    pure subroutine add(self, population, number, counts)
       class(population_errors_type), intent(inout) :: self
       !> The population
-      type(population_counts_type), intent(in) :: population
+      type(population_type), intent(in) :: population
       !> Number of the wall
       integer, intent(in) :: number
       !> Histories of each cluster that reach each state, over all records (levels, clusters, states, mechanisms)
       real(wp), intent(in) :: counts(:, :, :, :)
 
-      real(wp), dimension(size(counts, 1), size(counts, 4)) :: fraction, slope
-      real(wp) :: deviation(size(counts, 1), size(counts, 2), size(counts, 4))
-      real(wp), dimension(size(counts, 1), size(counts, 2)) :: moved
-      real(wp) :: whole(size(counts, 1)), certain(1, size(counts, 4)), occurrence(1)
-      integer :: g, k, m, group, row
+      ! Of the rows of the wall and, last, of the wall as a whole
+      real(wp) :: fraction(size(counts, 1), size(counts, 4) + 1), deviation(size(counts, 1), size(counts, 2), size(counts, 4) + 1)
+      real(wp) :: slope(size(counts, 1), size(counts, 4)), p_occ(size(counts, 4)), weight
+      integer :: columns(size(counts, 4) + 1), i, g, k, m, last
 
-      row = population%first(number)
-      associate (weight => population%weight(row), p_occ => population%p_occ(row:row + size(counts, 4) - 1))
-         if (.not. weight > 0.0_wp) return
-         certain = 1.0_wp
-         occurrence = in_series(p_occ, certain)
-         do k = 1, size(counts, 3)
-            moved = 0.0_wp
-            fraction = sum(counts(:, :, k, :), dim=2)/spread(self%run, 2, size(p_occ))
-            slope = series_slopes(p_occ, fraction)
-            do m = 1, size(p_occ)
-               do g = 1, size(counts, 2)
-                  deviation(:, g, m) = counts(:, g, k, m) - self%part(:, g)*fraction(:, m)
-                  moved(:, g) = moved(:, g) + slope(:, m)*deviation(:, g, m)
-               end do
-            end do
-            whole = in_series(p_occ, fraction)
-            group = 0
-            do
-               do g = self%first(group), self%first(group + 1) - 1
-                  associate (curve => self%curve(g, k))
-                     if (curve%mechanism == 0) call take(curve, weight, occurrence(1), whole, moved, self%run)
-                     do m = 1, size(p_occ)
-                        if (curve%mechanism /= population%mechanism(row + m - 1)) cycle
-                        if (.not. weight*p_occ(m) > 0.0_wp) cycle
-                        call take(curve, weight*p_occ(m), 1.0_wp, fraction(:, m), deviation(:, :, m), self%run)
-                     end do
-                  end associate
-               end do
-               if (group == population%group(row)) exit
-               group = population%group(row)
+      last = size(columns)
+      columns = [(population%first(number) + m - 1, m=1, last - 1), population%rows + number]
+      p_occ = population%row(columns(:last - 1))%p_occ
+      do k = 1, size(counts, 3)
+         fraction(:, :last - 1) = sum(counts(:, :, k, :), dim=2)/spread(self%run, 2, last - 1)
+         fraction(:, last) = in_series(p_occ, fraction(:, :last - 1))
+         slope = series_slopes(p_occ, fraction(:, :last - 1))
+         deviation(:, :, last) = 0.0_wp
+         do m = 1, last - 1
+            do g = 1, size(counts, 2)
+               deviation(:, g, m) = counts(:, g, k, m) - self%share(:, g)*fraction(:, m)
+               deviation(:, g, last) = deviation(:, g, last) + slope(:, m)*deviation(:, g, m)
             end do
          end do
-      end associate
+         do i = 1, size(self%curve, 1)
+            do m = 1, last
+               weight = population%weight_in(self%curve(i, k)%part, columns(m))
+               if (weight > 0.0_wp) call take(self%curve(i, k), weight, population%occurrence(columns(m)), fraction(:, m), &
+                  & deviation(:, :, m), self%run)
+            end do
+         end do
+      end do
    end subroutine add
 
    !> Take a wall, or one of its mechanisms, into a curve
@@ -185,8 +161,8 @@ contains
       !> Curves (curve, state): covariance, clusters, errors and degrees of freedom of the fits are set
       type(typology_type), intent(inout) :: typologies(:, :)
 
-      real(wp), dimension(size(self%part, 1), size(self%part, 2)) :: counts
-      real(wp) :: changes(2, size(self%part, 2))
+      real(wp), dimension(size(self%share, 1), size(self%share, 2)) :: counts
+      real(wp) :: changes(2, size(self%share, 2))
       integer :: g, i, k
 
       do k = 1, size(typologies, 2)
@@ -194,10 +170,10 @@ contains
             associate (curve => self%curve(i, k), typology => typologies(i, k))
                if (.not. typology%fit%has_fit()) cycle
                do g = 1, size(counts, 2)
-                  counts(:, g) = self%part(:, g)*typology%mean_fraction/typology%saturation &
+                  counts(:, g) = self%share(:, g)*typology%mean_fraction/typology%saturation &
                      & + curve%deviation(:, g)/curve%total
                end do
-               call cluster_errors(typology%fit, self%levels, counts, self%part, changes)
+               call cluster_errors(typology%fit, self%levels, counts, self%share, changes)
                if (typology%fit%errors == 'clustered' .and. curve%walls > 1) call add_walls(curve, typology)
             end associate
          end do

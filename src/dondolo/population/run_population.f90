@@ -5,7 +5,7 @@ module dondolo_run_population
    use dondolo_interrupt, only : check_interrupt
    use dondolo_kinds, only : wp
    use dondolo_member, only : member_type
-   use dondolo_population, only : population_reader_type
+   use dondolo_population_reader, only : population_reader_type
    use dondolo_queue, only : progress_interface
    use dondolo_row_result, only : row_result_type
    use dondolo_run_rows, only : run_rows

@@ -2,18 +2,19 @@
 !>
 !> The weighted mean of the walls' curves (the red line of figure 5 of Nale et al.), its fractiles, how much of the
 !> scatter is between walls and how much between records, and a lognormal fitted to the mean: for each mechanism and for
-!> all, for the whole population and for each of its groups (docs/theory.md, section 6).
+!> all, for the whole population and for each of its groups (docs/theory.md, section 6). Each is the curve of a part of
+!> the population, and all its numbers are weighted means over its rows or walls.
 module dondolo_typology
    use dondolo_error, only : error_type, raise_input
-   use dondolo_fragility, only : fit_fragility, fragility_type
+   use dondolo_fragility, only : fragility_type
    use dondolo_kinds, only : wp
    use dondolo_limits, only : most_groups
-   use dondolo_members, only : choose_members, members_type, population_probabilities
-   use dondolo_population_counts, only : population_counts_type
-   use dondolo_population_sums, only : add_group, group_type, sum_wall, sums_type
-   use dondolo_roster, only : number_of_group
+   use dondolo_memory, only : check_room
+   use dondolo_population, only : part_type, population_type
+   use dondolo_series, only : fit_share
    use dondolo_text, only : to_text
-   use dondolo_wall_curves, only : wall_curves_type
+   use dondolo_wall, only : mechanism_names
+   use dondolo_weights, only : weights_of, weights_type
    implicit none
    private
 
@@ -23,6 +24,8 @@ module dondolo_typology
    real(wp), parameter :: fractile_shares(3) = [0.16_wp, 0.5_wp, 0.84_wp]
    !> A curve of a population, or of one of its groups
    type :: typology_type
+      !> The part of the population that it is of
+      type(part_type) :: part
       !> Name of the group, empty for the whole population
       character(len=:), allocatable :: group
       !> Mechanism, 'all' for whatever makes the walls collapse
@@ -62,68 +65,152 @@ contains
       !> the order they appear in, and 'all' last if several or if one may not occur
       type(typology_type), allocatable, intent(out) :: typologies(:)
       !> The population, fitted
-      type(population_counts_type), intent(in) :: population
+      type(population_type), intent(in) :: population
       !> Number of the damage state
       integer, intent(in) :: state
       !> Too many groups, no wall with a weight, fractions that cannot be fitted, or lack of memory
       type(error_type), allocatable, intent(out) :: error
 
-      type(group_type), allocatable :: groups(:)
-      type(members_type) :: members
-      real(wp), allocatable :: p(:, :)
+      real(wp), parameter :: bytes_of_number = real(storage_size(1.0_wp)/8, wp)
+      type(part_type), allocatable :: parts(:)
+      real(wp), allocatable :: p(:, :), fraction(:, :)
       integer :: i
 
-      call population_probabilities(population, state, population%levels, p, error)
-      if (.not. allocated(error)) call sum_population(groups, population, state, p, error)
-      if (.not. allocated(error)) call make_curves(typologies, groups, population%levels, error)
+      call population%probabilities(state, population%levels, p, error)
+      if (.not. allocated(error)) call list_parts(parts, population, error)
+      if (.not. allocated(error)) call check_room(bytes_of_number*real(size(p, 1), wp)*real(size(p, 2), wp), error)
       if (allocated(error)) return
-      do i = 1, size(typologies)
-         call choose_members(members, population, typologies(i)%mechanism, &
-            & number_of_group(population%groups, typologies(i)%group))
-         typologies(i)%fractile = members%fractiles(p, fractile_shares)
+      allocate (fraction, mold=p)
+      do i = 1, size(p, 2)
+         fraction(:, i) = population%fraction(i, state)
+      end do
+      allocate (typologies(size(parts)))
+      do i = 1, size(parts)
+         call make_curve(typologies(i), population, parts(i), state, fraction, p, error)
+         if (allocated(error)) return
       end do
    end subroutine combine_population
 
-   !> Sums over the walls of a population and of its groups
-   subroutine sum_population(groups, population, state, p, error)
-      !> The whole population, then its groups in the order they appear in; walls of no weight leave no trace
-      type(group_type), allocatable, intent(out) :: groups(:)
-      !> The population, fitted
-      type(population_counts_type), intent(in) :: population
-      !> Number of the damage state
-      integer, intent(in) :: state
-      !> Probabilities at the levels (levels, rows and then walls)
-      real(wp), intent(in) :: p(:, :)
+   !> List the parts of a population that have curves
+   subroutine list_parts(parts, population, error)
+      !> The parts, in the order of their curves; walls of no weight leave no trace
+      type(part_type), allocatable, intent(out) :: parts(:)
+      type(population_type), intent(in) :: population
       !> Too many groups, no wall with a weight
       type(error_type), allocatable, intent(out) :: error
 
-      type(wall_curves_type) :: wall
-      integer, allocatable :: columns(:)
-      integer :: place(0:population%groups%count), i, k, number
+      integer :: groups(0:most_groups), mechanism(size(mechanism_names), 0:population%groups%count)
+      integer :: mechanisms(0:population%groups%count), i, k, g, last
+      logical :: is_mixed(0:population%groups%count)
 
-      allocate (groups(0))
-      call add_group(groups, '', population%levels)
-      place = 0
-      do i = 1, population%walls()
-         wall = population%wall(i, state)
-         if (.not. wall%weight > 0.0_wp) cycle
-         columns = [(k, k=population%first(i), population%first(i + 1) - 1), population%rows() + i]
-         call sum_wall(groups(1), wall, population%levels, p(:, columns))
-         number = population%group(population%first(i))
-         if (number == 0) cycle
-         if (place(number) == 0) then
-            if (size(groups) > most_groups) then
-               call raise_input(error, 'group = '''//wall%group//''': is one too many, at most '// &
-                  & to_text(most_groups)//' are allowed')
-               return
+      groups = 0
+      last = 0
+      mechanisms = 0
+      is_mixed = .false.
+      do i = 1, population%rows
+         associate (row => population%row(i))
+            if (.not. row%weight > 0.0_wp) cycle
+            if (row%group > 0 .and. all(groups(1:last) /= row%group)) then
+               if (last == most_groups) then
+                  call raise_input(error, 'group = '''//population%groups%line(row%group)%text// &
+                     & ''': is one too many, at most '//to_text(most_groups)//' are allowed')
+                  return
+               end if
+               last = last + 1
+               groups(last) = row%group
             end if
-            call add_group(groups, wall%group, population%levels)
-            place(number) = size(groups)
-         end if
-         call sum_wall(groups(place(number)), wall, population%levels, p(:, columns))
+            ! Of the whole population, and of the group
+            do g = 0, row%group, max(row%group, 1)
+               is_mixed(g) = is_mixed(g) .or. row%p_occ < 1.0_wp .or. population%is_several(row%wall)
+               if (.not. population%weight_in(part_type(row%mechanism, g), i) > 0.0_wp) cycle
+               if (any(mechanism(:mechanisms(g), g) == row%mechanism)) cycle
+               mechanisms(g) = mechanisms(g) + 1
+               mechanism(mechanisms(g), g) = row%mechanism
+            end do
+         end associate
       end do
-      if (groups(1)%all%walls == 0) call raise_input(error, 'weight: must be positive for at least one wall')
-   end subroutine sum_population
+      if (.not. any(population%row%weight > 0.0_wp)) call raise_input(error, 'weight: must be positive for at least one wall')
+      parts = [part_type ::]
+      do i = 0, last
+         g = groups(i)
+         parts = [parts, (part_type(mechanism(k, g), g), k=1, mechanisms(g))]
+         if (mechanisms(g) > 1 .or. is_mixed(g)) parts = [parts, part_type(0, g)]
+      end do
+   end subroutine list_parts
+
+   !> Make the curve of a part
+   subroutine make_curve(curve, population, part, state, fraction, p, error)
+      type(typology_type), intent(out) :: curve
+      !> The population, fitted
+      type(population_type), intent(in) :: population
+      type(part_type), intent(in) :: part
+      !> Number of the damage state
+      integer, intent(in) :: state
+      !> Fractions and probabilities of collapse (levels, columns)
+      real(wp), intent(in) :: fraction(:, :), p(:, :)
+      !> Fractions that cannot be fitted
+      type(error_type), allocatable, intent(out) :: error
+
+      type(weights_type) :: weights
+
+      weights = weights_of(population, part)
+      curve%part = part
+      curve%group = ''
+      if (part%group > 0) curve%group = population%groups%line(part%group)%text
+      curve%mechanism = 'all'
+      if (part%mechanism > 0) curve%mechanism = trim(mechanism_names(part%mechanism))
+      curve%levels = population%levels
+      curve%walls = size(weights%column)
+      curve%weight = sum(weights%weight)
+      curve%mean_fraction = weights%mean(fraction)
+      curve%mean_curve = weights%mean(p)
+      curve%fractile = weights%fractiles(p, fractile_shares)
+      call set_dispersions(curve, population, weights, state)
+      call fit_share(curve%fit, curve%levels, curve%mean_fraction, curve%saturation, curve%histories, error)
+   end subroutine make_curve
+
+   !> Set what can occur in a part, what has a curve, how its curves scatter, and its histories
+   pure subroutine set_dispersions(curve, population, weights, state)
+      !> The curve: its weight and its number of walls are known
+      type(typology_type), intent(inout) :: curve
+      !> The population, fitted
+      type(population_type), intent(in) :: population
+      !> Weights of the part
+      type(weights_type), intent(in) :: weights
+      !> Number of the damage state
+      integer, intent(in) :: state
+
+      real(wp) :: share, occurring, fitted, centre, distance, squares, beta_squares
+      integer :: i
+
+      occurring = 0.0_wp
+      fitted = 0.0_wp
+      centre = 0.0_wp
+      squares = 0.0_wp
+      beta_squares = 0.0_wp
+      allocate (curve%histories(size(population%levels)), source=0.0_wp)
+      do i = 1, size(weights%column)
+         associate (column => weights%column(i), weight => weights%weight(i), fit => population%curve(state, weights%column(i)))
+            curve%histories = curve%histories + weight*real(population%histories_of(column), wp)
+            share = weight*population%occurrence(column)
+            occurring = occurring + share
+            if (.not. fit%has_fit()) cycle
+            fitted = fitted + share
+            ! The mean moves on with every wall, and the squares with it (West 1979): no difference of large sums.
+            distance = log(fit%theta) - centre
+            centre = centre + distance*share/fitted
+            squares = squares + share*distance*(log(fit%theta) - centre)
+            beta_squares = beta_squares + share*fit%beta**2
+         end associate
+      end do
+      curve%histories = real(curve%walls, wp)*(curve%histories/curve%weight)
+      curve%saturation = occurring/curve%weight
+      if (occurring > 0.0_wp) curve%fitted = fitted/occurring
+      if (fitted > 0.0_wp) then
+         curve%beta_walls = sqrt(max(squares/fitted, 0.0_wp))
+         curve%beta_records = sqrt(beta_squares/fitted)
+      end if
+   end subroutine set_dispersions
 
    !> Which of the curves is that of the whole population, all mechanisms together
    pure integer function whole_population(typologies)
@@ -133,69 +220,5 @@ contains
          if (len(typologies(whole_population + 1)%group) > 0) exit
       end do
    end function whole_population
-
-   !> The curves out of the sums
-   subroutine make_curves(typologies, groups, levels, error)
-      !> The curves, without fractiles
-      type(typology_type), allocatable, intent(out) :: typologies(:)
-      !> The whole population and its groups
-      type(group_type), intent(in) :: groups(:)
-      !> Levels of intensity
-      real(wp), intent(in) :: levels(:)
-      !> Fractions that cannot be fitted
-      type(error_type), allocatable, intent(out) :: error
-
-      integer :: i, m, k
-
-      allocate (typologies(sum([(size(groups(i)%mechanism), i=1, size(groups))]) &
-         & + count([(groups(i)%has_all(), i=1, size(groups))])))
-      k = 0
-      do i = 1, size(groups)
-         do m = 1, size(groups(i)%mechanism)
-            k = k + 1
-            call make_curve(typologies(k), groups(i)%name, groups(i)%mechanism(m), levels, error)
-            if (allocated(error)) return
-         end do
-         if (.not. groups(i)%has_all()) cycle
-         k = k + 1
-         call make_curve(typologies(k), groups(i)%name, groups(i)%all, levels, error)
-         if (allocated(error)) return
-      end do
-   end subroutine make_curves
-
-   !> A curve out of its sums
-   subroutine make_curve(curve, group, sums, levels, error)
-      !> The curve, without fractiles
-      type(typology_type), intent(out) :: curve
-      !> Name of the group
-      character(len=*), intent(in) :: group
-      type(sums_type), intent(in) :: sums
-      !> Levels of intensity
-      real(wp), intent(in) :: levels(:)
-      !> Fractions that cannot be fitted
-      type(error_type), allocatable, intent(out) :: error
-
-      real(wp) :: share(size(levels))
-
-      curve%group = group
-      curve%mechanism = sums%mechanism
-      curve%levels = levels
-      curve%weight = sums%weight
-      curve%walls = sums%walls
-      ! Rounding must not leave more collapses than histories.
-      curve%mean_fraction = min(sums%fraction/sums%weight, 1.0_wp)
-      curve%mean_curve = min(sums%curve/sums%weight, 1.0_wp)
-      curve%saturation = sums%occurring/sums%weight
-      if (sums%occurring > 0.0_wp) curve%fitted = sums%fitted/sums%occurring
-      if (sums%fitted > 0.0_wp) then
-         curve%beta_walls = sqrt(max(sums%squares/sums%fitted, 0.0_wp))
-         curve%beta_records = sqrt(sums%beta_squares/sums%fitted)
-      end if
-      curve%histories = real(sums%walls, wp)*(sums%histories/sums%weight)
-      ! Divided first: where all that can collapse does, the share is 1 to the last bit and no survivor is made up.
-      share = curve%mean_fraction
-      if (curve%saturation > 0.0_wp) share = min(share/curve%saturation, 1.0_wp)
-      call fit_fragility(curve%fit, levels, curve%histories*share, curve%histories, error)
-   end subroutine make_curve
 
 end module dondolo_typology

@@ -10,15 +10,15 @@ module dondolo_unions
    use dondolo_fragility, only : fit_fragility, fragility_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : line_type
-   use dondolo_population_counts, only : population_counts_type
-   use dondolo_roster, only : number_of_group
+   use dondolo_population, only : population_type
    use dondolo_row_result, only : row_result_type, shape_type
+   use dondolo_series, only : fit_share
    use dondolo_typology, only : typology_type
-   use dondolo_wall_curves, only : wall_curves_type
+   use dondolo_weights, only : weights_of, weights_type
    implicit none
    private
 
-   public :: union_type, unions_type, union_builder_type, wall_union, count_means, mean_unions
+   public :: union_type, unions_type, union_builder_type, wall_union, mean_unions
 
    !> Fractions of a wall with several mechanisms, or means over a population or a group
    type :: union_type
@@ -99,13 +99,12 @@ contains
    end subroutine add
 
    !> Make room for the unions of some walls
-   subroutine reserve(self, number, levels, states, means)
+   subroutine reserve(self, number, levels, states)
       class(unions_type), intent(out) :: self
-      !> How many walls, levels, damage states and means
-      integer, intent(in) :: number, levels, states, means
+      !> How many walls, levels and damage states
+      integer, intent(in) :: number, levels, states
 
       allocate (self%wall(number), self%name(number), self%fraction(levels, states, number), self%curve(states, number))
-      allocate (self%mean(means))
    end subroutine reserve
 
    !> Keep the union of a wall
@@ -125,7 +124,7 @@ contains
       class(unions_type), intent(in) :: self
 
       number = 0
-      if (allocated(self%wall)) number = size(self%wall) + size(self%mean)
+      if (allocated(self%mean)) number = size(self%wall) + size(self%mean)
    end function count_unions
 
    !> Get a union; the means stand behind the walls
@@ -134,36 +133,31 @@ contains
       !> Its place
       integer, intent(in) :: place
       !> The population, fitted
-      type(population_counts_type), intent(in) :: population
+      type(population_type), intent(in) :: population
       type(union_type), intent(out) :: union
 
-      type(wall_curves_type) :: curves
-      real(wp), allocatable :: together(:, :)
-      integer :: k
+      integer :: k, column
 
       if (place > size(self%wall)) then
          union = self%mean(place - size(self%wall))
          return
       end if
-      associate (wall => self%wall(place))
-         union%rows = [population%first(wall), population%first(wall + 1) - 1]
-         union%name = self%name(place)%text
-         union%group = ''
-         associate (number => population%group(population%first(wall)))
-            if (number > 0) union%group = population%groups%line(number)%text
-         end associate
-         union%fraction = self%fraction(:, :, place)
-         union%curve = self%curve(:, place)
-         union%product = population%combined(:, wall)
-         union%histories = real(minval(population%histories(:, union%rows(1):union%rows(2)), dim=2), wp)
-         allocate (union%independent(size(union%fraction, 1), size(union%fraction, 2)))
-         do k = 1, size(union%curve)
-            curves = population%wall(wall, k)
-            union%saturation = curves%occurrence()
-            together = curves%fractions()
-            union%independent(:, k) = together(:, size(together, 2))
-         end do
+      column = population%rows + self%wall(place)
+      union%rows = population%rows_of(column)
+      union%name = self%name(place)%text
+      union%group = ''
+      associate (group => population%row(union%rows(1))%group)
+         if (group > 0) union%group = population%groups%line(group)%text
       end associate
+      union%fraction = self%fraction(:, :, place)
+      union%curve = self%curve(:, place)
+      union%product = population%curve(:, column)
+      union%histories = real(population%histories_of(column), wp)
+      union%saturation = population%occurrence(column)
+      allocate (union%independent, mold=union%fraction)
+      do k = 1, size(union%curve)
+         union%independent(:, k) = population%fraction(column, k)
+      end do
    end subroutine get
 
    !> Count and fit the union of the mechanisms of a wall
@@ -173,7 +167,7 @@ contains
       !> All mechanisms of the wall
       type(union_builder_type), intent(in) :: builder
       !> The population, fitted
-      type(population_counts_type), intent(in) :: population
+      type(population_type), intent(in) :: population
       !> Number of the wall
       integer, intent(in) :: wall
       !> Number of the cluster of each record
@@ -183,11 +177,11 @@ contains
       !> Counts that cannot be fitted
       type(error_type), allocatable, intent(out) :: error
 
-      type(wall_curves_type) :: curves
       real(wp), dimension(size(runs, 2), maxval(clusters)) :: counts, histories
       real(wp) :: changes(2, maxval(clusters)), all(size(runs, 2)), occurrence
       integer :: i, j, k, record
 
+      occurrence = population%occurrence(population%rows + wall)
       allocate (union%fraction(size(runs, 2), size(builder%survival, 3)), union%curve(size(builder%survival, 3)))
       do k = 1, size(union%curve)
          counts = 0.0_wp
@@ -203,8 +197,6 @@ contains
             end do
          end do
          all = sum(histories, dim=2)
-         curves = population%wall(wall, k)
-         occurrence = curves%occurrence()
          union%fraction(:, k) = sum(counts, dim=2)/all
          if (occurrence > 0.0_wp) counts = counts/occurrence
          call fit_fragility(union%curve(k), population%levels, min(sum(counts, dim=2), all), all, error)
@@ -213,135 +205,86 @@ contains
       end do
    end subroutine wall_union
 
-   !> How many means there are: of the population, and of its groups with walls of several mechanisms
-   pure integer function count_means(population, typologies) result(number)
+   !> Number of the curve that is of the same walls as each mean: of the population, and of its groups with walls of several
+   !> mechanisms
+   pure function curves_with_mean(population, typologies) result(numbers)
       !> The population
-      type(population_counts_type), intent(in) :: population
+      type(population_type), intent(in) :: population
       !> Its curves
       type(typology_type), intent(in) :: typologies(:)
+      !> Numbers among them; none for one wall
+      integer, allocatable :: numbers(:)
 
-      logical :: several(population%walls())
-      integer :: i, group
+      logical :: has_mean(size(typologies))
+      integer :: i
 
-      number = 0
-      if (population%walls() == 1) return
-      several = population%first(2:) - population%first(:population%walls()) > 1
-      do i = 1, size(typologies)
-         if (typologies(i)%mechanism /= 'all') cycle
-         group = number_of_group(population%groups, typologies(i)%group)
-         if (any(several .and. (group == 0 .or. population%group(population%first(:population%walls())) == group))) then
-            number = number + 1
-         end if
+      has_mean = .false.
+      do i = 1, population%walls
+         if (.not. population%is_several(i)) cycle
+         associate (group => population%row(population%first(i))%group)
+            has_mean = has_mean .or. typologies%part%group == 0 .or. typologies%part%group == group
+         end associate
       end do
-   end function count_means
+      has_mean = has_mean .and. typologies%part%mechanism == 0 .and. population%walls > 1
+      numbers = pack([(i, i=1, size(typologies))], has_mean)
+   end function curves_with_mean
 
    !> Weighted means of the unions of the walls of a population and of its groups
    subroutine mean_unions(unions, population, typologies, error)
-      !> Unions of the walls with several mechanisms, in the order of walls: their means, as many as count_means says, are
-      !> set, with naive standard errors
+      !> Unions of the walls with several mechanisms, in the order of walls: their means are set, with naive standard errors
       type(unions_type), intent(inout) :: unions
       !> The population, fitted
-      type(population_counts_type), intent(in) :: population
+      type(population_type), intent(in) :: population
       !> Curves of the population and of its groups (curves, states), 'all' among them where walls have several mechanisms
       type(typology_type), intent(in) :: typologies(:, :)
       !> Fractions that cannot be fitted
       type(error_type), allocatable, intent(out) :: error
 
-      real(wp) :: sums(size(population%levels), size(typologies, 2), 0:population%groups%count)
-      real(wp) :: weight(0:population%groups%count)
-      logical :: has_union(0:population%groups%count)
-      integer :: i, k, number
+      type(weights_type) :: weights
+      real(wp), allocatable :: fraction(:, :)
+      integer, allocatable :: curves(:)
+      integer :: i, k
 
-      call sum_unions(unions, population, sums, weight, has_union)
-      k = 0
-      do i = 1, size(typologies, 1)
-         number = number_of_group(population%groups, typologies(i, 1)%group)
-         if (typologies(i, 1)%mechanism /= 'all' .or. .not. has_union(number)) cycle
-         k = k + 1
-         call fit_mean(unions%mean(k), sums(:, :, number)/weight(number), typologies(i, :), population%levels, error)
-         if (allocated(error)) return
+      curves = curves_with_mean(population, typologies(:, 1))
+      allocate (unions%mean(size(curves)), fraction(size(population%levels), population%rows + population%walls))
+      do i = 1, size(curves)
+         call begin_mean(unions%mean(i), typologies(curves(i), :))
+      end do
+      do k = 1, size(typologies, 2)
+         do i = 1, size(fraction, 2)
+            fraction(:, i) = population%fraction(i, k)
+         end do
+         fraction(:, population%rows + unions%wall) = unions%fraction(:, k, :)
+         do i = 1, size(curves)
+            weights = weights_of(population, typologies(curves(i), k)%part)
+            associate (mean => unions%mean(i))
+               mean%fraction(:, k) = weights%mean(fraction)
+               call fit_share(mean%curve(k), population%levels, mean%fraction(:, k), mean%saturation, mean%histories, error)
+            end associate
+            if (allocated(error)) return
+         end do
       end do
    end subroutine mean_unions
 
-   !> Sums of weights and of weighted fractions over the walls of a population and of its groups
-   subroutine sum_unions(unions, population, sums, weight, has_union)
-      !> Unions of the walls with several mechanisms, in the order of walls
-      type(unions_type), intent(in) :: unions
-      !> The population, fitted
-      type(population_counts_type), intent(in) :: population
-      !> Sum of weight and fraction (levels, states, groups from 0, the population)
-      real(wp), intent(out) :: sums(:, :, 0:)
-      !> Sum of the weights
-      real(wp), intent(out) :: weight(0:)
-      !> Has a wall several mechanisms?
-      logical, intent(out) :: has_union(0:)
-
-      type(wall_curves_type) :: wall
-      real(wp), allocatable :: together(:, :)
-      real(wp) :: share(size(sums, 1), size(sums, 2))
-      integer :: i, k, next, group
-      logical :: several
-
-      sums = 0.0_wp
-      weight = 0.0_wp
-      has_union = .false.
-      next = 1
-      do i = 1, population%walls()
-         several = population%first(i + 1) - population%first(i) > 1
-         if (several) then
-            share = unions%fraction(:, :, next)
-            next = next + 1
-         else
-            do k = 1, size(sums, 2)
-               wall = population%wall(i, k)
-               together = wall%fractions()
-               share(:, k) = together(:, size(together, 2))
-            end do
-         end if
-         group = population%group(population%first(i))
-         associate (own => population%weight(population%first(i)))
-            weight(0) = weight(0) + own
-            sums(:, :, 0) = sums(:, :, 0) + own*share
-            has_union(0) = has_union(0) .or. several
-            if (group == 0) cycle
-            weight(group) = weight(group) + own
-            sums(:, :, group) = sums(:, :, group) + own*share
-            has_union(group) = has_union(group) .or. several
-         end associate
-      end do
-   end subroutine sum_unions
-
-   !> Fit a mean
-   subroutine fit_mean(union, fraction, typologies, levels, error)
-      !> The mean
+   !> Begin a mean
+   subroutine begin_mean(union, typologies)
+      !> The mean: all but its fractions and their curves are set
       type(union_type), intent(out) :: union
-      !> Its fractions (levels, states)
-      real(wp), intent(in) :: fraction(:, :)
       !> Curves of the same walls, all mechanisms independent (states)
       type(typology_type), intent(in) :: typologies(:)
-      !> Levels of intensity
-      real(wp), intent(in) :: levels(:)
-      !> Fractions that cannot be fitted
-      type(error_type), allocatable, intent(out) :: error
 
-      real(wp) :: share(size(levels))
       integer :: k
 
       union%name = ''
       union%group = typologies(1)%group
-      ! Rounding must not leave more collapses than histories.
-      union%fraction = min(fraction, 1.0_wp)
       union%histories = typologies(1)%histories
       union%saturation = typologies(1)%saturation
       union%product = typologies%fit
-      allocate (union%curve(size(typologies)), union%independent(size(levels), size(typologies)))
+      allocate (union%fraction(size(union%histories), size(typologies)), union%independent(size(union%histories), size(typologies)))
+      allocate (union%curve(size(typologies)))
       do k = 1, size(typologies)
          union%independent(:, k) = typologies(k)%mean_fraction
-         share = union%fraction(:, k)
-         if (union%saturation > 0.0_wp) share = min(share/union%saturation, 1.0_wp)
-         call fit_fragility(union%curve(k), levels, union%histories*share, union%histories, error)
-         if (allocated(error)) return
       end do
-   end subroutine fit_mean
+   end subroutine begin_mean
 
 end module dondolo_unions

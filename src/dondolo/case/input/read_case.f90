@@ -17,7 +17,7 @@ module dondolo_read_case
    use dondolo_namelist_group, only : group_type
    use dondolo_paths, only : beside
    use dondolo_member, only : member_type
-   use dondolo_population, only : population_reader_type
+   use dondolo_population_reader, only : population_reader_type
    use dondolo_population_group, only : read_population_group
    use dondolo_property_tables, only : group_names
    use dondolo_reading_notes, only : list_reading_notes

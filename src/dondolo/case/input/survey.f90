@@ -12,8 +12,8 @@ module dondolo_survey
    use dondolo_lines, only : lines_type
    use dondolo_plausibility, only : wall_warning_type
    use dondolo_member, only : member_type
-   use dondolo_population, only : population_reader_type
-   use dondolo_roster, only : roster_type
+   use dondolo_population, only : population_type
+   use dondolo_population_reader, only : population_reader_type
    use dondolo_solver, only : check_limit
    use dondolo_stripes, only : plan_stripes, stripes_type
    use dondolo_study, only : study_type
@@ -41,8 +41,8 @@ module dondolo_survey
       logical :: is_part = .false.
       !> Histories of these rows, all levels
       integer(int64) :: histories = 0
-      !> Its rows
-      type(roster_type) :: roster
+      !> Its rows, without histories
+      type(population_type) :: population
       !> What there is to say of scale factors
       type(scale_warning_type) :: scales
       !> What there is to say of values that no masonry has
@@ -98,13 +98,14 @@ contains
          if (.not. allocated(error)) then
             if (.not. member%continues) survey%walls = survey%walls + 1
             survey%has_facades = survey%has_facades .or. len(member%facade) > 0
-            call survey%roster%add(member)
+            call survey%population%add(member%wall%mechanism_name(), member%group, member%weight, member%p_occ, &
+               & member%continues)
             survey%lengths = max(survey%lengths, member%wall%input%lengths())
             call survey%supports%look(member%wall)
             call add_wall(survey%walls_fingerprint, member%wall)
             if (member%wall%mechanism%has_friction()) survey%rubbing = survey%rubbing + 1
             if (survey%rubbing == 1 .and. .not. allocated(survey%first_rubbing)) survey%first_rubbing = member%wall%name()
-            if (survey%roster%groups%count > most_groups) call refuse_group(survey%roster%groups, error)
+            if (survey%population%groups%count > most_groups) call refuse_group(survey%population%groups, error)
             if (.not. allocated(error)) call check_limit(study%solver, member%wall%mechanism, error)
             if (.not. allocated(error)) call check_engine(study%solver, member%wall%mechanism, error)
             call add_place(error, reader%place())

@@ -7,7 +7,7 @@ module dondolo_results
    use dondolo_designs, only : design_type
    use dondolo_ensemble, only : name_engines
    use dondolo_fragility, only : fragility_type
-   use dondolo_population_counts, only : population_counts_type
+   use dondolo_population, only : population_type
    use dondolo_response, only : response_type, trace_type
    use dondolo_sensitivity, only : sensitivity_type
    use dondolo_store, only : store_type
@@ -57,7 +57,7 @@ module dondolo_results
       !> What came of the rows of the population, in the order of rows: task 'typology'
       type(store_type), allocatable :: stores(:)
       !> Their counts and curves; none if only some of the rows were run
-      type(population_counts_type) :: population
+      type(population_type) :: population
       !> Curves of the population for each EDP threshold (curves, thresholds): task 'typology'; of size 0 for designs, which
       !> are alternatives; not allocated if only some of the rows were run
       type(typology_type), allocatable :: typologies(:, :)

@@ -5,7 +5,7 @@ module dondolo_row_tables
    use dondolo_check_rows, only : put_check, verdicts_type
    use dondolo_error, only : error_type, raise_failure
    use dondolo_member, only : member_type
-   use dondolo_population, only : population_reader_type
+   use dondolo_population_reader, only : population_reader_type
    use dondolo_report_rows, only : put_certified, put_fragility, put_history, put_names, put_stripe, put_wall
    use dondolo_results, only : results_type, row_counts_type
    use dondolo_row_result, only : row_result_type
@@ -116,7 +116,7 @@ contains
          call put_row(case, member, results%row, what, results%verdicts, table, error)
          return
       end if
-      rows = results%population%rows()
+      rows = results%population%rows
       call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false., facade=case%facade)
       do i = 1, rows + 1
          if (allocated(error)) exit

@@ -6,7 +6,6 @@ module dondolo_combine_rows
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_member, only : member_type
-   use dondolo_population_counts, only : new_population_counts
    use dondolo_population_errors, only : population_errors_type
    use dondolo_results, only : results_type, shown_rows
    use dondolo_row_result, only : row_result_type
@@ -37,7 +36,8 @@ contains
       integer :: k, states
 
       states = size(case%stripes%thresholds)
-      call new_population_counts(results%population, case%survey%roster, case%stripes%levels, states, error)
+      results%population = case%survey%population
+      call results%population%begin(case%stripes%levels, states, error)
       call case%make_study(study)
       if (.not. allocated(error)) call gather(results, study%share(), error)
       if (.not. allocated(error)) call results%population%fit(error)
@@ -50,7 +50,7 @@ contains
          if (k == 1) allocate (results%typologies(size(typologies), states))
          results%typologies(:, k) = typologies
       end do
-      if (case%designs) allocate (results%designs(results%population%rows()))
+      if (case%designs) allocate (results%designs(results%population%rows))
       call set_errors(results, study, error)
       if (.not. allocated(error)) call look_at_rows(case, results, fits, error)
       if (.not. allocated(error)) call unite_rows(case, results, study, error)
@@ -61,7 +61,7 @@ contains
       call warn_of_records(case%suite, case%solver%gravity, results%warnings)
       call warn_of_events(case%suite, results%warnings)
       call case%survey%scales%warn(results%warnings)
-      if (results%population%walls() == 1 .and. results%unions%count() > 0) then
+      if (results%population%walls == 1 .and. results%unions%count() > 0) then
          ! The number of one facade is its union.
          call fits%warn(results%typologies(:0, states), results%warnings)
          call warn_of_union(results%unions%name(1)%text, results%unions%curve(states, 1), results%warnings)

@@ -3,7 +3,7 @@ module dondolo_rows_again
    use dondolo_case, only : case_type
    use dondolo_error, only : error_type, raise_failure
    use dondolo_member, only : member_type
-   use dondolo_population, only : population_reader_type
+   use dondolo_population_reader, only : population_reader_type
    implicit none
    private
 

@@ -11,7 +11,7 @@ module dondolo_run_case
    use dondolo_interrupt, only : check_interrupt
    use dondolo_plausibility, only : wall_warning_type
    use dondolo_member, only : member_type
-   use dondolo_population, only : population_reader_type
+   use dondolo_population_reader, only : population_reader_type
    use dondolo_queue, only : progress_interface
    use dondolo_record, only : record_type
    use dondolo_results, only : results_type

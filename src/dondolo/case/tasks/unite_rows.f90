@@ -9,7 +9,7 @@ module dondolo_unite_rows
    use dondolo_row_result, only : row_result_type
    use dondolo_rows_again, only : rows_again_type
    use dondolo_study, only : runs_of, study_type
-   use dondolo_unions, only : count_means, mean_unions, union_builder_type, union_type, unions_type, wall_union
+   use dondolo_unions, only : mean_unions, union_builder_type, union_type, unions_type, wall_union
    implicit none
    private
 
@@ -33,12 +33,12 @@ contains
       integer :: i, k, wall, number
 
       associate (population => results%population)
-         number = count(population%first(2:) - population%first(:population%walls()) > 1)
+         number = count(population%is_several([(i, i=1, population%walls)]))
          if (number == 0) return
-         call check_room(real(number, wp)*real(size(study%levels)*16*(size(population%curve, 1) + 1), wp), error)
+         call check_room(real(number, wp)*real(size(study%levels)*16*(size(population%curve, 1) + 1), wp) &
+            & + real(population%rows + population%walls, wp)*real(size(study%levels)*8, wp), error)
          if (allocated(error)) return
-         call results%unions%reserve(number, size(study%levels), size(population%curve, 1), &
-            & count_means(population, results%typologies(:, 1)))
+         call results%unions%reserve(number, size(study%levels), size(population%curve, 1))
          runs = runs_of(study)
          wall = 1
          number = 0
@@ -46,10 +46,10 @@ contains
             associate (store => results%stores(k))
                do i = store%identity%first, store%identity%last
                   if (i == population%first(wall + 1)) wall = wall + 1
-                  if (population%first(wall + 1) - population%first(wall) == 1) cycle
+                  if (.not. population%is_several(wall)) cycle
                   call store%read(i, row, error)
                   if (allocated(error)) exit
-                  call builder%add(row, population%p_occ(i), store%identity%shape)
+                  call builder%add(row, population%row(i)%p_occ, store%identity%shape)
                   if (i < population%first(wall + 1) - 1) cycle
                   number = number + 1
                   call wall_union(union, builder, population, wall, study%suite%clusters, runs, error)
@@ -62,8 +62,7 @@ contains
             end associate
          end do
          call name_unions(case, results%unions, population%first, error)
-         if (allocated(error) .or. population%walls() == 1) return
-         call mean_unions(results%unions, population, results%typologies, error)
+         if (.not. allocated(error)) call mean_unions(results%unions, population, results%typologies, error)
       end associate
    end subroutine unite_rows
 
