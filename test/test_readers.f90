@@ -286,8 +286,8 @@ contains
          call store%read(i, row, error)
          if (allocated(error)) exit
          count = count + 1
-         associate (reached => row%reached(store%identity%shape))
-            is_sound = is_sound .and. all(reached >= 0 .and. reached <= row%histories)
+         associate (form => store%identity%shape)
+            is_sound = is_sound .and. row%histories > 0 .and. all(shape(row%flags) == [row%histories, form%levels, form%states])
          end associate
       end do
       is_sound = is_sound .and. count == store%done

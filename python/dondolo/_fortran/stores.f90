@@ -10,7 +10,7 @@ module stores
    use dondolo_interrupt, only : check_interrupt
    use dondolo_parcel, only : parcel_type, send
    use dondolo_member, only : member_type
-   use dondolo_row_result, only : row_result_type, shape_type
+   use dondolo_row_result, only : bytes_of_flags, pack_flags, row_result_type, shape_type
    use dondolo_run_rows, only : run_block => run_rows
    use dondolo_store, only : open_file => open_store, store_type
    use dondolo_store_format, only : bytes_of_entry, identity_type, pack_entry, unpack_entries
@@ -178,7 +178,7 @@ contains
       integer(c_int), allocatable :: histories(:), reached(:, :, :), ties(:), counts(:)
       real(c_double), allocatable :: elongations(:)
       character(len=:), allocatable :: flags, more
-      integer :: i, at, number
+      integer :: i, at, bytes, number
 
       at = 0
       number = 0
@@ -196,17 +196,18 @@ contains
                call store%read(i, row, error)
                if (allocated(error)) exit
                histories(i) = row%histories
-               reached(:, :, i) = row%reached(shape)
+               reached(:, :, i) = count(row%flags, dim=1)
                ties(i) = row%ties
                call add_tallies(counts, elongations, number, row%tallies)
                ! Room for the bytes that fill up the last integer, too
-               if (at + len(row%flags) + 3 > len(flags)) then
-                  allocate (character(len=2*(at + len(row%flags) + 3)) :: more)
+               bytes = int(bytes_of_flags(shape, row%histories))
+               if (at + bytes + 3 > len(flags)) then
+                  allocate (character(len=2*(at + bytes + 3)) :: more)
                   more(:at) = flags(:at)
                   call move_alloc(more, flags)
                end if
-               flags(at + 1:at + len(row%flags)) = row%flags
-               at = at + len(row%flags)
+               call pack_flags(row%flags, flags(at + 1:at + bytes))
+               at = at + bytes
             end do
          end associate
       end if

@@ -1,9 +1,10 @@
 !> What is kept of a row of a population once its histories have been run - a flag for each history and damage state, what
 !> they do to its ties, and where histories are kept all of their results - and how it stands in a store, as bytes.
 !>
-!> The flags of a row are bits, eight a byte from the highest on: state by state, level by level, history by history.
-!> They are all that counts, curves and resampled records are made of.
+!> The flags are all that counts, curves and resampled records are made of. As bytes they are bits, eight a byte from the
+!> highest on: state by state, level by level, history by history.
 module dondolo_row_result
+   use, intrinsic :: iso_c_binding, only : c_bool
    use, intrinsic :: iso_fortran_env, only : int32, int64
    use dondolo_kinds, only : wp
    use dondolo_response, only : response_type
@@ -12,7 +13,7 @@ module dondolo_row_result
    implicit none
    private
 
-   public :: row_result_type, shape_type, pack_row, unpack_row, bytes_of_row, bytes_of_flags
+   public :: row_result_type, shape_type, pack_row, unpack_row, bytes_of_row, bytes_of_flags, pack_flags
 
    !> How many numbers there are of a row, besides its histories
    type :: shape_type
@@ -32,8 +33,8 @@ module dondolo_row_result
       integer :: histories = 0, ties = 0
       !> What was computed
       type(work_type) :: work
-      !> Flags, packed
-      character(len=:), allocatable :: flags
+      !> Does a history reach a state (histories, levels, states)? A byte each
+      logical(c_bool), allocatable :: flags(:, :, :)
       !> What the histories do to the ties (ties, levels)
       type(tie_tally_type), allocatable :: tallies(:, :)
       !> All histories (histories, levels), if they are kept
@@ -41,10 +42,6 @@ module dondolo_row_result
    contains
       !> Set the flags
       procedure :: set_flags
-      !> The flags one by one
-      procedure :: unpack_flags
-      !> Histories that reach each state
-      procedure :: reached
       !> Histories that reach a state, and those that were run, of each cluster of records
       procedure :: by_cluster
    end type row_result_type
@@ -89,34 +86,49 @@ contains
       !> Thresholds of the states, rotation / capacity
       real(wp), intent(in) :: thresholds(:)
 
-      integer :: i, j, k, byte, bit, value
+      integer :: k
 
       self%histories = size(response, 1)
-      allocate (character(len=bytes_of_flags(shape_type(size(response, 2), size(thresholds)), self%histories)) :: self%flags)
+      allocate (self%flags(self%histories, size(response, 2), size(thresholds)))
+      do k = 1, size(thresholds)
+         self%flags(:, :, k) = response%edp >= thresholds(k)
+      end do
+   end subroutine set_flags
+
+   !> Flags as bytes
+   pure subroutine pack_flags(flags, bytes)
+      !> Flags (histories, levels, states)
+      logical(c_bool), intent(in) :: flags(:, :, :)
+      !> Bytes, as many as bytes_of_flags says
+      character(len=*), intent(out) :: bytes
+
+      integer :: i, j, k, byte, bit, value
+
       byte = 0
       bit = 8
       value = 0
-      do k = 1, size(thresholds)
-         do j = 1, size(response, 2)
-            do i = 1, size(response, 1)
+      do k = 1, size(flags, 3)
+         do j = 1, size(flags, 2)
+            do i = 1, size(flags, 1)
                bit = bit - 1
-               if (response(i, j)%edp >= thresholds(k)) value = ibset(value, bit)
+               if (flags(i, j, k)) value = ibset(value, bit)
                if (bit > 0) cycle
                byte = byte + 1
-               self%flags(byte:byte) = char(value)
+               bytes(byte:byte) = char(value)
                bit = 8
                value = 0
             end do
          end do
       end do
-      if (bit < 8) self%flags(byte + 1:byte + 1) = char(value)
-   end subroutine set_flags
+      if (bit < 8) bytes(byte + 1:byte + 1) = char(value)
+   end subroutine pack_flags
 
-   !> The flags one by one
-   pure subroutine unpack_flags(self, flags)
-      class(row_result_type), intent(in) :: self
-      !> Does a history reach a state (histories, levels, states)?
-      logical, intent(out) :: flags(:, :, :)
+   !> Flags out of bytes
+   pure subroutine unpack_flags(bytes, flags)
+      !> Bytes as pack_flags makes them
+      character(len=*), intent(in) :: bytes
+      !> Flags (histories, levels, states)
+      logical(c_bool), intent(out) :: flags(:, :, :)
 
       integer :: i, j, k, flag
 
@@ -124,34 +136,12 @@ contains
       do k = 1, size(flags, 3)
          do j = 1, size(flags, 2)
             do i = 1, size(flags, 1)
-               flags(i, j, k) = btest(ichar(self%flags(flag/8 + 1:flag/8 + 1)), 7 - modulo(flag, 8))
+               flags(i, j, k) = btest(ichar(bytes(flag/8 + 1:flag/8 + 1)), 7 - modulo(flag, 8))
                flag = flag + 1
             end do
          end do
       end do
    end subroutine unpack_flags
-
-   !> Histories that reach each state
-   pure function reached(self, shape)
-      class(row_result_type), intent(in) :: self
-      !> How many levels and states there are
-      type(shape_type), intent(in) :: shape
-      !> Counts (levels, states)
-      integer :: reached(shape%levels, shape%states)
-
-      integer :: i, j, k, flag
-
-      flag = 0
-      do k = 1, shape%states
-         do j = 1, shape%levels
-            reached(j, k) = 0
-            do i = 1, self%histories
-               if (btest(ichar(self%flags(flag/8 + 1:flag/8 + 1)), 7 - modulo(flag, 8))) reached(j, k) = reached(j, k) + 1
-               flag = flag + 1
-            end do
-         end do
-      end do
-   end function reached
 
    !> Histories that reach a state, and those that were run, of each cluster of records (levels, clusters)
    pure subroutine by_cluster(self, state, clusters, runs, counts, histories)
@@ -165,18 +155,16 @@ contains
       !> Counts
       real(wp), intent(out) :: counts(:, :), histories(:, :)
 
-      integer :: i, j, g, flag, record
+      integer :: i, j, g, record
 
       counts = 0.0_wp
       histories = 0.0_wp
-      flag = (state - 1)*size(counts, 1)*self%histories
       do j = 1, size(counts, 1)
          do i = 1, self%histories
             record = modulo(i - 1, size(clusters)) + 1
             g = clusters(record)
             if (runs(record, j)) histories(j, g) = histories(j, g) + 1.0_wp
-            if (btest(ichar(self%flags(flag/8 + 1:flag/8 + 1)), 7 - modulo(flag, 8))) counts(j, g) = counts(j, g) + 1.0_wp
-            flag = flag + 1
+            if (self%flags(i, j, state)) counts(j, g) = counts(j, g) + 1.0_wp
          end do
       end do
    end subroutine by_cluster
@@ -194,8 +182,9 @@ contains
       bytes(:work_bytes) = transfer([row%work%histories, row%work%still, row%work%in_lanes, row%work%intervals, &
          & row%work%rocked, row%work%steps, row%work%evaluations, row%work%impacts, row%work%drifted], bytes(:work_bytes))
       at = work_bytes
-      bytes(at + 1:at + len(row%flags)) = row%flags
-      at = at + len(row%flags)
+      number = bytes_of_flags(shape_type(size(row%flags, 2), size(row%flags, 3)), row%histories)
+      call pack_flags(row%flags, bytes(at + 1:at + number))
+      at = at + number
       if (row%ties > 0) then
          number = 4*size(row%tallies, kind=int64)
          bytes(at + 1:at + number) = transfer(int([row%tallies%yielded], int32), bytes(at + 1:at + number))
@@ -232,17 +221,18 @@ contains
       !> The row: its number, its histories and its ties are given, all else is set
       type(row_result_type), intent(inout) :: row
 
-      integer(int64) :: counts(work_counts), at, number, flags
+      integer(int64) :: counts(work_counts), at, number
 
       counts = transfer(bytes(:work_bytes), counts)
       row%work = work_type(histories=counts(1), still=counts(2), in_lanes=counts(3), intervals=counts(4), &
          & rocked=counts(5), steps=counts(6), evaluations=counts(7), impacts=counts(8), drifted=counts(9))
       at = work_bytes
-      flags = bytes_of_flags(shape, row%histories)
-      row%flags = bytes(at + 1:at + flags)
-      at = at + flags
+      if (allocated(row%flags)) deallocate (row%flags)
       if (allocated(row%tallies)) deallocate (row%tallies)
-      allocate (row%tallies(row%ties, shape%levels))
+      allocate (row%flags(row%histories, shape%levels, shape%states), row%tallies(row%ties, shape%levels))
+      number = bytes_of_flags(shape, row%histories)
+      call unpack_flags(bytes(at + 1:at + number), row%flags)
+      at = at + number
       if (row%ties > 0) then
          number = 4*size(row%tallies, kind=int64)
          row%tallies%yielded = reshape(int(transfer(bytes(at + 1:at + number), [0_int32])), [row%ties, shape%levels])
@@ -265,24 +255,8 @@ contains
       at = at + number
       number = 4*size(row%response, kind=int64)
       row%response%impacts = reshape(int(transfer(bytes(at + 1:at + number), [0_int32])), [row%histories, shape%levels])
-      call set_collapsed()
-
-   contains
-
-      !> A history has collapsed where it reaches the last state
-      subroutine set_collapsed()
-
-         integer :: i, j, flag
-
-         flag = (shape%states - 1)*shape%levels*row%histories
-         do j = 1, shape%levels
-            do i = 1, row%histories
-               row%response(i, j)%collapsed = btest(ichar(row%flags(flag/8 + 1:flag/8 + 1)), 7 - modulo(flag, 8))
-               flag = flag + 1
-            end do
-         end do
-      end subroutine set_collapsed
-
+      ! A history has collapsed where it reaches the last state.
+      row%response%collapsed = row%flags(:, :, shape%states)
    end subroutine unpack_row
 
 end module dondolo_row_result

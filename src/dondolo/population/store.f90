@@ -7,12 +7,13 @@ module dondolo_store
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_error, only : error_type, raise_failure, raise_input
    use dondolo_kinds, only : wp
+   use dondolo_lines, only : line_type
    use dondolo_lock, only : holder_type, lock_type, look_at_lock
    use dondolo_memory, only : check_room
    use dondolo_origin, only : check_regular
    use dondolo_row_result, only : row_result_type
    use dondolo_store_format, only : is_cut_head, bytes_of_entry, identity_type, make_head, pack_entry, read_entry, &
-      & read_head
+      & read_head, unpack_entry
    use dondolo_system, only : cut_file, remove_file, rename_file, writer_type
    use dondolo_text, only : to_text
    use dondolo_work, only : work_type
@@ -35,8 +36,8 @@ module dondolo_store
       integer(int64), private :: bytes = 0, size = 0
       !> Where each row begins in the file; 0: it is not there
       integer(int64), allocatable, private :: place(:)
-      !> Rows in memory
-      type(row_result_type), allocatable, private :: kept(:)
+      !> Rows in memory, as they would stand in the file
+      type(line_type), allocatable, private :: entry(:)
       !> Unit while rows are read; 0: not open
       integer, private :: unit = 0
       !> The file while rows are put in
@@ -139,7 +140,7 @@ contains
          call check_room(bytes_of_place*(real(last, wp) - real(first, wp) + 1.0_wp), error)
          if (allocated(error)) return
          allocate (store%place(first:last), source=0_int64)
-         if (len(store%path) == 0) allocate (store%kept(first:last))
+         if (len(store%path) == 0) allocate (store%entry(first:last))
       end associate
    end subroutine make_room
 
@@ -266,20 +267,20 @@ contains
       do i = 1, size(rows)
          if (.not. self%has(rows(i)%row)) bytes(i) = bytes_of_entry(self%identity%shape, rows(i)%histories, rows(i)%ties)
       end do
-      if (len(self%path) > 0) then
-         allocate (character(len=sum(bytes)) :: entries)
-         at = 0
-         do i = 1, size(rows)
-            if (bytes(i) > 0) call pack_entry(rows(i), entries(at + 1:at + bytes(i)))
-            at = at + bytes(i)
-         end do
-         call append(self, entries, error)
-         if (allocated(error)) return
-      end if
+      allocate (character(len=sum(bytes)) :: entries)
+      at = 0
+      do i = 1, size(rows)
+         if (bytes(i) > 0) call pack_entry(rows(i), entries(at + 1:at + bytes(i)))
+         at = at + bytes(i)
+      end do
+      if (len(self%path) > 0) call append(self, entries, error)
+      if (allocated(error)) return
+      at = 0
       do i = 1, size(rows)
          if (bytes(i) == 0) cycle
          call note_row(self, rows(i), bytes(i))
-         if (len(self%path) == 0) self%kept(rows(i)%row) = rows(i)
+         if (len(self%path) == 0) self%entry(rows(i)%row)%text = entries(at + 1:at + bytes(i))
+         at = at + bytes(i)
       end do
    end subroutine put
 
@@ -328,7 +329,7 @@ contains
       integer :: stat
 
       if (len(self%path) == 0) then
-         row = self%kept(number)
+         call unpack_entry(self%entry(number)%text, self%identity%shape, row, bytes)
          return
       end if
       stat = 0

@@ -14,7 +14,7 @@ module dondolo_store_format
    implicit none
    private
 
-   public :: identity_type, make_head, read_head, bytes_of_entry, pack_entry, read_entry, unpack_entries, is_cut_head
+   public :: identity_type, make_head, read_head, bytes_of_entry, pack_entry, read_entry, unpack_entry, unpack_entries, is_cut_head
 
    !> What the file begins with, and the number of the format
    character(len=*), parameter :: mark = 'dondolo counts ', format_number = '5'
@@ -216,10 +216,9 @@ contains
       integer(int64), intent(out) :: bytes
 
       character(len=entry_head) :: head
-      character(len=:), allocatable :: contents
+      character(len=:), allocatable :: entry
       integer(int64) :: length, room
       integer :: stat
-      logical :: is_whole
 
       bytes = 0
       read (unit, pos=place, iostat=stat) head
@@ -227,11 +226,9 @@ contains
       inquire (unit=unit, size=room)
       call read_entry_head(head, shape, row, length)
       if (length == 0 .or. length > room) return
-      allocate (character(len=length - entry_head) :: contents)
-      read (unit, iostat=stat) contents
-      if (stat /= 0) return
-      call unpack_entry(head, contents, shape, row, is_whole)
-      if (is_whole) bytes = length
+      allocate (character(len=length) :: entry)
+      read (unit, pos=place, iostat=stat) entry
+      if (stat == 0) call unpack_entry(entry, shape, row, bytes)
    end subroutine read_entry
 
    !> Rows out of bytes, one behind the other
@@ -254,18 +251,33 @@ contains
       at = 0
       are_whole = .true.
       do i = 1, count
-         if (at + entry_head <= len(bytes, int64)) then
-            call read_entry_head(bytes(at + 1:at + entry_head), shape, rows(i), length)
-         else
-            length = 0
-         end if
-         are_whole = length > 0 .and. at + length <= len(bytes, int64)
-         if (are_whole) call unpack_entry(bytes(at + 1:at + entry_head), bytes(at + entry_head + 1:at + length), shape, &
-            & rows(i), are_whole)
+         call unpack_entry(bytes(at + 1:), shape, rows(i), length)
+         are_whole = length > 0
          if (.not. are_whole) return
          at = at + length
       end do
    end subroutine unpack_entries
+
+   !> The row that bytes begin with
+   subroutine unpack_entry(bytes, shape, row, length)
+      !> The bytes; others may follow
+      character(len=*), intent(in) :: bytes
+      !> How many numbers there are of a row
+      type(shape_type), intent(in) :: shape
+      type(row_result_type), intent(inout) :: row
+      !> Its length; 0: there is none, or it is not as it was packed
+      integer(int64), intent(out) :: length
+
+      length = 0
+      if (len(bytes, int64) >= entry_head) call read_entry_head(bytes(:entry_head), shape, row, length)
+      if (length > len(bytes, int64)) length = 0
+      if (length == 0) return
+      if (fingerprint_of(bytes(:guarded), bytes(entry_head + 1:length)) == bytes(guarded + 1:entry_head)) then
+         call unpack_row(bytes(entry_head + 1:length), shape, row)
+      else
+         length = 0
+      end if
+   end subroutine unpack_entry
 
    !> Read what a row begins with
    subroutine read_entry_head(head, shape, row, length)
@@ -291,22 +303,5 @@ contains
          length = 0
       end if
    end subroutine read_entry_head
-
-   !> Take what a row contains, if it is as it was packed
-   subroutine unpack_entry(head, contents, shape, row, is_whole)
-      !> Its first bytes
-      character(len=*), intent(in) :: head
-      !> The bytes behind
-      character(len=*), intent(in) :: contents
-      !> How many numbers there are of a row
-      type(shape_type), intent(in) :: shape
-      !> The row, with its number and its histories
-      type(row_result_type), intent(inout) :: row
-      !> It is
-      logical, intent(out) :: is_whole
-
-      is_whole = fingerprint_of(head(:guarded), contents) == head(guarded + 1:)
-      if (is_whole) call unpack_row(contents, shape, row)
-   end subroutine unpack_entry
 
 end module dondolo_store_format

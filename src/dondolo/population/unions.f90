@@ -11,7 +11,7 @@ module dondolo_unions
    use dondolo_kinds, only : wp
    use dondolo_lines, only : line_type
    use dondolo_population, only : population_type
-   use dondolo_row_result, only : row_result_type, shape_type
+   use dondolo_row_result, only : row_result_type
    use dondolo_series, only : fit_share
    use dondolo_typology, only : typology_type
    use dondolo_weights, only : weights_of, weights_type
@@ -74,27 +74,22 @@ module dondolo_unions
 contains
 
    !> Add a mechanism
-   pure subroutine add(self, row, p_occ, shape)
+   pure subroutine add(self, row, p_occ)
       class(union_builder_type), intent(inout) :: self
       !> What came of its row
       type(row_result_type), intent(in) :: row
       !> Probability that it can occur
       real(wp), intent(in) :: p_occ
-      !> How many levels and states there are
-      type(shape_type), intent(in) :: shape
 
-      logical :: flags(row%histories, shape%levels, shape%states)
       integer :: i, n
 
-      call row%unpack_flags(flags)
-      if (.not. allocated(self%survival)) then
-         allocate (self%survival(row%histories, shape%levels, shape%states), source=1.0_wp)
-      end if
+      if (.not. allocated(self%survival)) allocate (self%survival(row%histories, size(row%flags, 2), size(row%flags, 3)), &
+         & source=1.0_wp)
       ! A wall that is the same from both sides runs each record once: reversed it ends alike.
       n = size(self%survival, 1)
       if (row%histories > n) self%survival = self%survival([(modulo(i - 1, n) + 1, i=1, row%histories)], :, :)
       do i = 1, size(self%survival, 1)
-         where (flags(modulo(i - 1, row%histories) + 1, :, :)) self%survival(i, :, :) = (1.0_wp - p_occ)*self%survival(i, :, :)
+         where (row%flags(modulo(i - 1, row%histories) + 1, :, :)) self%survival(i, :, :) = (1.0_wp - p_occ)*self%survival(i, :, :)
       end do
    end subroutine add
 

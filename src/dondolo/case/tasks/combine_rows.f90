@@ -110,7 +110,7 @@ contains
                call store%read(i, row, error)
                if (allocated(error)) exit
                population%histories(:, i) = nint(real(row%histories, wp)*share)
-               population%reached(:, :, i) = row%reached(store%identity%shape)
+               population%reached(:, :, i) = count(row%flags, dim=1)
             end do
             call store%close()
             if (allocated(error)) return

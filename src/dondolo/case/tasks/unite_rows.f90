@@ -49,7 +49,7 @@ contains
                   if (.not. population%is_several(wall)) cycle
                   call store%read(i, row, error)
                   if (allocated(error)) exit
-                  call builder%add(row, population%row(i)%p_occ, store%identity%shape)
+                  call builder%add(row, population%row(i)%p_occ)
                   if (i < population%first(wall + 1) - 1) cycle
                   number = number + 1
                   call wall_union(union, builder, population, wall, study%suite%clusters, runs, error)
