@@ -68,7 +68,10 @@ def rooms_of(folder):
 @pytest.mark.parametrize(
     ("folder", "rooms"),
     [
-        (".", ["base", "record", "building", "wall", "motion", "fragility", "check", "population", "case"]),
+        (
+            ".",
+            ["base", "record", "building", "wall", "motion", "fragility", "check", "population", "case", "interface"],
+        ),
         ("base", ["numerics", "text", "properties", "system"]),
         ("case", ["namelist", "groups", "warnings", "input", "results", "tasks"]),
     ],

@@ -1,18 +1,15 @@
 !> What the procedures that f2py reads share: errors as statuses, checks of what crosses, lines of text, solver and responses.
 module dondolo_boundary
    use, intrinsic :: iso_c_binding, only : c_double, c_int
-   use dondolo_error, only : error_type, raise_input
+   use dondolo_error, only : error_type
    use dondolo_lines, only : lines_type
    use dondolo_memory, only : check_memory => check_room
-   use dondolo_record, only : largest_acceleration
    use dondolo_response, only : response_type
    use dondolo_solver, only : solver_type
-   use dondolo_suite, only : suite_type
-   use dondolo_text, only : to_text
    implicit none
    private
 
-   public :: report, check_room, check_scale, next_line, split_lines, as_solver, unpack_response
+   public :: report, check_room, next_line, split_lines, as_solver, unpack_response
 
    !> What each thing that is worked on takes at most, all that is copied and sent included [bytes]
    real(c_double), parameter :: bytes_of_wall = 4000.0_c_double, bytes_of_record = 2000.0_c_double, &
@@ -54,21 +51,6 @@ contains
       if (present(reals)) bytes = bytes + real(storage_size(reals)/8, c_double)*reals
       call check_memory(bytes, error)
    end subroutine check_room
-
-   !> Check the scale of a record
-   subroutine check_scale(suite, number, scale, error)
-      type(suite_type), intent(in) :: suite
-      !> Number of the record
-      integer(c_int), intent(in) :: number
-      !> Factor on it
-      real(c_double), intent(in) :: scale
-      !> It makes the record exceed what an acceleration can be
-      type(error_type), allocatable, intent(out) :: error
-
-      if (.not. abs(scale)*suite%peaks(number) <= largest_acceleration) call raise_input(error, 'scale = '// &
-         & to_text(scale)//': makes record '''//suite%records(number)%name//''' exceed '// &
-         & to_text(largest_acceleration)//' m/s2')
-   end subroutine check_scale
 
    !> The next line of a text
    pure subroutine next_line(text, at, line)

@@ -1,11 +1,12 @@
 !> Time histories of one wall.
 module histories
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
-   use dondolo_boundary, only : as_solver, check_room, check_scale, report, unpack_response
+   use dondolo_boundary, only : as_solver, check_room, report, unpack_response
    use dondolo_certificate, only : certificate_type, certify_histories
    use dondolo_ensemble, only : check_engine, ensemble_type, run_ensemble
    use dondolo_error, only : error_type
-   use dondolo_floors, only : check_floor, floors_type
+   use dondolo_felt_motions, only : check_scale, find_motions
+   use dondolo_floors, only : floors_type
    use dondolo_handles, only : find_suite, find_walls
    use dondolo_interrupt, only : check_interrupt
    use dondolo_memory, only : check_memory => check_room
@@ -77,28 +78,6 @@ contains
       call unpack_response(response, edp, collapsed, impacts, time_of_peak, edp_error)
       call send(parcel, error, sent, stat, message)
    end subroutine simulate
-
-   !> Motions that move a wall: those of the ground, or of the floor that it stands on
-   subroutine find_motions(wall, records, threads, floors, motions, error)
-      type(wall_type), intent(in) :: wall
-      !> Motions of the ground
-      type(suite_type), pointer, intent(in) :: records
-      !> Number of threads that make them; 0: all that OpenMP gives
-      integer(c_int), intent(in) :: threads
-      !> Keeps those of the floor
-      type(floors_type), target, intent(inout) :: floors
-      !> The motions
-      type(suite_type), pointer, intent(out) :: motions
-      !> They would be too long, or lack of memory
-      type(error_type), allocatable, intent(out) :: error
-
-      integer :: place
-
-      motions => records
-      if (.not. allocated(wall%building)) return
-      call check_floor(wall%building, records, error)
-      if (.not. allocated(error)) call floors%take(wall%building, records, int(threads), place, motions)
-   end subroutine find_motions
 
    !> Run k histories of one wall: each has its record (numbered from 1) and its factor, negative to reverse the polarity
    subroutine run_scaled(walls, suite, record, scale, k, engine, settings, threads, &

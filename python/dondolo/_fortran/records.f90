@@ -10,7 +10,7 @@ module records
    use dondolo_energy_measures, only : times_of => significant_times
    use dondolo_error, only : error_type, raise_input
    use dondolo_ground_motion, only : velocity_of => ground_velocity
-   use dondolo_handles, only : find_suite, hold
+   use dondolo_handles, only : find_suite, hold, records_type
    use dondolo_intensity, only : measure_type, new_measure
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
@@ -46,7 +46,7 @@ contains
       integer(c_int), intent(out) :: stat
       character(len=2048), intent(out) :: message
       type(record_type), allocatable :: records(:)
-      type(suite_type), pointer :: suite
+      type(records_type), pointer :: held
       class(*), pointer :: content
       type(error_type), allocatable :: error
 
@@ -55,9 +55,9 @@ contains
       if (.not. allocated(error)) call set_records(records, names, lengths, dt, acceleration, have_vertical, vertical, error)
       if (.not. allocated(error)) then
          call set_labels(records, labels)
-         allocate (suite)
-         call make_suite(suite, records, threads)
-         content => suite
+         allocate (held)
+         call make_suite(held%suite, records, threads)
+         content => held
          call hold(content, handle)
       end if
       call report(error, stat, message)

@@ -3,14 +3,13 @@ module dondolo_wall_parcel
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use dondolo_boundary, only : check_room, next_line
    use dondolo_error, only : add_place, error_type, raise_input
-   use dondolo_mechanism, only : mechanism_type
    use dondolo_parcel, only : parcel_type
    use dondolo_member, only : member_type
    use dondolo_property, only : is_list, is_text, is_words
    use dondolo_text, only : to_text
-   use dondolo_tie_statics, only : greatest_acceleration, plastic_acceleration
    use dondolo_wall, only : new_wall, wall_type
    use dondolo_wall_properties, only : wall_input_type, wall_numbers, wall_properties
+   use dondolo_wall_statics, only : static_names, statics_of
    implicit none
    private
 
@@ -81,12 +80,11 @@ contains
    subroutine pack_walls(walls, parcel)
       !> The walls
       type(wall_type), intent(in) :: walls(:)
-      !> Integers: how many values each of a wall's numbers has, two_sided; reals: gravity, R, alpha, p, trigger, q_c, e, u and
-      !> the greatest static and the rigid-plastic acceleration of each wall, then all values of all walls; text: their
-      !> texts, one a line
+      !> Integers: how many values each of a wall's numbers has, two_sided; reals: the static quantities of each wall, then all
+      !> values of all walls; text: their texts, one a line
       type(parcel_type), intent(inout) :: parcel
 
-      integer, parameter :: wall_integers = wall_numbers + 1, wall_reals = 12
+      integer, parameter :: wall_integers = wall_numbers + 1, wall_reals = size(static_names)
       integer(c_int), allocatable :: integers(:, :)
       real(c_double), allocatable :: reals(:, :), values(:)
       integer, allocatable :: lengths(:)
@@ -114,36 +112,13 @@ contains
                end associate
             end do
             integers(wall_integers, i) = merge(1, 0, mechanism%two_sided)
-            reals(:, i) = [walls(i)%gravity, walls(i)%radius, walls(i)%alpha, &
-               & mechanism%frequency_parameter(), mechanism%trigger_acceleration(), mechanism%capacity, &
-               & mechanism%restitution, walls(i)%hinge_depth, with_ties(mechanism), support_of(walls(i))]
+            reals(:, i) = statics_of(walls(i))
          end associate
       end do
       call parcel%add(reshape(integers, [size(integers)]))
       call parcel%add(reshape(reals, [size(reals)]))
       call parcel%add(values(:next - 1))
    end subroutine pack_walls
-
-   !> Greatest static acceleration and that of the rigid-plastic mechanism; the trigger acceleration twice without ties
-   function with_ties(mechanism) result(accelerations)
-      class(mechanism_type), intent(in) :: mechanism
-      !> Both [m/s2]
-      real(c_double) :: accelerations(2)
-
-      accelerations = mechanism%trigger_acceleration()
-      if (.not. allocated(mechanism%restraints)) return
-      accelerations = [greatest_acceleration(mechanism), plastic_acceleration(mechanism)]
-   end function with_ties
-
-   !> Share and tilt of a wall on a building
-   pure function support_of(wall) result(numbers)
-      type(wall_type), intent(in) :: wall
-      !> k and tau [1/s2]; 0 without a building
-      real(c_double) :: numbers(2)
-
-      numbers = 0.0_c_double
-      if (allocated(wall%building)) numbers = [wall%building%share, wall%building%tilt]
-   end function support_of
 
    !> Rows of a population: walls as they were understood, then reals: their weights and the probabilities of their
    !> mechanisms; text: their groups, then their facades

@@ -1,22 +1,33 @@
-!> What Python has uploaded: suites, walls, studies and stores live here, and Python knows each by a number, its handle.
+!> What programs in other languages have made: records, walls, studies, stores and results live here, and a program knows each
+!> by its handle, a number to Python and a pointer to C.
 !>
-!> A handle is the number of a slot and, above it, how often the slot was used: one that was freed is never valid again.
-!> Python's lock is held while a slot is filled or emptied, so that only one thread does, and no fork comes in between;
-!> procedures that look one up need no lock, since slots never move.
+!> A handle is the number of a slot and, above it, how often the slot was used: no address, so that one that was freed is never
+!> valid again, and one of something else is told apart. One thread at a time fills or empties a slot; procedures that look one up
+!> need no lock, since slots never move. Python's lock is held meanwhile too, so that no fork comes in between.
 module dondolo_handles
    use, intrinsic :: iso_c_binding, only : c_int64_t
+   use dondolo_catalogue, only : record_rows_type
    use dondolo_error, only : error_type, raise_input
    use dondolo_floors, only : floors_type
    use dondolo_store, only : store_type
    use dondolo_study, only : study_type
    use dondolo_suite, only : suite_type
-   use dondolo_text, only : to_text
    use dondolo_wall, only : wall_type
    implicit none
    private
 
-   public :: walls_type, held_study_type
-   public :: hold, release, find_suite, find_walls, find_study, find_store
+   public :: records_type, walls_type, held_study_type
+   public :: hold, release, content_of, refuse_handle, find_records, find_suite, find_walls, find_study, find_store
+
+   !> Records, with what their catalogue says of them
+   type :: records_type
+      !> The records
+      type(suite_type) :: suite
+      !> Which of them run at which levels; without levels: all at all
+      type(record_rows_type) :: rows
+      !> How their catalogue was read, where there is something to say of it; not allocated: there is no catalogue
+      character(len=:), allocatable :: note
+   end type records_type
 
    !> Walls, one or many
    type :: walls_type
@@ -79,6 +90,7 @@ contains
       type(slot_type), pointer :: slot
       integer :: number
 
+      !$omp critical (slots)
       if (free_count == 0) call add_chunk()
       number = free_slots(free_count)
       free_count = free_count - 1
@@ -89,6 +101,7 @@ contains
       !$omp atomic write seq_cst
       slot%handle = handle
       !$omp end atomic
+      !$omp end critical (slots)
    end subroutine hold
 
    !> Free what a handle stands for; nothing, if it is not valid
@@ -99,19 +112,22 @@ contains
       type(slot_type), pointer :: slot
       class(*), pointer :: content
 
-      content => content_of(handle)
-      select type (content)
-      type is (nothing_type)
-         return
-      end select
+      nullify (content)
+      !$omp critical (slots)
       slot => slot_of(number_of(handle))
-      !$omp atomic write seq_cst
-      slot%handle = 0
-      !$omp end atomic
-      deallocate (slot%content)
-      nullify (slot%content)
-      free_count = free_count + 1
-      free_slots(free_count) = number_of(handle)
+      if (associated(slot) .and. handle /= 0) then
+         if (slot%handle == handle) then
+            !$omp atomic write seq_cst
+            slot%handle = 0
+            !$omp end atomic
+            content => slot%content
+            nullify (slot%content)
+            free_count = free_count + 1
+            free_slots(free_count) = number_of(handle)
+         end if
+      end if
+      !$omp end critical (slots)
+      if (associated(content)) deallocate (content)
    end subroutine release
 
    !> Make as many slots as there are, and have them all free
@@ -179,6 +195,27 @@ contains
       if (held == handle .and. handle /= 0) content => slot%content
    end function content_of
 
+   !> The records of a handle
+   subroutine find_records(handle, records, error)
+      !> The handle
+      integer(c_int64_t), intent(in) :: handle
+      !> The records
+      type(records_type), pointer, intent(out) :: records
+      !> The handle is that of no records, or was freed
+      type(error_type), allocatable, intent(out) :: error
+
+      class(*), pointer :: content
+
+      records => null()
+      content => content_of(handle)
+      select type (content)
+      type is (records_type)
+         records => content
+      class default
+         call refuse_handle('records', handle, error)
+      end select
+   end subroutine find_records
+
    !> The suite of a handle
    subroutine find_suite(handle, suite, error)
       !> The handle
@@ -188,16 +225,11 @@ contains
       !> The handle is that of no suite, or was freed
       type(error_type), allocatable, intent(out) :: error
 
-      class(*), pointer :: content
+      type(records_type), pointer :: records
 
       suite => null()
-      content => content_of(handle)
-      select type (content)
-      type is (suite_type)
-         suite => content
-      class default
-         call refuse('records', handle, error)
-      end select
+      call find_records(handle, records, error)
+      if (.not. allocated(error)) suite => records%suite
    end subroutine find_suite
 
    !> The walls of a handle
@@ -217,7 +249,7 @@ contains
       type is (walls_type)
          walls => content%wall
       class default
-         call refuse('walls', handle, error)
+         call refuse_handle('walls', handle, error)
       end select
    end subroutine find_walls
 
@@ -240,7 +272,7 @@ contains
          call find_suite(content%suite, suite, error)
          if (.not. allocated(error)) study => content%study
       class default
-         call refuse('study', handle, error)
+         call refuse_handle('study', handle, error)
       end select
    end subroutine find_study
 
@@ -261,12 +293,12 @@ contains
       type is (store_type)
          store => content
       class default
-         call refuse('store', handle, error)
+         call refuse_handle('store', handle, error)
       end select
    end subroutine find_store
 
    !> Refuse a handle
-   subroutine refuse(name, handle, error)
+   subroutine refuse_handle(name, handle, error)
       !> What it should be a handle of
       character(len=*), intent(in) :: name
       !> The handle
@@ -274,7 +306,11 @@ contains
       !> It is not
       type(error_type), allocatable, intent(out) :: error
 
-      call raise_input(error, name//': handle '//to_text(handle)//' is not valid; what it stood for was freed')
-   end subroutine refuse
+      if (handle == 0) then
+         call raise_input(error, name//': handle is not valid: it is NULL')
+      else
+         call raise_input(error, name//': handle is not valid: it is that of something else, or was freed')
+      end if
+   end subroutine refuse_handle
 
 end module dondolo_handles

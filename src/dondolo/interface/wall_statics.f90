@@ -1,0 +1,38 @@
+!> Static quantities of a wall, by name.
+module dondolo_wall_statics
+   use dondolo_kinds, only : wp
+   use dondolo_tie_statics, only : greatest_acceleration, plastic_acceleration
+   use dondolo_wall, only : wall_type
+   implicit none
+   private
+
+   public :: static_names, statics_of
+
+   !> Their names: lengths in m, angles in rad, accelerations in m/s2, p in 1/s, the support's share without unit and its tilt in
+   !> 1/s2
+   character(len=23), parameter :: static_names(12) = [character(len=23) :: 'gravity', 'radius', 'slenderness_angle', &
+      & 'frequency_parameter', 'trigger_acceleration', 'capacity_angle', 'restitution_coefficient', 'base_hinge_depth', &
+      & 'greatest_acceleration', 'plastic_acceleration', 'support_share', 'support_tilt']
+
+contains
+
+   !> Their values
+   function statics_of(wall) result(values)
+      type(wall_type), intent(in) :: wall
+      !> In the order of the names
+      real(wp) :: values(size(static_names))
+
+      real(wp) :: with_ties(2), support(2)
+
+      associate (mechanism => wall%mechanism)
+         ! Without ties both are the trigger acceleration.
+         with_ties = mechanism%trigger_acceleration()
+         if (allocated(mechanism%restraints)) with_ties = [greatest_acceleration(mechanism), plastic_acceleration(mechanism)]
+         support = 0.0_wp
+         if (allocated(wall%building)) support = [wall%building%share, wall%building%tilt]
+         values = [wall%gravity, wall%radius, wall%alpha, mechanism%frequency_parameter(), mechanism%trigger_acceleration(), &
+            & mechanism%capacity, mechanism%restitution, wall%hinge_depth, with_ties, support]
+      end associate
+   end function statics_of
+
+end module dondolo_wall_statics
