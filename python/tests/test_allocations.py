@@ -20,6 +20,7 @@ ASKED = {
     "src/dondolo/population/population_errors.f90": r"src/dondolo/population/population_errors",
     "src/dondolo/case/tasks/unite_rows.f90": r"src/dondolo/(case/tasks/unite_rows|population/unions)",
     "src/dondolo/population/store.f90": r"src/dondolo/population/store\.",
+    "src/dondolo/interface/c_records.f90": r"src/dondolo/interface/c_records",
     "python/dondolo/_fortran/curves.f90": r"python/dondolo/_fortran/curves",
     "python/dondolo/_fortran/histories.f90": r"python/dondolo/_fortran/histories",
     "python/dondolo/_fortran/record_parcel.f90": r"python/dondolo/_fortran/(record_)?parcel",
@@ -47,7 +48,8 @@ SMALL = {
     "src/dondolo/base/system/(line_reader|number_table)": "a line, or so many numbers as the reader allows",
     "src/dondolo/population/store_format": "a head, or a row, whose length is limited",
     "src/dondolo/population/variants": "some numbers for each sample, whose number is limited",
-    "python/dondolo/_fortran/handles": "places of what was uploaded, a chunk at a time",
+    "src/dondolo/interface/handles": "places of what was made, a chunk at a time",
+    "src/dondolo/interface/c_text": "a name or a path",
 }
 
 
