@@ -9,13 +9,13 @@ import dondolo as dd
 
 LEVELS = np.round(np.concatenate([0.02 * np.arange(1, 30), 0.1 * np.arange(6, 21)]), 2)
 SITE = dd.Site(ag=0.2, f0=2.5, tc_star=0.35, soil="B")
-FLOORS = {"load": [8e3, 8e3, 5e3], "load_depth": 0.4, "load_height": [3.0, 6.0, 9.0], "load_inertia": "both"}
+FLOORS = [dd.Load(force, depth=0.4, height=z, inertia="both") for force, z in ((8e3, 3.0), (8e3, 6.0), (5e3, 9.0))]
 WALLS = {
     "3 m by 0.25 m": dd.OneSidedWall(3.0, 0.25),
     "parapet, 1.5 m by 0.25 m": dd.OneSidedWall(1.5, 0.25),
     "facade, 9 m by 0.5 m": dd.OneSidedWall(9.0, 0.5),
-    "the same with three floors": dd.OneSidedWall(9.0, 0.5, **FLOORS),
-    "and a thrust of 1.5 kN/m": dd.OneSidedWall(9.0, 0.5, thrust=1.5e3, thrust_height=9.0, **FLOORS),
+    "the same with three floors": dd.OneSidedWall(9.0, 0.5, loads=FLOORS),
+    "and a thrust of 1.5 kN/m": dd.OneSidedWall(9.0, 0.5, loads=FLOORS, thrusts=[dd.Thrust(1.5e3, height=9.0)]),
 }
 
 

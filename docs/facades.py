@@ -8,10 +8,11 @@ import dondolo as dd
 
 records = dd.read_catalogue(os.environ["DONDOLO_RECORDS"] + "/italy44.csv")
 levels = np.r_[np.arange(0.02, 0.5, 0.04), np.arange(0.5, 1.51, 0.1)]
-storeys = {"section_height": [4.0, 3.5, 3.0], "section_thickness": [0.60, 0.45, 0.30], "name": "facade"}
-floors = {"load": [12e3, 12e3, 6e3], "load_height": [4.0, 7.5, 10.5], "load_depth": [0.5, 0.35, 0.2]}
-floors |= {"load_inertia": "both", "compressive_strength": 1.5e6}
-roof = {"thrust": 200.0, "thrust_height": 10.5}
+storeys = {"sections": [dd.Section(4.0, 0.60), dd.Section(3.5, 0.45), dd.Section(3.0, 0.30)], "name": "facade"}
+loads = ((12e3, 4.0, 0.5), (12e3, 7.5, 0.35), (6e3, 10.5, 0.2))
+floors = {"loads": [dd.Load(load, height=height, depth=depth, inertia="both") for load, height, depth in loads]}
+floors |= {"compressive_strength": 1.5e6}
+roof = {"thrusts": [dd.Thrust(200.0, height=10.5)]}
 house = {"building": dd.Building(0.3, storeys=3, level=0.0, building_height=10.5)}
 cases = {
     "on the ground": floors,

@@ -182,7 +182,10 @@ def bearing():
 def ties():
     """Draw a facade with two ties, and their forces as it moves out, back, and out again."""
     wall = dd.OneSidedWall(
-        9.0, 0.5, tie_height=[8.5, 5.5], tie_area=5e-5, tie_length=8.0, tie_preload=3e7, name="facade"
+        9.0,
+        0.5,
+        ties=[dd.Tie(height, area=5e-5, length=8.0, preload=3e7) for height in (8.5, 5.5)],
+        name="facade",
     )
     figure, axes = new_axes(1, 2, (9.0, 4.4), width_ratios=(1.0, 1.5))
     wall.plot(axes[0], rotation=0.5 * wall.capacity_angle)
@@ -209,10 +212,7 @@ def interlocking():
     wall = dd.OneSidedWall(
         3.0,
         0.25,
-        interlock_overlap=0.12,
-        interlock_course=0.10,
-        interlock_thickness=0.25,
-        interlock_spacing=5.0,
+        interlock=dd.Interlock(overlap=0.12, course=0.1, thickness=0.25, spacing=5.0),
         name="interlocking wall",
     )
     figure, axes = new_axes(1, 2, (9.0, 4.4), width_ratios=(1.0, 1.5))

@@ -8,14 +8,14 @@ import dondolo as dd
 
 records = dd.read_catalogue(os.environ["DONDOLO_RECORDS"] + "/italy44.csv")
 levels = np.r_[np.arange(0.05, 0.6, 0.05), np.arange(0.6, 2.01, 0.1)]
-load = {"load": 10e3, "load_depth": 0.175, "load_height": 3.0}
+load = {inertia: [dd.Load(10e3, depth=0.175, height=3.0, inertia=inertia)] for inertia in ("none", "vertical", "both")}
 cases = {
     "bare": {},
-    "load, 'none'": {**load, "load_inertia": "none"},
-    "load, 'vertical'": {**load, "load_inertia": "vertical"},
-    "load, 'both'": {**load, "load_inertia": "both"},
-    "load, 'both', impulse": {**load, "load_inertia": "both", "restitution": "impulse"},
-    "thrust 0.2": {"thrust": 200.0, "thrust_height": 3.0},
+    "load, 'none'": {"loads": load["none"]},
+    "load, 'vertical'": {"loads": load["vertical"]},
+    "load, 'both'": {"loads": load["both"]},
+    "load, 'both', impulse": {"loads": load["both"], "restitution": "impulse"},
+    "thrust 0.2": {"thrusts": [dd.Thrust(200.0, height=3.0)]},
     "hinge 10": {"hinge_depth": 0.01},
     "hinge 20": {"hinge_depth": 0.02},
     "strength": {"compressive_strength": 1e6},

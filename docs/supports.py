@@ -29,8 +29,8 @@ def strip(level: float, **more: float) -> dd.TwoBlockWall:
 
 def facade(building: dd.Building | None, tied: bool) -> dd.OneSidedWall:
     """The facade of docs/ties.md, with its tie of 2 % or without."""
-    tie = {"tie_height": 8.5, "tie_area": 5e-5, "tie_length": 8.0, "tie_preload": 3e7} if tied else {}
-    return dd.OneSidedWall(9.0, 0.5, building=building, **tie)
+    ties = [dd.Tie(8.5, area=5e-5, length=8.0, preload=3e7)] if tied else []
+    return dd.OneSidedWall(9.0, 0.5, building=building, ties=ties)
 
 
 print("| strip | θ, base alone | β | drift | θ, both supports | β | drift |")

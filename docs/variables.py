@@ -29,6 +29,9 @@ HEAD = """# Variables of a case
 What a namelist file can say, group by group; `dondolo --template` prints the same as a case that runs in the root of
 the repository. The names of the groups `&wall` and `&building` are the columns of a population, and the arguments of
 the walls and of `dd.Building` in Python too; values of a list stand in columns with numbers, `period1`, `period2` ...
+In Python the lists of a wall are parts: `tie_height`, `tie_area` ... of all ties are `height`, `area` ... of each
+`dd.Tie` in the wall's `ties`, and so for `dd.Section`, `dd.Load`, `dd.PushedMass` (`inertia_mass`), `dd.Thrust`,
+`dd.Spring` and `dd.Bed`; `dd.Interlock` has what begins with `interlock`.
 A variable without a default has no value where it is left out. An empty `only for` means all mechanisms and tasks.
 This page is written by `docs/variables.py` from the tables of properties in the sources, where ranges and defaults have
 their only home.

@@ -10,7 +10,8 @@ out = Path("out/examples")
 out.mkdir(parents=True, exist_ok=True)
 
 # %% Three floors that go with a facade of 9 m
-wall = dd.OneSidedWall(9.0, 0.5, load=[8e3, 8e3, 5e3], load_depth=0.4, load_height=[3, 6, 9], load_inertia="both")
+floors = [dd.Load(load, depth=0.4, height=height, inertia="both") for load, height in ((8e3, 3), (8e3, 6), (5e3, 9))]
+wall = dd.OneSidedWall(9.0, 0.5, loads=floors)
 site = dd.Site(ag=0.2, f0=2.5, tc_star=0.35, soil="B")
 check = dd.check_ntc(wall, site, confidence=1.35)
 records = dd.read_catalogue(data / "records" / "synthetic44.csv")

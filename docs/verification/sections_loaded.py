@@ -6,6 +6,7 @@ python sections_loaded.py EXECUTABLE RECORDS writes this section of docs/verific
 import sys
 import time
 import warnings
+from dataclasses import replace
 
 import numpy as np
 from cases import LOADED_STRIPES, LOADED_WALLS, ROOT, TABLES, read_table, reference_motions, run
@@ -21,24 +22,26 @@ PAGE = ROOT / "docs" / "verification.md"
 REPEATS = 7
 MOST = 1.5  # time per history / that of the bare wall, lanes
 
-LOAD = {"load": 10e3, "load_depth": 0.175, "load_height": 3.0}
-TOP = {"thrust": 200.0, "thrust_height": 3.0}
+LOAD = {inertia: [dd.Load(10e3, depth=0.175, height=3.0, inertia=inertia)] for inertia in ("none", "vertical", "both")}
+TOP = dd.Thrust(200.0, height=3.0)
 ONE_SIDED = {
     "bare": {},
-    "load 'none'": LOAD | {"load_inertia": "none"},
-    "load 'vertical'": LOAD | {"load_inertia": "vertical"},
-    "load 'both'": LOAD | {"load_inertia": "both"},
-    "load 'none', 600 kg/m pushed": LOAD
-    | {"load_inertia": "none", "inertia_mass": 600.0, "inertia_depth": 0.175, "inertia_height": 3.0},
-    "thrust 0.2 kN/m": TOP,
-    "thrust 0.2 kN/m, decay 1 m": TOP | {"thrust_decay": 1.0},
-    "thrust 0.2 kN/m, decay 0.05 m": TOP | {"thrust_decay": 0.05},
-    "spring 0.5 kN/m/m": {"spring": 500.0, "spring_depth": 0.0, "spring_height": 3.0},
-    "bed 0.2 kN/m2/m": {"bed": 200.0, "bed_depth": 0.25, "bed_bottom": 0.0, "bed_top": 3.0},
+    "load 'none'": {"loads": LOAD["none"]},
+    "load 'vertical'": {"loads": LOAD["vertical"]},
+    "load 'both'": {"loads": LOAD["both"]},
+    "load 'none', 600 kg/m pushed": {
+        "loads": LOAD["none"],
+        "pushed_masses": [dd.PushedMass(600.0, depth=0.175, height=3.0)],
+    },
+    "thrust 0.2 kN/m": {"thrusts": [TOP]},
+    "thrust 0.2 kN/m, decay 1 m": {"thrusts": [replace(TOP, decay=1.0)]},
+    "thrust 0.2 kN/m, decay 0.05 m": {"thrusts": [replace(TOP, decay=0.05)]},
+    "spring 0.5 kN/m/m": {"springs": [dd.Spring(500.0, depth=0.0, height=3.0)]},
+    "bed 0.2 kN/m2/m": {"beds": [dd.Bed(200.0, depth=0.25, bottom=0.0, top=3.0)]},
     "hinge at 20 mm": {"hinge_depth": 0.02},
-    "load 'vertical', 1 MPa": LOAD | {"load_inertia": "vertical", "compressive_strength": 1e6},
+    "load 'vertical', 1 MPa": {"loads": LOAD["vertical"], "compressive_strength": 1e6},
     "edge radius 20 mm": {"edge_radius": 0.02},
-    "gable": {"section_height": 3.0, "section_thickness": 0.25, "section_top_width": 0.0},
+    "gable": {"sections": [dd.Section(3.0, 0.25, top_width=0.0)]},
 }
 
 
@@ -46,15 +49,18 @@ def walls():
     """Walls by mechanism, the bare one first, and their levels [g]."""
     size = (3.0, 0.25)
     one = {
-        name: dd.OneSidedWall(**more) if "section_height" in more else dd.OneSidedWall(*size, **more)
+        name: dd.OneSidedWall(**more) if "sections" in more else dd.OneSidedWall(*size, **more)
         for name, more in ONE_SIDED.items()
     }
-    coping = {"load": 3e3, "load_depth": 0.125, "load_height": 3.0, "load_inertia": "both"}
+    coping = dd.Load(3e3, depth=0.125, height=3.0, inertia="both")
     two = {"hinge": 0.6, "overburden": 20e3}
     near, far = np.linspace(0.05, 1.0, 20), np.linspace(0.2, 4.0, 20)
     return {
         "one_sided": (one, near),
-        "free_standing": ({"bare": dd.FreeStandingWall(*size), "coping": dd.FreeStandingWall(*size, **coping)}, near),
+        "free_standing": (
+            {"bare": dd.FreeStandingWall(*size), "coping": dd.FreeStandingWall(*size, loads=[coping])},
+            near,
+        ),
         "two_block": (
             {
                 "bare": dd.TwoBlockWall(*size, hinge=0.6),

@@ -96,12 +96,12 @@ def strip(name, base, top, diaphragm=0.0):
 def facade(name, height, thickness, period, top=9 / 7, damping=0.05, tied=False):
     """A facade on the ground, as tall as the building behind it; with the 2 % tie of docs/ties.md."""
     house = House(period, 0.0, top, damping=damping)
-    tie, model = {}, None
+    ties, model = [], None
     if tied:
-        tie = {"tie_height": 8.5, "tie_area": 5e-5, "tie_length": 8.0, "tie_preload": 3e7}
+        ties = [dd.Tie(8.5, area=5e-5, length=8.0, preload=3e7)]
         stiffness = 2.06e11 * 5e-5 / 8.0
         model = Tie(8.5, stiffness, 1500.0, 9000.0, 0.02 * 8.0 - 1500.0 / stiffness)
-    wall = dd.OneSidedWall(height, thickness, building=told(house), **tie)
+    wall = dd.OneSidedWall(height, thickness, building=told(house), ties=ties)
     return Row(name, wall, Facade(height, thickness, height, model), house)
 
 

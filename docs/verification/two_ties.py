@@ -24,8 +24,7 @@ LEVELS = (0.6, 0.7, 0.8, 0.9, 1.0)
 
 def facade():
     """A facade of 9 m by 0.5 m; at 8.5 and 5.5 m a bar of 14 mm every 3 m, stressed to 30 MPa."""
-    tie = {"tie_height": [8.5, 5.5], "tie_area": 5e-5, "tie_length": 8.0, "tie_preload": 3e7}
-    return dd.OneSidedWall(9.0, 0.5, **tie)
+    return dd.OneSidedWall(9.0, 0.5, ties=[dd.Tie(height, area=5e-5, length=8.0, preload=3e7) for height in (8.5, 5.5)])
 
 
 def rows(level, records):

@@ -95,6 +95,14 @@ from dondolo.walls.mechanisms import OneSidedWall as OneSidedWall
 from dondolo.walls.mechanisms import Terms as Terms
 from dondolo.walls.mechanisms import TwoBlockWall as TwoBlockWall
 from dondolo.walls.mechanisms import Wall as Wall
+from dondolo.walls.parts import Bed as Bed
+from dondolo.walls.parts import Interlock as Interlock
+from dondolo.walls.parts import Load as Load
+from dondolo.walls.parts import PushedMass as PushedMass
+from dondolo.walls.parts import Section as Section
+from dondolo.walls.parts import Spring as Spring
+from dondolo.walls.parts import Thrust as Thrust
+from dondolo.walls.parts import Tie as Tie
 from dondolo.walls.population import Population as Population
 from dondolo.walls.population import read_population as read_population
 from dondolo.walls.sampling import sample_population as sample_population

@@ -181,9 +181,7 @@ def test_hints(tmp_path):
 def interlocked(overlap, **sizes):
     """A wall whose stones overlap those of transverse walls by so much."""
     sizes = sizes or {"height": 3.0, "thickness": 0.25}
-    return dd.OneSidedWall(
-        **sizes, interlock_overlap=overlap, interlock_course=0.1, interlock_thickness=0.25, interlock_spacing=5.0
-    )
+    return dd.OneSidedWall(**sizes, interlock=dd.Interlock(overlap=overlap, course=0.1, thickness=0.25, spacing=5.0))
 
 
 @pytest.mark.parametrize(
@@ -193,7 +191,7 @@ def interlocked(overlap, **sizes):
         (lambda: dd.TwoBlockWall(3.0, 0.3, eccentricity=0.1), [0.2], "load_place_without_load"),
         (lambda: interlocked(0.3), [0.2], "overlap_above_thickness"),
         (
-            lambda: interlocked(0.46, section_height=[2.0, 1.0], section_thickness=[0.45, 0.3]),
+            lambda: interlocked(0.46, sections=[dd.Section(2.0, 0.45), dd.Section(1.0, 0.3)]),
             [0.2],
             "overlap_above_thickness",
         ),
@@ -207,7 +205,7 @@ def test_slips_are_warned_of(make, levels, code, few):
 
 
 @pytest.mark.parametrize(
-    "wall", [interlocked(0.25), interlocked(0.44, section_height=[2.0, 1.0], section_thickness=[0.3, 0.45])]
+    "wall", [interlocked(0.25), interlocked(0.44, sections=[dd.Section(2.0, 0.3), dd.Section(1.0, 0.45)])]
 )
 def test_stones_as_long_as_the_thickness_are_usual(wall, few, recwarn):
     dd.multiple_stripe(wall, few, [0.2], progress=False)

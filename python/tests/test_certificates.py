@@ -113,8 +113,8 @@ def test_two_ties_under_recorded_motions(recorded, engine):
     """A facade with two ties, all of whose histories are in 33 digits: every third, and those not computable."""
     with open(TABLES / "two_ties_recorded.csv", newline="", encoding="utf-8") as file:
         rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-    tie = {"tie_height": [8.5, 5.5], "tie_area": 5e-5, "tie_length": 8.0, "tie_preload": 3e7}
-    wall = dd.OneSidedWall(9.0, 0.5, **tie)
+    ties = [dd.Tie(height, area=5e-5, length=8.0, preload=3e7) for height in (8.5, 5.5)]
+    wall = dd.OneSidedWall(9.0, 0.5, ties=ties)
     assert len(rows) % 44 == 0 < len(rows)
     assert sum(float(row["edp"]) >= 1.0 for row in rows) > len(rows) // 10
     sample = {"quadruple": [], "not_computable": []}

@@ -6,6 +6,7 @@ The formulas are held against worked numbers in test/test_code_check.f90.
 import csv
 import re
 import subprocess
+from dataclasses import replace
 
 import matplotlib
 import numpy as np
@@ -43,8 +44,8 @@ def test_numbers_of_a_wall():
 
 def test_ties():
     """Ties hold with their yield force up to their fracture, where d_SLV ends if they carry more than half."""
-    tie = {"tie_height": 8.5, "tie_area": 5e-5, "tie_length": 8.0, "tie_preload": 3e7}
-    wall = dd.OneSidedWall(9.0, 0.5, **tie)
+    tie = dd.Tie(8.5, area=5e-5, length=8.0, preload=3e7)
+    wall = dd.OneSidedWall(9.0, 0.5, ties=[tie])
     check = dd.check_ntc(wall, SITE)
     expected = {
         ("mechanism", "alpha_0"): 0.269496985943,
@@ -67,8 +68,8 @@ def test_ties():
         bare.value("nonlinear", "SLC", "acceleration"), rel=1e-12
     )
     # One of three that carry a third each does not end it, and those that hold beyond 0.4 d_0 do not either.
-    weak = {**tie, "tie_height": [8.5, 8.5, 8.5], "tie_strain": [0.005, 0.1, 0.1]}
-    several = dd.check_ntc(dd.OneSidedWall(9.0, 0.5, **weak), SITE)
+    weak = [replace(tie, strain=strain) for strain in (0.005, 0.1, 0.1)]
+    several = dd.check_ntc(dd.OneSidedWall(9.0, 0.5, ties=weak), SITE)
     assert several.value("nonlinear", "SLV", "displacement") == pytest.approx(
         0.4 * expected["mechanism", "d_0"], rel=1e-11
     )
@@ -80,9 +81,7 @@ def test_ties():
 
 def test_interlocking():
     """Friction F (1 - D/l) of transverse walls at a third of the height."""
-    wall = dd.OneSidedWall(
-        3.0, 0.25, interlock_overlap=0.2, interlock_course=0.1, interlock_thickness=0.3, interlock_spacing=4.0
-    )
+    wall = dd.OneSidedWall(3.0, 0.25, interlock=dd.Interlock(overlap=0.2, course=0.1, thickness=0.3, spacing=4.0))
     check = dd.check_ntc(wall, SITE)
     weight = 1800.0 * 9.81
     force = 0.4 * 30 * 31 * 0.1 * 0.2 * 0.577 * 0.3 * weight / 4.0

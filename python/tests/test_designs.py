@@ -59,8 +59,8 @@ def test_steel_and_forces(found, designs):
 
 def test_ties(few):
     """Steel of ties: area x length x density; static acceleration with all of them at yield."""
-    ties = {"tie_height": [2.8, 1.5], "tie_area": 2e-5, "tie_length": [8.0, 6.0], "tie_strength": 1.8e8}
-    designs = {"bare": dd.OneSidedWall(3.0, 0.25), "tied": dd.OneSidedWall(3.0, 0.25, **ties)}
+    ties = [dd.Tie(height, area=2e-5, length=length, strength=1.8e8) for height, length in ((2.8, 8.0), (1.5, 6.0))]
+    designs = {"bare": dd.OneSidedWall(3.0, 0.25), "tied": dd.OneSidedWall(3.0, 0.25, ties=ties)}
     found = dd.compare_designs(designs, few, LEVELS, progress=False)
     assert found.steel[1] == pytest.approx(7850.0 * 2e-5 * 14.0, rel=1e-12)
     wall = designs["bare"]

@@ -13,8 +13,12 @@ import pytest
 import dondolo as dd
 
 BUILDING = dd.Building(0.3, storeys=3, level=0.0, building_height=10.5)
-STOREYS = {"section_height": [4.0, 3.5, 3.0], "section_thickness": [0.60, 0.45, 0.30], "name": "front"}
-FLOORS = {"load": [12e3, 12e3, 6e3], "load_height": [4.0, 7.5, 10.5], "load_depth": [0.5, 0.35, 0.2]}
+STOREYS = {"sections": [dd.Section(4.0, 0.60), dd.Section(3.5, 0.45), dd.Section(3.0, 0.30)], "name": "front"}
+FLOORS = [
+    dd.Load(12e3, depth=0.5, height=4.0, inertia="both"),
+    dd.Load(12e3, depth=0.35, height=7.5, inertia="both"),
+    dd.Load(6e3, depth=0.2, height=10.5, inertia="both"),
+]
 CASE = """&job task = 'typology', output = 'out', histories = .true. /
 &wall name = 'front', mechanism = 'one_sided', section_height = 4.0, 3.5, 3.0, section_thickness = 0.6, 0.45, 0.3,
    load = 12e3, 12e3, 6e3, load_height = 4.0, 7.5, 10.5, load_depth = 0.5, 0.35, 0.2, load_inertia = 'both',
@@ -33,7 +37,7 @@ c,one_sided,3,0.3,,,1,1
 
 
 def whole(**more):
-    return dd.OneSidedWall(**STOREYS, **FLOORS, load_inertia="both", building=BUILDING, **more)
+    return dd.OneSidedWall(**STOREYS, loads=FLOORS, building=BUILDING, **more)
 
 
 def rows(path):
@@ -53,7 +57,7 @@ def test_levels():
     capacities = [wall.capacity_angle for wall in found]
     assert capacities == pytest.approx([0.0555821528209993, 0.0670409951295991, 0.0854504835372323], rel=1e-12)
     assert [wall.building.level for wall in found] == [0.0, 4.0, 7.5]
-    assert found[2].load == (6e3,)
+    assert [load.force for load in found[2].loads] == [6e3]
     assert found[0].terms(0.01) == whole().terms(0.01)
 
 
@@ -76,13 +80,13 @@ def test_leaves():
     ("make", "message"),
     [
         (lambda: dd.facade(dd.FreeStandingWall(3.0, 0.5)), "no one-sided wall"),
-        (lambda: dd.facade(dd.OneSidedWall(3.0, 0.5)), "only with section_height"),
+        (lambda: dd.facade(dd.OneSidedWall(3.0, 0.5)), "only with sections"),
         (lambda: dd.facade(whole(), hinge_level="floors"), "must be heights or 'storeys'"),
         (lambda: dd.facade(whole(), hinge_level=[]), "must be given"),
         (lambda: dd.facade(whole(), hinge_level=[4.0, 4.0]), "must increase"),
         (lambda: dd.facade(whole(), hinge_level=[12.0]), "must be less than the height of the wall, 10.5 m"),
         (lambda: whole(hinge_level=[0.0, 4.0]), "hinge_level: has 2 values"),
-        (lambda: whole(leaves=2), "load: not with leaves = 2"),
+        (lambda: whole(leaves=2), "loads: not with leaves = 2"),
         (lambda: dd.Population(tuple(dd.facade(whole())), facades=("f", "", "f")), "facade = 'f': another facade"),
         (
             lambda: dd.facade(whole()) + dd.facade(whole(), hinge_level=[1.0]),
@@ -379,15 +383,16 @@ def test_check_says_leaves(run, root, tmp_path):
 
 def test_ties_above_a_hinge():
     """Those below it, and at it, hold nothing of what is above."""
-    ties = {"tie_area": 5e-5, "tie_length": [8.0, 8.0, 6.0], "tie_depth": 0.0, "tie_strain": [0.02, 0.02, 0.05]}
-    above = dd.OneSidedWall(9.0, 0.5, tie_height=[2.5, 4.0, 8.5], hinge_level=4.0, **ties)
-    alone = dd.OneSidedWall(5.0, 0.5, tie_height=4.5, tie_area=5e-5, tie_length=6.0, tie_depth=0.0, tie_strain=0.05)
+    given = ((2.5, 8.0, 0.02), (4.0, 8.0, 0.02), (8.5, 6.0, 0.05))
+    ties = [dd.Tie(height, area=5e-5, length=length, depth=0.0, strain=strain) for height, length, strain in given]
+    above = dd.OneSidedWall(9.0, 0.5, ties=ties, hinge_level=4.0)
+    alone = dd.OneSidedWall(5.0, 0.5, ties=[dd.Tie(4.5, area=5e-05, length=6.0, depth=0.0, strain=0.05)])
     assert above.trigger_acceleration == pytest.approx(alone.trigger_acceleration, rel=1e-12)
     pulse = dd.pulses.ricker(4.0, 0.8)
     motions = [dd.simulate(wall, pulse, scale=1.0) for wall in (above, alone)]
     assert motions[0].edp == pytest.approx(motions[1].edp, rel=1e-9)
     assert 0.0 < motions[0].edp < 1.0
-    none = dd.OneSidedWall(9.0, 0.5, tie_height=2.5, hinge_level=4.0, tie_area=5e-5, tie_length=8.0)
+    none = dd.OneSidedWall(9.0, 0.5, ties=[dd.Tie(2.5, area=5e-05, length=8.0)], hinge_level=4.0)
     assert none.trigger_acceleration == dd.OneSidedWall(5.0, 0.5).trigger_acceleration
 
 

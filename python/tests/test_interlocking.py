@@ -1,5 +1,7 @@
 """Friction of transverse walls: its force, its effect at rest and in motion against another integration, refusals."""
 
+from dataclasses import replace
+
 import matplotlib
 import numpy as np
 import pytest
@@ -12,19 +14,14 @@ matplotlib.use("Agg")
 G = 9.81
 # 18 kN/m3, as the value of the force that is known
 DENSITY = 18000.0 / G
-OVERLAP = {
-    "interlock_overlap": 0.12,
-    "interlock_course": 0.10,
-    "interlock_thickness": 0.25,
-    "interlock_spacing": 5.0,
-}
+OVERLAP = dd.Interlock(overlap=0.12, course=0.10, thickness=0.25, spacing=5.0)
 # Of one transverse wall of 3 m [N]
 FORCE = 11590.776
 TIGHT = dd.Solver(rtol=1e-12, atol=1e-14)
 
 
 def wall(**more):
-    return dd.OneSidedWall(3.0, 0.25, density=DENSITY, **OVERLAP | more)
+    return dd.OneSidedWall(3.0, 0.25, density=DENSITY, **{"interlock": OVERLAP} | more)
 
 
 BARE = dd.OneSidedWall(3.0, 0.25, density=DENSITY)
@@ -145,10 +142,10 @@ def test_force_and_statics():
     assert held.capacity_angle == BARE.capacity_angle
     assert held.frequency_parameter == pytest.approx(BARE.frequency_parameter, rel=1e-12)
     # A height that whole courses do not fill
-    assert wall(interlock_course=0.11).trigger_acceleration / G == pytest.approx(
+    assert wall(interlock=replace(OVERLAP, course=0.11)).trigger_acceleration / G == pytest.approx(
         alpha + 0.4 * 27 * 28 * 0.11 * 0.12 * 0.577 * 0.25 * 18000.0 / 5.0 / (G * lever), rel=1e-12
     )
-    half = wall(interlock_friction=0.577 / 2.0)
+    half = wall(interlock=replace(OVERLAP, friction=0.577 / 2.0))
     assert half.trigger_acceleration / G - alpha == pytest.approx((expected - alpha) / 2.0, rel=1e-12)
 
 
@@ -189,7 +186,7 @@ def test_the_trigger_of_the_picture_is_that_of_the_first_motion(records):
 
 def test_limits(records):
     """Friction of nothing is no friction; it helps, and a wall that has moved starts like a bare one."""
-    nothing = wall(interlock_friction=1e-12)
+    nothing = wall(interlock=replace(OVERLAP, friction=1e-12))
     for record in records[:4]:
         bare = dd.simulate(BARE, record, solver=TIGHT, history=False)
         assert dd.simulate(nothing, record, solver=TIGHT, history=False).edp == pytest.approx(bare.edp, abs=1e-9)
@@ -223,8 +220,8 @@ def test_first_swing():
 
 def test_with_ties(records):
     """Both hold a wall: forces at rest add up, and neither knows of the other."""
-    tie = {"tie_height": 2.8, "tie_area": 1e-5, "tie_length": 6.0, "tie_preload": 2e7}
-    both, tied = wall(**tie), dd.OneSidedWall(3.0, 0.25, density=DENSITY, **tie)
+    ties = [dd.Tie(2.8, area=1e-5, length=6.0, preload=2e7)]
+    both, tied = wall(ties=ties), dd.OneSidedWall(3.0, 0.25, density=DENSITY, ties=ties)
     assert both.plastic_acceleration - tied.plastic_acceleration == pytest.approx(
         wall().plastic_acceleration - BARE.plastic_acceleration, rel=1e-12
     )
@@ -248,14 +245,14 @@ def test_tolerances(records):
 
 def test_hinge_level():
     """Above a hinge there are fewer courses."""
-    above = dd.OneSidedWall(6.0, 0.25, density=DENSITY, hinge_level=3.0, **OVERLAP)
+    above = dd.OneSidedWall(6.0, 0.25, density=DENSITY, hinge_level=3.0, interlock=OVERLAP)
     assert above.trigger_acceleration == pytest.approx(wall().trigger_acceleration, rel=1e-12)
 
 
 def test_what_the_executable_says(run, tmp_path):
     (tmp_path / "shaking.txt").write_text("0\n-3\n-3\n0\n0\n")
     (tmp_path / "records.csv").write_text("file,dt_s,units\nshaking.txt,0.1,m/s2\n")
-    words = ", ".join(f"{name} = {value}" for name, value in OVERLAP.items())
+    words = "interlock_overlap = 0.12, interlock_course = 0.1, interlock_thickness = 0.25, interlock_spacing = 5"
     case = tmp_path / "case.nml"
     case.write_text(
         f"&job task = 'stripes' output = '{tmp_path}/out' /\n&wall mechanism = 'one_sided', height = 3, "
@@ -267,17 +264,18 @@ def test_what_the_executable_says(run, tmp_path):
     assert "first motion at 0.1978 g" in plan
     run(case)
     assert not (tmp_path / "out_ties.csv").exists()
-    assert dd.read_results(tmp_path / "out").stripes.wall.interlock_overlap == 0.12
+    assert dd.read_results(tmp_path / "out").stripes.wall.interlock == OVERLAP
 
 
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [
-        ({"interlock_course": None}, "interlock_course: must be given with interlock_overlap"),
-        ({"interlock_overlap": None}, "interlock_overlap: must be given with interlock_course"),
-        ({"interlock_course": 3.5}, "interlock_course = 3.5: must be at most 3 m, the height of the wall"),
-        ({"interlock_overlap": 0.0}, "interlock_overlap = 0: must be positive"),
-        ({"leaves": 2}, "interlock_overlap: not with leaves = 2"),
+        (
+            {"interlock": replace(OVERLAP, course=3.5)},
+            r"interlock\.course = 3.5: must be at most 3 m, the height of the",
+        ),
+        ({"interlock": replace(OVERLAP, overlap=0.0)}, r"interlock\.overlap = 0: must be positive"),
+        ({"leaves": 2}, "interlock: overlap: not with leaves = 2"),
     ],
 )
 def test_refusals(change, sentence):
@@ -287,7 +285,7 @@ def test_refusals(change, sentence):
 
 def test_other_mechanisms_and_engines(records):
     with pytest.raises((dd.InputError, TypeError)):
-        dd.FreeStandingWall(3.0, 0.25, **OVERLAP)
+        dd.FreeStandingWall(3.0, 0.25, interlock=OVERLAP)
     with pytest.raises(dd.InputError, match="does not know interlock_overlap"):
         dd.multiple_stripe(wall(), records, [0.2], solver=dd.Solver(engine="lanes"), progress=False)
 

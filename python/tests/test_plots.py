@@ -200,7 +200,7 @@ def test_potential_energy_is_what_the_drawing_lifts():
         dd.TwoBlockWall(3.0, 0.25, hinge=0.6, hinge_depth=0.02),
         dd.OneSidedWall(3.0, 0.25, compressive_strength=1e6),
         dd.OneSidedWall(3.0, 0.25, edge_radius=0.03),
-        dd.OneSidedWall(section_height=[2.0, 1.5], section_thickness=[0.5, 0.3], section_offset=[0.0, 0.1]),
+        dd.OneSidedWall(sections=[dd.Section(2.0, 0.5, offset=0.0), dd.Section(1.5, 0.3, offset=0.1)]),
     ],
     ids=["two-block", "strength", "edge", "sections"],
 )
@@ -220,20 +220,14 @@ def test_drawn_storeys_rise_as_the_moment_says(wall):
 
 def test_what_a_wall_carries_is_drawn_with_its_value():
     facade = dd.OneSidedWall(
-        section_height=[4.0, 3.5],
-        section_thickness=[0.6, 0.45],
-        load=[12e3, 6e3],
-        load_height=[4.0, 7.5],
-        load_depth=[0.5, 0.35],
-        load_inertia=["both", "none"],
-        inertia_mass=500.0,
-        inertia_depth=0.2,
-        inertia_height=6.0,
-        thrust=800.0,
-        thrust_height=7.5,
-        spring=20e3,
-        spring_depth=0.6,
-        spring_height=4.0,
+        sections=[dd.Section(4.0, 0.6), dd.Section(3.5, 0.45)],
+        loads=[
+            dd.Load(12000.0, depth=0.5, height=4.0, inertia="both"),
+            dd.Load(6000.0, depth=0.35, height=7.5, inertia="none"),
+        ],
+        pushed_masses=[dd.PushedMass(500.0, depth=0.2, height=6.0)],
+        thrusts=[dd.Thrust(800.0, height=7.5)],
+        springs=[dd.Spring(20000.0, depth=0.6, height=4.0)],
         hinge_depth=0.015,
     )
     ax = facade.plot(rotation=0.0)
@@ -254,14 +248,21 @@ def test_what_a_wall_carries_is_drawn_with_its_value():
 
 
 def test_ties_are_told_with_what_is_usual():
-    wall = dd.OneSidedWall(9.0, 0.5, tie_height=[4.5, 8.0], tie_area=[5e-5, 1e-4], tie_length=8.0, tie_anchor_force=6e3)
-    usual = {"tie_modulus": 2.06e11, "tie_strength": 1.8e8, "tie_preload": 0.0, "tie_strain": 0.02, "tie_depth": 0.0}
-    assert wall.tie_modulus is None
-    given = replace(wall, **usual)
+    wall = dd.OneSidedWall(
+        9.0,
+        0.5,
+        ties=[
+            dd.Tie(4.5, area=5e-05, length=8.0, anchor_force=6000.0),
+            dd.Tie(8.0, area=0.0001, length=8.0, anchor_force=6000.0),
+        ],
+    )
+    usual = {"modulus": 2.06e11, "strength": 1.8e8, "preload": 0.0, "strain": 0.02, "depth": 0.0}
+    assert wall.ties[0].modulus is None
+    given = replace(wall, ties=[replace(tie, **usual) for tie in wall.ties])
     assert repr(wall) == repr(given)
-    assert "<td>5\N{MULTIPLICATION SIGN}10⁻⁵ 0.0001 m2/m</td>" in wall._repr_html_()
+    assert "area 5\N{MULTIPLICATION SIGN}10⁻⁵ m2/m" in wall._repr_html_()
     assert wall.greatest_acceleration == given.greatest_acceleration
-    assert "tie_modulus" not in repr(dd.OneSidedWall(9.0, 0.5))
+    assert "modulus" not in repr(dd.OneSidedWall(9.0, 0.5))
     ax = wall.plot(rotation=0.0)
     (below,) = (text.get_text() for text in ax.texts if text.get_text().startswith("Ties"))
     words = "Ties: length 8 m; modulus 206 GPa; yield stress 180 MPa; preload 0 MPa; breaks at a strain of 0.02; anchor"
@@ -274,10 +275,8 @@ def test_ties_are_told_with_what_is_usual():
 
 
 def test_friction_is_told_with_what_is_usual():
-    wall = dd.OneSidedWall(
-        6.0, 0.4, interlock_overlap=0.12, interlock_course=0.1, interlock_thickness=0.25, interlock_spacing=5.0
-    )
-    assert "interlock_friction=0.577" in repr(wall)
+    wall = dd.OneSidedWall(6.0, 0.4, interlock=dd.Interlock(overlap=0.12, course=0.1, thickness=0.25, spacing=5.0))
+    assert "friction=0.577" in repr(wall)
     assert any("coefficient 0.577" in text.get_text() for text in wall.plot().texts)
 
 

@@ -10,7 +10,9 @@ import pytest
 from dondolo._fortran.library import properties
 from dondolo._fortran.walls import WALL_EXTRAS, WALL_LISTS
 from dondolo.walls.mechanisms import MECHANISMS
+from dondolo.walls.parts import KINDS, PLACES
 from dondolo.walls.table import numbered
+from parts import with_parts
 
 import dondolo as dd
 
@@ -54,8 +56,12 @@ def test_walls(kind):
     rows = [row for row in WALL if row.name != "mechanism" and (not row.owners or kind.mechanism in row.owners)]
     rows.append(GRAVITY)
     parameters = inspect.signature(kind).parameters
-    assert set(parameters) == {row.name for row in rows} | {"building"}
+    # What lists of tables have is in parts
+    of_parts = {PLACES[row.name][0] for row in rows if row.name in PLACES}
+    rows = [row for row in rows if row.name not in PLACES]
+    assert set(parameters) == {row.name for row in rows} | of_parts | {"building"}
     said = entries(kind)
+    assert of_parts <= set(said)
     for row in rows:
         required = row.default == "required"
         # Sections give a height and a thickness too: they are asked for by Fortran
@@ -73,7 +79,9 @@ def test_defaults_of_walls(kind):
     wall = kind(3.0, 0.25)
     assert wall.building is None
     for field in dataclasses.fields(wall):
-        if field.name == "building":
+        if field.name in KINDS:
+            assert not getattr(wall, field.name)
+        if field.name in ("building", *KINDS):
             continue
         (row,) = (row for row in (*WALL, GRAVITY) if row.name == field.name)
         value = getattr(wall, row.name)
@@ -83,6 +91,65 @@ def test_defaults_of_walls(kind):
             assert value == row.default
         elif row.default != "required":
             assert value == float(row.default)
+
+
+def test_parts():
+    """Every list of a table, and what goes with it, is the field of a part, in the order of the table."""
+    words = {kind.word for kind in KINDS.values()}
+    assert [row.name for row in WALL if row.name.split("_")[0] in words] == list(PLACES)
+    for kind in KINDS.values():
+        assert kind.__name__ in dd.__all__
+        said = entries(kind)
+        for name, row in kind._rows().items():
+            assert said[name][1].startswith(row.meaning[0].upper() + row.meaning[1:].split(" if not given")[0])
+            assert row.unit == "" or f"[{row.unit}]" in said[name][1]
+
+
+@pytest.mark.parametrize("kind", KINDS.values(), ids=KINDS)
+def test_parts_keep_what_they_are_given(kind):
+    """Values of my own, one a field: as given, in words that make the same part again, and changed one by one."""
+    values = {name: row.choices[-1] if row.choices else 1.5 + i for i, (name, row) in enumerate(kind._rows().items())}
+    part = kind(**values)
+    assert {name: getattr(part, name) for name in values} == values
+    assert eval(repr(part), {one.__name__: one for one in KINDS.values()}) == part
+    for name, value in values.items():
+        other = dataclasses.replace(
+            part, **{name: values.get("inertia") and "none" if name == "inertia" else value + 1}
+        )
+        assert other != part
+        assert dataclasses.replace(other, **{name: value}) == part
+
+
+@pytest.mark.parametrize(
+    ("make", "sentence"),
+    [
+        (lambda: dd.OneSidedWall(3.0, 0.25, ties=dd.Tie(2.0, area=1e-5, length=3.0)), "must be a list of dondolo.Tie"),
+        (
+            lambda: dd.OneSidedWall(3.0, 0.25, ties=[dd.Thrust(1.0, height=2.0)]),
+            r"ties\[0\] = Thrust.*: must be a dondolo.Tie",
+        ),
+        (lambda: dd.Tie("high", area=1e-5, length=3.0), "height = 'high': must be a number"),
+        (
+            lambda: dd.OneSidedWall(
+                3.0, 0.25, loads=[dd.Load(1.0, depth=0.1, height=2.0, inertia=i) for i in ("both", None)]
+            ),
+            r"loads\[1\]\.inertia: must be given, as loads\[0\] has one",
+        ),
+        (
+            lambda: dd.OneSidedWall(3.0, 0.25, loads=[dd.Load(1.0, depth=0.1, height=2.0)]),
+            "loads: inertia: must be given",
+        ),
+        (
+            lambda: dd.OneSidedWall(
+                3.0, 0.25, hinge_depth=0.11, loads=[dd.Load(1.0, depth=0.1, height=2.0, inertia="none")]
+            ),
+            r"must be less deep than loads\[0\]\.depth = 0\.1",
+        ),
+    ],
+)
+def test_messages_name_parts(make, sentence):
+    with pytest.raises(dd.InputError, match=sentence):
+        make()
 
 
 def test_buildings():
@@ -116,12 +183,20 @@ def test_columns():
         row.column for row in WALL if row.column and (row.name not in WALL_EXTRAS or row.name == "overburden_inertia")
     ]
     assert columns[: len(own)] == own
-    loaded = dd.OneSidedWall(3.0, 0.25, load=[1e4, 2e4], load_depth=0.1, load_height=[2.0, 3.0], load_inertia="both")
+    loaded = dd.OneSidedWall(
+        3.0,
+        0.25,
+        loads=[
+            dd.Load(10000.0, depth=0.1, height=2.0, inertia="both"),
+            dd.Load(20000.0, depth=0.1, height=3.0, inertia="both"),
+        ],
+    )
     columns = list(dd.Population([wall, loaded]).to_frame().columns)
     assert [name for name in columns if name.startswith("load")] == [
         "load1_n_m",
         "load2_n_m",
         "load1_depth_m",
+        "load2_depth_m",
         "load1_height_m",
         "load2_height_m",
         "load1_inertia",
@@ -153,7 +228,9 @@ def test_what_is_not_given(records):
     for name, number in numbers.items():
         stem, other = name.split("_")[0], others.get(name, 0.7 * number)
         values = (number, [number, other] if stem == "section" else other)
-        walls = [dd.OneSidedWall(**BASES[stem], **more) for more in ({}, *({name: value} for value in values))]
+        walls = [
+            dd.OneSidedWall(**with_parts(**BASES[stem] | more)) for more in ({}, *({name: value} for value in values))
+        ]
         scale = 2.4 if stem == "tie" else 1.0
         said, given, changed = (dd.simulate(wall, records[6], scale, history=False).edp for wall in walls)
         assert said == given != changed, (name, said, given, changed)
@@ -224,3 +301,36 @@ def test_columns_of_the_template_are_read(run, tmp_path):
     row = ",".join(given.get(name, "") for name in names)
     (tmp_path / "walls.csv").write_text(f"{','.join(names)}\n{row}\n")
     assert dd.read_population(tmp_path / "walls.csv")[0] == dd.OneSidedWall(1.5, 0.25, name="a")
+
+
+def test_parts_by_every_route(few, tmp_path):
+    """The same parts in memory, in a table, in an archive and in the files of results; bits of properties too."""
+    wall = dd.OneSidedWall(
+        sections=[dd.Section(3.1, 0.52, fill=0.8), dd.Section(2.7, 0.41, fill=1.0)],
+        loads=[dd.Load(7e3, depth=0.3, height=z, lifted=1.0, pushed=part) for z, part in ((3.1, 0.25), (5.8, 0.0))],
+        pushed_masses=[dd.PushedMass(130.0, depth=0.2, height=3.0)],
+        thrusts=[dd.Thrust(150.0, height=5.7, decay=0.3)],
+        springs=[dd.Spring(900.0, depth=0.4, height=2.0)],
+        beds=[dd.Bed(70.0, depth=0.4, bottom=0.5, top=2.5)],
+        ties=[dd.Tie(5.5, area=3e-5, length=6.0), dd.Tie(3.0, area=2e-5, length=7.0, strain=0.05)],
+        interlock=dd.Interlock(overlap=0.1, course=0.2, thickness=0.4, spacing=6.0),
+        name="all",
+    )
+    # What one tie gives and the other leaves out is the usual number
+    assert [tie.strain for tie in wall.ties] == [0.02, 0.05]
+    population = dd.Population([wall, dd.OneSidedWall(3.0, 0.25, name="bare")])
+    population.to_csv(tmp_path / "walls.csv")
+    curves = dd.typology(population, few, [0.2, 0.4], progress=False)
+    curves.save(tmp_path / "walls.npz")
+    curves.write_results(tmp_path / "set")
+    others = [
+        dd.read_population(tmp_path / "walls.csv")[0],
+        dd.load(tmp_path / "walls.npz").population[0],
+        dd.read_results(tmp_path / "set").population[0],
+        dataclasses.replace(wall),
+    ]
+    for other in others:
+        assert other == wall
+        assert {of: getattr(other, of) for of in KINDS} == {of: getattr(wall, of) for of in KINDS}
+        assert other._properties() == wall._properties()
+    assert not any(getattr(dd.read_population(tmp_path / "walls.csv")[1], of) for of in KINDS)

@@ -212,12 +212,15 @@ def test_numbers_are_those_of_the_results(people, pages):
 
 def test_further_properties_stand_in_tables_as_wide_as_a_page(few, tmp_path):
     """Of the walls that have any: loads, ties and floors, words as well as numbers."""
-    load = {"load": [8e3, 4e3], "load_depth": [0.2, 0.1], "load_height": [1.0, 2.9], "load_inertia": ["both", "none"]}
-    ties = {"tie_height": 2.8, "tie_area": 2e-5, "tie_length": 8.0, "tie_strength": 1.8e8, "tie_strain": 0.02}
+    floors = [
+        dd.Load(8e3, depth=0.2, height=1.0, inertia="both"),
+        dd.Load(4e3, depth=0.1, height=2.9, inertia="none"),
+    ]
+    tie = dd.Tie(2.8, area=2e-5, length=8.0, strength=1.8e8, strain=0.02)
     walls = [
         dd.OneSidedWall(3.0, 0.3, name="bare"),
-        dd.OneSidedWall(3.0, 0.3, name="loaded", **load),
-        dd.OneSidedWall(3.0, 0.3, name="tied", **ties),
+        dd.OneSidedWall(3.0, 0.3, name="loaded", loads=floors),
+        dd.OneSidedWall(3.0, 0.3, name="tied", ties=[tie]),
     ]
     dd.report(dd.typology(walls, few, [0.2, 0.4], progress=False), tmp_path / "report.html")
     page = read(tmp_path / "report.html")
@@ -587,7 +590,7 @@ def test_the_motion_of_a_floor_is_called_so(few, tmp_path):
 
 def test_ties_are_told_whole(few, tmp_path):
     """Defaults too, in units in which they are easily read; and the one wall is drawn."""
-    wall = dd.OneSidedWall(3.0, 0.3, tie_height=2.8, tie_area=5e-5, tie_length=8.0)
+    wall = dd.OneSidedWall(3.0, 0.3, ties=[dd.Tie(2.8, area=5e-05, length=8.0)])
     dd.report(dd.multiple_stripe(wall, few, [0.4, 0.8], progress=False), tmp_path / "report.html")
     page = read(tmp_path / "report.html")
     for words in ("tie area0.5 cm2/m", "tie strength180 MPa", "tie strain0.02", "tie preload0 MPa"):

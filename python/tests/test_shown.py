@@ -85,8 +85,9 @@ def rows(thing):
 def test_every_result_is_a_table(things):
     """Of what analyses and readers return; values that are plain numbers, tuples or options have none."""
     plain = {
-        "Boundary", "Certified", "Choice", "Group", "Logistic", "Lognormal", "Normal", "Regression", "RotD", "Solver",
-        "State", "Terms", "Triangular", "Uniform", "Wall", "Window", "Work",
+        "Bed", "Boundary", "Certified", "Choice", "Group", "Interlock", "Load", "Logistic", "Lognormal", "Normal",
+        "PushedMass", "Regression", "RotD", "Section", "Solver", "Spring", "State", "Terms", "Thrust", "Tie",
+        "Triangular", "Uniform", "Wall", "Window", "Work",
     }  # fmt: skip
     kinds = {
         name for name in dd.__all__ if inspect.isclass(one := getattr(dd, name)) and not issubclass(one, BaseException)

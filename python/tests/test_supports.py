@@ -74,15 +74,17 @@ def test_motions_of_the_supports():
 
 
 def test_a_cut_facade_keeps_its_top():
-    whole = dd.OneSidedWall(section_height=[4.0, 3.5, 3.0], section_thickness=[0.6, 0.45, 0.3], building=house(0.0))
+    whole = dd.OneSidedWall(
+        sections=[dd.Section(4.0, 0.6), dd.Section(3.5, 0.45), dd.Section(3.0, 0.3)], building=house(0.0)
+    )
     parts = dd.facade(whole, hinge_level=[0.0, 4.0]).walls
     assert [part.building.level for part in parts] == [0.0, 4.0]
-    above = dd.OneSidedWall(section_height=[3.5, 3.0], section_thickness=[0.45, 0.3], building=house(4.0))
+    above = dd.OneSidedWall(sections=[dd.Section(3.5, 0.45), dd.Section(3.0, 0.3)], building=house(4.0))
     # The building ends at 9 m: the upper part leans on 5 m of it
     assert parts[1].support_share == pytest.approx(above.support_share, rel=1e-12)
     assert parts[0].support_share == whole.support_share
     held = dd.OneSidedWall(
-        section_height=[4.0, 3.5, 3.0], section_thickness=[0.6, 0.45, 0.3], building=house(0.0, level_top=0.0)
+        sections=[dd.Section(4.0, 0.6), dd.Section(3.5, 0.45), dd.Section(3.0, 0.3)], building=house(0.0, level_top=0.0)
     )
     assert [part.support_share for part in dd.facade(held, hinge_level=[0.0, 4.0]).walls] == [0.0, 0.0]
 

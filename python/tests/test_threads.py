@@ -111,8 +111,8 @@ import numpy as np
 import dondolo as dd
 
 records = [dd.Record(3.0 * np.sin(0.05 * i * np.arange(400)), 0.01, f"r{i}") for i in range(1, 9)]
-tie = dict(tie_height=2.0, tie_depth=0.25, tie_area=5e-6, tie_length=2.0)
-for wall in dd.OneSidedWall(3.0, 0.25), dd.OneSidedWall(3.0, 0.25, **tie), dd.TwoBlockWall(3.0, 0.25):
+tie = dd.Tie(2.0, depth=0.25, area=5e-6, length=2.0)
+for wall in dd.OneSidedWall(3.0, 0.25), dd.OneSidedWall(3.0, 0.25, ties=[tie]), dd.TwoBlockWall(3.0, 0.25):
     for engine in "lanes", "rk45":
         dd.multiple_stripe(wall, records, [0.2, 0.4], threads=4, progress=False, solver=dd.Solver(engine=engine))
     dd.simulate(wall, records[0])

@@ -95,7 +95,7 @@ def test_engines_move_alike(few):
 
 def test_traces_of_tied_walls(few):
     """Ties yield, break and go on after the record: what they come to is that of `rk45`."""
-    wall = dd.OneSidedWall(3.0, 0.3, tie_height=2.5, tie_area=1e-5, tie_length=5.0)
+    wall = dd.OneSidedWall(3.0, 0.3, ties=[dd.Tie(2.5, area=1e-05, length=5.0)])
     traces = check_traces(wall, few[:4], [0.5, 1.0, 2.0])
     assert any(trace.ties.broken[0] for trace in traces)
     assert any(trace.ties.plastic_elongation[0] > 0.0 and not trace.ties.broken[0] for trace in traces)

@@ -56,7 +56,7 @@ def test_names_of_tables(root):
 
 
 def test_a_set_replaces_a_larger_one(few, tmp_path):
-    tied = dd.OneSidedWall(3.0, 0.25, tie_height=2.8, tie_area=1e-4, tie_length=5.0)
+    tied = dd.OneSidedWall(3.0, 0.25, ties=[dd.Tie(2.8, area=0.0001, length=5.0)])
     for wall, has_ties in ((tied, True), (dd.OneSidedWall(3.0, 0.25), False)):
         dd.typology([wall], few, [0.2, 0.5], progress=False).write_results(tmp_path / "x")
         assert (tmp_path / "x_ties.csv").exists() == has_ties

@@ -191,23 +191,17 @@ def test_published():
 def test_one_sided_with_sections(motions):
     """What a wall has beside numbers goes on: storeys, loads, words, gravity."""
     whole = dd.OneSidedWall(
-        section_height=[1.0, 0.8],
-        section_thickness=[0.4, 0.3],
-        load=[2e3, 1e3],
-        load_height=[1.0, 1.8],
-        load_depth=0.2,
-        load_inertia=["both", "none"],
+        sections=[dd.Section(1.0, 0.4), dd.Section(0.8, 0.3)],
+        loads=[
+            dd.Load(2000.0, depth=0.2, height=1.0, inertia="both"),
+            dd.Load(1000.0, depth=0.2, height=1.8, inertia="none"),
+        ],
         gravity=9.8,
         name="front",
     )
     found = dd.uncertain_wall(whole, motions, LEVELS, sources=SOFT, count=20, progress=False)
     one = found.sample[7]
-    assert (one.section_height, one.load, one.load_inertia, one.gravity) == (
-        (1.0, 0.8),
-        (2e3, 1e3),
-        ("both", "none"),
-        9.8,
-    )
+    assert (one.sections, one.loads, one.gravity) == (whole.sections, whole.loads, 9.8)
     assert found.at_medians.theta == found.as_given.theta
     assert found.first[0] + found.rest == pytest.approx(1.0, abs=0.05)
 

@@ -78,8 +78,8 @@ def test_first_motion_by_scipy():
         dd.FreeStandingWall(3.0, 0.25),
         dd.TwoBlockWall(3.0, 0.25, hinge=0.6),
         dd.TwoBlockWall(3.0, 0.25, hinge=0.6, overburden=8e3, overburden_inertia=1.0),
-        dd.OneSidedWall(3.0, 0.25, load=1e4, load_depth=0.175, load_height=3.0, load_inertia="none"),
-        dd.OneSidedWall(3.0, 0.25, load=1e4, load_depth=0.175, load_height=3.0, load_inertia="vertical"),
+        dd.OneSidedWall(3.0, 0.25, loads=[dd.Load(10000.0, depth=0.175, height=3.0, inertia="none")]),
+        dd.OneSidedWall(3.0, 0.25, loads=[dd.Load(10000.0, depth=0.175, height=3.0, inertia="vertical")]),
         dd.OneSidedWall(1.5, 0.25, building=dd.Building(0.3, participation=1.2)),
     ],
 )

@@ -210,25 +210,22 @@ def test_wrong_weights(weights):
 def loaded_population():
     """Walls with different numbers of loads, one with sections, and a bare one."""
     facade = dd.OneSidedWall(
-        section_height=[4.0, 3.5],
-        section_thickness=[0.6, 0.45],
-        load=[12e3, 6e3],
-        load_depth=[0.5, 0.35],
-        load_height=[4.0, 7.5],
-        load_inertia=["both", "none"],
-        thrust=500.0,
-        thrust_height=7.5,
+        sections=[dd.Section(4.0, 0.6), dd.Section(3.5, 0.45)],
+        loads=[
+            dd.Load(12000.0, depth=0.5, height=4.0, inertia="both"),
+            dd.Load(6000.0, depth=0.35, height=7.5, inertia="none"),
+        ],
+        thrusts=[dd.Thrust(500.0, height=7.5)],
         compressive_strength=2e6,
     )
-    coping = dd.FreeStandingWall(2.0, 0.3, load=500.0, load_depth=0.15, load_height=2.0, load_inertia="both")
+    coping = dd.FreeStandingWall(2.0, 0.3, loads=[dd.Load(500.0, depth=0.15, height=2.0, inertia="both")])
     return dd.Population([facade, coping, dd.TwoBlockWall(3.0, 0.25)])
 
 
 def test_loads_have_a_home_in_tables_and_archives(tmp_path):
     population = loaded_population()
     assert population[0].height == 7.5
-    assert population[0].load == (12e3, 6e3)
-    assert population[0].load_inertia == ("both", "none")
+    assert [(load.force, load.inertia) for load in population[0].loads] == [(12e3, "both"), (6e3, "none")]
     population.to_csv(tmp_path / "walls.csv")
     head = (tmp_path / "walls.csv").read_text().splitlines()[0]
     assert "load1,load2,load1_depth,load2_depth" in head
@@ -247,16 +244,17 @@ def test_a_table_says_which_load_is_missing(tmp_path):
 def test_sampled_loads():
     common = {"height": 3.0, "thickness": 0.25, "load_depth": 0.175, "load_height": 3.0, "load_inertia": "both"}
     walls = dd.sample_population("one_sided", 4, 1, load=dd.Uniform(5e3, 10e3), **common)
-    assert all(5e3 < wall.load[0] < 10e3 for wall in walls)
+    assert all(5e3 < wall.loads[0].force < 10e3 for wall in walls)
     common["load_height"] = [2.0, 3.0]
-    assert dd.sample_population("one_sided", 2, 1, load=[1e3, 2e3], **common)[1].load == (1e3, 2e3)
+    loads = dd.sample_population("one_sided", 2, 1, load=[1e3, 2e3], **common)[1].loads
+    assert [(load.force, load.height) for load in loads] == [(1e3, 2.0), (2e3, 3.0)]
 
 
 @pytest.mark.parametrize(
     ("given", "message"),
     [
-        ({"section_height": [1.0, 2.0], "thickness": 0.3}, "section_thickness: must be given with section_height"),
-        ({"height": 3.0, "section_thickness": [0.3]}, "section_thickness: only with section_height"),
+        ({"height": 3.0, "sections": []}, "thickness: must be given"),
+        ({"height": 3.0, "sections": [dd.Section(2.0, 0.3)]}, "height = 3: must be 2, the sum of heights of sections"),
         ({"height": 3.0, "thickness": 0.25, "compressive_strength": 2.0}, r"at depth 3895 m.*: is it in MPa\?"),
         ({"height": 3.0, "thickness": 0.25, "hinge_depth": 200.0}, r"at depth 200 m.*0\.125 m$"),
         ({"height": 3.0, "thickness": 0.25, "compressive_strength": 2e4}, r"at depth 0\.3895 m.*0\.125 m$"),

@@ -9,6 +9,7 @@ import numpy as np
 
 from dondolo.analysis.response import Response
 from dondolo.figures import style
+from dondolo.walls.parts import parts_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -31,7 +32,7 @@ def draw_history(response: Response, ax: Iterable[Axes] | None) -> style.Panels:
     for sign in (-1.0, 1.0) if wall.two_sided else (-1.0,):
         above.axhline(sign * trigger, color=style.RED, linewidth=0.9, linestyle="--")
     # Friction resists in full only where the wall has not been.
-    name = "trigger acceleration" if getattr(wall, "interlock_overlap", None) is None else "trigger, first motion"
+    name = "trigger acceleration" if not parts_of(wall, "interlock") else "trigger, first motion"
     above.plot([], [], color=style.RED, linewidth=0.9, linestyle="--", label=name)
     above.set_ylabel(f"{response._support}\nacceleration [g]")
     style.title(above, f"{wall.name}, record {response.record.name}, scale {response.scale:.4g}")

@@ -13,9 +13,8 @@ import numpy as np
 from dondolo._base.arguments import one_of
 from dondolo._base.files import as_file
 from dondolo._base.shown import Shown
-from dondolo._fortran.buildings import BUILDING_NAMES
 from dondolo._fortran.library import constants
-from dondolo._fortran.walls import WALL_EXTRAS, WALL_LISTS, WALL_PROPERTIES, WALL_TEXTS, WALL_WORDS
+from dondolo._fortran.walls import WALL_EXTRAS, WALL_LISTS, WALL_PROPERTIES, WALL_TEXTS, WALL_WORDS, describe_wall
 from dondolo._storage.run_file import HistoryResult, RunFile, read_run_file
 from dondolo._storage.transactions import RUN_FILE, TABLES, published_run
 from dondolo.analysis.certificate import Certified
@@ -34,10 +33,9 @@ from dondolo.exchange.stored_unions import kept_unions
 from dondolo.populations.combination import combine
 from dondolo.populations.typology import Typology
 from dondolo.populations.uncertain_wall import UncertainWall
-from dondolo.records.building import building_from
 from dondolo.records.record import Record
 from dondolo.retrofit.designs import DesignComparison
-from dondolo.walls.mechanisms import MECHANISMS
+from dondolo.walls.mechanisms import MECHANISMS, wall_from
 from dondolo.walls.population import Population
 from dondolo.walls.table import numbered
 from dondolo.walls.wall import Wall
@@ -254,9 +252,8 @@ def _population(table: ResultFile, gravity: float) -> Population:
         given |= {argument: values for column, argument in lists.items() if (values := _list(table, column, i))}
         try:
             one_of("mechanism", kind, MECHANISMS)
-            given |= {"name": name, "restitution": table.texts("restitution_model")[i], "gravity": gravity}
-            building = building_from({name: given.pop(name, None) for name in BUILDING_NAMES})
-            walls.append(MECHANISMS[kind](**given, building=building))
+            given |= {"name": name, "restitution": table.texts("restitution_model")[i]}
+            walls.append(wall_from(describe_wall(given | {"mechanism": kind}, gravity)))
         except (TypeError, ValueError) as error:
             raise ValueError(f"{table.place(i)}: {error}") from error
     weights, p_occ = table.numbers("weight"), table.numbers("p_occ")

@@ -12,6 +12,7 @@ from dondolo.analysis.stripes import Stripes
 from dondolo.populations.typology import Typology
 from dondolo.reporting.content import Piece, Table, level_unit
 from dondolo.reporting.numerals import number, percent
+from dondolo.walls.parts import parts_of
 from dondolo.walls.ties import number_of_ties, states_of_ties
 from dondolo.walls.wall import Wall
 
@@ -39,9 +40,9 @@ def _tables(
 ) -> dict[str, Any]:
     """Tables with a row a tie and a column a level, as many as a page is wide."""
     names = [
-        f"{wall.name}, tie {tie + 1} at {wall.tie_height[tie]:g} m"  # type: ignore[attr-defined]
+        f"{wall.name}, tie {number} at {tie.height:g} m"
         for wall in walls
-        for tie in range(number_of_ties(wall))
+        for number, tie in enumerate(parts_of(wall, "ties"), 1)
     ]
     tables = []
     for what, shares in (("stretch each tie for good", yielded), ("break each tie", broken)):

@@ -24,6 +24,7 @@ from dondolo.errors import InputError, silent
 from dondolo.records.codes import Site
 from dondolo.records.record import Record
 from dondolo.records.record_set import lasting
+from dondolo.walls.parts import parts_of
 from dondolo.walls.wall import Wall
 
 if TYPE_CHECKING:
@@ -280,6 +281,4 @@ def _against(curve: Fragility, first: Fragility, confidence: float) -> Compariso
 
 def _steel(wall: Wall) -> float:
     """Mass of the ties of a wall [kg/m]."""
-    heights = np.ravel(getattr(wall, "tie_height", None) or ())
-    area, length = (np.ravel(getattr(wall, name, None) or 0.0) for name in ("tie_area", "tie_length"))
-    return float(_DENSITY * (area * length * np.ones(len(heights))).sum())
+    return _DENSITY * float(sum(tie.area * tie.length for tie in parts_of(wall, "ties")))

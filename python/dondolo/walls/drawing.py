@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from dondolo.figures import style
 from dondolo.walls.drawing_loads import caption, draw_loads
 from dondolo.walls.mechanisms import TwoBlockWall
+from dondolo.walls.parts import parts_of
 from dondolo.walls.shape import shape
 from dondolo.walls.wall import Wall
 
@@ -66,9 +67,8 @@ def draw_surroundings(ax: Axes, wall: Wall) -> None:
 def _free_height(wall: Wall) -> float:
     """Height in the middle of the largest part behind the wall where no label of what holds it stands."""
     taken = [0.0, wall.height]
-    for what in ("tie_height", "thrust_height", "spring_height"):
-        taken += getattr(wall, what, None) or ()
-    if getattr(wall, "interlock_overlap", None) is not None:
+    taken += [part.height for of in ("ties", "thrusts", "springs") for part in parts_of(wall, of)]
+    if parts_of(wall, "interlock"):
         taken.append(wall.height / 3.0)
     taken.sort()
     gap, bottom = max((above - below, below) for below, above in pairwise(taken))

@@ -14,6 +14,7 @@ import numpy as np
 
 from dondolo.figures import style
 from dondolo.walls.mechanisms import TwoBlockWall
+from dondolo.walls.parts import parts_of
 from dondolo.walls.shape import Points, Shape, moved, storeys
 from dondolo.walls.wall import Wall, effective_property
 
@@ -67,29 +68,32 @@ def draw_loads(ax: Axes, wall: Wall, rotation: float, now: Shape) -> None:
             part = 0.5 + wall.eccentricity / wall.thickness
             _arrow_down(ax, other + part * (active - other), size, words, is_mass=lifted > 0.0)
         return
-    for load, depth, height, *parts in _things(wall, "load", "depth", "height", "inertia", "lifted", "pushed"):
-        lifted, pushed = _PARTS[parts[0]] if parts[0] else parts[1:]
-        words = f"{_with_prefix(load, 'N/m')} {_in_words(lifted, pushed)}"
-        _arrow_down(ax, _place(wall, depth, height, rotation), size, words, is_mass=lifted > 0.0)
-    for mass, depth, height in _things(wall, "inertia_mass", "depth", "height"):
-        at = _place(wall, depth, height, rotation)
+    for load in parts_of(wall, "loads"):
+        lifted, pushed = _PARTS[load.inertia] if load.inertia else (load.lifted, load.pushed)
+        words = f"{_with_prefix(load.force, 'N/m')} {_in_words(lifted, pushed)}"
+        _arrow_down(ax, _place(wall, load.depth, load.height, rotation), size, words, is_mass=lifted > 0.0)
+    for mass in parts_of(wall, "pushed_masses"):
+        at = _place(wall, mass.depth, mass.height, rotation)
         ax.plot(*at, marker="s", color=style.BLACK, markersize=7, zorder=5)
-        _words(ax, at, f"{mass:.4g} kg/m pushed", (9, -3))
-    for thrust, depth, height in _things(wall, "thrust", "depth", "height"):
-        at = _place(wall, _inner_face(wall, height) if depth is None else depth, height, rotation)
+        _words(ax, at, f"{mass.mass:.4g} kg/m pushed", (9, -3))
+    for thrust in parts_of(wall, "thrusts"):
+        depth = _inner_face(wall, thrust.height) if thrust.depth is None else thrust.depth
+        at = _place(wall, depth, thrust.height, rotation)
         arrow = {"arrowstyle": "-|>", "color": style.RED, "linewidth": 1.8}
         ax.annotate("", tuple(at), tuple(np.subtract(at, (1.4 * size, 0.0))), arrowprops=arrow, zorder=5)
-        _words(ax, np.subtract(at, (1.4 * size, 0.0)), f"{_with_prefix(thrust, 'N/m')} thrust", (0, 4), ha="center")
-    for stiffness, depth, height in _things(wall, "spring", "depth", "height"):
-        _spring(ax, wall, _place(wall, depth, height, rotation), size, _with_prefix(stiffness, "N/m²"))
-    for height, depth, area in _things(wall, "tie_height", "depth", "area"):
-        _tie(ax, _place(wall, depth or 0.0, height, rotation), size, f"tie {1e4 * area:.3g} cm²/m")
-    if overlap := getattr(wall, "interlock_overlap", None):
-        _teeth(ax, wall, overlap, rotation)
-    for stiffness, depth, bottom, top in _things(wall, "bed", "depth", "bottom", "top"):
-        for height in np.linspace(bottom, top, 5):
-            words = f"{_with_prefix(stiffness, 'N/m³')}" if height == bottom else ""
-            _spring(ax, wall, _place(wall, depth, float(height), rotation), size, words)
+        words = f"{_with_prefix(thrust.force, 'N/m')} thrust"
+        _words(ax, np.subtract(at, (1.4 * size, 0.0)), words, (0, 4), ha="center")
+    for spring in parts_of(wall, "springs"):
+        at = _place(wall, spring.depth, spring.height, rotation)
+        _spring(ax, wall, at, size, _with_prefix(spring.stiffness, "N/m²"))
+    for tie in parts_of(wall, "ties"):
+        _tie(ax, _place(wall, tie.depth or 0.0, tie.height, rotation), size, f"tie {1e4 * tie.area:.3g} cm²/m")
+    for stones in parts_of(wall, "interlock"):
+        _teeth(ax, wall, stones, rotation)
+    for bed in parts_of(wall, "beds"):
+        for height in np.linspace(bed.bottom, bed.top, 5):
+            words = _with_prefix(bed.stiffness, "N/m³") if height == bed.bottom else ""
+            _spring(ax, wall, _place(wall, bed.depth, float(height), rotation), size, words)
 
 
 def caption(wall: Wall) -> list[str]:
@@ -124,9 +128,9 @@ def _tie(ax: Axes, at: Points, size: float, text: str) -> None:
     _words(ax, behind, text, (0, 3))
 
 
-def _teeth(ax: Axes, wall: Wall, overlap: float, rotation: float) -> None:
+def _teeth(ax: Axes, wall: Wall, stones: Any, rotation: float) -> None:
     """Stones that overlap those of a transverse wall; every tooth is several courses where they would not be seen."""
-    step = wall.height / min(24, max(2, int(wall.height / wall.interlock_course)))  # type: ignore[attr-defined]
+    step, overlap = wall.height / min(24, max(2, int(wall.height / stones.course))), stones.overlap
     for bottom in np.arange(0.0, wall.height - 1.5 * step, 2.0 * step):
         inner = _inner_face(wall, bottom + 0.5 * step)
         corners = [(inner, bottom), (inner + overlap, bottom), (inner + overlap, bottom + step), (inner, bottom + step)]
@@ -134,14 +138,6 @@ def _teeth(ax: Axes, wall: Wall, overlap: float, rotation: float) -> None:
         ax.fill(*np.transpose(places), facecolor=style.BRICK, edgecolor=style.BLACK, linewidth=0.8, zorder=3)
     at = _place(wall, _inner_face(wall, wall.height / 3.0) + overlap, wall.height / 3.0, rotation)
     _words(ax, at, "friction", (-4, -4), ha="right")
-
-
-def _things(wall: Wall, what: str, *more: str) -> list[tuple[Any, ...]]:
-    """The value of each thing of a kind, and what belongs to it; None for what is not given."""
-    values = getattr(wall, what, None) or ()
-    stem = what.split("_", 1)[0]
-    columns = [getattr(wall, f"{stem}_{name}", None) or (None,) for name in more]
-    return list(zip(values, *(c * len(values) if len(c) == 1 else c for c in columns), strict=True))
 
 
 def _in_words(lifted: float, pushed: float) -> str:

@@ -8,10 +8,10 @@ from typing import Literal
 import numpy as np
 
 from dondolo._base.arguments import as_array, instance_of
-from dondolo._fortran.walls import describe_wall
 from dondolo.errors import InputError
 from dondolo.walls.mechanisms import OneSidedWall, wall_from
 from dondolo.walls.population import Population
+from dondolo.walls.wall import described
 
 
 def facade(wall: OneSidedWall, *, hinge_level: Sequence[float] | Literal["storeys"] = "storeys") -> Population:
@@ -43,7 +43,8 @@ def facade(wall: OneSidedWall, *, hinge_level: Sequence[float] | Literal["storey
     Examples
     --------
     >>> import dondolo as dd
-    >>> whole = dd.OneSidedWall(section_height=[4.0, 3.5, 3.0], section_thickness=[0.6, 0.45, 0.3], name="front")
+    >>> storeys = [dd.Section(4.0, 0.6), dd.Section(3.5, 0.45), dd.Section(3.0, 0.3)]
+    >>> whole = dd.OneSidedWall(sections=storeys, name="front")
     >>> [wall.name for wall in dd.facade(whole)]
     ['front at 0 m', 'front at 4 m', 'front at 7.5 m']
     """
@@ -51,10 +52,9 @@ def facade(wall: OneSidedWall, *, hinge_level: Sequence[float] | Literal["storey
     if isinstance(hinge_level, str):
         if hinge_level != "storeys":
             raise InputError(f"hinge_level = {hinge_level!r}: must be heights or 'storeys'")
-        heights = wall.section_height
-        if heights is None:
-            raise InputError("hinge_level = 'storeys': only with section_height, the heights of the storeys")
-        levels = np.append(0.0, np.cumsum(np.atleast_1d(heights))[:-1])
+        if not wall.sections:
+            raise InputError("hinge_level = 'storeys': only with sections")
+        levels = np.append(0.0, np.cumsum([section.height for section in wall.sections])[:-1])
     else:
         levels = as_array("hinge_level", hinge_level)
     if len(levels) == 0:
@@ -64,5 +64,5 @@ def facade(wall: OneSidedWall, *, hinge_level: Sequence[float] | Literal["storey
     properties, walls = wall._properties(), []
     for level in levels.tolist():
         own = {"hinge_level": [level], "name": f"{wall.name} at {np.format_float_positional(level, trim='-')} m"}
-        walls.append(wall_from(describe_wall(properties | own, wall.gravity)))
+        walls.append(wall_from(described(properties | own, wall.gravity)))
     return Population(tuple(walls), facades=(wall.name,) * len(walls))

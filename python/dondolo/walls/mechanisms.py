@@ -8,25 +8,18 @@ from typing import ClassVar, Literal
 
 from dondolo._fortran.walls import WallData
 from dondolo._storage.saved import part_of_results
+from dondolo.walls.parts import Bed, Interlock, Load, PushedMass, Section, Spring, Thrust, Tie
 from dondolo.walls.wall import DEFAULT, Terms, Wall
 
 # What the package exports of the walls: a new mechanism is added here alone
 __all__ = ["FreeStandingWall", "OneSidedWall", "Terms", "TwoBlockWall", "Wall"]
-
-# One value or several
-Values = float | Sequence[float] | None
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)
 class BlockWall(Wall):
     """What walls of one block share: storeys, the hinge, and what they carry."""
 
-    section_height: Values = None
-    section_thickness: Values = None
-    section_fill: Values = None
-    section_offset: Values = None
-    section_base_width: Values = None
-    section_top_width: Values = None
+    sections: Sequence[Section] = ()
     mass: float | None = None
     centroid_depth: float | None = None
     centroid_height: float | None = None
@@ -35,27 +28,11 @@ class BlockWall(Wall):
     compressive_strength: float | None = None
     stress_block: float | None = None
     edge_radius: float | None = None
-    load: Values = None
-    load_depth: Values = None
-    load_height: Values = None
-    load_inertia: str | Sequence[str] | None = None
-    load_lifted: Values = None
-    load_pushed: Values = None
-    load_seat: Values = None
-    inertia_mass: Values = None
-    inertia_depth: Values = None
-    inertia_height: Values = None
-    thrust: Values = None
-    thrust_depth: Values = None
-    thrust_height: Values = None
-    thrust_decay: Values = None
-    spring: Values = None
-    spring_depth: Values = None
-    spring_height: Values = None
-    bed: Values = None
-    bed_depth: Values = None
-    bed_bottom: Values = None
-    bed_top: Values = None
+    loads: Sequence[Load] = ()
+    pushed_masses: Sequence[PushedMass] = ()
+    thrusts: Sequence[Thrust] = ()
+    springs: Sequence[Spring] = ()
+    beds: Sequence[Bed] = ()
 
 
 @part_of_results
@@ -85,18 +62,8 @@ class OneSidedWall(BlockWall):
         Name in the results, 'wall' if left out.
     building : Building, optional
         What the wall stands on, where that is not the ground: its floor moves as the building makes it.
-    section_height : float or sequence of float, optional
-        Heights of the storeys from the bottom, instead of height [m].
-    section_thickness : float or sequence of float, optional
-        Their thicknesses, instead of thickness [m].
-    section_fill : float or sequence of float, optional
-        Part of each storey that is masonry, 1 if not given.
-    section_offset : float or sequence of float, optional
-        Depth of the outer face of each storey behind that of the lowest, 0 if not given [m].
-    section_base_width : float or sequence of float, optional
-        Width of each elevation at its bottom / width that values per metre refer to, 1 if not given.
-    section_top_width : float or sequence of float, optional
-        The same at its top, as at its bottom if not given; 0 for a gable.
+    sections : sequence of Section, optional
+        Storeys from the bottom, instead of height and thickness.
     leaves : float, optional
         Number of equal leaves that nothing connects: each rocks alone with its part of the thickness.
     hinge_level : float, optional
@@ -120,77 +87,20 @@ class OneSidedWall(BlockWall):
         Stress in the compressed part of the base / that strength, 0.85 if not given.
     edge_radius : float, optional
         Radius of the edge that the wall rolls on, which is also the depth of its hinge at rest [m].
-    load : float or sequence of float, optional
-        Vertical loads that go with the wall, per metre of wall [N/m].
-    load_depth : float or sequence of float, optional
-        Depth of each load behind the outer face [m].
-    load_height : float or sequence of float, optional
-        Height of each load above the base [m].
-    load_inertia : {'none', 'vertical', 'both'} or sequence of them, optional
-        Which mass of each load the wall moves: 'none' is a dead force, 'vertical' a mass that other walls hold
-        sideways, 'both' one that the wall pushes too (docs/loads.md); one for all loads or one for each.
-    load_lifted : float or sequence of float, optional
-        Part of each load whose mass the wall lifts, with load_pushed instead of load_inertia.
-    load_pushed : float or sequence of float, optional
-        Part of each load whose mass the wall pushes.
-    load_seat : float or sequence of float, optional
-        Horizontal travel at which each load loses its seat [m].
-    inertia_mass : float or sequence of float, optional
-        Masses that the wall pushes and does not carry, per metre of wall [kg/m].
-    inertia_depth : float or sequence of float, optional
-        Depth of each of them behind the outer face [m].
-    inertia_height : float or sequence of float, optional
-        Height of each of them above the base [m].
-    thrust : float or sequence of float, optional
-        Horizontal forces outwards, per metre of wall [N/m].
-    thrust_depth : float or sequence of float, optional
-        Depth of each thrust behind the outer face, the inner face if not given [m].
-    thrust_height : float or sequence of float, optional
-        Height of each thrust above the base [m].
-    thrust_decay : float or sequence of float, optional
-        Travel over which each thrust falls to 1/e, constant if not given [m].
-    spring : float or sequence of float, optional
-        Stiffness of springs that pull and push, per metre of wall [N/m2].
-    spring_depth : float or sequence of float, optional
-        Depth of each spring behind the outer face [m].
-    spring_height : float or sequence of float, optional
-        Height of each spring above the base [m].
-    bed : float or sequence of float, optional
-        Stiffness of springs spread over a height, per metre of wall and of height [N/m3].
-    bed_depth : float or sequence of float, optional
-        Depth of each bed behind the outer face [m].
-    bed_bottom : float or sequence of float, optional
-        Height at which each bed begins [m].
-    bed_top : float or sequence of float, optional
-        Height at which each bed ends [m].
-    tie_height : float or sequence of float, optional
-        Height of the anchor of each tie above the base [m].
-    tie_depth : float or sequence of float, optional
-        Depth of each anchor behind the outer face, 0 if not given [m].
-    tie_area : float or sequence of float, optional
-        Section of each tie per metre of wall: that of a bar / distance of two bars [m2/m].
-    tie_length : float or sequence of float, optional
-        Length of each tie that is free to stretch, as a rule up to its other anchor [m].
-    tie_modulus : float or sequence of float, optional
-        Modulus of elasticity of each tie, 2.06e11 if not given [Pa].
-    tie_strength : float or sequence of float, optional
-        Yield stress of each tie, 1.8e8 if not given [Pa].
-    tie_preload : float or sequence of float, optional
-        Stress of each tie at rest, less than its yield stress, 0 if not given [Pa].
-    tie_strain : float or sequence of float, optional
-        Strain of each tie at which it or its anchorage breaks, 0.02 if not given.
-    tie_anchor_force : float or sequence of float, optional
-        Force per metre of wall at which each anchor gives way at once; none if not given [N/m].
-    interlock_overlap : float, optional
-        Length by which stones of the wall overlap those of transverse walls, whose friction holds it [m].
-    interlock_course : float, optional
-        Height of a course there [m].
-    interlock_thickness : float, optional
-        Thickness of a transverse wall [m].
-    interlock_spacing : float, optional
-        Distance of two transverse walls [m].
-    interlock_friction : float, optional
-        Coefficient of friction in the overlaps, 0.577 if not given.
+    loads : sequence of Load, optional
+        Vertical loads that go with the wall.
+    pushed_masses : sequence of PushedMass, optional
+        Masses that the wall pushes and does not carry.
+    thrusts : sequence of Thrust, optional
+        Horizontal forces outwards.
+    springs : sequence of Spring, optional
+        Springs that pull and push.
+    beds : sequence of Bed, optional
+        Springs spread over a height.
+    ties : sequence of Tie, optional
+        Ties that hold the wall.
+    interlock : Interlock, optional
+        Stones that overlap those of transverse walls, whose friction holds the wall.
 
     Raises
     ------
@@ -200,8 +110,7 @@ class OneSidedWall(BlockWall):
     Notes
     -----
     Equation (1) of Nale et al.; docs/theory.md, section 2. Depths are measured from the outer face of the base, towards
-    which the wall falls, heights from the base. What belongs to several loads is a value for each, or, except for
-    heights, one for all; which inertia to choose is the subject of docs/loads.md.
+    which the wall falls, heights from the base.
 
     Examples
     --------
@@ -215,12 +124,8 @@ class OneSidedWall(BlockWall):
     >>> facade = dd.OneSidedWall(
     ...     3.0,
     ...     0.25,
-    ...     load=10e3,
-    ...     load_depth=0.175,
-    ...     load_height=3.0,
-    ...     load_inertia="both",
-    ...     thrust=200.0,
-    ...     thrust_height=3.0,
+    ...     loads=[dd.Load(10e3, depth=0.175, height=3.0, inertia="both")],
+    ...     thrusts=[dd.Thrust(200.0, height=3.0)],
     ... )
     >>> round(facade.trigger_acceleration / facade.gravity, 4)
     0.0563
@@ -229,20 +134,8 @@ class OneSidedWall(BlockWall):
     mechanism: ClassVar[str] = "one_sided"
 
     _: KW_ONLY
-    tie_height: Values = None
-    tie_depth: Values = None
-    tie_area: Values = None
-    tie_length: Values = None
-    tie_modulus: Values = None
-    tie_strength: Values = None
-    tie_preload: Values = None
-    tie_strain: Values = None
-    tie_anchor_force: Values = None
-    interlock_overlap: float | None = None
-    interlock_course: float | None = None
-    interlock_thickness: float | None = None
-    interlock_spacing: float | None = None
-    interlock_friction: float | None = None
+    ties: Sequence[Tie] = ()
+    interlock: Interlock | None = None
     leaves: float | None = None
     hinge_level: InitVar[float | Sequence[float] | None] = None
     hinge_at: InitVar[Literal["storeys"] | None] = None

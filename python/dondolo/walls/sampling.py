@@ -16,7 +16,7 @@ import numpy as np
 from dondolo._base.arguments import FloatArray, as_count, as_number, one_of
 from dondolo._fortran.buildings import BUILDING_NAMES
 from dondolo._fortran.library import as_text, constants
-from dondolo._fortran.walls import WALL_LISTS, WALL_NUMBERS, WALL_TEXTS, describe_walls
+from dondolo._fortran.walls import WALL_LISTS, WALL_NUMBERS, WALL_PROPERTIES, WALL_TEXTS, describe_walls
 from dondolo.errors import InputError
 from dondolo.walls.distributions import Distribution, no_distribution
 from dondolo.walls.mechanisms import MECHANISMS, wall_from
@@ -27,6 +27,7 @@ Samples = Mapping[str, FloatArray]
 Property = float | str | Distribution | Callable[[Samples], Any]
 
 _TEXTS = tuple(what for what in WALL_TEXTS if what not in ("name", "mechanism"))
+_OWNERS = {row.name: row.owners for row in WALL_PROPERTIES if row.owners and row.name not in BUILDING_NAMES}
 _PROPERTIES = (*WALL_NUMBERS, *_TEXTS, "weight", "p_occ")
 # After so many the order hardly changes any more
 _PASSES = 5
@@ -200,7 +201,7 @@ def _check_properties(own: Mapping[str, Mapping[str, Property]], properties: Map
                 raise InputError(f"{what} = {value!r}: must be a {'text' if what in _TEXTS else 'number'}")
         for kind in [mechanism] if mechanism else own:
             for what in extra:
-                if what not in ("weight", "p_occ", *BUILDING_NAMES, *MECHANISMS[kind].__dataclass_fields__):
+                if kind not in _OWNERS.get(what, (kind,)):
                     raise InputError(f"{what}: {kind} walls have none; give it to the mechanism that has it")
 
 

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from dondolo.walls.mechanisms import TwoBlockWall
+from dondolo.walls.parts import Section, parts_of
 from dondolo.walls.wall import Wall
 
 Points = np.ndarray[Any, np.dtype[np.float64]]
@@ -80,22 +81,15 @@ def storeys(wall: Wall) -> list[Points]:
     list of ndarray, shape (4, 2)
         Corners of each from the bottom [m], as in `Shape.blocks`.
     """
-    heights = getattr(wall, "section_height", None) or (wall.height,)
+    sections = parts_of(wall, "sections") or (Section(wall.height, wall.thickness),)
     leaves = getattr(wall, "leaves", None) or 1.0
     found = []
     bottom = 0.0
-    for i, height in enumerate(heights):
-        thickness, offset = (
-            value[min(i, len(value) - 1)]
-            for value in (
-                getattr(wall, "section_thickness", None) or (wall.thickness,),
-                getattr(wall, "section_offset", None) or (0.0,),
-            )
-        )
-        thickness /= leaves
-        left = wall.thickness - offset - thickness
-        found.append(np.add(_rectangle(thickness, height), (left, bottom)))
-        bottom += height
+    for section in sections:
+        thickness = section.thickness / leaves
+        left = wall.thickness - (section.offset or 0.0) - thickness
+        found.append(np.add(_rectangle(thickness, section.height), (left, bottom)))
+        bottom += section.height
     return found
 
 

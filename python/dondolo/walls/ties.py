@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray
 from dondolo._fortran.walls import tie_states
+from dondolo.walls.parts import parts_of
 from dondolo.walls.wall import Wall, upload
 
 
@@ -32,7 +33,7 @@ class TieStates(NamedTuple):
 
 def number_of_ties(wall: Wall) -> int:
     """How many ties a wall has."""
-    return len(getattr(wall, "tie_height", None) or ())
+    return len(parts_of(wall, "ties"))
 
 
 def states_of_ties(wall: Wall, edp: ArrayLike) -> TieStates:

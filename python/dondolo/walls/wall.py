@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import dataclasses
+from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
 
@@ -28,6 +29,7 @@ from dondolo._fortran.walls import (
 from dondolo._storage import tables
 from dondolo.errors import InputError
 from dondolo.records.building import Building, building_from
+from dondolo.walls.parts import KINDS, PLACES, in_whole, named_by_parts, parts_from, parts_of, properties_of_parts
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -35,8 +37,9 @@ if TYPE_CHECKING:
 # What is left out gets its value from Fortran; from then on it is there.
 DEFAULT: Any = None
 
-# What the others of its kind go with
-_FIRST = {"tie": "tie_height", "interlock": "interlock_overlap"}
+# What walls without parts share
+_NO_LISTS: dict[str, Any] = {}
+
 _GREEK = (("R", "radius", "m"), ("alpha", "slenderness_angle", "rad"), ("p", "frequency_parameter", "rad/s"))
 
 
@@ -93,13 +96,15 @@ class Wall:
             raise TypeError("Wall has no mechanism: use OneSidedWall, FreeStandingWall or TwoBlockWall")
         if self.building is not None:
             instance_of("building", self.building, Building, "no building")
+        lists = properties_of_parts(self)
+        object.__setattr__(self, "_lists", lists)
         properties = self._properties() | more
         for row in WALL_PROPERTIES:
             word = properties[row.name]
             # The library reads words in any case, as its files may have them; those of a program are exact.
             if row.choices and isinstance(word, str) and word != word.lower():
                 one_of(row.name, word, row.choices)
-        data = describe_wall(properties, self.gravity)
+        data = described(properties, self.gravity)
         if more.get("hinge_level") is not None:
             # The wall above a hinge is on a floor of its own.
             del self.__dict__["building"]
@@ -114,6 +119,9 @@ class Wall:
         own = {field.name for field in dataclasses.fields(self)}
         filled: dict[str, Any] = {what: value for what, value in data.properties.items() if what in own}
         filled |= {"gravity": data.gravity, "_statics": data.statics, "_two_sided": data.two_sided}
+        lists = {what: value for what, value in data.properties.items() if what in PLACES and value is not None}
+        filled |= {of: parts for of, parts in parts_from(lists).items() if of in own}
+        filled["_lists"] = lists or _NO_LISTS
         if "building" not in self.__dict__:
             filled["building"] = building_from(data.properties)
         for what, value in filled.items():
@@ -294,18 +302,32 @@ class Wall:
 
     def _facts(self) -> list[tuple[str, str]]:
         """What a reader wants to know, name and text."""
-        own = [(field.name, effective_property(self, field.name)) for field in dataclasses.fields(self)]
-        facts = [(what, _in_words(value)) for what, value in own if what != "name" and value is not None]
+        own = {field.name: getattr(self, field.name) for field in dataclasses.fields(self) if field.name != "name"}
+        facts = [(what, _in_words(value)) for what, value in own.items() if value is not None and what not in KINDS]
         facts += [(letter, f"{getattr(self, what):.6g} {unit}") for letter, what, unit in _GREEK]
         trigger = f"{self.trigger_acceleration:.6g} m/s2 ({self.trigger_acceleration / self.gravity:.4g} g)"
         return [*facts, ("trigger", trigger), ("speed ratio", f"{self.restitution_coefficient:.6g}")]
 
+    def _parts(self) -> dict[str, list[Any]]:
+        """Its parts as it is computed with, by the names that it has for them."""
+        return {of: [(part, in_whole(part)) for part in parts] for of in KINDS if (parts := parts_of(self, of))}
+
     def __repr__(self) -> str:
-        facts = ", ".join(f"{what}={text}" for what, text in self._facts())
-        return f"<{type(self).__name__} {self.name!r}: {facts}>"
+        facts = [f"{what}={text}" for what, text in self._facts()]
+        for of, parts in self._parts().items():
+            words = (
+                f"{type(part).__name__}({', '.join(f'{what}={text}' for what, _, text in own)})" for part, own in parts
+            )
+            facts.append(f"{of}=[{', '.join(words)}]")
+        return f"<{type(self).__name__} {self.name!r}: {', '.join(facts)}>"
 
     def _repr_html_(self) -> str:
-        return html_of(f"{type(self).__name__} '{self.name}'", with_units("wall", self._facts()))
+        facts = with_units("wall", self._facts())
+        for of, parts in self._parts().items():
+            for number, (_, own) in enumerate(parts, 1):
+                values = (f"{what} {with_units('wall', [(name, text)])[0][1]}" for what, name, text in own)
+                facts.append((f"{of} {number}", ", ".join(values)))
+        return html_of(f"{type(self).__name__} '{self.name}'", facts)
 
     def to_frame(self) -> Any:
         """The wall and its static quantities as a pandas DataFrame of one row."""
@@ -316,9 +338,15 @@ class Wall:
 
 def _in_words(value: Any) -> str:
     """A property as text."""
-    if isinstance(value, tuple):
-        return " ".join(map(_in_words, value))
     return f"{value:.6g}" if isinstance(value, float) else str(value)
+
+
+def described(properties: Mapping[str, Any], gravity: float | None) -> WallData:
+    """Let Fortran check a wall; what is wrong of a list is said of the part that the value belongs to."""
+    try:
+        return describe_wall(properties, gravity)
+    except InputError as error:
+        raise InputError(named_by_parts(str(error), properties)) from None
 
 
 def upload(walls: tuple[Wall, ...]) -> Handle:
@@ -341,13 +369,15 @@ def notes_on_supports(walls: tuple[Wall, ...]) -> list[tuple[str, str]]:
 
 
 def property_of(wall: Wall, name: str) -> Any:
-    """A property of a wall, or of the building that it stands on; None where it has none."""
+    """A property of a wall, of its parts as a list, or of the building that it stands on; None where it has none."""
+    if name in PLACES:
+        return wall.__dict__["_lists"].get(name)
     return getattr(wall.building if name in BUILDING_NAMES else wall, name, None)
 
 
 def effective_property(wall: Wall, name: str) -> Any:
     """A property of a wall as it is computed with: that of a tie, say, which is not given, is the usual one."""
     value = property_of(wall, name)
-    if value is None and name in WALL_ABSENT and getattr(wall, _FIRST[name.split("_", 1)[0]], None) is not None:
-        return WALL_ABSENT[name]
+    if value is None and name in PLACES and getattr(wall, PLACES[name][0], None):
+        return WALL_ABSENT.get(name)
     return value
