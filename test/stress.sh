@@ -74,14 +74,20 @@ stage 'coincidences' "$histories" 1000 release '' test_coincidences
 stage 'walls with ties' "$histories" 1000 release '' test_tied_histories
 traps='-fcheck=all -ffpe-trap=invalid,zero,overflow -finit-real=snan -finit-integer=-99999'
 sanitizers='-fsanitize=address,undefined -fno-sanitize-recover=undefined -fno-omit-frame-pointer'
-stage 'checks and traps' "$(at_least $((histories / 5)) 10)" 1000 debug "$traps" test_stress
-stage 'checks and traps, walls with ties' "$(at_least $((histories / 5)) 10)" 1000 debug "$traps" test_tied_histories
-stage 'checks and traps, coincidences' "$(at_least $((histories / 20)) 10)" 500 debug "$traps" test_coincidences
-stage 'checks and traps, many lanes' 1 1 debug "$traps" test_lanes
-stage 'sanitizers' "$(at_least $((histories / 50)) 10)" 500 debug "$sanitizers" test_stress
-stage 'sanitizers, walls with ties' "$(at_least $((histories / 50)) 10)" 500 debug "$sanitizers" test_tied_histories
-stage 'sanitizers, coincidences' "$(at_least $((histories / 100)) 10)" 250 debug "$sanitizers" test_coincidences
-stage 'sanitizers, many lanes' 1 1 debug "$sanitizers" test_lanes
+# instrumented NAME FLAGS SHARE SIZE: all tests in an instrumented build, with a share of the histories
+instrumented() {
+   stage "$1" "$(at_least $((histories / $3)) 10)" "$4" debug "$2" test_stress
+   stage "$1, walls with ties" "$(at_least $((histories / $3)) 10)" "$4" debug "$2" test_tied_histories
+   stage "$1, coincidences" "$(at_least $((histories / $3 / 4)) 10)" $(($4 / 2)) debug "$2" test_coincidences
+   stage "$1, many lanes" 1 1 debug "$2" test_lanes
+}
+if ((histories < 1000)); then
+   # A build takes longer than so few histories, which have everything in one.
+   instrumented 'checks, traps and sanitizers' "$traps $sanitizers" 5 1000
+else
+   instrumented 'checks and traps' "$traps" 5 1000
+   instrumented 'sanitizers' "$sanitizers" 25 500
+fi
 stage 'threads and grouping' "$(at_least $((histories / 100)) 10)" 250 release '' test_grouping
 # Eight threads make a million texts, most of them messages of errors.
 began=$SECONDS
