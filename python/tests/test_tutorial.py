@@ -71,6 +71,14 @@ def test_readme(root, executable, tmp_path):
         assert (tmp_path / written).stat().st_size > 500
 
 
+def test_reading_a_curve(root, executable, tmp_path):
+    page = (root / "docs/reading_a_curve.md").read_text(encoding="utf-8")
+    said = shell("dondolo --example parapet >parapet.nml && dondolo parapet.nml", tmp_path, executable)
+    shown = [line for block in blocks(page, "text") for line in block.splitlines()]
+    assert len(shown) == 4
+    assert [line for line in shown if line not in said] == []
+
+
 def test_cases(root, executable, tmp_path):
     page = (root / "docs/cases.md").read_text(encoding="utf-8")
     (tmp_path / "data").symlink_to(root / "data")
