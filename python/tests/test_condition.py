@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from dondolo._fortran import _core
+from dondolo._fortran.library import check
 from dondolo.records.suite import upload
 from dondolo.walls.wall import upload as upload_walls
 
@@ -30,10 +31,10 @@ def exact_condition(wall, record, scale, guess):
     factors = scale * np.array([1.0 + step, 1.0 - step])
     # Near what they come to, so that no neighbours are run
     near = np.array([dd.simulate(wall, record, factor, history=False).edp for factor in factors])
-    _, edp, *_, stat, message = _core.histories.certify(
+    _, edp, *_, failure = _core.histories.certify(
         upload_walls((wall,)).number, upload((record,)).number, np.ones(2, np.int32), factors, near, 1.0, 1
     )
-    assert stat == 0, message
+    check(failure)
     return abs(edp[0] - edp[1]) / abs(np.log(factors[0] / factors[1]))
 
 

@@ -11,12 +11,21 @@ import numpy as np
 import pytest
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
+from dondolo._fortran.library import check
 from dondolo.records.suite import place_of, upload
 from dondolo.walls.wall import upload as upload_walls
 
 import dondolo as dd
 
 LEVELS = [0.2, 0.6]
+
+
+def refusal(procedure, *given):
+    """The sentence with which a procedure of the extension refuses what it is given."""
+    found = procedure(*given)
+    with pytest.raises(dd.InputError) as refused:
+        check(found if isinstance(found, np.ndarray) else found[-1])
+    return str(refused.value)
 
 
 def resident():
@@ -143,36 +152,29 @@ def test_a_kept_study_is_freed_with_its_records(few):
     gc.disable()
     try:
         del records, suite, _
-        assert _core.records.measure_suite(number, b"pga", 1)[0] == 2
+        assert "is not valid" in refusal(_core.records.measure_suite, number, b"pga", 1)
     finally:
         gc.enable()
     walls = upload_walls((dd.OneSidedWall(3.0, 0.25),))
-    assert _core.stripes.plan(study, walls.number, 1)[-2] == 2
+    assert "is not valid" in refusal(_core.stripes.plan, study, walls.number, 1)
 
 
 def test_use_after_free(few):
     suite, walls = upload(tuple(few)).number, upload_walls((dd.OneSidedWall(3.0, 0.25),))
     handle, *_ = _core.records.new_suite(b"a", b"\n\n", [2], [0.1], [1.0, 2.0], [0], [0.0], 1)
-    study, stat, _ = _core.stripes.new_study(handle, b"pga", [0.1], b"both", b"auto", [1e-8, 1e-10, 1.0, 0.0, 0.0], 1)
-    assert stat == 0
+    study, failure = _core.stripes.new_study(handle, b"pga", [0.1], b"both", b"auto", [1e-8, 1e-10, 1.0, 0.0, 0.0], 1)
+    check(failure)
     _core.library.free(handle)
     _core.library.free(handle)
     other, *_ = _core.records.new_suite(b"a", b"\n\n", [2], [0.1], [1.0, 2.0], [0], [0.0], 1)
     for number in (handle, -1, 0, 1, 2**40, 2**62, walls.number):
-        *_, stat, message = _core.records.measure_suite(number, b"pga", 1)
-        assert stat == 2
-        assert b"is not valid" in message
+        assert "is not valid" in refusal(_core.records.measure_suite, number, b"pga", 1)
     # A study does not outlive its suite, even where another suite has taken its slot.
-    *_, stat, message = _core.stripes.plan(study, walls.number, 1)
-    assert stat == 2
-    assert b"records: handle" in message
+    assert "records: handle" in refusal(_core.stripes.plan, study, walls.number, 1)
     for given in ((suite, walls.number), (study, study)):
-        *_, stat, message = _core.stripes.plan(*given, 1)
-        assert stat == 2
+        assert "is not valid" in refusal(_core.stripes.plan, *given, 1)
     for procedure in (_core.stores.claim_store, _core.stores.read_store):
-        *_, stat, message = procedure(other)
-        assert stat == 2
-        assert b"store: handle" in message
+        assert "store: handle" in refusal(procedure, other)
     _core.stores.close_store(suite)
     _core.library.free(study)
     _core.library.free(other)
@@ -183,7 +185,7 @@ def test_a_handle_is_freed_with_its_object():
     number = place_of(record)[0].number
     del record
     gc.collect()
-    assert _core.records.measure_suite(number, b"pga", 1)[0] == 2
+    assert "is not valid" in refusal(_core.records.measure_suite, number, b"pga", 1)
 
 
 def test_a_study_keeps_its_suite():
@@ -196,7 +198,7 @@ def test_a_study_keeps_its_suite():
     )
     del suite, record
     gc.collect()
-    assert _core.stripes.plan(study.number, upload_walls((wall,)).number, 1)[-2] == 0
+    assert _core.stripes.plan(study.number, upload_walls((wall,)).number, 1)[-1] == 0
 
 
 def test_what_was_uploaded_is_not_pickled(few):

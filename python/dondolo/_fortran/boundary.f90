@@ -1,4 +1,4 @@
-!> What the procedures that f2py reads share: errors as statuses, checks of what crosses, lines of text, solver and responses.
+!> What the procedures that f2py reads share: checks of what crosses, lines of text, solver and responses.
 module dondolo_boundary
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use dondolo_error, only : error_type
@@ -9,29 +9,13 @@ module dondolo_boundary
    implicit none
    private
 
-   public :: report, check_room, next_line, split_lines, as_solver, unpack_response
+   public :: check_room, next_line, split_lines, as_solver, unpack_response
 
    !> What each thing that is worked on takes at most, all that is copied and sent included [bytes]
    real(c_double), parameter :: bytes_of_wall = 4000.0_c_double, bytes_of_record = 2000.0_c_double, &
       & bytes_of_sample = 64.0_c_double, bytes_of_history = 160.0_c_double
 
 contains
-
-   !> An error as status and message
-   subroutine report(error, stat, message)
-      !> The error; not allocated: success
-      type(error_type), allocatable, intent(in) :: error
-      !> 0, or the kind of the error
-      integer(c_int), intent(out) :: stat
-      !> Its sentence
-      character(len=*), intent(out) :: message
-
-      stat = 0
-      message = ''
-      if (.not. allocated(error)) return
-      stat = error%stat
-      message = error%message
-   end subroutine report
 
    !> Check that there is room for what is worked on
    subroutine check_room(error, walls, records, samples, histories, reals)

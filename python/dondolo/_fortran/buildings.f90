@@ -28,12 +28,10 @@ contains
    !> Reals: of each mode its damping and its participation factor times its shape at the base and at the top; damping and
    !> participation of the diaphragm, 0 of none; how long the floor vibrates after a record [s]. The numbers are those that were
    !> given, in the order of the table, and how many each has
-   subroutine describe_building(numbers, n, given, q, sent, stat, message)
+   subroutine describe_building(numbers, n, given, q, sent)
       integer(c_int), intent(in) :: n, q, given(q)
       real(c_double), intent(in) :: numbers(n)
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(building_type) :: building
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
@@ -41,39 +39,35 @@ contains
       call set_building(building, numbers, given, error)
       if (.not. allocated(error)) parcel%reals = [building%damping, building%participation, building%participation_top, &
          & building%diaphragm%damping, building%diaphragm%participation, building%free_vibration()]
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine describe_building
 
    !> Motion of the floor under a record, which has a vertical component where m = k. Integers: into how many parts each step
    !> is divided; reals: its samples, and those of its vertical component
-   subroutine floor_motion(acceleration, k, vertical, m, dt, numbers, n, given, q, sent, stat, message)
+   subroutine floor_motion(acceleration, k, vertical, m, dt, numbers, n, given, q, sent)
       !f2py threadsafe
       integer(c_int), intent(in) :: k, m, n, q, given(q)
       real(c_double), intent(in) :: acceleration(k), vertical(m), dt, numbers(n)
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(building_type) :: building
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
 
       call set_building(building, numbers, given, error)
       if (.not. allocated(error)) call put_motion(building, acceleration, vertical, dt, parcel, error)
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine floor_motion
 
    !> The motion that a wall on a building feels under a record, which has a vertical component where m = k, or the motion of its
    !> supports: 'felt', 'base' or 'top'. Integers: into how many parts each step is divided; reals: its samples, and those of its
    !> vertical component
-   subroutine felt_motion(acceleration, k, vertical, m, dt, walls, what, sent, stat, message)
+   subroutine felt_motion(acceleration, k, vertical, m, dt, walls, what, sent)
       !f2py threadsafe
       integer(c_int), intent(in) :: k, m
       integer(c_int64_t), intent(in) :: walls
       real(c_double), intent(in) :: acceleration(k), vertical(m), dt
       character(len=*), intent(in) :: what
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(wall_type), pointer :: people(:)
       type(building_type) :: building
       type(parcel_type) :: parcel
@@ -87,15 +81,13 @@ contains
          if (what == 'top') call building%lean(building%height, 0.0_c_double)
          call put_motion(building, acceleration, vertical, dt, parcel, error)
       end if
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine felt_motion
 
    !> What there is to say of the supports that move walls, as lines; none where no wall has a building
-   subroutine support_notes(walls, sent, stat, message)
+   subroutine support_notes(walls, sent)
       integer(c_int64_t), intent(in) :: walls
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(wall_type), pointer :: people(:)
       type(supports_type) :: supports
       type(parcel_type) :: parcel
@@ -109,15 +101,13 @@ contains
          end do
          call supports%make_notes(parcel%lines)
       end if
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine support_notes
 
    !> What there is to say of histories whose supports drift apart, as a line, empty where there are none
-   subroutine drift_note(drifted, histories, sent, stat, message)
+   subroutine drift_note(drifted, histories, sent)
       integer(c_int64_t), intent(in) :: drifted, histories
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(work_type) :: work
       character(len=:), allocatable :: line
       type(parcel_type) :: parcel
@@ -126,7 +116,7 @@ contains
       work = work_type(drifted=int(drifted, int64), histories=int(histories, int64))
       call make_drift_note(work, line)
       call parcel%lines%add(line)
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine drift_note
 
    !> Put the motion that a building makes of a record

@@ -45,7 +45,7 @@ def building_values(values: Mapping[str, Any]) -> dict[str, Any]:
 
 def describe_building(values: Mapping[str, Any]) -> BuildingData:
     """Let Fortran check a building and work out its modes."""
-    reals = receive(*_core.buildings.describe_building(*_flat(values))).reals.tolist()
+    reals = receive(_core.buildings.describe_building(*_flat(values))).reals.tolist()
     *modes, damping, participation, free_vibration = reals
     number = len(modes) // 3
     damped, base, top = (tuple(modes[i * number : (i + 1) * number]) for i in range(3))
@@ -71,12 +71,12 @@ def felt_motion(acceleration: FloatArray, vertical: FloatArray | None, dt: float
 
 def support_notes(walls: Handle) -> list[str]:
     """What there is to say of the supports that move walls; nothing where no wall has a building."""
-    return receive(*_core.buildings.support_notes(walls.number)).lines
+    return receive(_core.buildings.support_notes(walls.number)).lines
 
 
 def drift_note(drifted: int, histories: int) -> str:
     """What there is to say of histories whose supports drift apart; empty where there are none."""
-    (line,) = receive(*_core.buildings.drift_note(drifted, histories)).lines
+    (line,) = receive(_core.buildings.drift_note(drifted, histories)).lines
     return line
 
 
@@ -87,7 +87,7 @@ def _or_one(vertical: FloatArray | None) -> FloatArray:
 
 def _motion(sent: Any, has_vertical: bool) -> Motion:
     """A motion out of its parcel."""
-    parcel = receive(*sent)
+    parcel = receive(sent)
     parts = int(parcel.integers[0])
     if not has_vertical:
         return parcel.reals, None, parts

@@ -24,11 +24,9 @@ contains
    !> thresholds, the values of the check with its confidence and behaviour factors, then walls with their weights and
    !> probabilities, and records; text: task, title, output, im, polarity, engine, states, soil and topography of the check,
    !> then walls, their groups and facades, and records, and how its tables were read, where there is something to say of it
-   subroutine read_case(path, sent, stat, message)
+   subroutine read_case(path, sent)
       character(len=*), intent(in) :: path
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(case_type) :: case
       type(member_type), allocatable :: members(:)
       type(parcel_type) :: parcel
@@ -71,14 +69,12 @@ contains
             call parcel%lines%add(case%notes%line(i)%text)
          end do
       end if
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine read_case
 
    !> What the names of the tables of results end with, of any case: a line each
-   subroutine result_tables(sent, stat, message)
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+   subroutine result_tables(sent)
+      integer(c_int64_t), intent(out) :: sent(5)
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
       integer :: i
@@ -88,7 +84,7 @@ contains
             call parcel%lines%add(trim(suffixes(i)))
          end do
       end associate
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine result_tables
 
    !> Add the check of a case

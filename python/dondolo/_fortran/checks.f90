@@ -1,7 +1,7 @@
 !> Checks by building codes, and elastic spectra.
 module checks
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
-   use dondolo_boundary, only : next_line, report
+   use dondolo_boundary, only : next_line
    use dondolo_check_input, only : check_input_type, check_properties, take_check
    use dondolo_check_sheet, only : sheet_type
    use dondolo_code_spectrum, only : elastic_spectrum_type
@@ -10,7 +10,7 @@ module checks
    use dondolo_handles, only : find_walls
    use dondolo_kinematic, only : kinematic_type, new_kinematic
    use dondolo_ntc_check, only : check_by_ntc => check_ntc, check_peaks => check_histories
-   use dondolo_parcel, only : parcel_type, send
+   use dondolo_parcel, only : parcel_type, report, send
    use dondolo_plausibility, only : wall_warning_type
    use dondolo_settings, only : group_settings_type, new_settings
    use dondolo_wall, only : wall_type
@@ -57,13 +57,12 @@ contains
    end subroutine read_input
 
    !> Spectrum of the ground of NTC 2018 in a limit state, 1 to 3: a_g S [g], F_0, T_B, T_C and T_D [s]
-   subroutine ntc_parameters(texts, numbers, n, given, state, parameters, stat, message)
+   subroutine ntc_parameters(texts, numbers, n, given, state, parameters, failure)
       character(len=*), intent(in) :: texts
       integer(c_int), intent(in) :: n, given(3), state
       real(c_double), intent(in) :: numbers(n)
       real(c_double), intent(out) :: parameters(5)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: failure(5)
       type(check_input_type) :: input
       type(elastic_spectrum_type) :: spectrum
       type(error_type), allocatable :: error
@@ -74,7 +73,7 @@ contains
          spectrum = input%spectrum(state)
          parameters = [spectrum%pga, spectrum%amplification, spectrum%corners]
       end if
-      call report(error, stat, message)
+      call report(error, failure)
    end subroutine ntc_parameters
 
    !> Ordinates [g] at n periods [s] of the spectrum of a code with the parameters that ntc_parameters has; with modes that of
@@ -95,14 +94,12 @@ contains
    end subroutine code_spectrum
 
    !> Kinematic check of a wall: the lines of its sheet, as pack_sheet has them, then warnings
-   subroutine check_ntc(walls, texts, numbers, n, given, sent, stat, message)
+   subroutine check_ntc(walls, texts, numbers, n, given, sent)
       integer(c_int64_t), intent(in) :: walls
       character(len=*), intent(in) :: texts
       integer(c_int), intent(in) :: n, given(3)
       real(c_double), intent(in) :: numbers(n)
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(wall_type), pointer :: people(:)
       type(check_input_type) :: input
       type(kinematic_type) :: kinematic
@@ -122,17 +119,15 @@ contains
          call oddities%warn(warnings)
          call warning_objects(warnings, parcel%lines)
       end if
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine check_ntc
 
    !> Criterion for time histories in a limit state, 2 or 3, from their largest rotations / capacity, 1 where they collapsed
-   subroutine check_histories(walls, state, pga, records, edp, n, sent, stat, message)
+   subroutine check_histories(walls, state, pga, records, edp, n, sent)
       integer(c_int64_t), intent(in) :: walls
       integer(c_int), intent(in) :: state, records, n
       real(c_double), intent(in) :: pga, edp(n)
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(wall_type), pointer :: people(:)
       type(kinematic_type) :: kinematic
       type(sheet_type) :: sheet
@@ -145,7 +140,7 @@ contains
          call check_peaks(sheet, kinematic, state, pga, records, edp)
          call pack_sheet(sheet, parcel)
       end if
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine check_histories
 
    !> A sheet as lines, with a tab between method, limit state, name, symbol, unit, formula and meaning; reals: its values

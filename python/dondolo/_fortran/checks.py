@@ -59,8 +59,8 @@ class SiteInput(NamedTuple):
 
 def ntc_parameters(site: SiteInput, state: str) -> FloatArray:
     """a_g S [g], F_0, T_B, T_C and T_D [s] of the spectrum of NTC 2018 in a limit state."""
-    parameters, stat, message = _core.checks.ntc_parameters(*site, STATES.index(state) + 1)
-    check(stat, message)
+    parameters, failure = _core.checks.ntc_parameters(*site, STATES.index(state) + 1)
+    check(failure)
     return np.asarray(parameters)
 
 
@@ -73,14 +73,14 @@ def code_spectrum(
 
 def kinematic_sheet(wall: Handle, site: SiteInput) -> tuple[SheetRow, ...]:
     """The sheet of a kinematic check; warns of a wall that is most likely a slip."""
-    parcel = receive(*_core.checks.check_ntc(wall.number, *site))
+    parcel = receive(_core.checks.check_ntc(wall.number, *site))
     warn(unpack_warnings(parcel.lines[len(parcel.reals) :]))
     return _rows(parcel)
 
 
 def dynamic_sheet(wall: Handle, state: str, pga: float, records: int, edp: FloatArray) -> tuple[SheetRow, ...]:
     """The sheet of the criterion for time histories in a limit state."""
-    return _rows(receive(*_core.checks.check_histories(wall.number, STATES.index(state) + 1, pga, records, edp)))
+    return _rows(receive(_core.checks.check_histories(wall.number, STATES.index(state) + 1, pga, records, edp)))
 
 
 def _rows(parcel: Parcel) -> tuple[SheetRow, ...]:

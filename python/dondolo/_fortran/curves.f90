@@ -1,14 +1,14 @@
 !> Fragility curves of walls and populations.
 module curves
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
-   use dondolo_boundary, only : check_room, report, split_lines
+   use dondolo_boundary, only : check_room, split_lines
    use dondolo_clustered, only : cluster_errors
    use dondolo_error, only : error_type
    use dondolo_fragility, only : error_names, fit_fragility, fragility_type, status_names
    use dondolo_handles, only : find_walls
    use dondolo_lines, only : lines_type
    use dondolo_ordinal, only : ordinal_fit => fit_ordinal, ordinal_errors
-   use dondolo_parcel, only : parcel_type, send
+   use dondolo_parcel, only : parcel_type, report, send
    use dondolo_population, only : population_type
    use dondolo_series, only : series => in_series
    use dondolo_stripes, only : stripes_type
@@ -27,37 +27,33 @@ module curves
 
 contains
 
-   !> Fit k curves, each to m levels. A status of 0 is a fit that failed; message tells of the first that went wrong
-   subroutine fit_curves(levels, collapses, histories, m, k, curves, statuses, stat, message)
+   !> Fit k curves, each to m levels. A status of 0 is a fit that failed; the failure is that of the first that went wrong
+   subroutine fit_curves(levels, collapses, histories, m, k, curves, statuses, failure)
       !f2py threadsafe
       integer(c_int), intent(in) :: m, k
       real(c_double), intent(in) :: levels(m), collapses(m, k), histories(m, k)
       real(c_double), intent(out) :: curves(8, k)
-      integer(c_int), intent(out) :: statuses(k), stat
-      character(len=2048), intent(out) :: message
+      integer(c_int), intent(out) :: statuses(k)
+      integer(c_int64_t), intent(out) :: failure(5)
       type(fragility_type) :: curve
-      type(error_type), allocatable :: error
-      character(len=2048) :: sentence
-      integer(c_int) :: this
+      type(error_type), allocatable :: error, first
       integer :: i, worst
 
       curves = 0
       statuses = 0
       call check_room(error, reals=40.0_c_double*m)
-      call report(error, stat, message)
+      call report(error, failure)
       if (allocated(error)) return
       worst = k + 1
-      !$omp parallel do if(k > 1) default(none) private(curve, error, sentence, this) &
-      !$omp & shared(k, levels, collapses, histories, curves, statuses, worst, stat, message)
+      !$omp parallel do if(k > 1) default(none) private(curve, error) &
+      !$omp & shared(k, levels, collapses, histories, curves, statuses, worst, first)
       do i = 1, k
          call fit_fragility(curve, levels, collapses(:, i), histories(:, i), error)
          if (allocated(error)) then
-            call report(error, this, sentence)
             !$omp critical (first_error)
             if (i < worst) then
                worst = i
-               stat = this
-               message = sentence
+               call move_alloc(error, first)
             end if
             !$omp end critical (first_error)
          else
@@ -66,19 +62,19 @@ contains
          curves(:, i) = pack_curve(curve)
       end do
       !$omp end parallel do
+      call report(first, failure)
    end subroutine fit_curves
 
    !> Clustered covariances (var ln theta, covariance, var beta) of k fitted curves from the collapses and histories of each of
    !> g clusters at each of m levels; the histories are the same for all curves if h is 1, else h is k. errors are places among
    !> the names, and clusters count those that have histories
-   subroutine cluster_curves(levels, collapses, histories, curves, statuses, m, g, k, h, covariances, errors, clusters, stat, &
-         & message)
+   subroutine cluster_curves(levels, collapses, histories, curves, statuses, m, g, k, h, covariances, errors, clusters, failure)
       !f2py threadsafe
       integer(c_int), intent(in) :: m, g, k, h, statuses(k)
       real(c_double), intent(in) :: levels(m), collapses(m, g, k), histories(m, g, h), curves(8, k)
       real(c_double), intent(out) :: covariances(3, k)
-      integer(c_int), intent(out) :: errors(k), clusters(k), stat
-      character(len=2048), intent(out) :: message
+      integer(c_int), intent(out) :: errors(k), clusters(k)
+      integer(c_int64_t), intent(out) :: failure(5)
       type(fragility_type) :: curve
       type(error_type), allocatable :: error
       real(c_double) :: changes(2, g)
@@ -88,7 +84,7 @@ contains
       errors = 0
       clusters = 0
       call check_room(error, reals=40.0_c_double*m)
-      call report(error, stat, message)
+      call report(error, failure)
       if (allocated(error)) return
       !$omp parallel do if(k > 1) default(none) private(curve, changes) &
       !$omp & shared(k, h, levels, collapses, histories, curves, statuses, covariances) &
@@ -104,19 +100,19 @@ contains
    end subroutine cluster_curves
 
    !> Change of ln theta and beta of a fitted curve if each of g clusters is left out, to first order; errors as cluster_curves
-   subroutine cluster_changes(levels, collapses, histories, theta, beta, m, g, changes, errors, stat, message)
+   subroutine cluster_changes(levels, collapses, histories, theta, beta, m, g, changes, errors, failure)
       integer(c_int), intent(in) :: m, g
       real(c_double), intent(in) :: levels(m), collapses(m, g), histories(m, g), theta, beta
       real(c_double), intent(out) :: changes(2, g)
-      integer(c_int), intent(out) :: errors, stat
-      character(len=2048), intent(out) :: message
+      integer(c_int), intent(out) :: errors
+      integer(c_int64_t), intent(out) :: failure(5)
       type(fragility_type) :: curve
       type(error_type), allocatable :: error
 
       changes = 0
       errors = 0
       call check_room(error, reals=40.0_c_double*m)
-      call report(error, stat, message)
+      call report(error, failure)
       if (allocated(error)) return
       curve = fragility_type(status='ok', theta=theta, beta=beta)
       call cluster_errors(curve, levels, collapses, histories, changes)
@@ -125,12 +121,12 @@ contains
 
    !> Curves of k damage states with one dispersion, from the histories of each of g clusters that reach each state at each of
    !> m levels; changes and errors are as cluster_changes has them
-   subroutine fit_ordinal(levels, reached, histories, m, k, g, curves, statuses, changes, errors, stat, message)
+   subroutine fit_ordinal(levels, reached, histories, m, k, g, curves, statuses, changes, errors, failure)
       integer(c_int), intent(in) :: m, k, g
       real(c_double), intent(in) :: levels(m), reached(m, k, g), histories(m, g)
       real(c_double), intent(out) :: curves(8, k), changes(2, k, g)
-      integer(c_int), intent(out) :: statuses(k), errors(k), stat
-      character(len=2048), intent(out) :: message
+      integer(c_int), intent(out) :: statuses(k), errors(k)
+      integer(c_int64_t), intent(out) :: failure(5)
       type(fragility_type) :: curve(k)
       type(error_type), allocatable :: error
       integer :: i
@@ -149,7 +145,7 @@ contains
          call ordinal_errors(curve, levels, reached, histories, changes)
          errors = [(findloc(error_names, curve(i)%errors, dim=1), i=1, k)]
       end if
-      call report(error, stat, message)
+      call report(error, failure)
    end subroutine fit_ordinal
 
    !> Probabilities of collapse of a lognormal curve, equation (5) of Nale et al.
@@ -192,13 +188,11 @@ contains
 
    !> Warnings of the executable for the curve of one wall, or for walls = 0 of counts without a wall; numbers and status
    !> as fit_curves has them
-   subroutine warn_of_curve(walls, levels, m, largest_edp, curve, status, sent, stat, message)
+   subroutine warn_of_curve(walls, levels, m, largest_edp, curve, status, sent)
       integer(c_int64_t), intent(in) :: walls
       integer(c_int), intent(in) :: m, status
       real(c_double), intent(in) :: levels(m), largest_edp, curve(8)
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(wall_type), pointer :: people(:), wall
       type(stripes_type) :: stripes
       type(fragility_type) :: fragility
@@ -221,17 +215,15 @@ contains
          call warn_of_fit(wall, stripes, fragility, warnings)
          call warning_objects(warnings, parcel%lines)
       end if
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine warn_of_curve
 
    !> What the executable would warn of, of the curve of one facade or wall with several mechanisms; status as fit_curves has it
-   subroutine warn_of_union(name, theta, status, sent, stat, message)
+   subroutine warn_of_union(name, theta, status, sent)
       character(len=*), intent(in) :: name
       real(c_double), intent(in) :: theta
       integer(c_int), intent(in) :: status
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(fragility_type) :: fragility
       type(warnings_type) :: warnings
       type(parcel_type) :: parcel
@@ -241,7 +233,7 @@ contains
       fragility%theta = theta
       call warn_of_the_union(name, fragility, warnings)
       call warning_objects(warnings, parcel%lines)
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine warn_of_union
 
    !> Curves of rows (mechanisms of walls), of their walls and of the population. texts: mechanism and group of each row; names:
@@ -251,13 +243,11 @@ contains
    !> each of the population's curves weight, dispersions between walls and between records, share with a curve, saturation,
    !> histories, mean fractions, mean curve, fractiles (3 a level), numbers; text: group and mechanism of the population's
    !> curves, then warnings
-   subroutine fit_walls(texts, names, levels, collapses, m, r, histories, shares, rows, w, sent, stat, message)
+   subroutine fit_walls(texts, names, levels, collapses, m, r, histories, shares, rows, w, sent)
       character(len=*), intent(in) :: texts, names
       integer(c_int), intent(in) :: m, r, w, collapses(m, r), histories(m, r), rows(w)
       real(c_double), intent(in) :: levels(m), shares(2, r)
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(population_type) :: population
       type(typology_type), allocatable :: groups(:)
       type(fit_warning_type) :: fits
@@ -294,21 +284,19 @@ contains
          end if
          call warning_objects(warnings, parcel%lines)
       end if
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine fit_walls
 
    !> A curve of a population at n levels x: its weighted mean, and its fractiles for k shares of the weight. curves and
    !> statuses are those of the rows; mechanism 'all': the walls as a whole; group: empty for the whole population. With
    !> probabilities = 1 a parcel has their number as integer and their probabilities as reals (rows or walls, n)
    subroutine curve_of_population(texts, levels, collapses, m, r, histories, shares, rows, w, curves, statuses, mechanism, group, &
-         & x, n, q, k, probabilities, mean, fractiles, sent, stat, message)
+         & x, n, q, k, probabilities, mean, fractiles, sent)
       character(len=*), intent(in) :: texts, mechanism, group
       integer(c_int), intent(in) :: m, r, w, n, k, probabilities, collapses(m, r), histories(m, r), rows(w), statuses(r)
       real(c_double), intent(in) :: levels(m), shares(2, r), curves(8, r), x(n), q(k)
       real(c_double), intent(out) :: mean(n), fractiles(k, n)
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       ! Numbers that are held at a time: a few tens of MB
       integer, parameter :: most = 2000000
       type(population_type) :: population
@@ -344,7 +332,7 @@ contains
          parcel%integers = [size(weights%column)]
          parcel%reals = reshape(all, [size(all)])
       end if
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine curve_of_population
 
    !> A population with the counts of one damage state, without curves

@@ -67,8 +67,8 @@ class PopulationData(NamedTuple):
 def fit_curves(levels: FloatArray, collapses: FloatArray, histories: FloatArray) -> tuple[FloatArray, list[str]]:
     """Fit many curves in one call: collapses and histories are (curves, levels)."""
     z, n = np.ascontiguousarray(collapses), np.ascontiguousarray(histories)
-    curves, codes, stat, message = _core.curves.fit_curves(levels, z.T, n.T)
-    check(stat, message)
+    curves, codes, failure = _core.curves.fit_curves(levels, z.T, n.T)
+    check(failure)
     names = constants().statuses
     return curves.T, [names[code - 1] for code in codes]
 
@@ -80,8 +80,8 @@ def cluster_changes(
 
     Collapses and histories are (clusters, levels).
     """
-    changes, code, stat, message = _core.curves.cluster_changes(levels, collapses.T, histories.T, theta, beta)
-    check(stat, message)
+    changes, code, failure = _core.curves.cluster_changes(levels, collapses.T, histories.T, theta, beta)
+    check(failure)
     return changes.T, constants().errors[code - 1]
 
 
@@ -94,8 +94,8 @@ def fit_ordinal(
     and beta if each cluster is left out, (clusters, 2).
     """
     found = _core.curves.fit_ordinal(levels, np.ascontiguousarray(reached).T, np.ascontiguousarray(histories).T)
-    curves, statuses, changes, errors, stat, message = found
-    check(stat, message)
+    curves, statuses, changes, errors, failure = found
+    check(failure)
     names, known = constants().statuses, constants().errors
     return [
         (CurveData(names[statuses[i] - 1], curves[:, i]), changes[:, i].T.copy(), known[errors[i] - 1])
@@ -119,8 +119,8 @@ def cluster_curves(
     Collapses are (curves, clusters, levels), histories, the same for all curves, (clusters, levels).
     """
     found = _core.curves.cluster_curves(levels, collapses.T, histories.T[..., None], *coded(curves))
-    covariances, errors, clusters, stat, message = found
-    check(stat, message)
+    covariances, errors, clusters, failure = found
+    check(failure)
     known = constants().errors
     return covariances[[[0, 1], [1, 2]]].transpose(2, 0, 1), [known[code - 1] for code in errors], clusters
 
@@ -130,7 +130,7 @@ def fit_walls(names: bytes, population: FlatPopulation) -> PopulationData:
 
     Names are those of the wall of each row, one a line.
     """
-    parcel = receive(*_core.curves.fit_walls(population.texts, names, *population[1:]))
+    parcel = receive(_core.curves.fit_walls(population.texts, names, *population[1:]))
     rows = population.rows
     m, r, w, number = len(population.levels), population.counts.shape[1], len(rows), int(parcel.integers[0])
     known = ("", *constants().statuses)
@@ -165,11 +165,11 @@ def curve_of_population(
     there with `members` only.
     """
     texts = (as_text("group", text) for text in which)
-    mean, fractiles, *sent = _core.curves.curve_of_population(*population, *curves, *texts, x, q, int(members))
-    check(*sent[1:])
+    mean, fractiles, sent = _core.curves.curve_of_population(*population, *curves, *texts, x, q, int(members))
+    check(sent)
     found = np.zeros((0, len(x)))
     if members:
-        parcel = receive(*sent)
+        parcel = receive(sent)
         found = parcel.reals.reshape(len(x), int(parcel.integers[0])).T
     return mean, fractiles, found
 
@@ -186,14 +186,14 @@ def warnings_of_curve(
     """Warnings of the executable for the curve of one wall, or of counts without a wall."""
     code = constants().statuses.index(curve.status) + 1
     number = 0 if wall is None else wall.number
-    parcel = receive(*_core.curves.warn_of_curve(number, levels, largest_edp, curve.numbers, code))
+    parcel = receive(_core.curves.warn_of_curve(number, levels, largest_edp, curve.numbers, code))
     return unpack_warnings(parcel.lines)
 
 
 def warnings_of_union(name: str, status: str, theta: float) -> list[DondoloWarning]:
     """What the executable would warn of, of the curve of one facade or wall with several mechanisms."""
     code = constants().statuses.index(status) + 1
-    return unpack_warnings(receive(*_core.curves.warn_of_union(as_text("name", name), theta, code)).lines)
+    return unpack_warnings(receive(_core.curves.warn_of_union(as_text("name", name), theta, code)).lines)
 
 
 def probability(theta: float, beta: float, x: FloatArray) -> FloatArray:

@@ -1,7 +1,7 @@
 !> Time histories of one wall.
 module histories
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
-   use dondolo_boundary, only : as_solver, check_room, report, unpack_response
+   use dondolo_boundary, only : as_solver, check_room, unpack_response
    use dondolo_certificate, only : certificate_type, certify_histories
    use dondolo_ensemble, only : check_engine, ensemble_type, run_ensemble
    use dondolo_error, only : error_type
@@ -10,7 +10,7 @@ module histories
    use dondolo_handles, only : find_suite, find_walls
    use dondolo_interrupt, only : check_interrupt
    use dondolo_memory, only : check_memory => check_room
-   use dondolo_parcel, only : parcel_type, send
+   use dondolo_parcel, only : parcel_type, report, send
    use dondolo_plausibility, only : wall_warning_type
    use dondolo_record, only : record_type
    use dondolo_response, only : response_type, trace_type
@@ -37,7 +37,7 @@ contains
    !> One motion; with history = 1 also the parcel of its rows: time, ground acceleration, rotation, velocity; as integers
    !> side and whether it is just after an impact. Times of yield and of fracture of the ties follow, negative for never
    subroutine simulate(walls, suite, number, scale, engine, settings, history, &
-         & edp, collapsed, impacts, time_of_peak, edp_error, sent, stat, message)
+         & edp, collapsed, impacts, time_of_peak, edp_error, sent)
       !f2py threadsafe
       integer(c_int64_t), intent(in) :: walls, suite
       character(len=*), intent(in) :: engine
@@ -45,9 +45,7 @@ contains
       real(c_double), intent(in) :: scale, settings(5)
       real(c_double), intent(out) :: edp, time_of_peak, edp_error
       integer(c_int), intent(out) :: collapsed, impacts
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(wall_type), pointer :: people(:)
       type(suite_type), pointer :: records, motions
       type(floors_type), target :: own
@@ -76,20 +74,20 @@ contains
          parcel%integers = [nint(trace%side), merge(1, 0, trace%after_impact)]
       end if
       call unpack_response(response, edp, collapsed, impacts, time_of_peak, edp_error)
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine simulate
 
    !> Run k histories of one wall: each has its record (numbered from 1) and its factor, negative to reverse the polarity
    subroutine run_scaled(walls, suite, record, scale, k, engine, settings, threads, &
-         & edp, collapsed, impacts, time_of_peak, edp_error, stat, message)
+         & edp, collapsed, impacts, time_of_peak, edp_error, failure)
       !f2py threadsafe
       integer(c_int64_t), intent(in) :: walls, suite
       character(len=*), intent(in) :: engine
       integer(c_int), intent(in) :: k, threads, record(k)
       real(c_double), intent(in) :: scale(k), settings(5)
       real(c_double), intent(out) :: edp(k), time_of_peak(k), edp_error(k)
-      integer(c_int), intent(out) :: collapsed(k), impacts(k), stat
-      character(len=2048), intent(out) :: message
+      integer(c_int), intent(out) :: collapsed(k), impacts(k)
+      integer(c_int64_t), intent(out) :: failure(5)
       type(wall_type), pointer :: people(:)
       type(suite_type), pointer :: records, motions
       type(floors_type), target :: own
@@ -123,19 +121,19 @@ contains
          call unpack_response(ensemble%response, edp, collapsed, impacts, time_of_peak, edp_error)
          if (.not. allocated(error)) call check_interrupt(error)
       end if
-      call report(error, stat, message)
+      call report(error, failure)
    end subroutine run_scaled
 
    !> Certify k histories of one wall: each has its record (numbered from 1), its factor and its EDP in double precision
    subroutine certify(walls, suite, record, scale, double_edp, k, edp_limit, threads, &
-         & status, edp, collapsed, impacts, time_of_peak, edp_error, lowest, highest, stat, message)
+         & status, edp, collapsed, impacts, time_of_peak, edp_error, lowest, highest, failure)
       !f2py threadsafe
       integer(c_int64_t), intent(in) :: walls, suite
       integer(c_int), intent(in) :: k, threads, record(k)
       real(c_double), intent(in) :: scale(k), double_edp(k), edp_limit
       real(c_double), intent(out) :: edp(k), time_of_peak(k), edp_error(k), lowest(k), highest(k)
-      integer(c_int), intent(out) :: status(k), collapsed(k), impacts(k), stat
-      character(len=2048), intent(out) :: message
+      integer(c_int), intent(out) :: status(k), collapsed(k), impacts(k)
+      integer(c_int64_t), intent(out) :: failure(5)
       type(wall_type), pointer :: people(:)
       type(suite_type), pointer :: records, motions
       type(floors_type), target :: own
@@ -176,15 +174,15 @@ contains
          call unpack_response(certificates%response, edp, collapsed, impacts, time_of_peak, edp_error)
          call check_interrupt(error)
       end if
-      call report(error, stat, message)
+      call report(error, failure)
    end subroutine certify
 
    !> Do estimated errors leave a doubt about EDPs, or about collapses?
-   subroutine is_doubtful(edp, edp_error, n, edp_limit, doubt, stat, message)
+   subroutine is_doubtful(edp, edp_error, n, edp_limit, doubt, failure)
       integer(c_int), intent(in) :: n
       real(c_double), intent(in) :: edp(n), edp_error(n), edp_limit
-      integer(c_int), intent(out) :: doubt(n), stat
-      character(len=2048), intent(out) :: message
+      integer(c_int), intent(out) :: doubt(n)
+      integer(c_int64_t), intent(out) :: failure(5)
       type(response_type), allocatable :: responses(:)
       type(error_type), allocatable :: error
 
@@ -196,17 +194,15 @@ contains
          responses%edp_error = edp_error
          doubt = merge(1, 0, responses%is_doubtful(edp_limit))
       end if
-      call report(error, stat, message)
+      call report(error, failure)
    end subroutine is_doubtful
 
    !> What the executable would warn of, of a wall and a record, before it runs one motion
-   subroutine warn_of_motion(walls, suite, number, scale, sent, stat, message)
+   subroutine warn_of_motion(walls, suite, number, scale, sent)
       integer(c_int64_t), intent(in) :: walls, suite
       integer(c_int), intent(in) :: number
       real(c_double), intent(in) :: scale
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(wall_type), pointer :: people(:)
       type(suite_type), pointer :: records
       type(wall_warning_type) :: oddities
@@ -224,17 +220,15 @@ contains
          call warn_of_fall(records%records(number), scale, people(1)%gravity, warnings)
          call warning_objects(warnings, parcel%lines)
       end if
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine warn_of_motion
 
    !> What the executable would warn of, of levels of a measure
-   subroutine warn_of_levels(im, levels, n, sent, stat, message)
+   subroutine warn_of_levels(im, levels, n, sent)
       integer(c_int), intent(in) :: n
       character(len=*), intent(in) :: im
       real(c_double), intent(in) :: levels(n)
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(scale_warning_type) :: scales
       type(warnings_type) :: warnings
       type(parcel_type) :: parcel
@@ -243,18 +237,16 @@ contains
       call scales%look_at_levels(im, levels)
       call scales%warn(warnings)
       call warning_objects(warnings, parcel%lines)
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine warn_of_levels
 
    !> What the executable would warn of, of estimated errors; record and level are those of the largest, without a record
    !> it is one history
-   subroutine warn_of_errors(edp, edp_error, n, edp_limit, record, level, sent, stat, message)
+   subroutine warn_of_errors(edp, edp_error, n, edp_limit, record, level, sent)
       integer(c_int), intent(in) :: n
       real(c_double), intent(in) :: edp(n), edp_error(n), edp_limit, level
       character(len=*), intent(in) :: record
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(record_type) :: records(1)
       type(stripes_type) :: stripes
       type(warnings_type) :: warnings
@@ -277,7 +269,7 @@ contains
          end if
          call warning_objects(warnings, parcel%lines)
       end if
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine warn_of_errors
 
 end module histories

@@ -45,8 +45,8 @@ def _default_settings() -> FloatArray:
 
 def is_doubtful(edp: FloatArray, edp_error: FloatArray, edp_limit: float) -> NDArray[np.bool_]:
     """Whether estimated errors leave a doubt about EDPs, or about collapses."""
-    doubt, stat, message = _core.histories.is_doubtful(edp.ravel(), edp_error.ravel(), edp_limit)
-    check(stat, message)
+    doubt, failure = _core.histories.is_doubtful(edp.ravel(), edp_error.ravel(), edp_limit)
+    check(failure)
     return np.asarray(doubt == 1).reshape(edp.shape)
 
 
@@ -55,12 +55,12 @@ def warnings_of_motion(wall: Handle, record: tuple[int, int], scale: float) -> l
 
     The record is the handle of a suite and the number in it from 1.
     """
-    return unpack_warnings(receive(*_core.histories.warn_of_motion(wall.number, *record, scale)).lines)
+    return unpack_warnings(receive(_core.histories.warn_of_motion(wall.number, *record, scale)).lines)
 
 
 def warnings_of_levels(im: str, levels: FloatArray) -> list[DondoloWarning]:
     """What the executable would warn of, of levels of a measure."""
-    return unpack_warnings(receive(*_core.histories.warn_of_levels(im.encode(), levels)).lines)
+    return unpack_warnings(receive(_core.histories.warn_of_levels(im.encode(), levels)).lines)
 
 
 def warnings_of_errors(
@@ -70,5 +70,5 @@ def warnings_of_errors(
 
     Without a record it is one history.
     """
-    parcel = receive(*_core.histories.warn_of_errors(edp.ravel(), edp_error.ravel(), edp_limit, record.encode(), level))
+    parcel = receive(_core.histories.warn_of_errors(edp.ravel(), edp_error.ravel(), edp_limit, record.encode(), level))
     return unpack_warnings(parcel.lines)

@@ -3,13 +3,11 @@
 !> f2py reads this and its neighbours listed in meson.build, each a module of the extension. Their arguments are flat:
 !> c_double, c_int, c_int64_t and bytes only, since f2py turns any other kind into a C float without a word. Records and
 !> walls are uploaded once and stay; other procedures take their handles (dondolo_handles). Results whose size only the
-!> library knows are sent as parcels (dondolo_parcel). Status and message come last: 0, or the kind of the error
-!> (dondolo_error), and its sentence. Procedures that compute release Python's lock (threadsafe); those that fill or empty a
+!> library knows are sent as parcels (dondolo_parcel), which come last; where nothing is sent but an error, it is `failure`. Procedures that compute release Python's lock (threadsafe); those that fill or empty a
 !> handle hold it.
 module library
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t, c_intptr_t
    use, intrinsic :: omp_lib, only : omp_set_max_active_levels
-   use dondolo_boundary, only : report
    use dondolo_clustered, only : fewest_clusters
    use dondolo_distribution, only : least_share
    use dondolo_error, only : error_type, raise_input
@@ -18,7 +16,7 @@ module library
    use dondolo_interrupt, only : begin => listen, finish => end_listening
    use dondolo_lane_variants, only : build_variant, check_variant
    use dondolo_limits, only : longest_name
-   use dondolo_parcel, only : parcel_type, send, take, take_next => take_series
+   use dondolo_parcel, only : parcel_type, report, send, take, take_next => take_series
    use dondolo_plain, only : name_problem, shown
    use dondolo_property, only : describe_property, property_type
    use dondolo_property_tables, only : property_table, table_names
@@ -66,11 +64,9 @@ contains
 
    !> The table of properties of a group, one of table_names; a line for each, its entries separated by tabs
    !> (describe_property)
-   subroutine properties(group, sent, stat, message)
+   subroutine properties(group, sent)
       character(len=*), intent(in) :: group
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(property_type), allocatable :: table(:)
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
@@ -83,15 +79,14 @@ contains
          call parcel%lines%add(line)
       end do
       if (size(table) == 0) call raise_input(error, 'group = '''//group//''': must be one of '//join(table_names))
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine properties
 
    !> Check a name, a title or another word of the user's
-   subroutine check_text(what, text, stat, message)
+   subroutine check_text(what, text, failure)
       ! What it is, and its text, in which C0 80 stands for NUL, at which a text of f2py would end (modified UTF-8)
       character(len=*), intent(in) :: what, text
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: failure(5)
       type(error_type), allocatable :: error
       character(len=:), allocatable :: meant
       integer :: at
@@ -104,19 +99,18 @@ contains
       end do
       if (len_trim(name_problem(meant)) > 0) call raise_input(error, what//' = '''//shown(meant)//''': '// &
          & trim(name_problem(meant)))
-      call report(error, stat, message)
+      call report(error, failure)
    end subroutine check_text
 
    !> Build variant that the engine lanes runs; the environment may change it from call to call
-   subroutine variant(name, stat, message)
+   subroutine variant(name, failure)
       character(len=32), intent(out) :: name
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: failure(5)
       type(error_type), allocatable :: error
 
       call check_variant(error)
       name = build_variant()
-      call report(error, stat, message)
+      call report(error, failure)
    end subroutine variant
 
    !> Threads that OpenMP gives, which honours OMP_NUM_THREADS and the processors of the process

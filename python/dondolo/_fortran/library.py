@@ -139,7 +139,7 @@ def constants() -> Constants:
 @functools.cache
 def properties(group: str) -> tuple[Property, ...]:
     """The table of properties of a group of a case ('wall', 'solver' ...), or of rows of a population ('member')."""
-    return tuple(_property(*line.split("\t")) for line in receive(*_core.library.properties(group.encode())).lines)
+    return tuple(_property(*line.split("\t")) for line in receive(_core.library.properties(group.encode())).lines)
 
 
 def _property(*entries: str) -> Property:
@@ -189,8 +189,8 @@ def build_variant() -> str:
     InputError
         DONDOLO_VARIANT names none that this build and this processor have.
     """
-    name, stat, message = _core.library.variant()
-    check(stat, message)
+    name, failure = _core.library.variant()
+    check(failure)
     return str(name.decode().strip())
 
 
@@ -199,12 +199,12 @@ def available_threads() -> int:
     return int(_core.library.available_threads())
 
 
-def check(stat: int, message: bytes) -> None:
-    """Raise what a status says."""
-    if stat == 0:
-        return
-    sentence = message.decode("utf-8", "replace").strip()
-    raise {2: InputError, 3: MissingFileError, 4: MemoryError}.get(stat, DondoloError)(sentence)
+def check(sent: NDArray[np.int64]) -> None:
+    """Raise the error that a procedure has sent in the place of a parcel, if it has."""
+    kind = int(sent[-1])
+    if kind:
+        sentence = "\n".join(_take(sent.tolist()).lines).strip()
+        raise {2: InputError, 3: MissingFileError, 4: MemoryError}.get(kind, DondoloError)(sentence)
 
 
 class Stoppable:
@@ -234,14 +234,19 @@ def as_text(name: str, value: Any) -> bytes:
         raise InputError(f"{name} = {value!r}: must be a text") from None
     # What Python prints has no character that Fortran refuses. A text of f2py would end at NUL.
     if not value.isprintable() or len(text) > constants().longest_name:
-        check(*_core.library.check_text(name.encode(), text.replace(b"\0", b"\xc0\x80")))
+        check(_core.library.check_text(name.encode(), text.replace(b"\0", b"\xc0\x80")))
     return text
 
 
-def receive(sent: NDArray[np.int64], stat: int, message: bytes) -> Parcel:
-    """Take the parcel that a procedure has sent: its address and sizes."""
-    check(stat, message)
-    address, *sizes = sent.tolist()
+def receive(sent: NDArray[np.int64]) -> Parcel:
+    """Take the parcel that a procedure has sent, or raise the error that came in its place."""
+    check(sent)
+    return _take(sent.tolist())
+
+
+def _take(sent: list[int]) -> Parcel:
+    """Take a parcel: its address, its numbers of integers, reals and characters, and the kind of an error."""
+    address, *sizes, _ = sent
     if not address:
         return _NOTHING
     integers, reals, words = _core.library.take_parcel(address, *sizes)

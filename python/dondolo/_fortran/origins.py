@@ -24,7 +24,7 @@ def check_replaced(path: str | os.PathLike[str], kind: str) -> None:
     InputError
         Something else is there: another file, a symbolic link, a folder, a pipe, a device.
     """
-    check(*_core.origins.check_replaced(os.fsencode(path), kind.encode()))
+    check(_core.origins.check_replaced(os.fsencode(path), kind.encode()))
 
 
 def derived_mark(kind: str, run: str) -> str:
@@ -42,9 +42,9 @@ def derived_mark(kind: str, run: str) -> str:
 
 def replaced(prefix: str | os.PathLike[str]) -> list[str]:
     """Whose results with a prefix a run would replace: one sentence, or none."""
-    return receive(*_core.origins.replaced(os.fsencode(prefix))).lines
+    return receive(_core.origins.replaced(os.fsencode(prefix))).lines
 
 
 def outdated(prefix: str | os.PathLike[str]) -> list[str]:
     """What was made of other results than those with a prefix: a sentence for each file."""
-    return receive(*_core.origins.outdated(os.fsencode(prefix))).lines
+    return receive(_core.origins.outdated(os.fsencode(prefix))).lines

@@ -1,17 +1,16 @@
-!> Results whose size only the library knows, on their way to Python: f2py cannot pass them.
+!> Results whose size only the library knows, and errors, on their way to Python: f2py cannot pass them.
 !>
 !> A procedure sends a parcel and returns where it lies and how much it holds; `take` copies its contents into arrays of
 !> these sizes and frees it. Long series, as samples of records, are put in one by one without a copy; `take_series` takes
 !> them in the same order, after all else, and the parcel is freed with the last.
 module dondolo_parcel
    use, intrinsic :: iso_c_binding, only : c_double, c_f_pointer, c_int, c_int64_t, c_intptr_t, c_loc, c_ptr
-   use dondolo_boundary, only : report
    use dondolo_error, only : error_type
    use dondolo_lines, only : lines_type
    implicit none
    private
 
-   public :: parcel_type, send, take, take_series
+   public :: parcel_type, send, report, take, take_series
 
    !> Numbers that belong together
    type :: series_type
@@ -100,35 +99,48 @@ contains
       if (len(note) > 0) call self%lines%add(note)
    end subroutine add_note
 
-   !> Send a parcel, unless there was an error
-   subroutine send(parcel, error, sent, stat, message)
+   !> Send a parcel, or an error as one: its sentence is the text of it
+   subroutine send(parcel, error, sent)
       !> The parcel; its numbers are moved away
       type(parcel_type), intent(inout) :: parcel
       !> The error that came instead
       type(error_type), allocatable, intent(in) :: error
-      !> Its address and numbers of integers, reals and characters; zeros where there is nothing in it
-      integer(c_int64_t), intent(out) :: sent(4)
-      !> As from report
-      integer(c_int), intent(out) :: stat
-      character(len=*), intent(out) :: message
+      !> Its address and numbers of integers, reals and characters, zeros where there is nothing in it; kind of the error, 0
+      !> if there is none
+      integer(c_int64_t), intent(out) :: sent(5)
 
       type(parcel_type), pointer :: content
 
       sent = 0
-      call report(error, stat, message)
-      if (allocated(error)) return
-      if (.not. (allocated(parcel%integers) .or. allocated(parcel%reals) .or. parcel%lines%count > 0)) return
+      if (.not. (allocated(error) .or. allocated(parcel%integers) .or. allocated(parcel%reals) .or. parcel%lines%count > 0)) return
       allocate (content)
       allocate (content%integers(0), content%reals(0))
-      if (allocated(parcel%integers)) call move_alloc(parcel%integers, content%integers)
-      if (allocated(parcel%reals)) call move_alloc(parcel%reals, content%reals)
-      content%lines%count = parcel%lines%count
-      if (allocated(parcel%lines%line)) call move_alloc(parcel%lines%line, content%lines%line)
-      content%given = parcel%given
-      if (allocated(parcel%series)) call move_alloc(parcel%series, content%series)
-      sent = [transfer(c_loc(content), 0_c_intptr_t), size(content%integers, kind=c_int64_t), &
+      if (allocated(error)) then
+         call content%lines%add(error%message)
+         sent(5) = error%stat
+      else
+         if (allocated(parcel%integers)) call move_alloc(parcel%integers, content%integers)
+         if (allocated(parcel%reals)) call move_alloc(parcel%reals, content%reals)
+         content%lines%count = parcel%lines%count
+         if (allocated(parcel%lines%line)) call move_alloc(parcel%lines%line, content%lines%line)
+         content%given = parcel%given
+         if (allocated(parcel%series)) call move_alloc(parcel%series, content%series)
+      end if
+      sent(:4) = [transfer(c_loc(content), 0_c_intptr_t), size(content%integers, kind=c_int64_t), &
          & size(content%reals, kind=c_int64_t), length_of(content%lines)]
    end subroutine send
+
+   !> Send an error, if there is one, and nothing else
+   subroutine report(error, failure)
+      !> The error; not allocated: success
+      type(error_type), allocatable, intent(in) :: error
+      !> As from send
+      integer(c_int64_t), intent(out) :: failure(5)
+
+      type(parcel_type) :: nothing
+
+      call send(nothing, error, failure)
+   end subroutine report
 
    !> Take what a parcel holds but its series, and free it if it has none
    subroutine take(handle, integers, reals, text)

@@ -1,7 +1,7 @@
 !> Records: uploading, measuring, reading and making them.
 module records
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
-   use dondolo_boundary, only : check_room, next_line, report
+   use dondolo_boundary, only : check_room, next_line
    use dondolo_catalogue, only : read_catalogue, record_rows_type
    use dondolo_clusters, only : cluster_label
    use dondolo_csv_row, only : cell_type
@@ -16,7 +16,7 @@ module records
    use dondolo_lines, only : lines_type
    use dondolo_metadata, only : metadata_type
    use dondolo_number_table, only : read_table => read_number_table
-   use dondolo_parcel, only : parcel_type, send
+   use dondolo_parcel, only : parcel_type, report, send
    use dondolo_reading_notes, only : list_reading_notes
    use dondolo_record, only : new_record, record_type
    use dondolo_record_parcel, only : pack_records, set_labels, set_records
@@ -37,14 +37,12 @@ module records
 contains
 
    !> Upload records that Python has checked: a suite
-   subroutine new_suite(names, labels, lengths, dt, r, acceleration, n, have_vertical, vertical, k, threads, handle, stat, &
-      & message)
+   subroutine new_suite(names, labels, lengths, dt, r, acceleration, n, have_vertical, vertical, k, threads, handle, failure)
       character(len=*), intent(in) :: names, labels
       integer(c_int), intent(in) :: r, n, k, lengths(r), have_vertical(r), threads
       real(c_double), intent(in) :: dt(r), acceleration(n), vertical(k)
       integer(c_int64_t), intent(out) :: handle
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: failure(5)
       type(record_type), allocatable :: records(:)
       type(records_type), pointer :: held
       class(*), pointer :: content
@@ -60,17 +58,16 @@ contains
          content => held
          call hold(content, handle)
       end if
-      call report(error, stat, message)
+      call report(error, failure)
    end subroutine new_suite
 
    !> Measure the records of a suite, which keeps the values for the studies to come
-   subroutine measure_suite(suite, im, threads, stat, message)
+   subroutine measure_suite(suite, im, threads, failure)
       !f2py threadsafe
       integer(c_int64_t), intent(in) :: suite
       character(len=*), intent(in) :: im
       integer(c_int), intent(in) :: threads
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: failure(5)
       type(suite_type), pointer :: records
       type(scaling_type) :: scaling
       type(error_type), allocatable :: error
@@ -79,17 +76,16 @@ contains
       if (.not. allocated(error)) call check_threads(threads, error)
       if (.not. allocated(error)) call new_scaling(scaling, im, error)
       if (.not. allocated(error)) call records%measure(scaling%measure, threads)
-      call report(error, stat, message)
+      call report(error, failure)
    end subroutine measure_suite
 
    !> Check what a record is to be made of; one without a vertical component gives the horizontal one twice
-   subroutine check_record(acceleration, n, dt, vertical, pga, stat, message)
+   subroutine check_record(acceleration, n, dt, vertical, pga, failure)
       !f2py threadsafe
       integer(c_int), intent(in) :: n
       real(c_double), intent(in) :: acceleration(n), dt, vertical(n)
       real(c_double), intent(out) :: pga
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: failure(5)
       type(record_type) :: record
       type(error_type), allocatable :: error
 
@@ -98,17 +94,15 @@ contains
       if (.not. allocated(error)) call new_record(record, acceleration, dt, '', error)
       if (.not. allocated(error)) call record%set_vertical(vertical, dt, 1.0_c_double, error)
       if (.not. allocated(error)) pga = record%pga()
-      call report(error, stat, message)
+      call report(error, failure)
    end subroutine check_record
 
    !> A record of n samples and a vertical component of m, on one grid. Reals: its step, samples of the record and as many of the
    !> vertical component
-   subroutine join_vertical(acceleration, n, dt, vertical, m, vertical_dt, factor, sent, stat, message)
+   subroutine join_vertical(acceleration, n, dt, vertical, m, vertical_dt, factor, sent)
       integer(c_int), intent(in) :: n, m
       real(c_double), intent(in) :: acceleration(n), dt, vertical(m), vertical_dt, factor
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(record_type) :: record
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
@@ -118,14 +112,13 @@ contains
       if (.not. allocated(error)) call check_vertical_motion(vertical, error)
       if (.not. allocated(error)) call record%set_vertical(vertical, vertical_dt, factor, error)
       if (.not. allocated(error)) parcel%reals = [record%dt, record%acceleration, record%vertical]
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine join_vertical
 
    !> Check that the records of a suite are motions
-   subroutine check_motions(suite, stat, message)
+   subroutine check_motions(suite, failure)
       integer(c_int64_t), intent(in) :: suite
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: failure(5)
       type(suite_type), pointer :: records
       type(error_type), allocatable :: error
       integer :: i
@@ -137,18 +130,16 @@ contains
             if (allocated(error)) exit
          end do
       end if
-      call report(error, stat, message)
+      call report(error, failure)
    end subroutine check_motions
 
    !> What metadata say of the earthquake of a record: three lines of text, its name or origin, the label of the cluster, and
    !> the date, each empty if it is not known
-   subroutine labels_of(metadata, n, sent, stat, message)
+   subroutine labels_of(metadata, n, sent)
       !> Keys and values in turn, one a line, and how many pairs
       character(len=*), intent(in) :: metadata
       integer(c_int), intent(in) :: n
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(metadata_type) :: known
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
@@ -167,18 +158,16 @@ contains
       call parcel%lines%add(label)
       call find_date(known, label)
       call parcel%lines%add(label)
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine labels_of
 
    !> Name as dondolo writes it, unit of the levels and words of an intensity measure: three lines of text; and the power of a
    !> record's scale that it grows by: an integer. With of_record = 1 those that records have of themselves, durations too;
    !> else those that records can be scaled by
-   subroutine describe_measure(im, of_record, sent, stat, message)
+   subroutine describe_measure(im, of_record, sent)
       character(len=*), intent(in) :: im
       integer(c_int), intent(in) :: of_record
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(measure_type) :: measure
       type(scaling_type) :: scaling
       type(parcel_type) :: parcel
@@ -202,19 +191,18 @@ contains
             parcel%integers = [scaling%measure%power()]
          end if
       end if
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine describe_measure
 
    !> Intensities of the records of a suite, in the unit of the levels
-   subroutine intensities(suite, im, r, gravity, threads, values, stat, message)
+   subroutine intensities(suite, im, r, gravity, threads, values, failure)
       !f2py threadsafe
       integer(c_int64_t), intent(in) :: suite
       character(len=*), intent(in) :: im
       integer(c_int), intent(in) :: r, threads
       real(c_double), intent(in) :: gravity
       real(c_double), intent(out) :: values(r)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: failure(5)
       type(measure_type) :: measure
       type(suite_type), pointer :: records
       type(error_type), allocatable :: error
@@ -227,18 +215,17 @@ contains
          call records%measure(measure, threads)
          values = records%values(measure, threads)/measure%level_size(gravity)
       end if
-      call report(error, stat, message)
+      call report(error, failure)
    end subroutine intensities
 
    !> Spectral displacements of a record
-   subroutine spectrum(suite, number, periods, m, damping, displacement, stat, message)
+   subroutine spectrum(suite, number, periods, m, damping, displacement, failure)
       !f2py threadsafe
       integer(c_int64_t), intent(in) :: suite
       integer(c_int), intent(in) :: number, m
       real(c_double), intent(in) :: periods(m), damping
       real(c_double), intent(out) :: displacement(m)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: failure(5)
       type(suite_type), pointer :: records
       type(error_type), allocatable :: error
 
@@ -247,7 +234,7 @@ contains
       if (.not. allocated(error)) call find_suite(suite, records, error)
       if (.not. allocated(error)) call check_spectrum(periods, damping, error)
       if (.not. allocated(error)) displacement = spectral_displacement(records%records(number), periods, damping)
-      call report(error, stat, message)
+      call report(error, failure)
    end subroutine spectrum
 
    !> Check the oscillators of a response spectrum
@@ -274,13 +261,12 @@ contains
    end subroutine check_spectrum
 
    !> Velocity of the ground at the samples of a record
-   subroutine ground_velocity(suite, number, n, velocity, stat, message)
+   subroutine ground_velocity(suite, number, n, velocity, failure)
       !f2py threadsafe
       integer(c_int64_t), intent(in) :: suite
       integer(c_int), intent(in) :: number, n
       real(c_double), intent(out) :: velocity(n)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: failure(5)
       type(suite_type), pointer :: records
       type(error_type), allocatable :: error
 
@@ -288,38 +274,35 @@ contains
       call check_room(error, reals=3.0_c_double*n)
       if (.not. allocated(error)) call find_suite(suite, records, error)
       if (.not. allocated(error)) velocity = velocity_of(records%records(number))
-      call report(error, stat, message)
+      call report(error, failure)
    end subroutine ground_velocity
 
    !> Times at which the integral of the squared acceleration reaches two shares of its end value
-   subroutine significant_times(suite, number, low, high, times, stat, message)
+   subroutine significant_times(suite, number, low, high, times, failure)
       !f2py threadsafe
       integer(c_int64_t), intent(in) :: suite
       integer(c_int), intent(in) :: number
       real(c_double), intent(in) :: low, high
       real(c_double), intent(out) :: times(2)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: failure(5)
       type(suite_type), pointer :: records
       type(error_type), allocatable :: error
 
       times = 0
       call find_suite(suite, records, error)
       if (.not. allocated(error)) times = times_of(records%records(number), low, high)
-      call report(error, stat, message)
+      call report(error, failure)
    end subroutine significant_times
 
    !> Read accelerograms: what = 0 one channel of a file, 1 all of a catalogue, 2 all channels of a file; texts are empty
    !> where they are not given. Vertical components of a catalogue are read with vertical = 1. Integers before those of
    !> pack_records: number of records, and of a catalogue with levels the record of each row; reals before them: level and
    !> factor of each row, 0 where it has none
-   subroutine read_records(path, what, dt_given, dt, units, channel, layout, vertical, vertical_factor, sent, stat, message)
+   subroutine read_records(path, what, dt_given, dt, units, channel, layout, vertical, vertical_factor, sent)
       character(len=*), intent(in) :: path, units, channel, layout
       integer(c_int), intent(in) :: what, dt_given, vertical
       real(c_double), intent(in) :: dt, vertical_factor
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(record_type), allocatable :: records(:)
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
@@ -354,16 +337,14 @@ contains
       do i = 1, notes%count
          call parcel%lines%add(notes%line(i)%text)
       end do
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine read_records
 
    !> Read a table of numbers. Integers: columns, rows; reals: its numbers, row by row; text: names of the columns, and how it
    !> was read, where there is something to say of it
-   subroutine read_number_table(path, sent, stat, message)
+   subroutine read_number_table(path, sent)
       character(len=*), intent(in) :: path
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(cell_type), allocatable :: columns(:)
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
@@ -380,17 +361,15 @@ contains
          parcel%reals = reshape(values, [size(values)])
          call parcel%add_note(note)
       end if
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine read_number_table
 
    !> The table of the records of a catalogue. Integer: number of its lines; text: its lines, and how the catalogue was read,
    !> where there is something to say of it
-   subroutine catalogue_table(path, gravity, sent, stat, message)
+   subroutine catalogue_table(path, gravity, sent)
       character(len=*), intent(in) :: path
       real(c_double), intent(in) :: gravity
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(record_type), allocatable :: records(:)
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
@@ -402,24 +381,22 @@ contains
          parcel%integers = [parcel%lines%count]
          call parcel%add_note(note)
       end if
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine catalogue_table
 
    !> A synthetic record: one realisation of the model of Sabetta and Pugliese (1996)
-   subroutine synthetic_record(magnitude, distance, site, seed, stream, deviations, sent, stat, message)
+   subroutine synthetic_record(magnitude, distance, site, seed, stream, deviations, sent)
       character(len=*), intent(in) :: site
       integer(c_int), intent(in) :: seed, stream
       real(c_double), intent(in) :: magnitude, distance, deviations
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(record_type) :: records(1)
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
 
       call make_record(records(1), magnitude, distance, site, seed, stream, deviations, error)
       if (.not. allocated(error)) call pack_records(records, parcel, error)
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine synthetic_record
 
 end module records

@@ -84,7 +84,7 @@ def records_of_file(
         for name, text in (("units", units), ("channel", channel), ("format", layout))
     )
     vertical = (0, 0.0) if vertical_factor is None else (1, vertical_factor)
-    parcel = receive(*_core.records.read_records(as_path(path), what, int(dt is not None), step, *texts, *vertical))
+    parcel = receive(_core.records.read_records(as_path(path), what, int(dt is not None), step, *texts, *vertical))
     count = int(parcel.integers[0])
     rows = len(parcel.integers) - 1 - 3 * count
     records = unpack_records(parcel, count, 2 * rows, 1 + rows)
@@ -96,7 +96,7 @@ def records_of_file(
 
 def read_number_table(path: str | os.PathLike[str]) -> tuple[list[str], FloatArray]:
     """Read a table of numbers: the names of its columns, and its numbers (rows, columns)."""
-    parcel = receive(*_core.records.read_number_table(as_path(path)))
+    parcel = receive(_core.records.read_number_table(as_path(path)))
     columns, rows = (int(count) for count in parcel.integers)
     warn_of_notes(parcel.lines[columns:])
     return parcel.lines[:columns], parcel.reals.reshape(rows, columns)
@@ -104,7 +104,7 @@ def read_number_table(path: str | os.PathLike[str]) -> tuple[list[str], FloatArr
 
 def catalogue_table(path: str | os.PathLike[str]) -> list[str]:
     """The table of the records of a catalogue, as the executable prints it."""
-    parcel = receive(*_core.records.catalogue_table(as_path(path), constants().gravity))
+    parcel = receive(_core.records.catalogue_table(as_path(path), constants().gravity))
     lines = int(parcel.integers[0])
     warn_of_notes(parcel.lines[lines:])
     return parcel.lines[:lines]
@@ -117,7 +117,7 @@ def describe_measure(im: str, of_record: bool = False) -> MeasureData:
 
 @functools.cache
 def _describe_measure(im: bytes, of_record: bool) -> MeasureData:
-    parcel = receive(*_core.records.describe_measure(im, int(of_record)))
+    parcel = receive(_core.records.describe_measure(im, int(of_record)))
     name, unit, title = parcel.lines
     return MeasureData(name, unit, title, int(parcel.integers[0]))
 

@@ -2,13 +2,13 @@
 module stores
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_boundary, only : check_room, report
+   use dondolo_boundary, only : check_room
    use dondolo_error, only : error_type, raise_failure
    use dondolo_fingerprint, only : fingerprint_type
    use dondolo_handles, only : find_store, find_study, find_walls, hold, release
    use dondolo_identity, only : add_wall, study_identity
    use dondolo_interrupt, only : check_interrupt
-   use dondolo_parcel, only : parcel_type, send
+   use dondolo_parcel, only : parcel_type, report, send
    use dondolo_member, only : member_type
    use dondolo_row_result, only : bytes_of_flags, pack_flags, row_result_type, shape_type
    use dondolo_run_rows, only : run_block => run_rows
@@ -26,14 +26,13 @@ contains
 
    !> Open the store of walls, the rows of a population, under a study: a file, or memory where the path is empty. thresholds:
    !> EDP of the damage states, the last that of collapse. The handle must be given back by close_store
-   subroutine open_store(path, study, walls, thresholds, k, handle, stat, message)
+   subroutine open_store(path, study, walls, thresholds, k, handle, failure)
       character(len=*), intent(in) :: path
       integer(c_int64_t), intent(in) :: study, walls
       integer(c_int), intent(in) :: k
       real(c_double), intent(in) :: thresholds(k)
       integer(c_int64_t), intent(out) :: handle
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: failure(5)
       type(study_type), pointer :: chosen
       type(wall_type), pointer :: people(:)
       type(study_type) :: own
@@ -63,17 +62,16 @@ contains
             call hold(content, handle)
          end if
       end if
-      call report(error, stat, message)
+      call report(error, failure)
    end subroutine open_store
 
    !> Which of the w rows a store has (1), and the counts of what was computed for them in the order of work_names
-   subroutine store_state(handle, w, is_there, work, stat, message)
+   subroutine store_state(handle, w, is_there, work, failure)
       integer(c_int64_t), intent(in) :: handle
       integer(c_int), intent(in) :: w
       integer(c_int), intent(out) :: is_there(w)
       integer(c_int64_t), intent(out) :: work(8)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: failure(5)
       type(store_type), pointer :: store
       type(error_type), allocatable :: error
       integer :: i
@@ -85,32 +83,29 @@ contains
          is_there = [(merge(1, 0, store%has(i)), i=1, w)]
          work = store%work%counts()
       end if
-      call report(error, stat, message)
+      call report(error, failure)
    end subroutine store_state
 
    !> Make a store this process's to put rows in
-   subroutine claim_store(handle, stat, message)
+   subroutine claim_store(handle, failure)
       integer(c_int64_t), intent(in) :: handle
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: failure(5)
       type(store_type), pointer :: store
       type(error_type), allocatable :: error
 
       call find_store(handle, store, error)
       if (.not. allocated(error)) call store%claim(error)
-      call report(error, stat, message)
+      call report(error, failure)
    end subroutine claim_store
 
    !> Run w walls, rows of a population the first of which has number first, under a study; thresholds as for open_store.
    !> Integers: a block that put_block takes
-   subroutine run_rows(study, walls, w, thresholds, k, first, sent, stat, message)
+   subroutine run_rows(study, walls, w, thresholds, k, first, sent)
       !f2py threadsafe
       integer(c_int64_t), intent(in) :: study, walls
       integer(c_int), intent(in) :: w, k, first
       real(c_double), intent(in) :: thresholds(k)
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(study_type), pointer :: chosen
       type(wall_type), pointer :: people(:)
       type(study_type) :: own
@@ -135,15 +130,14 @@ contains
          rows%row = [(first + i - 1, i=1, w)]
          call pack_block(rows, shape_type(size(own%levels), size(thresholds)), parcel%integers)
       end if
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine run_rows
 
    !> Put a block of rows into a store that was claimed; rows that are there already stay as they are
-   subroutine put_block(handle, block, n, count, stat, message)
+   subroutine put_block(handle, block, n, count, failure)
       integer(c_int64_t), intent(in) :: handle
       integer(c_int), intent(in) :: n, count, block(n)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: failure(5)
       type(store_type), pointer :: store
       type(row_result_type), allocatable :: rows(:)
       type(error_type), allocatable :: error
@@ -158,7 +152,7 @@ contains
          if (.not. are_whole) call raise_failure(error, 'a block of rows was damaged on its way')
       end if
       if (.not. allocated(error)) call store%put(rows, error)
-      call report(error, stat, message)
+      call report(error, failure)
    end subroutine put_block
 
    !> What a store has of its rows. Integers: histories of a stripe of each row, how many of them reach each state (levels,
@@ -166,11 +160,9 @@ contains
    !> make each tie yield and how many break it (ties, levels, 2), and the flags, eight a byte, each row from a byte of its own
    !> on, and the number of these bytes last. Reals: of the rows that are there mean and largest plastic elongation (ties,
    !> levels, 2) [m]
-   subroutine read_store(handle, sent, stat, message)
+   subroutine read_store(handle, sent)
       integer(c_int64_t), intent(in) :: handle
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(store_type), pointer :: store
       type(row_result_type) :: row
       type(parcel_type) :: parcel
@@ -216,7 +208,7 @@ contains
          parcel%integers = [histories, reached, ties, counts(:number), transfer(flags(:(at + 3)/4*4), [0_c_int]), at]
          parcel%reals = elongations(:number)
       end if
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine read_store
 
    !> Add what the histories of a row do to its ties behind that of others, as many numbers of each kind; there is room for as

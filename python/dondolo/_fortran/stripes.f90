@@ -1,14 +1,14 @@
 !> Studies, and the multiple stripes of walls under them.
 module stripes
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
-   use dondolo_boundary, only : as_solver, check_room, report, unpack_response
+   use dondolo_boundary, only : as_solver, check_room, unpack_response
    use dondolo_catalogue, only : record_rows_type
    use dondolo_ensemble, only : ensemble_type
    use dondolo_error, only : add_place, error_type
    use dondolo_even_levels, only : settle_levels
    use dondolo_handles, only : find_study, find_suite, find_walls, held_study_type, hold
    use dondolo_interrupt, only : check_interrupt, watch, watched
-   use dondolo_parcel, only : parcel_type, send
+   use dondolo_parcel, only : parcel_type, report, send
    use dondolo_plausibility, only : wall_warning_type
    use dondolo_scaling, only : new_scaling, scaling_type, unscaled
    use dondolo_solver, only : check_limit
@@ -30,14 +30,13 @@ module stripes
 contains
 
    !> A study: a suite and how walls are tried under it. Without a measure its levels are factors on the records
-   subroutine new_study(suite, im, levels, m, polarity, engine, settings, threads, handle, stat, message)
+   subroutine new_study(suite, im, levels, m, polarity, engine, settings, threads, handle, failure)
       integer(c_int64_t), intent(in) :: suite
       character(len=*), intent(in) :: im, polarity, engine
       integer(c_int), intent(in) :: m, threads
       real(c_double), intent(in) :: levels(m), settings(5)
       integer(c_int64_t), intent(out) :: handle
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: failure(5)
       type(suite_type), pointer :: records
       type(scaling_type) :: scaling
       type(held_study_type), pointer :: held
@@ -64,7 +63,7 @@ contains
             call hold(content, handle)
          end if
       end if
-      call report(error, stat, message)
+      call report(error, failure)
    end subroutine new_study
 
    !> Levels as a case has them: a list that is equally spaced but for rounding becomes that of first, last and count
@@ -79,12 +78,11 @@ contains
 
    !> Choose the records of each level: n rows of record (from 1), level and factor, as those of a catalogue; 0: every
    !> level, and a factor computed from the measure
-   subroutine choose_records(study, record, level, factor, n, stat, message)
+   subroutine choose_records(study, record, level, factor, n, failure)
       integer(c_int64_t), intent(in) :: study
       integer(c_int), intent(in) :: n, record(n)
       real(c_double), intent(in) :: level(n), factor(n)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: failure(5)
       type(study_type), pointer :: chosen
       type(record_rows_type) :: rows
       type(error_type), allocatable :: error
@@ -101,15 +99,15 @@ contains
          end do
          call chosen%set_rows(rows, error)
       end if
-      call report(error, stat, message)
+      call report(error, failure)
    end subroutine choose_records
 
    !> Which of the n records run at each of the m levels of a study: 1 or 0
-   subroutine runs_of_records(study, n, m, runs, stat, message)
+   subroutine runs_of_records(study, n, m, runs, failure)
       integer(c_int64_t), intent(in) :: study
       integer(c_int), intent(in) :: n, m
-      integer(c_int), intent(out) :: runs(n, m), stat
-      character(len=2048), intent(out) :: message
+      integer(c_int), intent(out) :: runs(n, m)
+      integer(c_int64_t), intent(out) :: failure(5)
       type(study_type), pointer :: chosen
       type(error_type), allocatable :: error
       integer :: i, j
@@ -123,7 +121,7 @@ contains
             end do
          end do
       end if
-      call report(error, stat, message)
+      call report(error, failure)
    end subroutine runs_of_records
 
    !> Check what stripes of walls would be, without running them. The parcel's integers are 1 if walls of the same gravity
@@ -131,12 +129,10 @@ contains
    !> wall in a stripe in which every record runs; then of those of the last wall the record (from 0) and the polarity of
    !> each, and, unless all run at every level, stripe by stripe 1 where it runs, else 0. Its reals are their scales, stripe
    !> by stripe, its lines the warnings, those of the walls first
-   subroutine plan(study, walls, w, sent, stat, message)
+   subroutine plan(study, walls, w, sent)
       integer(c_int64_t), intent(in) :: study, walls
       integer(c_int), intent(in) :: w
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(study_type), pointer :: chosen
       type(wall_type), pointer :: people(:)
       type(stripes_type) :: stripes
@@ -185,15 +181,13 @@ contains
          end do
          call warning_objects(warnings, parcel%lines)
       end if
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine plan
 
    !> Check a wall whose plan is known from another wall; the parcel's lines are the warnings of the wall alone
-   subroutine check_wall(study, walls, sent, stat, message)
+   subroutine check_wall(study, walls, sent)
       integer(c_int64_t), intent(in) :: study, walls
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(study_type), pointer :: chosen
       type(wall_type), pointer :: people(:)
       type(wall_warning_type) :: oddities
@@ -209,21 +203,20 @@ contains
          call oddities%warn(warnings)
          call warning_objects(warnings, parcel%lines)
       end if
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine check_wall
 
    !> Run `count` histories of walls `one` to `last`, which plan has checked, from number `first` of wall `one` on; they are
    !> numbered wall by wall and stripe by stripe. Counts of what was computed come in the order of work_names
    subroutine run_block(study, walls, one, last, first, count, edp, collapsed, impacts, time_of_peak, edp_error, work, &
-         & stat, message)
+         & failure)
       !f2py threadsafe
       integer(c_int64_t), intent(in) :: study, walls
       integer(c_int), intent(in) :: one, last, first, count
       real(c_double), intent(inout) :: edp(count), time_of_peak(count), edp_error(count)
       integer(c_int), intent(inout) :: collapsed(count), impacts(count)
       integer(c_int64_t), intent(out) :: work(8)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: failure(5)
       type(study_type), pointer :: chosen
       type(wall_type), pointer :: people(:)
       type(ensemble_type), allocatable :: part(:)
@@ -276,7 +269,7 @@ contains
          call check_interrupt(error)
       end if
       work = total%counts()
-      call report(error, stat, message)
+      call report(error, failure)
    end subroutine run_block
 
 end module stripes

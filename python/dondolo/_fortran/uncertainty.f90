@@ -1,10 +1,10 @@
 !> What the uncertainty of a model is made of.
 module uncertainty
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
-   use dondolo_boundary, only : check_room, report
+   use dondolo_boundary, only : check_room
    use dondolo_error, only : error_type
    use dondolo_handles, only : find_walls
-   use dondolo_parcel, only : parcel_type, send
+   use dondolo_parcel, only : parcel_type, report, send
    use dondolo_restitution, only : published_factors
    use dondolo_sensitivity, only : new_sensitivity, sensitivity_type, smallest => smallest_sample
    use dondolo_tested_restitution, only : check_published, make_restitution_sentence
@@ -18,13 +18,12 @@ contains
 
    !> Sobol indices of k quantities from n samples: first-order index, its interval, total index, its interval, of each; and the
    !> part that is not explained
-   subroutine sensitivity(values, outcome, n, k, indices, rest, stat, message)
+   subroutine sensitivity(values, outcome, n, k, indices, rest, failure)
       !f2py threadsafe
       integer(c_int), intent(in) :: n, k
       real(c_double), intent(in) :: values(n, k), outcome(n)
       real(c_double), intent(out) :: indices(6, k), rest
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: failure(5)
       type(sensitivity_type) :: found
       type(error_type), allocatable :: error
 
@@ -32,7 +31,7 @@ contains
       rest = 0
       call check_room(error, reals=4.0_c_double*n*k*(k + 4))
       if (.not. allocated(error)) call new_sensitivity(found, values, outcome, error)
-      call report(error, stat, message)
+      call report(error, failure)
       if (allocated(error)) return
       indices(1, :) = found%first
       indices(2:3, :) = found%first_interval
@@ -50,10 +49,8 @@ contains
    end subroutine smallest_sample
 
    !> Published ranges of the factor on restitution: their limits as reals; name and source as lines
-   subroutine published(sent, stat, message)
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+   subroutine published(sent)
+      integer(c_int64_t), intent(out) :: sent(5)
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
       integer :: i
@@ -63,29 +60,26 @@ contains
          call parcel%lines%add(trim(published_factors(i)%name))
          call parcel%lines%add(trim(published_factors(i)%source))
       end do
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine published
 
    !> Check that a published range was measured against the restitution of a wall
-   subroutine check_factor(walls, name, stat, message)
+   subroutine check_factor(walls, name, failure)
       integer(c_int64_t), intent(in) :: walls
       character(len=*), intent(in) :: name
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: failure(5)
       type(wall_type), pointer :: people(:)
       type(error_type), allocatable :: error
 
       call find_walls(walls, people, error)
       if (.not. allocated(error)) call check_published(name, people(1), error)
-      call report(error, stat, message)
+      call report(error, failure)
    end subroutine check_factor
 
    !> What the restitution of a wall assumes beside tests, as a line, empty where there are none
-   subroutine restitution_sentence(walls, sent, stat, message)
+   subroutine restitution_sentence(walls, sent)
       integer(c_int64_t), intent(in) :: walls
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(wall_type), pointer :: people(:)
       character(len=:), allocatable :: line
       type(parcel_type) :: parcel
@@ -96,7 +90,7 @@ contains
          call make_restitution_sentence(people(1), line)
          call parcel%lines%add(line)
       end if
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine restitution_sentence
 
 end module uncertainty

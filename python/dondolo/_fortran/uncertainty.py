@@ -36,8 +36,8 @@ def sensitivity(values: FloatArray, outcome: FloatArray) -> Sensitivity:
     """Which of several independent quantities (samples, quantities) an outcome (samples,) owes its scatter to."""
     if len(outcome) == 0:
         raise DondoloError("no sample has a curve: there is nothing to tell its scatter from")
-    indices, rest, stat, message = _core.uncertainty.sensitivity(np.asfortranarray(values), outcome)
-    check(stat, message)
+    indices, rest, failure = _core.uncertainty.sensitivity(np.asfortranarray(values), outcome)
+    check(failure)
     rows = indices.T.copy()
     return Sensitivity(rows[:, 0], rows[:, 1:3], rows[:, 3], rows[:, 4:6], float(rest))
 
@@ -50,7 +50,7 @@ def smallest_sample(quantities: int) -> int:
 @functools.cache
 def published_factors() -> dict[str, PublishedFactor]:
     """Ranges of restitution_factor from tests, by their names."""
-    parcel = receive(*_core.uncertainty.published())
+    parcel = receive(_core.uncertainty.published())
     limits = parcel.reals.reshape(-1, 2).tolist()
     lines = parcel.lines
     return {
@@ -61,11 +61,11 @@ def published_factors() -> dict[str, PublishedFactor]:
 
 def check_factor(wall: Handle, name: str) -> None:
     """Refuse a published range that was not measured against the restitution of a wall."""
-    stat, message = _core.uncertainty.check_factor(wall.number, name.encode())
-    check(stat, message)
+    failure = _core.uncertainty.check_factor(wall.number, name.encode())
+    check(failure)
 
 
 def restitution_sentence(wall: Handle) -> str:
     """What the restitution of a wall assumes beside tests; empty where there are none."""
-    (line,) = receive(*_core.uncertainty.restitution_sentence(wall.number)).lines
+    (line,) = receive(_core.uncertainty.restitution_sentence(wall.number)).lines
     return line

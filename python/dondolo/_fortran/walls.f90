@@ -1,11 +1,11 @@
 !> Walls: uploading, describing and reading them.
 module walls
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
-   use dondolo_boundary, only : check_room, report
+   use dondolo_boundary, only : check_room
    use dondolo_error, only : error_type, raise_input
    use dondolo_handles, only : find_walls, hold, walls_type
    use dondolo_mechanism, only : mechanism_type
-   use dondolo_parcel, only : parcel_type, send
+   use dondolo_parcel, only : parcel_type, report, send
    use dondolo_member, only : member_type
    use dondolo_population_reader, only : read_population
    use dondolo_text, only : to_text
@@ -20,13 +20,12 @@ module walls
 contains
 
    !> Upload walls that Python has had described
-   subroutine new_walls(texts, numbers, n, given, q, gravity, w, handle, stat, message)
+   subroutine new_walls(texts, numbers, n, given, q, gravity, w, handle, failure)
       character(len=*), intent(in) :: texts
       integer(c_int), intent(in) :: n, q, w, given(q, w)
       real(c_double), intent(in) :: numbers(n), gravity(w)
       integer(c_int64_t), intent(out) :: handle
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: failure(5)
       type(walls_type), pointer :: walls
       class(*), pointer :: content
       type(error_type), allocatable :: error
@@ -40,35 +39,32 @@ contains
          content => walls
          call hold(content, handle)
       end if
-      call report(error, stat, message)
+      call report(error, failure)
    end subroutine new_walls
 
    !> Walls with their defaults filled in and their static quantities, as pack_walls has them
-   subroutine describe_walls(texts, numbers, n, given, q, gravity, w, sent, stat, message)
+   subroutine describe_walls(texts, numbers, n, given, q, gravity, w, sent)
       character(len=*), intent(in) :: texts
       integer(c_int), intent(in) :: n, q, w, given(q, w)
       real(c_double), intent(in) :: numbers(n), gravity(w)
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(wall_type), allocatable :: walls(:)
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
 
       call set_walls(walls, texts, numbers, given, gravity, error)
       if (.not. allocated(error)) call pack_walls(walls, parcel)
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine describe_walls
 
    !> Terms J, C, G, L and Q of the equation of motion of a wall and its potential energy V, one column each, at n rotations
-   subroutine wall_terms(walls, rotation, n, terms, stat, message)
+   subroutine wall_terms(walls, rotation, n, terms, failure)
       !f2py threadsafe
       integer(c_int64_t), intent(in) :: walls
       integer(c_int), intent(in) :: n
       real(c_double), intent(in) :: rotation(n)
       real(c_double), intent(out) :: terms(n, 6)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: failure(5)
       type(wall_type), pointer :: people(:)
       type(error_type), allocatable :: error
       integer :: i
@@ -84,19 +80,18 @@ contains
             end do
          end associate
       end if
-      call report(error, stat, message)
+      call report(error, failure)
    end subroutine wall_terms
 
    !> Plastic elongation of each of the k ties of a wall, energy dissipated, and 1 where it is broken, after n largest
    !> rotations / capacity
-   subroutine tie_states(walls, edp, n, k, elongation, energy, broken, stat, message)
+   subroutine tie_states(walls, edp, n, k, elongation, energy, broken, failure)
       integer(c_int64_t), intent(in) :: walls
       integer(c_int), intent(in) :: n, k
       real(c_double), intent(in) :: edp(n)
       real(c_double), intent(out) :: elongation(k, n), energy(k, n)
       integer(c_int), intent(out) :: broken(k, n)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: failure(5)
       type(wall_type), pointer :: people(:)
       type(error_type), allocatable :: error
       logical :: is_broken(k)
@@ -113,7 +108,7 @@ contains
             broken(:, i) = merge(1, 0, is_broken)
          end do
       end if
-      call report(error, stat, message)
+      call report(error, failure)
    end subroutine tie_states
 
    !> Check that a mechanism can have rotations
@@ -139,12 +134,10 @@ contains
 
    !> Read a population: walls as pack_walls has them, then reals: their weights and the probabilities of their mechanisms;
    !> text: their groups, and how the table was read, where there is something to say of it
-   subroutine read_walls(path, gravity, sent, stat, message)
+   subroutine read_walls(path, gravity, sent)
       character(len=*), intent(in) :: path
       real(c_double), intent(in) :: gravity
-      integer(c_int64_t), intent(out) :: sent(4)
-      integer(c_int), intent(out) :: stat
-      character(len=2048), intent(out) :: message
+      integer(c_int64_t), intent(out) :: sent(5)
       type(member_type), allocatable :: members(:)
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
@@ -154,7 +147,7 @@ contains
       if (.not. allocated(error)) call check_room(error, walls=size(members))
       if (.not. allocated(error)) call pack_members(members, parcel)
       call parcel%add_note(note)
-      call send(parcel, error, sent, stat, message)
+      call send(parcel, error, sent)
    end subroutine read_walls
 
 end module walls

@@ -85,7 +85,7 @@ def describe_walls(count: int, values: Mapping[str, Any], gravity: ArrayLike) ->
     )
     # f2py takes no empty arrays
     sent = _core.walls.describe_walls(texts, np.array([*numbers, 0.0]), given.T, gravity)
-    return unpack_walls(receive(*sent), count)
+    return unpack_walls(receive(sent), count)
 
 
 def _values(what: str, value: Any) -> Sequence[float]:
@@ -104,8 +104,8 @@ def wall_terms(wall: Handle, rotation: ArrayLike) -> FloatArray:
         values, shape = np.ravel(rotation), np.shape(rotation)
     except ValueError:
         raise InputError("rotation: must be numbers") from None
-    terms, stat, message = _core.walls.wall_terms(wall.number, as_array("rotation", values))
-    check(stat, message)
+    terms, failure = _core.walls.wall_terms(wall.number, as_array("rotation", values))
+    check(failure)
     found: FloatArray = terms.T.reshape(6, *shape)
     return found
 
@@ -113,8 +113,8 @@ def wall_terms(wall: Handle, rotation: ArrayLike) -> FloatArray:
 def tie_states(wall: Handle, edp: ArrayLike, ties: int) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
     """Plastic elongation and energy of each tie of a wall, and whether it is broken, of shape (*edp.shape, ties)."""
     peaks = np.asarray(edp, dtype=np.float64)
-    elongation, energy, broken, stat, message = _core.walls.tie_states(wall.number, peaks.ravel(), ties)
-    check(stat, message)
+    elongation, energy, broken, failure = _core.walls.tie_states(wall.number, peaks.ravel(), ties)
+    check(failure)
     shape = (*peaks.shape, ties)
     return elongation.T.reshape(shape), energy.T.reshape(shape), broken.T.reshape(shape) == 1
 
@@ -175,7 +175,7 @@ def read_walls(
 ) -> tuple[list[WallData], FloatArray, list[str], FloatArray, list[str]]:
     """Read a population: its walls, their weights and groups, the probabilities of their mechanisms, their facades."""
     pull = constants().gravity if gravity is None else as_number("gravity", gravity)
-    parcel = receive(*_core.walls.read_walls(as_path(path), pull))
+    parcel = receive(_core.walls.read_walls(as_path(path), pull))
     count = len(parcel.integers) // _WALL_INTEGERS
     reals, _, groups = walls_end(parcel, count)
     weights, p_occ = parcel.reals[reals:].reshape(2, count)

@@ -24,7 +24,7 @@ from dondolo._fortran.origins import check_replaced, outdated, replaced
 from dondolo.errors import DondoloError, DondoloWarning, InputError
 
 # What the names of the files of a set end with, of any task
-TABLES = tuple(receive(*_core.cases.result_tables()).lines)
+TABLES = tuple(receive(_core.cases.result_tables()).lines)
 RUN_FILE = "_run.json"
 _LOCK_MARK, _TABLE_MARK = "dondolo lock", "# dondolo "
 # How often, and after how many seconds, a lock is tried again: who only looks at it has it for a moment

@@ -129,7 +129,7 @@ def run_again(stripes: Stripes, records: Sequence[Record], threads: int, progres
                 here = slice(done, done + _BLOCK)
                 rows = tuple(places[here].T)
                 with Stoppable():
-                    kind, *values, low, high, stat, message = _core.histories.certify(
+                    kind, *values, low, high, failure = _core.histories.certify(
                         wall.number,
                         suite.number,
                         numbers[here],
@@ -138,7 +138,7 @@ def run_again(stripes: Stripes, records: Sequence[Record], threads: int, progres
                         stripes.edp_limit,
                         threads,
                     )
-                check(stat, message)
+                check(failure)
                 lowest[rows], highest[rows] = low, high
                 for name, value in zip(_REPLACED, values, strict=True):
                     fields[name][rows] = value

@@ -424,7 +424,7 @@ class _Runner(NamedTuple):
         )
         people, suite = upload_walls((self.wall,)), upload(self.pulses)
         with Stoppable():
-            edp, collapsed, impacts, time, _, stat, message = _core.histories.run_scaled(
+            edp, collapsed, impacts, time, _, failure = _core.histories.run_scaled(
                 people.number,
                 suite.number,
                 (np.asarray(places) + 1).astype(np.int32),
@@ -433,7 +433,7 @@ class _Runner(NamedTuple):
                 self.settings,
                 self.threads,
             )
-        check(stat, message)
+        check(failure)
         return edp, collapsed == 1, impacts, time
 
 

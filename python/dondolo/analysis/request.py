@@ -152,16 +152,16 @@ class Request:
             return last[1]  # type: ignore[no-any-return]
         if self.im:
             suite.measure(self.im, self.threads)
-        number, stat, message = _core.stripes.new_study(
+        number, failure = _core.stripes.new_study(
             suite.number, im, self.levels, polarity, engine, self.settings, self.threads
         )
-        check(stat, message)
+        check(failure)
         # A suite keeps a study, which must not keep the suite: a ring would be freed late.
         study = Study(number, None if is_kept else suite)
         if is_kept:
             suite.last_study = key, study
         if self.rows is not None:
-            check(*_core.stripes.choose_records(number, *self.rows))
+            check(_core.stripes.choose_records(number, *self.rows))
         return study
 
     @functools.cached_property
@@ -183,8 +183,8 @@ class Request:
         """1 where a record runs at a level, else 0, shape (records, levels)."""
         if self.rows is None:
             return np.ones((len(self.records), len(self.levels)))
-        runs, stat, message = _core.stripes.runs_of_records(self._study.number, len(self.records), len(self.levels))
-        check(stat, message)
+        runs, failure = _core.stripes.runs_of_records(self._study.number, len(self.records), len(self.levels))
+        check(failure)
         return np.asarray(runs, dtype=np.float64)
 
     @functools.cached_property
@@ -197,12 +197,12 @@ class Request:
         study, people, wall = self._study, self._people, self.walls[0]
         like, shared = (wall.gravity, wall.two_sided), study.shared
         if len(self.walls) == 1 and shared is not None and shared[0] == like:
-            of_wall = unpack_warnings(receive(*_core.stripes.check_wall(study.number, people.number)).lines)
+            of_wall = unpack_warnings(receive(_core.stripes.check_wall(study.number, people.number)).lines)
             plan = shared[1]
             # A warning of its own for each caller, who may raise it
             return plan._replace(warnings=of_wall + [one.placed("") for one in plan.warnings])
         walls, levels = len(self.walls), len(self.levels)
-        parcel = receive(*_core.stripes.plan(study.number, people.number, walls))
+        parcel = receive(_core.stripes.plan(study.number, people.number, walls))
         # Results may share it, and nobody changes it.
         parcel.integers.flags.writeable = parcel.reals.flags.writeable = False
         # Histories of each wall; of the last, record and polarity of each, and which run at each level if not all do
@@ -244,10 +244,10 @@ class Request:
             here = slice(done, done + count)
             rows = (values[here] for values in (edp, collapsed, impacts, peak, error))
             with Stoppable():
-                counts, stat, message = _core.stripes.run_block(
+                counts, failure = _core.stripes.run_block(
                     study, people, one + 1, last + 1, first + 1, *rows, count
                 )
-            check(stat, message)
+            check(failure)
             work = Work.total([work, counts.tolist()])
 
         done, interrupted = in_blocks(total, pace, block, report)

@@ -360,7 +360,7 @@ def simulate(
     settings = how._settings(estimate_error)
     handle, (suite, place) = upload((wall,)), place_of(record)
     with Stoppable():
-        edp, collapsed, impacts, time_of_peak, edp_error, sent, stat, message = _core.histories.simulate(
+        edp, collapsed, impacts, time_of_peak, edp_error, sent = _core.histories.simulate(
             handle.number,
             suite.number,
             place,
@@ -369,12 +369,12 @@ def simulate(
             settings,
             int(history),
         )
-    check(stat, message)
+    check(sent)
     edp_limit = float(settings[2])
     motion: dict[str, Any] = {}
     # What was sent is received before anything is warned of, since a warning may be an error.
     if history:
-        parcel = receive(sent, stat, message)
+        parcel = receive(sent)
         side, after = parcel.integers.reshape(2, -1)
         names = ("time", "ground_acceleration", "rotation", "velocity")
         rows = parcel.reals[: 4 * len(side)]

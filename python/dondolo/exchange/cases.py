@@ -211,7 +211,7 @@ def read_case(path: str | os.PathLike[str]) -> Case:
     InputError
         What is wrong, with the sentence of the executable; of the table of a population everything, a line each.
     """
-    parcel = receive(*_core.cases.read_case(as_path(path)))
+    parcel = receive(_core.cases.read_case(as_path(path)))
     walls, levels, records, thresholds, threads, record = (int(value) for value in parcel.integers[:6])
     are_designs = bool(parcel.integers[9])
     rtol, atol, edp_limit, second_runs, scale = (float(value) for value in parcel.reals[:5])

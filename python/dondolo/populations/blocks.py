@@ -74,7 +74,7 @@ class Shared(NamedTuple):
         study, people = self.request._study, upload_walls(walls)
         with Stoppable():
             sent = _core.stores.run_rows(study.number, people.number, len(walls), self.states, first + 1)
-        return Part(receive(*sent).integers, time.perf_counter() - start)
+        return Part(receive(sent).integers, time.perf_counter() - start)
 
 
 def run_walls(

@@ -72,8 +72,8 @@ class Store:
         self._request, self._states = request, states
         file = b"" if path is None else os.fsencode(as_file("checkpoint", path))
         study, people = request._study.number, request._people.number
-        handle, stat, message = _core.stores.open_store(file, study, people, states)
-        check(stat, message)
+        handle, failure = _core.stores.open_store(file, study, people, states)
+        check(failure)
         self._handle = handle
         self._close = weakref.finalize(self, _core.stores.close_store, handle)
 
@@ -83,18 +83,18 @@ class Store:
 
     def claim(self) -> None:
         """Make the file this process's; a `DondoloError` tells that it cannot be written, or that another run does."""
-        check(*_core.stores.claim_store(self._handle))
+        check(_core.stores.claim_store(self._handle))
 
     def put(self, block: IntArray, rows: int) -> None:
         """Put in the rows of a block; a `DondoloError` tells that they cannot be written."""
-        check(*_core.stores.put_block(self._handle, block, rows))
+        check(_core.stores.put_block(self._handle, block, rows))
 
     def read(self) -> Contents:
         """Everything that is there."""
         request, rows = self._request, len(self._request.walls)
         complete, work = self._state()
         states, levels = len(self._states), len(request.levels)
-        parcel = receive(*_core.stores.read_store(self._handle))
+        parcel = receive(_core.stores.read_store(self._handle))
         numbers, lengths = parcel.integers, parcel.reals
         histories, reached, ties, rest = np.split(numbers[:-1], np.cumsum([rows, rows * states * levels, rows]))
         of_ties, bits = np.split(rest, [2 * levels * ties.sum()])
@@ -107,8 +107,8 @@ class Store:
         return Contents(complete, exceedances, tied, flags, work)
 
     def _state(self) -> tuple[NDArray[np.bool_], Work]:
-        there, counts, stat, message = _core.stores.store_state(self._handle, len(self._request.walls))
-        check(stat, message)
+        there, counts, failure = _core.stores.store_state(self._handle, len(self._request.walls))
+        check(failure)
         return there.astype(bool), Work(*counts.tolist())
 
     def __enter__(self) -> Store:

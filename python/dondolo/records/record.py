@@ -101,8 +101,8 @@ class Record:
         upwards = None if vertical is None else as_array("vertical", vertical).copy()
         if upwards is not None and len(upwards) != len(values):
             raise InputError(f"vertical: has {len(upwards)} samples, must have {len(values)} as the record")
-        peak, stat, message = _core.records.check_record(values, step, values if upwards is None else upwards)
-        check(stat, message)
+        peak, failure = _core.records.check_record(values, step, values if upwards is None else upwards)
+        check(failure)
         if not isinstance(metadata, Mapping):
             raise InputError(f"metadata: {type(metadata).__name__} is no mapping")
         known = {str(key): str(value) for key, value in metadata.items()}

@@ -129,7 +129,7 @@ class Suite(Handle):
     def measure(self, im: str, threads: int) -> None:
         """Let Fortran measure its records, which keeps the values for all studies to come."""
         if im not in self._measured:
-            check(*_core.records.measure_suite(self.number, as_text("im", im), threads))
+            check(_core.records.measure_suite(self.number, as_text("im", im), threads))
             self._measured.add(im)
 
     def facts(self, records: tuple[Motion, ...]) -> Facts:
@@ -156,7 +156,7 @@ def upload(records: tuple[Motion, ...], threads: int = 1) -> Suite:
     if suite is not None and suite.holds(records):
         return suite
     verticals = [record.vertical for record in records if record.vertical is not None]
-    handle, stat, message = _core.records.new_suite(
+    handle, failure = _core.records.new_suite(
         "\n".join(record.name for record in records).encode(),
         "\n".join(line for record in records for line in _label_lines(record)).encode(),
         np.array([len(record) for record in records], dtype=np.int32),
@@ -167,7 +167,7 @@ def upload(records: tuple[Motion, ...], threads: int = 1) -> Suite:
         np.concatenate(verticals or [np.zeros(1)]),
         threads,
     )
-    check(stat, message)
+    check(failure)
     suite = Suite(handle, records)
     for i, record in enumerate(records):
         object.__setattr__(record, "_home", (suite, i))
@@ -191,8 +191,8 @@ def intensities(records: tuple[Motion, ...], im: str, gravity: float | None = No
     if not 0.0 < pull < np.inf:
         raise InputError(f"gravity = {pull:g}: must be positive")
     suite = upload(records)
-    values, stat, message = _core.records.intensities(suite.number, as_text("im", im), len(records), pull, 0)
-    check(stat, message)
+    values, failure = _core.records.intensities(suite.number, as_text("im", im), len(records), pull, 0)
+    check(failure)
     return np.asarray(values)
 
 
@@ -202,7 +202,7 @@ def labels_of(metadata: Mapping[str, str]) -> Labels:
     if not known:
         return Labels("", "", "")
     text = "\n".join(line for pair in known.items() for line in pair).encode()
-    return Labels(*receive(*_core.records.labels_of(text, len(known))).lines)
+    return Labels(*receive(_core.records.labels_of(text, len(known))).lines)
 
 
 def _label_lines(record: Motion) -> tuple[str, str, str]:
@@ -218,22 +218,22 @@ def _one_line(text: str) -> str:
 def check_motions(records: tuple[Motion, ...]) -> None:
     """Refuse records without motion, as analyses at levels do (dondolo_dead_channel)."""
     suite = upload(records)
-    check(*_core.records.check_motions(suite.number))
+    check(_core.records.check_motions(suite.number))
 
 
 def spectral_displacements(record: Motion, periods: FloatArray, damping: float) -> FloatArray:
     """Largest displacements of oscillators relative to the ground [m]."""
     suite, place = place_of(record)
-    values, stat, message = _core.records.spectrum(suite.number, place, periods, damping)
-    check(stat, message)
+    values, failure = _core.records.spectrum(suite.number, place, periods, damping)
+    check(failure)
     return np.asarray(values)
 
 
 def velocity(record: Motion) -> FloatArray:
     """Ground velocity at the samples, 0 at the first [m/s]; exact for accelerations linear in between."""
     suite, place = place_of(record)
-    values, stat, message = _core.records.ground_velocity(suite.number, place, len(record))
-    check(stat, message)
+    values, failure = _core.records.ground_velocity(suite.number, place, len(record))
+    check(failure)
     return np.asarray(values)
 
 
@@ -243,8 +243,8 @@ def significant_times(record: Motion, low: float, high: float) -> tuple[float, f
     if not 0.0 <= low < high <= 1.0:
         raise InputError(f"low = {low:g}, high = {high:g}: must increase, between 0 and 1")
     suite, place = place_of(record)
-    (first, last), stat, message = _core.records.significant_times(suite.number, place, low, high)
-    check(stat, message)
+    (first, last), failure = _core.records.significant_times(suite.number, place, low, high)
+    check(failure)
     if not last > 0.0:
         raise InputError(f"record '{record.name}': has no motion")
     return float(first), float(last)

@@ -73,7 +73,7 @@ def synthetic_records(
 
 
 def _realisation(*arguments: Any) -> Record:
-    parcel = receive(*_core.records.synthetic_record(*arguments))
+    parcel = receive(_core.records.synthetic_record(*arguments))
     (data,) = unpack_records(parcel, 1)
     magnitude, distance, site, seed, realisation, deviations = arguments
     metadata = {

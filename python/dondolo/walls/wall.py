@@ -354,8 +354,8 @@ def upload(walls: tuple[Wall, ...]) -> Handle:
     alone = walls[0].__dict__ if len(walls) == 1 else {}
     if "_handle" in alone:
         return alone["_handle"]  # type: ignore[no-any-return]
-    number, stat, message = _core.walls.new_walls(*join_walls([wall._flat for wall in walls]))
-    check(stat, message)
+    number, failure = _core.walls.new_walls(*join_walls([wall._flat for wall in walls]))
+    check(failure)
     # Another thread may have uploaded it in the meantime, and uses its handle.
     handle: Handle = alone.setdefault("_handle", Handle(number))
     return handle
