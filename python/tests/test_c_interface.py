@@ -42,13 +42,11 @@ PLACES = {
         dd.OneSidedWall(
             6.0,
             0.5,
-            tie_height=[3.0, 5.5],
-            tie_area=[5e-5, 4e-5],
-            tie_length=[8.0, 6.0],
-            load=[10e3, 5e3],
-            load_depth=[0.2, 0.3],
-            load_height=[3.0, 5.0],
-            load_inertia=["vertical", "both"],
+            ties=[dd.Tie(3.0, area=5e-5, length=8.0), dd.Tie(5.5, area=4e-5, length=6.0)],
+            loads=[
+                dd.Load(10e3, depth=0.2, height=3.0, inertia="vertical"),
+                dd.Load(5e3, depth=0.3, height=5.0, inertia="both"),
+            ],
         ),
         {
             "mechanism": "one_sided",

@@ -1,6 +1,6 @@
 !> Case files.
 module cases
-   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use, intrinsic :: iso_c_binding, only : c_double, c_int64_t
    use dondolo_boundary, only : check_room
    use dondolo_case, only : case_type
    use dondolo_read_case, only : load_case => read_case

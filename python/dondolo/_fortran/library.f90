@@ -1,10 +1,10 @@
 !> What Python asks of the library itself: version, defaults, tables of properties; Ctrl-C, forks, parcels, handles.
 !>
-!> f2py reads this and its neighbours listed in meson.build, each a module of the extension. Their arguments are flat:
-!> c_double, c_int, c_int64_t and bytes only, since f2py turns any other kind into a C float without a word. Records and
-!> walls are uploaded once and stay; other procedures take their handles (dondolo_handles). Results whose size only the
-!> library knows are sent as parcels (dondolo_parcel), which come last; where nothing is sent but an error, it is `failure`. Procedures that compute release Python's lock (threadsafe); those that fill or empty a
-!> handle hold it.
+!> f2py reads this and its neighbours listed in meson.build, each a module of the extension. Their arguments are flat: c_double,
+!> c_int, c_int64_t and bytes only, since f2py turns any other kind into a C float without a word. Records and walls are
+!> uploaded once and stay; other procedures take their handles (dondolo_handles). Results whose size only the library knows are
+!> sent as parcels (dondolo_parcel), which come last; where nothing is sent but an error, it is `failure`. Procedures that
+!> compute release Python's lock (threadsafe); those that fill or empty a handle hold it.
 module library
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t, c_intptr_t
    use, intrinsic :: omp_lib, only : omp_set_max_active_levels

@@ -1,6 +1,6 @@
 !> Whose files are: what may be replaced, and what a run replaces.
 module origins
-   use, intrinsic :: iso_c_binding, only : c_int, c_int64_t
+   use, intrinsic :: iso_c_binding, only : c_int64_t
    use dondolo_error, only : error_type
    use dondolo_origin, only : check => check_replaced, mark_of => derived_mark
    use dondolo_parcel, only : parcel_type, report, send

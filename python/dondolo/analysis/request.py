@@ -244,9 +244,7 @@ class Request:
             here = slice(done, done + count)
             rows = (values[here] for values in (edp, collapsed, impacts, peak, error))
             with Stoppable():
-                counts, failure = _core.stripes.run_block(
-                    study, people, one + 1, last + 1, first + 1, *rows, count
-                )
+                counts, failure = _core.stripes.run_block(study, people, one + 1, last + 1, first + 1, *rows, count)
             check(failure)
             work = Work.total([work, counts.tolist()])
 

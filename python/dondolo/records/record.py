@@ -153,7 +153,7 @@ class Record:
         if vertical is not None:
             up = _as_record(vertical)
             joined = receive(
-                *_core.records.join_vertical(values, dt, up.acceleration, up.dt, as_number("factor", factor))
+                _core.records.join_vertical(values, dt, up.acceleration, up.dt, as_number("factor", factor))
             ).reals
             values, samples = np.split(joined[1:], 2)
             if joined[0] != dt:
