@@ -162,6 +162,41 @@ def test_the_share_of_histories_that_drift_apart_is_said():
     )
 
 
+def tied(building: dd.Building | None) -> dd.OneSidedWall:
+    """The facade with a tie, which the building holds."""
+    return dd.OneSidedWall(9.0, 0.5, ties=[dd.Tie(8.5, area=5e-5, length=8.0, preload=3e7)], building=building)
+
+
+@pytest.mark.parametrize(
+    ("wall", "levels"),
+    [(strip, np.geomspace(0.2, 1.2, 8)), (facade, [0.2, 0.35, 0.6, 1.0]), (tied, [0.25, 0.45, 0.7, 1.1])],
+    ids=["strip", "facade", "facade with a tie"],
+)
+def test_engines_agree_on_buildings(wall, levels):
+    """Lanes and Runge-Kutta steps in 352 histories: flags, and EDPs where neither is ill-conditioned."""
+    records = dd.read_catalogue(Path(__file__).resolve().parents[2] / "data/records/synthetic44.csv")
+    on_building = wall(house(6.0, diaphragm_period=0.4) if wall is strip else house(0.0))
+    lanes, rk45 = (
+        dd.multiple_stripe(
+            on_building,
+            records,
+            levels,
+            polarity="both",
+            estimate_error=True,
+            progress=False,
+            solver=dd.Solver(engine=engine, rtol=1e-11, atol=1e-13),
+        )
+        for engine in ("lanes", "rk45")
+    )
+    assert lanes.edp.size == 352
+    sure = np.maximum(lanes.edp_error, rk45.edp_error) < 1e-8
+    assert sure.mean() > 0.9
+    assert 0.2 < lanes.collapsed.mean() < 0.9
+    assert np.array_equal(lanes.collapsed[sure], rk45.collapsed[sure])
+    assert np.abs(lanes.edp - rk45.edp)[sure].max() < 1e-6
+    assert np.array_equal(lanes.work.drifted, rk45.work.drifted)
+
+
 # Medians of the full two-support Lagrangian and of the unilateral facade, by an independent program
 FULL = [
     (strip, 6.0, {}, 0.552),
