@@ -146,7 +146,7 @@ def curves(study):
     for level in (0.3, 0.5, 1.0):
         j = int(np.argmin(abs(LEVELS - level)))
         print(
-            f"{level} g: mean {study.typology['all'].mean(level):.3f}, 95 % {low[j]:.3f} to {high[j]:.3f};"
+            f"{level} g: mean {study.typology['all'](level):.3f}, 95 % {low[j]:.3f} to {high[j]:.3f};"
             f" fractiles of the walls {shares[0, j]:.3f} {shares[1, j]:.3f} {shares[2, j]:.3f}"
         )
 
@@ -202,7 +202,7 @@ def occurrence(study):
     """Print the influence of the probabilities of occurrence."""
     certain = study.run("centre", replace(centre, p_occ=np.ones(len(centre))), LEVELS, edp_thresholds=[0.1, 0.4])
     for what, typology in (("as assumed", study.typology), ("1 everywhere", certain)):
-        means = ", ".join(f"{typology['all'].mean(level):.3f} at {level} g" for level in (0.3, 0.5, 1.0, 2.0))
+        means = ", ".join(f"{typology['all'](level):.3f} at {level} g" for level in (0.3, 0.5, 1.0, 2.0))
         frequency = typology["all"].risk(HAZARD).annual_frequency
         print(
             f"p_occ {what}: {text(typology['all'].fit)}, saturation {typology['all'].saturation:.3f}; mean {means};"
@@ -341,18 +341,18 @@ def mixture(study):
     x = np.linspace(0.01, 20.0, 2000)
     for mechanism in (*MECHANISMS, "all"):
         one = typology[mechanism]
-        mean = typology[mechanism].mean(x)
+        mean = typology[mechanism](x)
         gap = one.fit(x) - mean
         places = [int(np.argmax(gap)), int(np.argmin(gap))]
         gaps = ", ".join(f"{gap[j]:+.3f} at {x[j]:.2f} g" for j in places)
         levels = ", ".join(
-            f"{level} g {typology[mechanism].mean(level):.4f} {one.fit(level):.4f}"
+            f"{level} g {typology[mechanism](level):.4f} {one.fit(level):.4f}"
             for level in (0.1, 0.2, 0.3, 0.5, 1.0, 2.0, 5.0)
         )
         print(f"{mechanism}: saturation {one.saturation:.3f}; curve - mean at most {gaps}; mean and curve: {levels}")
     for edp in typology.edp_thresholds:
         state = typology.at(edp)
-        gap = state["all"].fit(x) - state["all"].mean(x)
+        gap = state["all"].fit(x) - state["all"](x)
         print(f"EDP >= {edp:g}, all: curve - mean {gap.min():+.3f} to {gap.max():+.3f}")
     for mechanism in ("one_sided", "all"):
         one = typology[mechanism]
@@ -410,9 +410,9 @@ def risk(study):
         state = study.typology.at(edp)
         for mechanism in (*MECHANISMS, "all"):
             curve = state[mechanism]
-            mean, fit = (dd.mean_annual_frequency(one, HAZARD).annual_frequency for one in (curve.mean, curve.fit))
+            mean, fit = (one.risk(HAZARD).annual_frequency for one in (curve.mean, curve.fit))
             print(f"EDP >= {edp:g}, {mechanism}: mean curve {mean:.4g} per year, saturation x lognormal {fit:.4g}")
-    alone = dd.mean_annual_frequency(replace(study.typology["all"].fit, saturation=1.0), HAZARD).annual_frequency
+    alone = replace(study.typology["all"].fit, saturation=1.0).risk(HAZARD).annual_frequency
     print(f"   the lognormal of all without the saturation: {alone:.4g}")
     one = study.typology["all"].risk(HAZARD)
     for low, high in ((0.01, 0.2), (0.2, 0.5), (0.5, 1.0), (0.2, 1.0), (1.0, 2.0), (2.0, 10.0)):
@@ -453,7 +453,7 @@ def draw_sets(ax, studies):
     for mechanism, color in zip(MECHANISMS, (style.RED, style.BLUE), strict=True):
         for (name, study), line in zip(studies.items(), ("-", "--"), strict=False):
             label = f"{mechanism.replace('_', '-')}, {name}"
-            ax.plot(x, study.typology[mechanism].mean(x), color=color, linestyle=line, label=label)
+            ax.plot(x, study.typology[mechanism](x), color=color, linestyle=line, label=label)
     ax.set_xlabel(style.im_label("pga"))
     ax.set_ylabel("probability of collapse")
 
@@ -478,7 +478,7 @@ def draw_sizes(ax, typology):
 def draw_mixture(ax, typology):
     """Draw the mean curve of all mechanisms, saturation x lognormal, and a lognormal fitted without saturation."""
     x = np.linspace(0.0, 4.0, 201)
-    ax.plot(x, typology["all"].mean(x), color=style.RED, linewidth=2.4, label="weighted mean of the walls")
+    ax.plot(x, typology["all"](x), color=style.RED, linewidth=2.4, label="weighted mean of the walls")
     whole = typology["all"]
     label = f"lognormal times saturation {whole.saturation:.2f}"
     ax.plot(x, whole.fit(x), color=style.BLACK, linestyle="--", label=label)

@@ -155,7 +155,7 @@ def rejections(
         one, other = pair(rng)
         if not all(curve.has_fit and curve.errors == "clustered" for curve in (one, other)):
             continue
-        clustered = dd.compare(one, other)
+        clustered = one.compare(other)
         naive = np.log(one.theta / other.theta) / np.sqrt(one.naive_covariance[0, 0] + other.naive_covariance[0, 0])
         p_values = (clustered.p_value, clustered.beta_p_value, clustered.curves_p_value)
         found.append([*(p < level for p in p_values), 2.0 * ndtr(-abs(naive)) < level])
@@ -189,14 +189,14 @@ def frequencies(of: Outcomes, polarity: slice, size: int, n: int, seed: int) -> 
     """Share of the intervals that contain the annual frequency of the population, by hazard."""
     rng, count = np.random.default_rng(seed), of.collapsed.shape[2]
     whole = of.curve(np.arange(count), polarity)
-    truth = {name: dd.mean_annual_frequency(whole, hazard).annual_frequency for name, hazard in HAZARDS.items()}
+    truth = {name: whole.risk(hazard).annual_frequency for name, hazard in HAZARDS.items()}
     inside: dict[str, list[bool]] = {name: [] for name in HAZARDS}
     for records in draws(count, size, n, rng):
         curve = of.curve(records, polarity)
         if not curve.has_fit or curve.errors != "clustered":
             continue
         for name, hazard in HAZARDS.items():
-            low, high = dd.mean_annual_frequency(curve, hazard).uncertainty(n_draws=2000, seed=rng).interval()
+            low, high = curve.risk(hazard).uncertainty(n_draws=2000, seed=rng).interval()
             inside[name].append(low <= truth[name] <= high)
     return {name: float(np.mean(hits)) for name, hits in inside.items()}
 
@@ -350,7 +350,7 @@ def write_page(rows: list[list[str]], tests: list[list[str]], risks: list[list[s
         " and 0.7. The last column is the share of the draws without a fit or without standard errors, which take no"
         " part.\n",
         table([*head, *methods, "without"], sorted(rows, key=lambda row: -int(row[3]))),
-        "## Tests of equality\n\nShare of the comparisons (`dd.compare`) that reject equal curves at 5 %,"
+        "## Tests of equality\n\nShare of the comparisons (`Curve.compare`) that reject equal curves at 5 %,"
         " in %, in as many draws. On the same records one curve takes a random polarity of each record, and the other"
         " the other.\n",
         table(
@@ -429,7 +429,7 @@ the sum of that by clusters of records and that by walls, with degrees of freedo
 one record and one wall alone is counted in both, which errs on the wide side. Fractions of mechanisms in series are
 linearised. The covariances of 10 000 curves took 1.2 s, 1 % of the time of their 8.8 million histories.
 
-**Comparisons.** `dd.compare` takes in what two curves share: clusters with the same label, records with the same
+**Comparisons.** `Curve.compare` takes in what two curves share: clusters with the same label, records with the same
 content. It states `pairing` and the number of clusters shared. On the same records the variance of the difference
 counts, which is often much less than the sum of the variances. Between independent curves, the degrees of freedom are
 those of Welch and Satterthwaite.

@@ -19,7 +19,7 @@ print(population)
 records = dd.read_catalogue(data / "records" / "synthetic44.csv")
 centre = dd.typology(population, records, levels=np.linspace(0.2, 2.0, 10))
 print(centre)
-print(f"P(collapse | 0.5 g) of a wall of this centre: {centre['all'].mean(0.5):.3f}")
+print(f"P(collapse | 0.5 g) of a wall of this centre: {centre['all'](0.5):.3f}")
 
 # %% Tables: CSV, or a DataFrame if pandas is installed
 centre.to_csv(out / "population_fragility.csv", table="fragility")

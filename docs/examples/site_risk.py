@@ -34,7 +34,7 @@ for level, selection in chosen.items():
 wall = dd.OneSidedWall(height=2.0, thickness=0.3, name="gable")
 stripes = dd.multiple_stripe(wall, {level: one.records for level, one in chosen.items()}, im="sa(0.3)")
 curve = stripes.fit()
-risk = dd.mean_annual_frequency(curve, hazard)
+risk = curve.risk(hazard)
 spread = risk.uncertainty()
 print(curve, curve.parameter_interval(), risk, spread, sep="\n")
 print(f"{risk.dominant_level:.2g} g contribute most; shares between the levels of the hazard:")

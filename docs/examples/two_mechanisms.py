@@ -27,7 +27,7 @@ for curve in curves:
 
 # %% The ties increase the median; the test shows that the two curves differ significantly
 print(f"median acceleration of the tied wall: {curves[1].theta / curves[0].theta:.2f} times that of the loose one")
-print(dd.compare(*curves))
+print(curves[0].compare(curves[1]))
 
 # %%
 ax = curves[0].plot(label="loose: overturns as a whole", color=style.RED, linestyle="--", marker="s")

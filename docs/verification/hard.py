@@ -112,7 +112,7 @@ def row(wall, record, stripes):
     """A row of the table; the scale is that of the stripe, with the sign of its polarity."""
     # A doubt that certify cannot overlook
     doubted = replace(stripes, edp_error=np.ones_like(stripes.edp_error))
-    certified = dd.certify(doubted, record, progress=False)
+    certified = doubted.certify(record, progress=False)
     values = [getattr(wall, name, None) for name in PROPERTIES]
     numbers = (certified.scale * certified.polarity, certified.edp, certified.edp_lowest, certified.edp_highest)
     return [

@@ -31,7 +31,7 @@ def rows(level, records):
     """Rows of one level."""
     told = dd.multiple_stripe(facade(), records, [level], estimate_error=True, threads=1, progress=False)
     # A doubt that certify cannot overlook
-    exact = dd.certify(replace(told, edp_error=np.ones_like(told.edp_error)), records, progress=False, threads=1)
+    exact = replace(told, edp_error=np.ones_like(told.edp_error)).certify(records, progress=False, threads=1)
     numbers = (exact.edp, exact.edp_error, exact.edp_lowest, exact.edp_highest)
     for k, record in enumerate(records):
         edp, change, lowest, highest = (float(each[0, k]) for each in numbers)

@@ -16,10 +16,10 @@ from dondolo._base.files import whole_file
 from dondolo._fortran.origins import check_replaced
 from dondolo._fortran.records import catalogue_table
 from dondolo.analysis.request import progress_bar
+from dondolo.curves.fragility_model import Function
 from dondolo.errors import visible
-from dondolo.exchange.fragility_model import Curve
-from dondolo.exchange.mean_functions import taxonomy_of
 from dondolo.figures.saving import mark_end, save_figure
+from dondolo.populations.nrml_functions import taxonomy_of
 from dondolo.records.catalogues import build_catalogue
 
 # An animation: frames per second, and the longest film [s]
@@ -202,10 +202,10 @@ def _nrml(options: argparse.Namespace) -> None:
     """Write the curves of a run for OpenQuake."""
     path = options.output or f"{options.prefix}_fragility.xml"
     results = dd.read_results(options.prefix)
-    functions: Mapping[str, Mapping[str, Curve]]
+    functions: Mapping[str, Mapping[str, Function]]
     sentences: list[str] = []
     if results.typology is not None:
-        functions, sentences = dd.nrml_functions(results.typology)
+        functions, sentences = results.typology.nrml_functions()
     elif results.fragility is not None:
         if not results.fragility.has_fit:
             raise dd.DondoloError(f"{options.prefix}: has no curve (status '{results.fragility.status}')")

@@ -37,7 +37,7 @@ def simulated(seed=1, n=40_000):
 
 def put_in(cloud, x, edp, collapsed):
     """A cloud of other points."""
-    return replace(cloud, intensity=x, edp=edp, collapsed=collapsed, **fit(x, edp, collapsed))
+    return replace(cloud, intensity=x, edp=edp, collapsed=collapsed, **fit(x, edp, collapsed, cloud.im))
 
 
 def test_every_point_is_the_motion_it_stands_for(cloud, wall, records):
@@ -106,7 +106,7 @@ def test_fits_against_statsmodels(cloud):
 
 def test_known_parameters(cloud):
     x, edp, collapsed = simulated()
-    models = fit(x, edp, collapsed)
+    models = fit(x, edp, collapsed, "pga")
     line, rocking, collapse = (models[what] for what in ("regression", "rocking", "collapse"))
     assert abs(line.slope - 1.8) < 3.0 * line.se_slope < 0.05
     assert line.intercept == pytest.approx(-0.7, abs=0.02)
@@ -120,24 +120,24 @@ def test_known_parameters(cloud):
         for threshold in (0.1, 0.3):
             counted = (edp[near] > threshold).mean()
             error = np.sqrt(counted * (1.0 - counted) / near.sum()) + 1e-3
-            assert abs(made.probability(level, threshold) - counted) < 4.0 * error
+            assert abs(made.fit(threshold)(level) - counted) < 4.0 * error
 
 
 def test_total_probability(cloud):
     x = np.array([[0.0, 0.3], [0.6, 1.2]])
-    found = cloud.probability(x, 0.4)
+    found = cloud.fit(0.4)(x)
     assert found.shape == x.shape
     assert found[0, 0] == 0.0
-    assert isinstance(cloud.probability(0.6), float)
+    assert isinstance(cloud.fit()(0.6), float)
     line = stats.norm.cdf((cloud.intercept + cloud.slope * np.log(0.6) - np.log(0.4)) / cloud.sigma)
     p = cloud.collapse(0.6)
     assert found[1, 0] == pytest.approx(p + (1.0 - p) * cloud.rocking(0.6) * line, rel=1e-13)
     grid = np.linspace(0.01, 3.0, 200)
-    assert np.all(np.diff(cloud.probability(grid, 0.4)) >= 0.0)
-    assert np.all(cloud.probability(grid, 0.2) >= cloud.probability(grid, 0.4))
+    assert np.all(np.diff(cloud.fit(0.4)(grid)) >= 0.0)
+    assert np.all(cloud.fit(0.2)(grid) >= cloud.fit(0.4)(grid))
     for threshold in (0.0, 1.2, np.nan):
         with pytest.raises(dd.InputError, match="must be positive and at most edp_limit = 1"):
-            cloud.probability(0.5, threshold)
+            cloud.fit(threshold)(0.5)
 
 
 def test_lognormal_in_closed_form(cloud):
@@ -146,20 +146,20 @@ def test_lognormal_in_closed_form(cloud):
     edp = np.exp(-0.7 + 1.8 * np.log(x) + 0.3 * random.normal(size=500))
     made = put_in(cloud, x, edp, np.zeros(500, dtype=bool))
     assert (made.collapse.status, made.rocking.status) == ("none", "all")
-    theta, beta = made.lognormal(0.1)
+    fitted = made.fit(0.1)
+    theta, beta = fitted.theta, fitted.beta
     assert theta == pytest.approx(np.exp((np.log(0.1) - made.intercept) / made.slope), rel=1e-13)
     assert beta == pytest.approx(made.sigma / made.slope, rel=1e-13)
     grid = np.linspace(0.01, 1.0, 50)
-    assert made.probability(grid, 0.1) == pytest.approx(
-        stats.norm.cdf(np.log(grid / theta) / beta), rel=1e-9, abs=1e-15
-    )
+    assert made.fit(0.1)(grid) == pytest.approx(stats.norm.cdf(np.log(grid / theta) / beta), rel=1e-9, abs=1e-15)
 
 
 def test_equivalent_lognormal(cloud):
-    theta, beta = cloud.lognormal(0.4)
-    assert cloud.probability(theta, 0.4) == pytest.approx(0.5, abs=1e-9)
+    fitted = cloud.fit(0.4)
+    theta, beta = fitted.theta, fitted.beta
+    assert cloud.fit(0.4)(theta) == pytest.approx(0.5, abs=1e-9)
     grid = np.geomspace(0.01, 10.0, 400_001)
-    curve = cloud.probability(grid, 0.4)
+    curve = cloud.fit(0.4)(grid)
     low, high = np.interp([0.16, 0.84], curve, np.log(grid))
     assert beta == pytest.approx(0.5 * (high - low), abs=1e-6)
 
@@ -172,12 +172,13 @@ def test_a_gap_is_no_step_made_up(cloud):
     assert made.rocking.status == "separated"
     assert made.rocking.bracket == (0.2, 0.3)
     np.testing.assert_array_equal(made.rocking([0.0, 0.2, 0.25, 0.3, 1.0]), [0.0, 0.0, np.nan, 1.0, 1.0])
-    np.testing.assert_array_equal(np.isnan(made.probability([0.2, 0.25, 0.3], 0.1)), [False, True, False])
+    np.testing.assert_array_equal(np.isnan(made.fit(0.1)([0.2, 0.25, 0.3])), [False, True, False])
     # 16, 50 and 84 % of a large threshold lie beyond the gap, those of a small one in it.
-    theta, beta = made.lognormal(0.3)
+    fitted = made.fit(0.3)
+    theta, beta = fitted.theta, fitted.beta
     assert beta == pytest.approx(made.sigma / made.slope, rel=0.01)
-    assert made.probability(theta, 0.3) == pytest.approx(0.5)
-    assert np.isnan(made.lognormal(0.001)[0])
+    assert made.fit(0.3)(theta) == pytest.approx(0.5)
+    assert np.isnan(made.fit(0.001).theta)
 
 
 def test_touching_samples_have_no_gap(cloud):
@@ -200,7 +201,7 @@ def test_touching_samples_have_no_gap(cloud):
 def test_status(collapsed, status):
     kind = np.array([mark == "x" for mark in collapsed])
     x = np.array([0.1, 0.2, 0.3, 0.4])
-    model = fit(x, np.where(kind, 1.0, 0.1 * x), kind)["collapse"]
+    model = fit(x, np.where(kind, 1.0, 0.1 * x), kind, "pga")["collapse"]
     assert model.status == status
     assert (model.histories, model.count) == (4, kind.sum())
     assert np.isfinite(model.b1) == (status == "ok")
@@ -213,11 +214,12 @@ def test_without_a_line(cloud):
     made = put_in(cloud, np.array([0.1, 0.2, 0.3]), np.array([0.0, 0.1, 1.0]), np.array([False, False, True]))
     assert made.regression.status == "too_few"
     with pytest.raises(dd.DondoloError, match="1 histories rock without collapse"):
-        made.probability(0.2)
-    assert np.isnan(made.lognormal()).all()
+        made.fit()
     same = put_in(cloud, np.full(4, 0.2), np.array([0.1, 0.2, 0.3, 0.4]), np.zeros(4, dtype=bool))
     assert same.regression.status == "too_few"
-    assert fit(np.full(4, 0.2), np.array([0.1, 0.2, 1.0, 1.0]), np.arange(4) > 1)["collapse"].status == "decreasing"
+    assert (
+        fit(np.full(4, 0.2), np.array([0.1, 0.2, 1.0, 1.0]), np.arange(4) > 1, "pga")["collapse"].status == "decreasing"
+    )
 
 
 def test_two_sided_walls_rock_by_the_pga(records):

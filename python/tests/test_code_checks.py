@@ -112,7 +112,7 @@ def test_spectrum_of_a_site():
 
 
 def test_histories_at_the_level_of_the_site(stripes, records):
-    check = dd.check_dynamic(dd.check_ntc(WALL, SITE), stripes)
+    check = dd.check_ntc(WALL, SITE).dynamic(stripes)
     edp = stripes.edp[0]
     mean = np.mean(1.5 * np.sin(np.minimum(edp, 1.0) * WALL.capacity_angle))
     assert check.value("dynamic", "SLV", "mean_displacement") == pytest.approx(mean, rel=1e-12)
@@ -121,20 +121,20 @@ def test_histories_at_the_level_of_the_site(stripes, records):
     assert check.value("dynamic", "SLV", "beyond") == stripes.collapses[0]
     assert check.verified["dynamic", "SLV"] == (stripes.collapses[0] == 0 and mean <= 0.4 * 0.124568219781)
     # Records of their own: one stripe more
-    assert dd.check_dynamic(check, records, polarity="both").rows == check.rows
+    assert check.dynamic(records, polarity="both").rows == check.rows
     assert "in one direction" not in repr(check)
-    assert "of 6 histories of 6 records in one direction beyond d_0*" in repr(dd.check_dynamic(check, records))
+    assert "of 6 histories of 6 records in one direction beyond d_0*" in repr(check.dynamic(records))
     free = dd.check_ntc(dd.FreeStandingWall(3.0, 0.25), SITE)
-    assert "of 6 histories of 6 records beyond d_0*" in repr(dd.check_dynamic(free, records))
+    assert "of 6 histories of 6 records beyond d_0*" in repr(free.dynamic(records))
     # Histories that end early do not tell what is beyond d_0*; those that are run for the check do not end early.
     early = dd.Solver(edp_limit=0.5)
-    assert dd.check_dynamic(check, records, polarity="both", solver=early).rows == check.rows
+    assert check.dynamic(records, polarity="both", solver=early).rows == check.rows
     with pytest.raises(dd.InputError, match=r"edp_limit = 0\.5: must be at least 1"):
-        dd.check_dynamic(check, dd.multiple_stripe(WALL, records, [0.24], solver=early))
+        check.dynamic(dd.multiple_stripe(WALL, records, [0.24], solver=early))
     with pytest.raises(dd.InputError, match=r"no level of 0\.24 g"):
-        dd.check_dynamic(check, stripes[1:])
+        check.dynamic(stripes[1:])
     with pytest.raises(dd.InputError, match="of the wall of the check"):
-        dd.check_dynamic(dd.check_ntc(dd.OneSidedWall(2.0, 0.25), SITE), stripes)
+        dd.check_ntc(dd.OneSidedWall(2.0, 0.25), SITE).dynamic(stripes)
 
 
 def test_lines_on_the_curve(stripes, tmp_path):
@@ -187,7 +187,7 @@ def test_case_and_report(root, executable, tmp_path):
         *check.rows
     ]
     # No stripe stands at the level of the site: the executable has run one more
-    more = dd.check_dynamic(check, dd.read_catalogue(root / "data/records/synthetic44.csv"))
+    more = check.dynamic(dd.read_catalogue(root / "data/records/synthetic44.csv"))
     assert stored.check.value("dynamic", "SLV", "mean_displacement") == pytest.approx(
         more.value("dynamic", "SLV", "mean_displacement"), rel=1e-12
     )

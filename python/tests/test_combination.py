@@ -97,7 +97,7 @@ X = np.array([0.12, 0.2, 0.3, 0.45, 0.6, 0.9, 1.4])
 @pytest.mark.parametrize("group", ["", "facades", "towers"])
 def test_mean_of_all_mechanisms(people, group):
     capacity, _ = simulate([wall for wall in WALLS if group in ("", wall[1])])
-    assert close(people["all", group].mean(X), capacity, X)
+    assert close(people["all", group](X), capacity, X)
 
 
 @pytest.mark.parametrize("mechanism", list(KINDS))
@@ -105,13 +105,13 @@ def test_mean_of_one_mechanism(people, mechanism):
     capacity, _ = simulate(WALLS, mechanism)
     # Given that it can occur: walls count as often as it does.
     capacity = capacity[np.isfinite(capacity)]
-    assert close(people[mechanism].mean(X), capacity, X)
+    assert close(people[mechanism](X), capacity, X)
     chances = [wall[2] * wall[3][mechanism][2] for wall in WALLS if mechanism in wall[3]]
     assert people[mechanism].weight == pytest.approx(sum(chances))
     # The walls that the risk is made of have the same mean.
     members = people[mechanism].members
     curves = members.rows_at(np.arange(len(members.weights)), X)
-    assert members.weights @ curves / sum(chances) == pytest.approx(people[mechanism].mean(X), rel=1e-12)
+    assert members.weights @ curves / sum(chances) == pytest.approx(people[mechanism](X), rel=1e-12)
 
 
 def test_the_simulation_tells_wrong_formulas():
@@ -162,7 +162,7 @@ def test_saturation(people):
         finite = np.isfinite(capacity)
         error = np.sqrt(curve.saturation * (1.0 - curve.saturation) / len(capacity))
         assert abs(curve.saturation - finite.mean()) < 4.0 * error
-        assert people["all", group].mean(1e3) == pytest.approx(curve.saturation, rel=1e-6)
+        assert people["all", group](1e3) == pytest.approx(curve.saturation, rel=1e-6)
         assert curve.fit(1e3) == pytest.approx(curve.saturation, rel=1e-6)
         assert curve.fit.theta == pytest.approx(np.median(capacity[finite]), rel=0.1)
     assert all(curve.saturation == 1.0 for curve in people.groups if curve.mechanism != "all")
@@ -226,7 +226,7 @@ def test_fractiles_by_sorting():
 def test_curves_at_levels_are_those_of_fortran(people):
     for group in people.groups:
         key = (group.mechanism, group.group)
-        assert people[key].mean(LEVELS) == pytest.approx(group.mean_curve, rel=1e-12)
+        assert people[key](LEVELS) == pytest.approx(group.mean_curve, rel=1e-12)
         found = people[key[0], key[1]].fractiles(LEVELS)
         assert found == pytest.approx(group.level_fractiles, rel=1e-12)
 
@@ -244,13 +244,13 @@ def test_which_curves_there_are(people):
     with pytest.raises(dd.InputError, match="group = 'ruins': must be one of '', 'facades', 'towers'"):
         people["all", "ruins"]
     with pytest.raises(dd.InputError, match="mechanism = 'one_sided': must be one of 'two_block', 'all'"):
-        people["one_sided", "towers"].mean(0.3)
+        people["one_sided", "towers"](0.3)
     with pytest.raises(dd.InputError, match="q: must be shares"):
         people["all"].fractiles(0.3, q=0.0)
 
 
 def test_no_levels(people):
-    assert people["all"].mean([]).shape == (0,)
+    assert people["all"]([]).shape == (0,)
     assert people["all"].fractiles([]).shape == (3, 0)
     assert people["all"].probabilities([]).shape[1:] == (0,)
 
@@ -327,12 +327,12 @@ def test_damage_states(states, tmp_path):
     typology, stripes = states
     last = typology.at(1.0)
     assert np.array_equal(typology.collapses, last.collapses)
-    assert last["all"].mean(0.5) == typology["all"].mean(0.5)
+    assert last["all"](0.5) == typology["all"](0.5)
     assert list(last.edp_thresholds) == [1.0]
     assert last.at(1.0) is last
     first = typology.at(0.1)
     assert typology.at(0.1) is first
-    assert pickle.loads(pickle.dumps(typology)).at(0.1)["all"].mean(0.5) == first["all"].mean(0.5)
+    assert pickle.loads(pickle.dumps(typology)).at(0.1)["all"](0.5) == first["all"](0.5)
     for k, one in enumerate(stripes):
         assert np.array_equal(typology.exceedances[0, :, k], (one.edp >= 0.1).sum(axis=1))
         assert np.array_equal(first.curves[k].collapses, one.fit(0.1).collapses)
@@ -395,7 +395,7 @@ def test_figures(people, states, monkeypatch):
     ax = people.plot_combination()
     lines = {drawn.get_label().split(":")[0]: drawn for drawn in ax.get_lines()}
     for name, mechanism in (("one-sided where it can occur", "one_sided"), ("all mechanisms", "all")):
-        assert np.array_equal(lines[name].get_ydata(), people[mechanism].mean(lines[name].get_xdata()))
+        assert np.array_equal(lines[name].get_ydata(), people[mechanism](lines[name].get_xdata()))
     styles = [drawn.get_linestyle() for name, drawn in lines.items() if "occur" in name]
     assert len(set(styles)) == len(styles) == 3
 
@@ -408,7 +408,7 @@ def test_figures(people, states, monkeypatch):
         "thin",
     ]
     towers = next(drawn for drawn in ax.get_lines() if drawn.get_label().startswith("towers"))
-    assert np.array_equal(towers.get_ydata(), people["two_block", "towers"].mean(towers.get_xdata()))
+    assert np.array_equal(towers.get_ydata(), people["two_block", "towers"](towers.get_xdata()))
     labels = people.plot_groups(mechanism="one_sided").get_legend_handles_labels()[1]
     assert [label.split(" (")[0] for label in labels[:-1]] == ["facades", "population"]
     with pytest.raises(dd.InputError, match="group: no wall of this population belongs to a group"):
@@ -421,7 +421,7 @@ def test_figures(people, states, monkeypatch):
         assert [label.split(":")[0] for label in labels if "EDP" in label] == [f"EDP ≥ {one:g}" for one in edp]
         assert ("thin" in labels[-1]) == (what is typology)
         assert ax.get_ylabel() == "probability to reach the state"
-        curves = [what.at(one)["all"].mean if what is typology else what.fit(one) for one in edp]
+        curves = [what.at(one)["all"] if what is typology else what.fit(one) for one in edp]
         curves = [curve for curve in curves if what is typology or curve.has_fit]
         lines = [drawn for drawn in ax.get_lines() if len(drawn.get_xdata()) > len(what.levels)]
         lines = [drawn for drawn in lines if not drawn.get_label().startswith("_")]
@@ -475,7 +475,7 @@ def test_figures_of_groups_with_any_name(name, tmp_path):
 
 def test_populations_on_the_same_records_are_compared_in_pairs(people):
     # Of counts alone nothing is known about records, and the result says so.
-    assert dd.compare(people["one_sided"].fit, people["two_block"].fit).pairing == "naive"
+    assert people["one_sided"].fit.compare(people["two_block"].fit).pairing == "naive"
     computed = dd.typology(**study.arguments())
-    compared = dd.compare(computed["one_sided"].fit, computed["two_block"].fit)
+    compared = computed["one_sided"].fit.compare(computed["two_block"].fit)
     assert (compared.pairing, compared.shared) == ("paired", len(study.arguments()["records"]))

@@ -151,7 +151,7 @@ def test_stripes(analysis):
     separate = analysis.fit_damage_states(STATES)
     assert [curve.theta for curve in separate] == [analysis.fit(edp).theta for edp in STATES]
     low, _, high = analysis.fit_damage_states(STATES, states="ordinal")
-    compared = dd.compare(low, high)
+    compared = low.compare(high)
     assert (compared.pairing, compared.beta_ratio, compared.beta_p_value) == ("paired", 1.0, 1.0)
     with pytest.raises(dd.DondoloError, match="bootstrap: needs the stripes"):
         low.bootstrap()

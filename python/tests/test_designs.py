@@ -33,7 +33,7 @@ def found(designs, records):
 def test_each_is_compared_with_the_first(found, designs, records):
     fits = [dd.multiple_stripe(wall, records, LEVELS, progress=False).fit() for wall in designs.values()]
     assert [curve.theta for curve in found.curves] == [curve.theta for curve in fits]
-    expected = dd.compare(fits[1], fits[0])
+    expected = fits[1].compare(fits[0])
     assert found.comparisons[1] == expected
     assert expected.pairing == "paired"
     assert found.ratio[1] == fits[1].theta / fits[0].theta
@@ -207,7 +207,7 @@ def test_the_executable_compares(root, run, tmp_path):
         results.typology["all"]
     with pytest.raises(dd.InputError, match="alternatives"):
         results.typology.plot()
-    functions, _ = dd.nrml_functions(results.typology)
+    functions, _ = results.typology.nrml_functions()
     assert [one["collapse"].theta for one in functions.values()] == [curve.theta for curve in found.curves]
     dd.write_workbook(tmp_path / "out", tmp_path / "out.xlsx")
     openpyxl = pytest.importorskip("openpyxl")
@@ -263,7 +263,7 @@ def test_damage_states_and_hazard_of_designs(root, run, tmp_path):
     assert "Damage state EDP ≥ 0.4: parameters of each design" in page
     assert "Deaggregation of the frequency of collapse, as found" in page
     assert "thicker, collapse" in page
-    functions, _ = dd.nrml_functions(results.typology)
+    functions, _ = results.typology.nrml_functions()
     assert {name: list(states) for name, states in functions.items()} == {
         "as_found": ["edp_0p4", "collapse"],
         "thicker": ["edp_0p4", "collapse"],

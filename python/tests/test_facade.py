@@ -302,7 +302,7 @@ def test_console(ran):
 def test_nrml_and_figures(ran, executable, root, tmp_path):
     """Of two states the functions of the union; of collapse alone its lognormal; the first figure draws the union."""
     found = dd.read_results(ran[0] / "out").typology
-    functions, _ = dd.nrml_functions(found)
+    functions, _ = found.nrml_functions()
     assert list(functions) == ["front"]
     dd.write_nrml(tmp_path / "front.xml", functions)
     for threshold, state in ((0.3, "edp_0p3"), (1.0, "collapse")):
@@ -316,7 +316,7 @@ def test_nrml_and_figures(ran, executable, root, tmp_path):
     (tmp_path / "case.nml").write_text(text)
     subprocess.run([executable, "case.nml"], cwd=tmp_path, capture_output=True, check=True)
     found = dd.read_results(tmp_path / "out").typology
-    functions, _ = dd.nrml_functions(found)
+    functions, _ = found.nrml_functions()
     assert functions == {"front": {"collapse": found.unions["front"]}}
     assert functions["front"]["collapse"].theta == found.unions["front"].theta
 
@@ -332,7 +332,7 @@ def test_one_wall_with_two_mechanisms(few, tmp_path):
     words = words_of(tmp_path / "report.html")
     assert "if one can occur (90 %)" in words
     assert "opulation" not in words
-    functions, _ = dd.nrml_functions(result)
+    functions, _ = result.nrml_functions()
     assert functions["b"]["collapse"].probability[-1] == pytest.approx(0.9, abs=0.005)
 
 
@@ -361,7 +361,7 @@ def test_hazard(ran, tmp_path):
     hazard = dd.HazardCurve([0.02, 0.05, 0.1, 0.2, 0.4, 0.8, 1.6], [0.05, 0.02, 0.008, 0.003, 0.0009, 0.0002, 3e-5])
     dd.report(found, tmp_path / "report.html", hazard=hazard)
     words = words_of(tmp_path / "report.html")
-    risk = dd.mean_annual_frequency(found.typology.unions["front"], hazard)
+    risk = found.typology.unions["front"].risk(hazard)
     assert "lost a year" not in words
     assert f"It is {risk.bounds[0]:.3g} a year" in words
 

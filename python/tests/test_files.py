@@ -320,7 +320,7 @@ def test_standard_errors_of_populations_stay_with_their_files(run, root, tmp_pat
                     np.testing.assert_allclose(two.covariance, one.covariance, rtol=1e-10)
                     np.testing.assert_allclose(two.degrees_of_freedom, one.degrees_of_freedom, rtol=1e-12)
     with pytest.raises(dd.InputError, match="or of a population that was read back, does not know its records"):
-        dd.compare(back["all"].fit, back["all"].fit)
+        back["all"].fit.compare(back["all"].fit)
 
 
 def saved_and_loaded(results, folder):

@@ -311,7 +311,7 @@ def test_too_few_clusters_have_no_standard_errors(stripes):
     assert np.isfinite(curve.naive_covariance).all()
     assert "less than three clusters" in repr(curve)
     assert "nan" not in repr(curve)
-    for use in (lambda: curve.interval(1.0), curve.parameter_interval, lambda: dd.compare(curve, curve)):
+    for use in (lambda: curve.interval(1.0), curve.parameter_interval, lambda: curve.compare(curve)):
         with pytest.raises(dd.DondoloError, match="no standard errors: less than three clusters of records"):
             use()
     assert curve.to_frame().loc[0, ["se_ln_theta", "theta_low"]].isna().all()
@@ -320,10 +320,10 @@ def test_too_few_clusters_have_no_standard_errors(stripes):
 def test_paired_comparison(stripes, wall, records):
     """Curves on the same records: the variance of the difference, not the sum of variances."""
     curve = stripes.fit()
-    same = dd.compare(curve, curve)
+    same = curve.compare(curve)
     assert (same.pairing, same.shared, same.ratio, same.p_value, same.curves_p_value) == ("paired", 22, 1.0, 1.0, 1.0)
     other = dd.multiple_stripe(dd.OneSidedWall(2.5, 0.25), records, stripes.levels, progress=False).fit()
-    pair = dd.compare(curve, other, confidence=0.9)
+    pair = curve.compare(other, confidence=0.9)
     changes = [one.parts[0].changes / [1.0, one.beta] for one in (curve, other)]
     difference = changes[0] - changes[1]
     covariance = difference.T @ difference
@@ -338,12 +338,12 @@ def test_paired_comparison(stripes, wall, records):
     assert pair.curves_p_value == pytest.approx(stats.f(2, 20).sf(squared * 20.0 / 42.0))
     # Nothing depends on the order of the records, and less on chance than curves of other records do.
     turned = dd.multiple_stripe(wall, records[::-1], stripes.levels, progress=False).fit()
-    assert dd.compare(turned, other, confidence=0.9) == dataclasses.replace(
+    assert turned.compare(other, confidence=0.9) == dataclasses.replace(
         pair, **{name: pytest.approx(getattr(pair, name), rel=1e-9) for name in NUMBERS}
     )
-    apart = dd.compare(stripes.fit(events=range(44)), other)
+    apart = stripes.fit(events=range(44)).compare(other)
     assert (apart.pairing, apart.shared) == ("unpaired", 0)
-    width = [np.log(one.ratio_interval[1] / one.ratio_interval[0]) for one in (dd.compare(curve, other), apart)]
+    width = [np.log(one.ratio_interval[1] / one.ratio_interval[0]) for one in (curve.compare(other), apart)]
     assert width[0] < 0.8 * width[1]
 
 
@@ -358,10 +358,10 @@ def test_records_are_recognised_by_their_content(wall, records):
     several = plain, named[::-1], plain[:30], plain[14:]
     curves = [dd.multiple_stripe(wall, some, levels, progress=False).fit() for some in several]
     for pair, pairing, shared in (((0, 1), "paired", 44), ((2, 3), "partly", 16), ((0, 2), "partly", 30)):
-        found = dd.compare(*(curves[i] for i in pair))
+        found = curves[pair[0]].compare(curves[pair[1]])
         assert (found.pairing, found.shared) == (pairing, shared)
     halves = [dd.multiple_stripe(wall, some, levels, progress=False).fit() for some in (plain[:22], plain[22:])]
-    apart = dd.compare(*halves)
+    apart = halves[0].compare(halves[1])
     assert (apart.pairing, apart.shared) == ("unpaired", 0)
     # Welch and Satterthwaite
     variances = np.array([half.se_ln_theta**2 for half in halves])
@@ -374,17 +374,17 @@ def test_records_are_recognised_by_their_content(wall, records):
 def test_wrong_comparisons(stripes):
     curve, counts = stripes.fit(), dd.fit_fragility(*PUBLIC, im="pga")
     with pytest.raises(dd.InputError, match="standard errors: clustered and naive: both must be of one kind"):
-        dd.compare(curve, counts)
-    with pytest.raises(dd.InputError, match="curves: str is no fragility curve"):
-        dd.compare("curve", curve)
+        curve.compare(counts)
+    with pytest.raises(dd.InputError, match="other: str is no fragility curve"):
+        curve.compare("curve")
     with pytest.raises(dd.InputError, match="im = 'pga' and '': must be the same"):
-        dd.compare(counts, dd.fit_fragility(*PUBLIC))
+        counts.compare(dd.fit_fragility(*PUBLIC))
 
 
 def test_comparison_of_counts():
     """The variances of ln theta of independent curves add up."""
     one, other = ([0.2, 0.4, 0.8], [3, 20, 38], 44), ([0.2, 0.4, 0.8], [1, 7, 15], 20)
-    pair = dd.compare(dd.fit_fragility(*one), dd.fit_fragility(*other), confidence=0.9)
+    pair = dd.fit_fragility(*one).compare(dd.fit_fragility(*other), confidence=0.9)
     fits = [statsmodels_fit(np.array(x), np.array(z), np.full(3, n)) for x, z, n in (one, other)]
     ratio = stats.norm(np.log(fits[0][0] / fits[1][0]), np.sqrt(fits[0][2] ** 2 + fits[1][2] ** 2))
     assert (pair.pairing, pair.degrees_of_freedom) == ("naive", np.inf)

@@ -142,9 +142,9 @@ def test_smoothed(hazard):
     assert cubic < 0.0035 < 0.03 < kinked
     # The numbers that the module states, for levels 2.2 times the one before
     curve = dd.fit_fragility([0.4, 0.9], [250, 750], 1000)
-    exact = dd.mean_annual_frequency(curve, dd.HazardCurve(x, bent(x))).inside
-    assert dd.mean_annual_frequency(curve, given).inside / exact == pytest.approx(0.98, abs=0.002)
-    assert dd.mean_annual_frequency(curve, given.smoothed()).inside / exact == pytest.approx(1.0, abs=3e-4)
+    exact = curve.risk(dd.HazardCurve(x, bent(x))).inside
+    assert curve.risk(given).inside / exact == pytest.approx(0.98, abs=0.002)
+    assert curve.risk(given.smoothed()).inside / exact == pytest.approx(1.0, abs=3e-4)
     level = dd.HazardCurve([0.1, 0.2, 0.4], [1e-2, 1e-3, 1e-3]).smoothed()
     assert np.all(np.diff(level.annual_frequency) <= 0.0)
     endless = dd.HazardCurve.power_law(1e-4, 2.0)

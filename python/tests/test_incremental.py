@@ -46,18 +46,18 @@ def made(stripes, collapsed, edp=None):
 
 def test_first_collapses_and_resurrections(stripes):
     table = ["...x.", ".x.x.", ".....", ".xxx.", "..xx."]
-    ida = dd.incremental(made(stripes, table))
+    ida = made(stripes, table).incremental()
     np.testing.assert_array_equal(ida.first_collapse, [np.inf, 0.4, 0.8, 0.2, np.inf])
     np.testing.assert_array_equal(ida.last_survival, [1.0, 1.0, 0.6, 0.6, 1.0])
     assert ida.resurrected.tolist() == [False, True, False, True, False]
     assert ida.counted.tolist() == [1, 2, 2, 3, 3]
     np.testing.assert_array_equal(ida.fraction, np.array([1, 2, 2, 3, 3]) / 5)
     np.testing.assert_array_equal(ida.level_fractiles, [0.2, 0.8, np.inf])
-    assert dd.incremental(made(stripes, ["x", "x"])).last_survival.tolist() == [0.0]
+    assert made(stripes, ["x", "x"]).incremental().last_survival.tolist() == [0.0]
 
 
 def test_every_history(stripes):
-    ida = dd.incremental(stripes)
+    ida = stripes.incremental()
     assert ida.resurrected.any()
     for i in range(stripes.edp.shape[1]):
         falls = [level for level, gone in zip(LEVELS, stripes.collapsed[:, i], strict=True) if gone]
@@ -104,12 +104,12 @@ def cost_of(first, levels):
 
 
 def test_counts_behind_the_curve(stripes):
-    curve = dd.incremental(made(stripes, ["x....", "xx...", "xxxx.", "xxxxx"])).fit()
+    curve = made(stripes, ["x....", "xx...", "xxxx.", "xxxxx"]).incremental().fit()
     assert curve.status == "ok"
     assert curve.bracket == (0.4, 0.6)
-    assert dd.incremental(made(stripes, ["x....", "xxx.."])).fit().bracket == (0.2, 0.4)
-    assert dd.incremental(made(stripes, ["xxx..", "xxx.."])).fit().bracket == (0.0, 0.2)
-    assert dd.incremental(made(stripes, [".....", "x...."])).fit().bracket == (0.4, np.inf)
+    assert made(stripes, ["x....", "xxx.."]).incremental().fit().bracket == (0.2, 0.4)
+    assert made(stripes, ["xxx..", "xxx.."]).incremental().fit().bracket == (0.0, 0.2)
+    assert made(stripes, [".....", "x...."]).incremental().fit().bracket == (0.4, np.inf)
     assert curve.collapses.tolist() == [1, 2, 4, 5]
     assert curve(curve.theta) == pytest.approx(0.5)
     low, high = curve.interval(0.5)
@@ -119,7 +119,7 @@ def test_counts_behind_the_curve(stripes):
 def test_two_points_in_closed_form(stripes):
     """Two levels with some of each: the curve goes through both shares."""
     values = np.repeat([0.3, 0.5, 2.0], [3, 4, 5])
-    curve = dd.incremental(capacities(stripes, values, [0.4, 0.9])).fit()
+    curve = capacities(stripes, values, [0.4, 0.9]).incremental().fit()
     assert curve([0.4, 0.9]) == pytest.approx([3 / 12, 7 / 12], abs=1e-12)
 
 
@@ -128,7 +128,7 @@ def test_likelihood(wall, records, levels):
     """The maximum and its curvature, where the levels end before all histories collapse, and where they do not."""
     levels = np.array(levels)
     stripes = dd.multiple_stripe(wall, records, levels, polarity="both", progress=False)
-    ida = dd.incremental(stripes)
+    ida = stripes.incremental()
     assert np.isinf(ida.first_collapse).any() == (levels[-1] < 5.0)
     curve, cost = ida.fit(), cost_of(ida.first_collapse, levels)
     best = optimize.minimize(
@@ -163,7 +163,7 @@ def test_neither_the_step_nor_the_top_is_an_error(stripes, step, number):
     """A sample of capacities that is seen on a grid keeps its parameters; the levels of first collapse do not."""
     values = np.exp(np.random.default_rng(4).normal(np.log(0.5), 0.4, size=20_000))
     levels = step * np.arange(1, number + 1)
-    ida = dd.incremental(capacities(stripes, values, levels))
+    ida = capacities(stripes, values, levels).incremental()
     curve = ida.fit()
     assert abs(np.log(curve.theta / 0.5)) < 3.0 * curve.se_ln_theta < 0.05
     assert abs(curve.beta - 0.4) < 3.0 * curve.se_beta < 0.06
@@ -190,7 +190,7 @@ def test_neither_the_step_nor_the_top_is_an_error(stripes, step, number):
 def test_status(stripes, table, status):
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always")
-        curve = dd.incremental(made(stripes, table)).fit()
+        curve = made(stripes, table).incremental().fit()
     sentences = {"ok": [], "extrapolated": [f"theta = {curve.theta:.4g} lies outside the levels"]}
     expected = sentences.get(status, [f"no curve of first collapses is fitted (status '{status}')"])
     assert [str(one.message)[: len(part)] for one, part in zip(told, expected, strict=True)] == expected
@@ -199,17 +199,15 @@ def test_status(stripes, table, status):
 
 
 def test_what_the_curve_cannot_do(stripes):
-    curve = dd.incremental(stripes).fit()
+    curve = stripes.incremental().fit()
     with pytest.raises(dd.DondoloError, match="needs the stripes"):
         curve.bootstrap()
     # The same records make both curves
-    assert dd.compare(curve, stripes.fit()).pairing == "paired"
-    with pytest.raises(dd.InputError, match="list is no Stripes"):
-        dd.incremental([])
+    assert curve.compare(stripes.fit()).pairing == "paired"
 
 
 def test_tables(stripes, tmp_path):
-    ida = dd.incremental(stripes)
+    ida = stripes.incremental()
     table = ida.to_frame()
     assert list(table["record"]) == list(stripes.record_names)
     assert table["first_collapse"].isna().sum() == np.isinf(ida.first_collapse).sum()
@@ -224,7 +222,7 @@ def test_tables(stripes, tmp_path):
 
 
 def test_figure(stripes):
-    ida = dd.incremental(stripes)
+    ida = stripes.incremental()
     ax = ida.plot()
     lines = ax.get_lines()
     n = len(ida.first_collapse)

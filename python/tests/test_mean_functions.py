@@ -67,7 +67,7 @@ def agree(people, functions, sentences):
             assert np.all(lighter.probability >= heavier.probability)
         for edp, (name, state) in zip(people.edp_thresholds, states.items(), strict=True):
             x = np.geomspace(levels[0], levels[-1], 3001)
-            mean = people.at(edp)[curve.mechanism, curve.group].mean(x)
+            mean = people.at(edp)[curve.mechanism, curve.group](x)
             line = np.interp(x, levels, state.probability)
             assert np.all(line >= mean - 0.006 * mean - 1e-9)
             raised = (line - mean).max() > 0.006 * mean[np.argmax(line - mean)] + 1e-4
@@ -86,22 +86,22 @@ def frequency(curve):
 def test_functions_are_the_mean_curves(which, request, tmp_path):
     people = request.getfixturevalue(which)
     people = stored(people) if which == "centre" else people
-    functions, sentences = dd.nrml_functions(people)
+    functions, sentences = people.nrml_functions()
     agree(people, functions, sentences)
     dd.write_nrml(tmp_path / "model.xml", functions)
     assert list(check(tmp_path / "model.xml")) == list(functions)
     # The curves of collapse are raised by nobody: their risk is that of the mean curve.
     for curve, states in zip(people.groups, functions.values(), strict=True):
-        mean = frequency(lambda x, of=(curve.mechanism, curve.group): people[of].mean(x))
+        mean = frequency(lambda x, of=(curve.mechanism, curve.group): people[of](x))
         levels, p = (np.append(0.0, values) for values in (states["collapse"].levels, states["collapse"].probability))
         lines = frequency(lambda x, levels=levels, p=p: np.interp(x, levels, p))
         assert lines == pytest.approx(mean, rel=0.002)
 
 
 def test_states_that_cross_are_raised_and_told(facades):
-    functions, sentences = dd.nrml_functions(facades)
+    functions, sentences = facades.nrml_functions()
     x = functions["population/two_block"]["edp_0p4"].levels
-    mean = {edp: facades.at(edp)["two_block"].mean(x) for edp in (0.4, 1.0)}
+    mean = {edp: facades.at(edp)["two_block"](x) for edp in (0.4, 1.0)}
     lift = mean[1.0] - mean[0.4]
     most = np.argmax(lift)
     assert lift[most] > 1e-3
@@ -129,7 +129,7 @@ def test_walls_without_a_fit(records):
     """Their fractions are straight lines, which may decrease."""
     walls = [dd.OneSidedWall(0.5, 1.0, name="a"), dd.OneSidedWall(0.5, 1.2, name="b")]
     people = dd.typology(dd.Population(walls), records[:3], [0.1, 0.2], progress=False)
-    functions, sentences = dd.nrml_functions(people)
+    functions, sentences = people.nrml_functions()
     assert not functions["population/one_sided"]["collapse"].probability.any()
     assert sentences == []
     wall = dd.OneSidedWall(1.5, 0.25, name="falls and stands")
@@ -139,7 +139,7 @@ def test_walls_without_a_fit(records):
     given = (few.population, few.im, few.levels, few.edp_thresholds, counts, few.histories, np.ones(1, bool), few.work)
     people = combine(*given)
     assert people.curves[0].status == "decreasing"
-    functions, sentences = dd.nrml_functions(people)
+    functions, sentences = people.nrml_functions()
     curve = functions["population/one_sided"]["collapse"]
     assert np.interp([0.3, 0.6, 0.9, 0.94], curve.levels, curve.probability).tolist() == [0.5, 1.0, 1.0, 1.0]
     assert sentences == ["'population/one_sided', 'collapse': raised by up to 0.5, at 0.9 g, where it decreases"]
@@ -149,10 +149,8 @@ def test_names(few):
     walls = [dd.OneSidedWall(1.5, 0.25, name=name) for name in "abc"]
     people = dd.Population(walls, groups=["è", "é", "x y"])
     levels, close = [0.4, 0.6, 0.8, 1.0], [0.1, 0.10000001]
-    functions, sentences = dd.nrml_functions(dd.typology(people, few, levels, edp_thresholds=close, progress=False))
+    functions, sentences = dd.typology(people, few, levels, edp_thresholds=close, progress=False).nrml_functions()
     assert list(functions) == ["population/one_sided", "_/one_sided", "_/one_sided_2", "x_y/one_sided"]
     assert "'_/one_sided_2': is that of the group 'é'; '_/one_sided' is another group's" in sentences
     # Thresholds that are nearly the same are two states.
     assert list(functions["_/one_sided"]) == ["edp_0p1", "edp_0p10000001", "collapse"]
-    with pytest.raises(dd.InputError, match="typology: list is no typology"):
-        dd.nrml_functions(walls)

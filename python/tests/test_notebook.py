@@ -64,7 +64,7 @@ stripes = dd.multiple_stripe(parapet, records, levels, progress=False)
 curve = stripes.fit()
 other = dd.OneSidedWall(height=1.8, thickness=0.25, name="other")
 people = dd.typology([parapet, other], records, levels, progress=False)
-risk = dd.mean_annual_frequency(curve, dd.HazardCurve([0.05, 0.5, 3.0], [0.05, 0.001, 1e-7]))
+risk = curve.risk(dd.HazardCurve([0.05, 0.5, 3.0], [0.05, 0.001, 1e-7]))
 two_block = dd.TwoBlockWall(3.0, 0.25)
 options = {"progress": False}
 """
@@ -77,7 +77,7 @@ DRAWN = (
     "axes = curve.plot()",
     "axes = people.plot()",
     "axes = people['all'].plot()",
-    "axes = dd.incremental(stripes).plot()",
+    "axes = stripes.incremental().plot()",
     "axes = dd.cloud(parapet, records).plot()",
     "axes = risk.plot_deaggregation()",
     "axes = risk.uncertainty(n_draws=100).plot()",

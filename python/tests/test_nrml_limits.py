@@ -75,12 +75,12 @@ def test_limits_are_applied(path):
     assert fall(0.4) == pytest.approx(lognormal(0.4, 0.7, 0.42))
     hazard = dd.HazardCurve.power_law(K0, K)
     expected = frequency(lambda x: lognormal(x, 0.7, 0.42), [0.12, 0.7, 1.5])
-    assert dd.mean_annual_frequency(fall, hazard).annual_frequency == pytest.approx(expected, rel=1e-8)
+    assert fall.risk(hazard).annual_frequency == pytest.approx(expected, rel=1e-8)
     # Constant below minIML where no limit of damage is given: the frequency of a power law has no bound
     open_below = model_of(path, ('noDamageLimit="0.12" ', "")).functions["smooth"]["fall"]
     assert open_below(0.001) == open_below(0.08) == pytest.approx(lognormal(0.08, 0.7, 0.42))
     with pytest.raises(dd.DondoloError, match="is not finite"):
-        dd.mean_annual_frequency(open_below, hazard)
+        open_below.risk(hazard)
 
 
 def test_a_limited_curve_is_inverted(path):
@@ -96,7 +96,7 @@ def test_the_risk_of_a_limited_curve_under_levels(path):
     fall = model_of(path).functions["smooth"]["fall"]
     levels = np.geomspace(0.05, 1.0, 12)
     with pytest.warns(dd.DondoloWarning, match="is too short"):
-        risk = dd.mean_annual_frequency(fall, dd.HazardCurve(levels, K0 * levels**-K))
+        risk = fall.risk(dd.HazardCurve(levels, K0 * levels**-K))
     inside = frequency(fall, [0.12, 0.4, 1.0]) - fall(1.0) * K0
     assert risk.inside == pytest.approx(inside, rel=1e-8)
     assert risk.bounds == pytest.approx((inside + fall(1.0) * K0, inside + fall(1.5) * K0), rel=1e-8)
@@ -117,7 +117,7 @@ def test_discrete_functions_are_curves(path):
     np.testing.assert_allclose(crack.ppf([0.0, 0.05, 0.65, 0.9, 0.95]), [0.0, 0.0375, 0.4, 0.9, np.inf])
     hazard = dd.HazardCurve.power_law(K0, K, im="pgv")
     expected = frequency(crack, [0.025, 0.05, 0.2, 0.6, 0.9])
-    assert dd.mean_annual_frequency(crack, hazard).annual_frequency == pytest.approx(expected, rel=1e-9)
+    assert crack.risk(hazard).annual_frequency == pytest.approx(expected, rel=1e-9)
     ax = crack.plot(label="crack")
     np.testing.assert_allclose(ax.lines[0].get_ydata(), crack(ax.lines[0].get_xdata()))
     assert ax.get_legend().get_texts()[0].get_text() == "crack"
@@ -134,8 +134,8 @@ def test_without_a_limit_a_line_begins_at_no_intensity():
     curve = dd.DiscreteFragility([0.2, 0.4], [0.1, 0.6])
     assert curve(0.1) == pytest.approx(0.05)
     with pytest.raises(dd.DondoloError, match="is not finite"):
-        dd.mean_annual_frequency(curve, dd.HazardCurve.power_law(K0, K))
-    gentle = dd.mean_annual_frequency(curve, dd.HazardCurve.power_law(K0, 0.25)).annual_frequency
+        curve.risk(dd.HazardCurve.power_law(K0, K))
+    gentle = curve.risk(dd.HazardCurve.power_law(K0, 0.25)).annual_frequency
     # Of H = K0 x^-0.25 and P = x/2 up to x_1: K0 x_1^0.75/6
     rest = integrate.quad(lambda x: curve(x) * K0 * 0.25 * x**-1.25, 0.2, 0.4, epsabs=1e-16)[0]
     assert gentle == pytest.approx(K0 * 0.2**0.75 / 6.0 + rest + 0.6 * K0 * 0.4**-0.25, rel=1e-8)

@@ -171,7 +171,7 @@ def test_python_sources(root):
 def test_python_rooms(root):
     """Each room of the package imports only itself and those before it, for its types too."""
     rooms = [
-        "errors", "_base", "_fortran", "_storage", "figures", "records", "walls", "curves", "risk", "analysis",
+        "errors", "_base", "_fortran", "_storage", "figures", "records", "walls", "hazard", "curves", "analysis",
         "checks", "retrofit", "populations", "exchange", "reporting", "__init__", "__main__",
     ]  # fmt: skip
     package = root / "python/dondolo"
@@ -412,9 +412,9 @@ def test_what_may_be_left_out_goes_by_name():
 def test_results_are_made_by_the_names_of_their_fields():
     """What users make has a few values by place, what analyses make none."""
     made_by_users = {
-        "Bed", "Building", "Choice", "DiscreteFragility", "FreeStandingWall", "HazardCurve", "Load", "Lognormal",
-        "Normal", "OneSidedWall", "Population", "PushedMass", "Record", "RecordSet", "Section", "Site", "Spring",
-        "TargetSpectrum", "Thrust", "Tie", "Triangular", "TwoBlockWall", "Uniform", "Wall",
+        "Bed", "Building", "Choice", "DiscreteFragility", "FreeStandingWall", "FunctionFragility", "HazardCurve",
+        "Load", "Lognormal", "Normal", "OneSidedWall", "Population", "PushedMass", "Record", "RecordSet", "Section",
+        "Site", "Spring", "TargetSpectrum", "Thrust", "Tie", "Triangular", "TwoBlockWall", "Uniform", "Wall",
     }  # fmt: skip
     kinds = {name: thing for name in dd.__all__ if dataclasses.is_dataclass(thing := getattr(dd, name))}
     assert made_by_users < set(kinds)

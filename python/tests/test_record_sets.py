@@ -323,6 +323,6 @@ def test_a_selection_is_no_record(records, parapet):
     site = dd.Site(ag=0.2, f0=2.5, tc_star=0.35, soil="B")
     check = dd.check_ntc(parapet, site)
     with pytest.raises(dd.InputError, match=r"must be given as \{level: records\}, or without factors"):
-        dd.check_dynamic(check, selection.records)
+        check.dynamic(selection.records)
     levels = {site.pga(limit_state=state): selection.records for state in ("SLV", "SLC")}
-    assert "dynamic" in {row.method for row in dd.check_dynamic(check, levels).rows}
+    assert "dynamic" in {row.method for row in check.dynamic(levels).rows}

@@ -292,7 +292,7 @@ def test_risk_is_that_of_the_curves(people, stripes, hazard, pages):
     assert ends(table["probability in 50 years"][1]) == expected(*risk.probability_bounds(50.0))
     page = read(pages / "stripes.html")
     table = page.table("Mean annual frequencies")
-    one = dd.mean_annual_frequency(stripes.fit(), hazard)
+    one = stripes.fit().risk(hazard)
     bounds = {
         "annual frequency [1/year]": one.bounds,
         interval: one.uncertainty().interval(),
@@ -539,7 +539,7 @@ def test_damage_states_that_cross_are_told(few, tmp_path):
     dd.report(people, tmp_path / "report.html")
     table = read(tmp_path / "report.html").table("Damage states that cross")
     x = np.linspace(0.0, 1.2, 201)[1:]
-    gap = people.at(0.4)["all"].mean(x) - people.at(0.1)["all"].mean(x)
+    gap = people.at(0.4)["all"](x) - people.at(0.1)["all"](x)
     assert gap.max() > 1e-3
     assert table["curve"] == ["whole population, two-block"]
     assert (table["more probable is"], table["than"]) == (["EDP ≥ 0.4"], ["EDP ≥ 0.1"])

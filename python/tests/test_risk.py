@@ -12,8 +12,8 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from dondolo.risk import integrals as integrals_module
-from dondolo.risk.walls import WallFrequencies
+from dondolo.curves.risk_of_walls import WallFrequencies
+from dondolo.hazard import integrals as integrals_module
 from scipy import integrate, stats
 
 import dondolo as dd
@@ -62,7 +62,7 @@ def test_curve_is_straight_on_logarithmic_axes(hazard):
 def test_a_level_step_has_no_sign(curve):
     hazard = dd.HazardCurve([0.1, 0.2, 0.4, 0.8], [1e-2, 1e-3, 1e-3, 1e-4])
     with pytest.warns(dd.DondoloWarning, match="too short"):
-        risk = dd.mean_annual_frequency(curve, hazard)
+        risk = curve.risk(hazard)
     density = risk.density([0.25, 0.3])
     assert density.tolist() == [0.0, 0.0]
     assert not np.signbit(density).any()
@@ -84,26 +84,26 @@ def test_power_law():
 @pytest.mark.parametrize("k", [0.3, 2.5, 4.0])
 def test_closed_form(theta, beta, k):
     """Cornell (1996)."""
-    risk = dd.mean_annual_frequency(lognormal(theta, beta), dd.HazardCurve.power_law(1e-4, k))
+    risk = lognormal(theta, beta).risk(dd.HazardCurve.power_law(1e-4, k))
     exact = 1e-4 * theta**-k * np.exp(0.5 * k**2 * beta**2)
     assert risk.annual_frequency == pytest.approx(exact, rel=1e-11)
     assert risk.error == 0.0
     assert risk.bounds == (risk.annual_frequency, risk.annual_frequency)
     # The same curve as a function, which is integrated by Gauss's rule
     curve = lognormal(theta, beta)
-    risk = dd.mean_annual_frequency(lambda x: curve(x), dd.HazardCurve.power_law(1e-4, k))
+    risk = dd.FunctionFragility(lambda x: curve(x)).risk(dd.HazardCurve.power_law(1e-4, k))
     assert risk.annual_frequency == pytest.approx(exact, rel=1e-7)
     assert risk.error < 1e-7 * exact
 
 
 def test_trapezoids_converge_to_it(hazard, curve):
-    risk = dd.mean_annual_frequency(curve, hazard)
+    risk = curve.risk(hazard)
     off = [abs(trapezoid(curve, hazard, points) - risk.inside) for points in (101, 201, 401)]
     # Their error falls fourfold with each halving, to what is left of a right value.
     assert off[0] / off[1] == pytest.approx(4.0, rel=0.02)
     assert off[1] / off[2] == pytest.approx(4.0, rel=0.02)
     assert off[2] < 1e-4 * risk.inside
-    gauss = dd.mean_annual_frequency(lambda x: curve(x), hazard)
+    gauss = dd.FunctionFragility(lambda x: curve(x)).risk(hazard)
     assert abs(gauss.inside - risk.inside) < 1e-8 * risk.inside
     assert gauss.error < 1e-8 * risk.inside
 
@@ -118,8 +118,8 @@ def test_the_same_in_closed_form_step_by_step(hazard, curve):
         shifted = stats.norm.cdf((ends - mean) / beta + k[i] * beta)
         part = np.exp(-k[i] * (mean - u[i]) + 0.5 * (k[i] * beta) ** 2) * np.diff(shifted)[0]
         total += h[i] * part - np.diff(h[i : i + 2] * stats.norm.cdf((ends - mean) / beta))[0]
-    for fragility in (curve, lambda x: curve(x)):
-        assert dd.mean_annual_frequency(fragility, hazard).inside == pytest.approx(total, rel=1e-9)
+    for fragility in (curve, dd.FunctionFragility(lambda x: curve(x))):
+        assert fragility.risk(hazard).inside == pytest.approx(total, rel=1e-9)
 
 
 @pytest.mark.parametrize(("theta", "beta"), [(0.6, 0.4), (0.05, 0.9), (20.0, 0.3), (0.6, 0.01), (0.6, 3.0)])
@@ -128,7 +128,7 @@ def test_closed_form_keeps_its_digits_in_the_tails(hazard, theta, beta):
     curve = replace(lognormal(theta, beta), saturation=0.7)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", dd.DondoloWarning)
-        risk = dd.mean_annual_frequency(curve, hazard)
+        risk = curve.risk(hazard)
     edges = np.unique(np.append(np.geomspace(LEVELS[0], LEVELS[-1], 401), LEVELS))
     node, weight = np.polynomial.legendre.leggauss(40)
     u = np.log(edges)
@@ -150,7 +150,7 @@ def test_small_dispersions(beta):
     """The step between two levels by its own closed form, whose limit is H(theta)."""
     low, high, theta, k = 0.1, 0.2, 0.15, np.log2(10.0)
     curve = dd.Fragility.of_parameters(theta, beta, im="pga")
-    risk = dd.mean_annual_frequency(curve, dd.HazardCurve([low, high], [1e-2, 1e-3]))
+    risk = curve.risk(dd.HazardCurve([low, high], [1e-2, 1e-3]))
     with np.errstate(over="ignore"):
         ends = np.clip(np.log(np.array([low, high]) / theta) / beta, -1e150, 1e150)
     inside = 1e-2 * 1.5**-k * np.exp(0.5 * (k * beta) ** 2) * np.diff(stats.norm.cdf(ends + k * beta))[0]
@@ -185,9 +185,9 @@ def test_steep_hazard(beta, k):
     curve = lognormal(0.6, beta)
     steep = dd.HazardCurve([0.1, 0.2, 0.4, 1.0], [0.01, *(0.01 * 2.0 ** -(k + i) for i in range(3))])
     with pytest.warns(dd.DondoloWarning, match="too short"):
-        risk = dd.mean_annual_frequency(curve, steep)
+        risk = curve.risk(steep)
     with pytest.warns(dd.DondoloWarning, match="too short"):
-        gauss = dd.mean_annual_frequency(lambda x: curve(x), steep)
+        gauss = dd.FunctionFragility(lambda x: curve(x)).risk(steep)
     assert gauss.inside == pytest.approx(risk.inside, rel=1e-8)
     # By parts, the bound below the lowest level is -P H there and a normal integral, here in logarithms
     z = np.log(0.1 / 0.6) / beta
@@ -197,26 +197,26 @@ def test_steep_hazard(beta, k):
     assert gauss.below[1] == pytest.approx(exact, rel=1e-6) or np.isinf(gauss.below[1])
     assert np.isfinite(gauss.below[1]) or k * beta > 20.0
     if exact < np.inf:
-        whole = dd.mean_annual_frequency(curve, dd.HazardCurve.power_law(1e-4, k))
+        whole = curve.risk(dd.HazardCurve.power_law(1e-4, k))
         assert whole.annual_frequency == pytest.approx(1e-4 * np.exp(0.5 * (k * beta) ** 2) * 0.6**-k, rel=1e-10)
     with pytest.raises(dd.DondoloError, match="is not finite"):
-        dd.mean_annual_frequency(lambda x: np.minimum(x, 1.0) ** 0.5, dd.HazardCurve.power_law(1e-4, k))
+        dd.FunctionFragility(lambda x: np.minimum(x, 1.0) ** 0.5).risk(dd.HazardCurve.power_law(1e-4, k))
 
 
 def test_a_function_that_is_too_rough(hazard, monkeypatch):
     monkeypatch.setattr(integrals_module, "_MOST_PANELS", 2000)
     random = np.random.default_rng(5)
     with pytest.raises(dd.DondoloError, match="too rough"):
-        dd.mean_annual_frequency(lambda x: 0.5 + 0.004 * random.random(x.shape), hazard)
+        dd.FunctionFragility(lambda x: 0.5 + 0.004 * random.random(x.shape)).risk(hazard)
 
 
 def test_bounds_hold_the_truth(curve):
     """A power law of which only a part is given."""
-    whole = dd.mean_annual_frequency(curve, dd.HazardCurve.power_law(1e-4, 2.5)).annual_frequency
+    whole = curve.risk(dd.HazardCurve.power_law(1e-4, 2.5)).annual_frequency
     for levels in ([0.3, 0.6, 1.2], [0.3, 10.0], [0.01, 0.6], [0.6, 0.7]):
         cut = dd.HazardCurve(levels, 1e-4 * np.array(levels) ** -2.5)
         with pytest.warns(dd.DondoloWarning, match="is too short: the mean annual frequency of collapse"):
-            risk = dd.mean_annual_frequency(curve, cut)
+            risk = curve.risk(cut)
         assert risk.bounds[0] < whole < risk.bounds[1] * (1.0 + 1e-9)
         assert risk.inside < risk.annual_frequency == risk.bounds[0]
         # Below the first level the bound is the power law itself; above the last, P is between its value there and 1.
@@ -226,14 +226,14 @@ def test_bounds_hold_the_truth(curve):
         assert risk.above == pytest.approx((curve(levels[-1]) * cut(levels[-1]), cut(levels[-1])), rel=1e-12)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        dd.mean_annual_frequency(curve, dd.HazardCurve([0.01, 100.0], 1e-4 * np.array([0.01, 100.0]) ** -2.5))
+        curve.risk(dd.HazardCurve([0.01, 100.0], 1e-4 * np.array([0.01, 100.0]) ** -2.5))
 
 
 def test_bounds_end_at_the_saturation(curve):
     """All contributions are those of the walls that can collapse, those beyond the hazard curve too."""
     hazard = dd.HazardCurve([0.3, 0.6], [4e-3, 1e-3])
     with pytest.warns(dd.DondoloWarning, match="too short"):
-        some, every = (dd.mean_annual_frequency(replace(curve, saturation=share), hazard) for share in (0.7, 1.0))
+        some, every = (replace(curve, saturation=share).risk(hazard) for share in (0.7, 1.0))
     for part in ("inside", "below", "above", "bounds"):
         assert getattr(some, part) == pytest.approx(0.7 * np.array(getattr(every, part)), rel=1e-12), part
     assert some.above[1] == pytest.approx(7e-4, rel=1e-12)
@@ -241,7 +241,7 @@ def test_bounds_end_at_the_saturation(curve):
 
 def test_a_step_is_the_hazard_itself(hazard):
     """Everything collapses above 0.33 and nothing below: the frequency is that of 0.33."""
-    risk = dd.mean_annual_frequency(lambda x: (x > 0.33).astype(float), hazard)
+    risk = dd.FunctionFragility(lambda x: (x > 0.33).astype(float)).risk(hazard)
     assert risk.annual_frequency == pytest.approx(hazard(0.33), rel=1e-8)
     assert abs(risk.annual_frequency - hazard(0.33)) <= max(risk.error, 1e-10 * risk.annual_frequency)
 
@@ -249,32 +249,32 @@ def test_a_step_is_the_hazard_itself(hazard):
 @pytest.mark.filterwarnings("ignore:the curve is a function:dondolo.DondoloWarning")
 def test_degenerate_curves(hazard):
     with pytest.warns(dd.DondoloWarning, match="lies between 0 and 5e-09"):
-        never = dd.mean_annual_frequency(lambda x: np.zeros_like(x), hazard)
+        never = dd.FunctionFragility(lambda x: np.zeros_like(x)).risk(hazard)
     assert never.annual_frequency == 0.0
     assert never.return_period == np.inf
     assert never.bounds[1] == FREQUENCY[-1]
     assert never.probability(50.0) == 0.0
     with pytest.warns(dd.DondoloWarning, match="too short"):
-        always = dd.mean_annual_frequency(lambda x: np.ones_like(x), hazard)
+        always = dd.FunctionFragility(lambda x: np.ones_like(x)).risk(hazard)
     assert always.inside == pytest.approx(FREQUENCY[0] - FREQUENCY[-1], rel=1e-9)
     assert always.bounds == (pytest.approx(FREQUENCY[0], rel=1e-9), np.inf)
     flat = dd.HazardCurve([0.1, 0.2, 0.4], [0.01, 0.01, 0.01])
     with pytest.warns(dd.DondoloWarning):
-        risk = dd.mean_annual_frequency(lognormal(0.2, 0.3), flat)
+        risk = lognormal(0.2, 0.3).risk(flat)
     assert risk.inside == 0.0
     assert risk.bounds == pytest.approx((0.01 * lognormal(0.2, 0.3)(0.4), 0.01))
 
 
 def test_a_frequency_that_is_not_finite():
     with pytest.raises(dd.DondoloError, match="is not finite"):
-        dd.mean_annual_frequency(lambda x: np.minimum(x, 1.0), dd.HazardCurve.power_law(1e-4, 2.5))
-    risk = dd.mean_annual_frequency(lambda x: np.minimum(x, 1.0) ** 3, dd.HazardCurve.power_law(1e-4, 2.0))
+        dd.FunctionFragility(lambda x: np.minimum(x, 1.0)).risk(dd.HazardCurve.power_law(1e-4, 2.5))
+    risk = dd.FunctionFragility(lambda x: np.minimum(x, 1.0) ** 3).risk(dd.HazardCurve.power_law(1e-4, 2.0))
     # Integral of 2 x^3 x^-3 from 0 to 1, and 1
     assert risk.annual_frequency == pytest.approx(3e-4, rel=1e-7)
 
 
 def test_time(hazard, curve):
-    risk = dd.mean_annual_frequency(curve, hazard)
+    risk = curve.risk(hazard)
     assert risk.return_period == pytest.approx(1.0 / risk.annual_frequency)
     assert risk.probability(50.0) == pytest.approx(1.0 - np.exp(-50.0 * risk.annual_frequency), rel=1e-12)
     assert risk.probability(0.0) == 0.0
@@ -290,7 +290,7 @@ def test_time(hazard, curve):
 def test_both_ends_are_told(curve):
     """A hazard curve that is too short: the lower end alone would look safer than it is."""
     with pytest.warns(dd.DondoloWarning, match="too short"):
-        risk = dd.mean_annual_frequency(curve, dd.HazardCurve([0.01, 0.4], [0.1, 0.005]))
+        risk = curve.risk(dd.HazardCurve([0.01, 0.4], [0.1, 0.005]))
     low, high = risk.bounds
     assert 0.0 < 1.1 * low < high < np.inf
     assert risk.return_period_bounds == (1.0 / high, 1.0 / low)
@@ -302,7 +302,7 @@ def test_both_ends_are_told(curve):
     assert f"return period between {1.0 / high:.4g} and {1.0 / low:.4g} years" in shown
     assert f"probability in 50 years between {risk.probability(50.0):.4g} and {1 - np.exp(-50 * high):.4g}" in shown
     with pytest.warns(dd.DondoloWarning, match="too short"):
-        open_end = dd.mean_annual_frequency(lambda x: np.ones_like(x), dd.HazardCurve([0.1, 0.4], [0.1, 0.005]))
+        open_end = dd.FunctionFragility(lambda x: np.ones_like(x)).risk(dd.HazardCurve([0.1, 0.4], [0.1, 0.005]))
     assert open_end.return_period_bounds == (0.0, pytest.approx(10.0))
     assert open_end.probability_bounds(1.0) == (pytest.approx(-np.expm1(-0.1)), 1.0)
     assert open_end.probability_bounds(0.0) == (0.0, 0.0)
@@ -354,7 +354,7 @@ def losses(people, hazard, years, group=""):
                     stands *= 1.0 - (curve(x) if curve.has_fit else np.interp(x, people.levels, counts))
                 return 1.0 - stands
 
-            low, high = dd.mean_annual_frequency(probability, hazard).bounds
+            low, high = dd.FunctionFragility(probability).risk(hazard).bounds
             sums -= share * np.expm1(-years * np.array([low, high]))
     return sums / weight
 
@@ -387,7 +387,7 @@ def test_any_function_is_taken_for_one_wall(people):
     def fractile(x):
         return high.fractiles(x, 0.84)
 
-    risks = [dd.mean_annual_frequency(f, hazard) for f in (functools.partial(high.fractiles, q=0.84), fractile)]
+    risks = [dd.FunctionFragility(f).risk(hazard) for f in (functools.partial(high.fractiles, q=0.84), fractile)]
     assert risks[0].bounds == risks[1].bounds
     for risk in risks:
         with pytest.warns(dd.DondoloWarning, match="the curve is a function"):
@@ -403,8 +403,8 @@ def test_the_curve_of_a_population_knows_its_walls(people):
         warnings.simplefilter("error")
         share = risk.probability(475.0)
         assert f"probability in 50 years {risk.probability(50.0):.4g}" in repr(risk)
-    for function in (curve.mean, lambda x: curve.mean(x)):
-        other = dd.mean_annual_frequency(function, hazard)
+    for function in (curve, lambda x: curve(x)):
+        other = dd.FunctionFragility(function).risk(hazard)
         assert other.annual_frequency == pytest.approx(risk.annual_frequency, rel=1e-9)
         assert "probability in 50 years of one wall" in repr(other)
         assert other.probability(0.0) == 0.0
@@ -423,7 +423,7 @@ def test_time_ends_at_the_saturation(people, records):
     hazard = dd.HazardCurve.power_law(8e-3, 2.5)
     walls = [dd.OneSidedWall(1.5, 0.25, name="a"), dd.OneSidedWall(1.5, 0.25, name="b")]
     two = dd.typology(dd.Population(walls, p_occ=[1.0, 0.0]), records[::4], people.levels, progress=False)
-    risk, one = (dd.mean_annual_frequency(curve, hazard) for curve in (two["all"], two.combined["a"]))
+    risk, one = (curve.risk(hazard) for curve in (two["all"], two.combined["a"]))
     assert risk.annual_frequency == pytest.approx(0.5 * one.annual_frequency, rel=1e-7)
     assert risk.probability(200.0) == pytest.approx(0.5 * one.probability(200.0), rel=1e-7)
     assert risk.probability(200.0) < 0.5 < 1.0 - np.exp(-200.0 * risk.annual_frequency)
@@ -434,7 +434,7 @@ def test_time_ends_at_the_saturation(people, records):
         warnings.simplefilter("error")
         assert never["all"].risk(dd.HazardCurve(LEVELS, FREQUENCY)).bounds == (0.0, 0.0)
     # The fit knows the share that can collapse at all, and a mechanism alone those in which it can occur
-    fit = dd.mean_annual_frequency(two["all"].fit, hazard)
+    fit = two["all"].fit.risk(hazard)
     assert two["all"].fit.saturation == 0.5
     assert fit.probability(200.0) == pytest.approx(0.5 * one.probability(200.0), rel=0.01)
     assert fit.probability(1e6) == pytest.approx(0.5)
@@ -444,7 +444,7 @@ def test_time_ends_at_the_saturation(people, records):
 
 @pytest.mark.slow
 def test_deaggregation(hazard, curve):
-    risk = dd.mean_annual_frequency(curve, hazard)
+    risk = curve.risk(hazard)
     edges = np.array([0.001, 0.1, 0.3, 0.5, 0.7, 1.0, 9.0])
     parts = risk.deaggregate(edges)
     assert parts.sum() == pytest.approx(risk.inside, rel=1e-9)
@@ -456,7 +456,7 @@ def test_deaggregation(hazard, curve):
     assert risk.density(0.01) == risk.density(7.0) == 0.0
     k = np.log(FREQUENCY[4] / FREQUENCY[5]) / np.log(2.0)
     assert risk.density(0.5) == pytest.approx(curve(0.5) * k * hazard(0.5), rel=1e-12)
-    whole = dd.mean_annual_frequency(curve, dd.HazardCurve.power_law(1e-4, 2.5))
+    whole = curve.risk(dd.HazardCurve.power_law(1e-4, 2.5))
     assert whole.deaggregate([1e-9, 1e9])[0] == pytest.approx(whole.annual_frequency, rel=1e-9)
     # Half of it comes from above the median of the lognormal that the integrand is
     assert whole.deaggregate([1e-9, 0.6 * np.exp(-2.5 * 0.4**2), 1e9])[0] < whole.annual_frequency
@@ -480,28 +480,28 @@ def test_measures_must_agree(hazard, curve, few):
         pgv = dd.HazardCurve(LEVELS, FREQUENCY, im="pgv")
         for fragility in (people["all"], lognormal(0.6, 0.4), people["all"].fit):
             with pytest.raises(dd.InputError, match="im = 'pga' of the fragility and 'pgv' of the hazard: must be"):
-                dd.mean_annual_frequency(fragility, pgv)
+                fragility.risk(pgv)
         risk = people["all"].risk(hazard)
-        assert risk.inside == pytest.approx(trapezoid(people["all"].mean, hazard, 3001), rel=1e-5)
-        assert dd.mean_annual_frequency(lambda x: curve(x), pgv).annual_frequency > 0.0
+        assert risk.inside == pytest.approx(trapezoid(people["all"], hazard, 3001), rel=1e-5)
+        assert dd.FunctionFragility(curve, im="pgv").risk(pgv).annual_frequency > 0.0
 
 
 def test_refused(hazard, curve):
     nothing = dd.fit_fragility([0.2, 0.4], [0, 0], 44, im="pga")
     with pytest.raises(dd.DondoloError, match="no curve was fitted"):
-        dd.mean_annual_frequency(nothing, hazard)
+        nothing.risk(hazard)
     for wrong, sentence in (
         (lambda x: x, "must lie between 0 and 1"),
         (lambda x: np.full_like(x, np.nan), "fragility = nan: must lie"),
         (lambda x: 0.5, "gives an array of shape"),
         (lambda x: np.full(x.shape, "much"), "fragility: must give numbers"),
         (lambda x: np.exp(-x), r"fragility = 0\.\d+ at \S+, 0\.\d+ below: must not fall with the intensity"),
-        (0.3, "fragility: float is no curve"),
+        (0.3, "function: float is no function"),
     ):
         with pytest.raises(dd.InputError, match=sentence):
-            dd.mean_annual_frequency(wrong, hazard)
+            dd.FunctionFragility(wrong).risk(hazard)
     with pytest.raises(dd.InputError, match="hazard: list is no hazard curve"):
-        dd.mean_annual_frequency(curve, [1.0])
+        curve.risk([1.0])
     for levels, frequency, sentence in (
         ([0.1, 0.2], [0.01], "2 levels, 1 annual_frequency: must be as many"),
         ([0.1], [0.01], "levels: must be at least two"),
@@ -630,8 +630,8 @@ def test_hazard_that_is_no_utf8(tmp_path):
 def test_shown(hazard, curve):
     assert repr(hazard) == "<HazardCurve: levels 9 of pga, 0.02 to 6.4 g, annual frequency 0.1 to 5e-09>"
     assert repr(dd.HazardCurve.power_law(1e-4, 2.5)) == "<HazardCurve: power law 0.0001 pga^-2.5 a year>"
-    assert "return period" in repr(dd.mean_annual_frequency(curve, hazard))
-    assert "<table>" in dd.mean_annual_frequency(curve, hazard)._repr_html_()
+    assert "return period" in repr(curve.risk(hazard))
+    assert "<table>" in curve.risk(hazard)._repr_html_()
     assert list(hazard.to_frame()["pga"]) == LEVELS
 
 
@@ -641,7 +641,7 @@ def test_figure(hazard, curve, endless):
     hazard = dd.HazardCurve.power_law(1e-4, 2.5) if endless else dd.HazardCurve(LEVELS[:6], FREQUENCY[:6])
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", dd.DondoloWarning)
-        risk = dd.mean_annual_frequency(curve, hazard)
+        risk = curve.risk(hazard)
     above, middle, below = risk.plot()
     drawn = above.get_lines()[0 if endless else 1]
     assert np.all(np.isin(hazard.levels, drawn.get_xdata())) or endless

@@ -10,8 +10,8 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from dondolo.risk.integrals import nodes
-from dondolo.risk.uncertainty import _parameters
+from dondolo.curves.risk_uncertainty import _parameters
+from dondolo.hazard.integrals import nodes
 from scipy import optimize, stats
 
 import dondolo as dd
@@ -36,13 +36,13 @@ def curve_of(covariance, degrees=np.inf, **more):
 def test_closed_form():
     """Of a power law ln lambda is normal where ln theta is, and its variance is k^2 times as large."""
     k, se = 2.5, 0.1
-    risk = dd.mean_annual_frequency(curve_of([[se**2, 0.0], [0.0, 0.0]]), dd.HazardCurve.power_law(1e-4, k))
+    risk = curve_of([[se**2, 0.0], [0.0, 0.0]]).risk(dd.HazardCurve.power_law(1e-4, k))
     found = risk.uncertainty(n_draws=40_000, seed=3)
     ln = np.log(found.annual_frequency / risk.annual_frequency)
     assert stats.kstest(ln, stats.norm(0.0, k * se).cdf).pvalue > 0.01
     assert found.interval() == pytest.approx(risk.annual_frequency * np.exp([-1.96 * k * se, 1.96 * k * se]), rel=0.01)
     assert found.fractiles == {}
-    few = dd.mean_annual_frequency(curve_of([[se**2, 0.0], [0.0, 0.0]], 5.0), risk.hazard).uncertainty(n_draws=40_000)
+    few = curve_of([[se**2, 0.0], [0.0, 0.0]], 5.0).risk(risk.hazard).uncertainty(n_draws=40_000)
     ln = np.log(few.annual_frequency / risk.annual_frequency) / (k * se)
     assert stats.kstest(ln, stats.t(5.0).cdf).pvalue > 0.01
 
@@ -56,17 +56,17 @@ def test_the_slope_is_drawn_as_its_interval_says(hazard):
     np.testing.assert_allclose(np.quantile(beta, [0.025, 0.975]), ends["beta"], rtol=0.01)
     correlation = np.corrcoef(np.log(theta), -1.0 / beta)[0, 1]
     assert correlation == pytest.approx(1e-3 / np.sqrt(8e-6), abs=0.02)
-    found = dd.mean_annual_frequency(curve, hazard).uncertainty()
-    again = dd.mean_annual_frequency(curve, hazard).uncertainty()
+    found = curve.risk(hazard).uncertainty()
+    again = curve.risk(hazard).uncertainty()
     np.testing.assert_array_equal(found.annual_frequency, again.annual_frequency)
-    other = dd.mean_annual_frequency(curve, hazard).uncertainty(seed=1)
+    other = curve.risk(hazard).uncertainty(seed=1)
     assert found.interval() != other.interval()
     np.testing.assert_allclose(found.interval(), other.interval(), rtol=0.05)
 
 
 def test_beside_the_fractiles_of_the_hazard(hazard, tmp_path):
     curve = curve_of([[4e-3, 1e-3], [1e-3, 2e-3]], 12.0)
-    risk = dd.mean_annual_frequency(curve, hazard)
+    risk = curve.risk(hazard)
     found = risk.uncertainty(n_draws=1000)
     table = found.table()
     assert table["hazard"] == ["mean", "0.16", "0.84"]
@@ -93,16 +93,16 @@ def test_beside_the_fractiles_of_the_hazard(hazard, tmp_path):
 def test_curves_that_are_open(hazard):
     """A slope that may be nothing: no bound but that of the hazard."""
     curve = curve_of([[4e-3, 0.0], [0.0, 0.5]])
-    found = dd.mean_annual_frequency(curve, hazard).uncertainty(n_draws=1000)
+    found = curve.risk(hazard).uncertainty(n_draws=1000)
     # Level at 1/2, the limit of ever larger dispersions
     assert found.annual_frequency.max() == 0.5 * MEAN[0]
     wide = replace(curve, beta=1e7)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        assert dd.mean_annual_frequency(wide, hazard).annual_frequency == pytest.approx(0.5 * MEAN[0], rel=1e-5)
-    endless = dd.mean_annual_frequency(curve, dd.HazardCurve.power_law(1e-4, 2.5)).uncertainty(n_draws=1000)
+        assert wide.risk(hazard).annual_frequency == pytest.approx(0.5 * MEAN[0], rel=1e-5)
+    endless = curve.risk(dd.HazardCurve.power_law(1e-4, 2.5)).uncertainty(n_draws=1000)
     assert endless.interval()[1] == np.inf
-    half = dd.mean_annual_frequency(replace(curve, saturation=0.5), hazard).uncertainty(n_draws=1000)
+    half = replace(curve, saturation=0.5).risk(hazard).uncertainty(n_draws=1000)
     np.testing.assert_array_equal(half.annual_frequency, 0.5 * found.annual_frequency)
 
 
@@ -110,7 +110,7 @@ def test_curves_that_are_open(hazard):
 def test_intervals_cover_what_the_hazard_may_be_beyond_its_levels(people, records):
     short = dd.HazardCurve([0.1, 0.2, 0.3], [0.01, 2e-3, 8e-4])
     curve = curve_of([[4e-3, 1e-3], [1e-3, 2e-3]])
-    for risk in (dd.mean_annual_frequency(curve, short), people(records[::4])["all"].risk(short)):
+    for risk in (curve.risk(short), people(records[::4])["all"].risk(short)):
         low, high = risk.bounds
         assert high > 1.5 * low
         found = risk.uncertainty(n_draws=2000)
@@ -123,24 +123,24 @@ def test_intervals_cover_what_the_hazard_may_be_beyond_its_levels(people, record
 def test_what_has_no_uncertainty(hazard):
     for curve, message in (
         (replace(curve_of(np.full((2, 2), np.nan)), errors="few_clusters"), "no standard errors: less than three"),
-        (lambda x: np.minimum(x, 1.0), "the curve is a function, of which no standard errors are known"),
+        (dd.FunctionFragility(lambda x: np.minimum(x, 1.0)), "no standard errors are known of this curve"),
     ):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            risk = dd.mean_annual_frequency(curve, hazard)
+            risk = curve.risk(hazard)
         with pytest.raises(dd.DondoloError, match=message):
             risk.uncertainty()
     with pytest.raises(dd.InputError, match="n_draws = 10: must be an integer, at least 100"):
-        dd.mean_annual_frequency(curve_of(np.eye(2)), hazard).uncertainty(n_draws=10)
+        curve_of(np.eye(2)).risk(hazard).uncertainty(n_draws=10)
 
 
 def test_the_level_that_contributes_most(hazard):
-    risk = dd.mean_annual_frequency(curve_of(np.eye(2)), hazard)
+    risk = curve_of(np.eye(2)).risk(hazard)
     parts = risk.deaggregate(np.geomspace(0.02, 6.4, 61))
     middle = np.sqrt(np.geomspace(0.02, 6.4, 61)[:-1] * np.geomspace(0.02, 6.4, 61)[1:])
     # The kinks of the power laws move it by no more than a step.
     assert risk.dominant_level == pytest.approx(middle[np.argmax(parts)], rel=0.2)
-    endless = dd.mean_annual_frequency(curve_of(np.eye(2)), dd.HazardCurve.power_law(1e-4, 2.5))
+    endless = curve_of(np.eye(2)).risk(dd.HazardCurve.power_law(1e-4, 2.5))
     # Where Phi(z) exp(-k beta z) is largest, k beta = 1
     z = optimize.brentq(lambda z: stats.norm.pdf(z) - stats.norm.cdf(z), -3.0, 3.0)
     assert endless.dominant_level == pytest.approx(0.6 * np.exp(0.4 * z), rel=0.02)
@@ -151,7 +151,7 @@ def test_the_level_that_contributes_most(hazard):
     assert "contributes most" in ax.texts[0].get_text()
     plt.close(ax.figure)
     with pytest.warns(dd.DondoloWarning):
-        never = dd.mean_annual_frequency(lambda x: np.zeros_like(x), hazard)
+        never = dd.FunctionFragility(lambda x: np.zeros_like(x)).risk(hazard)
     assert np.isnan(never.dominant_level)
     plt.close(never.plot_deaggregation().figure)
 
@@ -179,7 +179,7 @@ def test_records_left_out_of_a_population(people, records, hazard):
         curve = whole[key]
         risk = curve.risk(hazard)
         u, weights = nodes(hazard, curve.reach)
-        assert weights @ curve.mean(np.exp(u)) == pytest.approx(risk.annual_frequency, rel=1e-6)
+        assert weights @ curve(np.exp(u)) == pytest.approx(risk.annual_frequency, rel=1e-6)
         changes = curve.changes(np.exp(u), weights)
         found = changes["clusters of records"]
         labels = tuple(dict.fromkeys(whole.flags.clusters))
@@ -211,7 +211,7 @@ def test_walls_left_out_of_a_population(people, records, hazard):
     np.testing.assert_allclose(spread.fractiles[0.84], 1.6 * spread.annual_frequency, rtol=1e-6)
     endless = curve.risk(dd.HazardCurve.power_law(1e-4, 2.5))
     u, weights = nodes(endless.hazard, curve.reach)
-    assert weights @ curve.mean(np.exp(u)) == pytest.approx(endless.annual_frequency, rel=1e-5)
+    assert weights @ curve(np.exp(u)) == pytest.approx(endless.annual_frequency, rel=1e-5)
 
 
 @pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
@@ -225,7 +225,7 @@ def test_populations_without_standard_errors(people, records, hazard):
     # Four walls leave long tails, which are those of ln lambda here and of ln theta and 1/beta there.
     ends = [np.log(one.interval(confidence=0.5)) for one in (back, exact)]
     np.testing.assert_allclose(*ends, atol=0.5)
-    by_fit = dd.mean_annual_frequency(some["all"].fit, hazard).uncertainty(n_draws=4000)
+    by_fit = some["all"].fit.risk(hazard).uncertainty(n_draws=4000)
     for end, draws, of_fit in zip(
         (0, 1), (back.annual_frequency, back.upper), (by_fit.annual_frequency, by_fit.upper), strict=True
     ):
@@ -247,7 +247,7 @@ def test_fractiles_that_are_hardly_exceeded():
     hazard = dd.HazardCurve(levels, mean, fractiles={0.05: [1e-3, 0.0, 0.0, 0.0], 0.84: 2.0 * mean})
     with pytest.raises(dd.InputError, match=r"fractile 0\.05 of the hazard curve: must be exceeded at 2 levels"):
         hazard.fractile(0.05)
-    risk = dd.mean_annual_frequency(curve_of([[0.01, 0.0], [0.0, 0.001]]), hazard)
+    risk = curve_of([[0.01, 0.0], [0.0, 0.001]]).risk(hazard)
     found = risk.uncertainty(n_draws=200)
     assert list(found.fractiles) == [0.84]
     for axes in (risk.plot()[0], found.plot()):
@@ -260,7 +260,7 @@ def test_fractiles_that_are_hardly_exceeded():
 def test_many_fractiles_are_all_drawn():
     shares = (0.02, 0.05, 0.16, 0.5, 0.84, 0.95, 0.98, 0.99)
     hazard = dd.HazardCurve(LEVELS, MEAN, fractiles={q: (0.5 + q) * MEAN for q in shares})
-    risk = dd.mean_annual_frequency(curve_of([[0.01, 0.0], [0.0, 0.001]]), hazard)
+    risk = curve_of([[0.01, 0.0], [0.0, 0.001]]).risk(hazard)
     for axes in (risk.plot()[0], risk.uncertainty(n_draws=200).plot()):
         assert len(axes.get_legend().get_texts()) >= 1 + len(shares)
     plt.close("all")

@@ -54,14 +54,15 @@ def results(stripes, few, wall):
         "stripes with errors": gone,
         "response": dd.simulate(slender, noted, scale=3.0, history=True),
         "response without history": dd.simulate(dd.FreeStandingWall(2.0, 0.5), noted, history=False),
-        "incremental": dd.incremental(stripes),
-        "first collapses": dd.incremental(stripes).fit(),
+        "incremental": stripes.incremental(),
+        "first collapses": stripes.incremental().fit(),
         "cloud": dd.cloud(wall, [noted, *few], scale=2.0, progress=False),
+        "curve of a cloud": dd.cloud(wall, [noted, *few], scale=2.0, progress=False).fit(0.4),
         "overturning": dd.overturning_spectrum(
             wall, dd.pulses.ricker, frequencies=[0.5, 1.0, 2.0], amplitudes=[0.2, 0.5, 1.0, 2.0], progress=False
         ),
         "intensities": dd.compare_intensities(wall, few, ims=["pga", "pgv"], progress=False),
-        "comparison": dd.compare(curve, gone.fit()) if gone.fit().has_fit else dd.compare(curve, curve),
+        "comparison": curve.compare(gone.fit()) if gone.fit().has_fit else curve.compare(curve),
         "designs": dd.compare_designs(
             {"as it stands": wall, "folds": slender, "never": dd.OneSidedWall(1.5, 1.4)},
             few,
@@ -76,8 +77,8 @@ def results(stripes, few, wall):
         "bootstrap": curve.bootstrap(n_resamples=20),
         "hazard": hazard,
         "power law": dd.HazardCurve.power_law(1e-4, 2.0),
-        "risk": dd.mean_annual_frequency(curve, hazard),
-        "risk of a power law": dd.mean_annual_frequency(curve, dd.HazardCurve.power_law(1e-4, 2.0)),
+        "risk": curve.risk(hazard),
+        "risk of a power law": curve.risk(dd.HazardCurve.power_law(1e-4, 2.0)),
         "spectrum": few[0].spectrum([0.1, 0.5, 1.0]),
         "records": dd.RecordSet.of_levels({0.2: few, 0.4: dd.RecordSet(few[:1], factor=2.0)}),
         "target": dd.TargetSpectrum([0.1, 0.5, 1.0], [0.5, 0.4, 0.2], dispersion=0.6).conditional(0.5, 0.8),
@@ -100,8 +101,8 @@ def results(stripes, few, wall):
         "population curve": people["all"],
         "curve of a group": people["two_block", "low"],
         "risk of a population": people["all"].risk(hazard),
-        "uncertainty of a risk": dd.mean_annual_frequency(
-            curve, dd.HazardCurve([0.1, 1.0], [0.1, 1e-3], fractiles={0.84: [0.2, 2e-3]})
+        "uncertainty of a risk": curve.risk(
+            dd.HazardCurve([0.1, 1.0], [0.1, 1e-3], fractiles={0.84: [0.2, 2e-3]})
         ).uncertainty(n_draws=100),
         "typology bootstrap": people["all"].bootstrap(n_resamples=10),
     }
@@ -252,8 +253,8 @@ def test_a_loaded_typology_goes_on(results, tmp_path):
 
 
 def test_functions_are_not_saved(results, tmp_path):
-    risk = dd.mean_annual_frequency(lambda x: np.minimum(x, 1.0), results["hazard"])
-    with pytest.raises(dd.InputError, match=r"^Risk\.fragility: a function cannot be saved$"):
+    risk = dd.FunctionFragility(lambda x: np.minimum(x, 1.0)).risk(results["hazard"])
+    with pytest.raises(dd.InputError, match=r"^Risk\.fragility: a FunctionFragility cannot be saved$"):
         risk.save(tmp_path / "risk.npz")
     assert os.listdir(tmp_path) == []
 

@@ -47,10 +47,10 @@ def things(wall, stripes, few, records, root, tmp_path_factory):
     other, quiet = dd.OneSidedWall(height=1.8, thickness=0.25, name="other"), {"progress": False}
     levels = [0.4, 0.6, 0.8, 1.0, 1.2]
     people = dd.typology([wall, other], few, levels, **quiet)
-    curve, ida = stripes.fit(), dd.incremental(stripes)
+    curve, ida = stripes.fit(), stripes.incremental()
     site = dd.Site(ag=0.2, f0=2.5, tc_star=0.35, soil="B")
     hazard = dd.HazardCurve([0.05, 0.5, 3.0], [0.05, 0.001, 1e-7])
-    risk = dd.mean_annual_frequency(curve, hazard)
+    risk = curve.risk(hazard)
     two_block = dd.TwoBlockWall(3.0, 0.25)
     pulses = {"frequencies": [1.0, 2.0], "amplitudes": [0.2, 0.6]}
     target = dd.ec8_spectrum(0.25, soil="C", periods=[0.1, 0.2, 0.5, 1.0, 2.0])
@@ -64,7 +64,7 @@ def things(wall, stripes, few, records, root, tmp_path_factory):
         wall, dd.FreeStandingWall(1.5, 0.25), two_block, dd.Population([wall, other]), house,
         records[0], dd.RecordSet(few), dd.select_records(records, target, 5), records[0].spectrum([0.1, 1.0]), site,
         target, stripes, curve, curve.bootstrap(n_resamples=20), ida, ida.fit(), dd.cloud(wall, records),
-        dd.compare(curve, dd.multiple_stripe(other, records, levels, **quiet).fit()), people, people["all"],
+        curve.compare(dd.multiple_stripe(other, records, levels, **quiet).fit()), people, people["all"],
         people["all"].bootstrap(n_resamples=20), hazard, risk, risk.uncertainty(n_draws=100),
         dd.simulate(wall, few[0]), case, case.run(progress=False), dd.check_ntc(wall, site),
         dd.compare_designs({"now": wall, "thicker": dd.OneSidedWall(1.5, 0.3)}, records, levels, **quiet),
@@ -72,7 +72,8 @@ def things(wall, stripes, few, records, root, tmp_path_factory):
         dd.overturning_spectrum(wall, dd.pulses.one_sine, **pulses, **quiet),
         dd.weakest_hinge(two_block, few, levels, hinges=[0.5, 0.7], **quiet),
         dd.uncertain_wall(two_block, few, levels, sources={"hinge": dd.Uniform(0.5, 0.7)}, count=10, **quiet),
-        dd.read_nrml(nrml), dd.DiscreteFragility([0.1, 0.2], [0.0, 0.25]),
+        dd.read_nrml(nrml), dd.cloud(wall, records, scale=3.0).fit(), dd.FunctionFragility(curve),
+        dd.DiscreteFragility([0.1, 0.2], [0.0, 0.25]),
         dd.read_results(prefix),
     ]  # fmt: skip
     return {type(one).__name__: one for one in found}
@@ -85,8 +86,8 @@ def rows(thing):
 def test_every_result_is_a_table(things):
     """Of what analyses and readers return; values that are plain numbers, tuples or options have none."""
     plain = {
-        "Bed", "Boundary", "Certified", "Choice", "Group", "Interlock", "Load", "Logistic", "Lognormal", "Normal",
-        "PushedMass", "Regression", "RotD", "Section", "Solver", "Spring", "State", "Terms", "Thrust", "Tie",
+        "Bed", "Boundary", "Certified", "Choice", "Curve", "Group", "Interlock", "Load", "Logistic", "Lognormal",
+        "Normal", "PushedMass", "Regression", "RotD", "Section", "Solver", "Spring", "State", "Terms", "Thrust", "Tie",
         "Triangular", "Uniform", "Wall", "Window", "Work",
     }  # fmt: skip
     kinds = {

@@ -66,11 +66,11 @@ def test_means(typology, population):
     assert typology["all"].weight == population.weights.sum()
     fractions = typology.collapses / typology.histories
     assert typology["all"].mean_fraction == pytest.approx(fractions @ share, rel=1e-13)
-    assert typology["all"].mean(LEVELS) == pytest.approx(typology["all"].mean_curve, rel=1e-13)
-    assert isinstance(typology["all"].mean(0.5), float)
-    assert typology["all"].mean(0.0) == 0.0
+    assert typology["all"](LEVELS) == pytest.approx(typology["all"].mean_curve, rel=1e-13)
+    assert isinstance(typology["all"](0.5), float)
+    assert typology["all"](0.0) == 0.0
     x = np.linspace(0.0, 3.0, 60)
-    assert np.all(np.diff(typology["all"].mean(x)) >= 0.0)
+    assert np.all(np.diff(typology["all"](x)) >= 0.0)
 
 
 def test_mechanisms(typology):
@@ -81,7 +81,7 @@ def test_mechanisms(typology):
     mean = sum(group.weight * group.mean_curve for group in parts) / typology["all"].weight
     assert mean == pytest.approx(typology["all"].mean_curve, rel=1e-12)
     for group in parts:
-        assert typology[group.mechanism].mean(LEVELS) == pytest.approx(group.mean_curve, rel=1e-12)
+        assert typology[group.mechanism](LEVELS) == pytest.approx(group.mean_curve, rel=1e-12)
         assert typology[group.mechanism].fit is group.fit
     for key in (1, None, ("all", "a", "b"), ("all", 1)):
         with pytest.raises(dd.InputError, match="must be a mechanism, or a mechanism and a group"):
@@ -132,7 +132,7 @@ def test_threads_change_nothing(typology, population, few, threads, samples, mon
 
 def test_pickle_and_shown(typology):
     again = pickle.loads(pickle.dumps(typology))
-    assert again["all"].mean(0.5) == typology["all"].mean(0.5)
+    assert again["all"](0.5) == typology["all"](0.5)
     assert "walls 5" in repr(typology)
     assert "<table>" in typology._repr_html_()
 

@@ -13,7 +13,7 @@ SHORT = dd.HazardCurve([0.1, 0.2], [0.01, 0.002])
 
 
 def functions_in_time():
-    dd.mean_annual_frequency(lambda x: np.minimum(x, 1.0) ** 4, dd.HazardCurve.power_law(1e-4, 2.0)).probability(50.0)
+    dd.FunctionFragility(lambda x: np.minimum(x, 1.0) ** 4).risk(dd.HazardCurve.power_law(1e-4, 2.0)).probability(50.0)
 
 
 def own_table(path):
@@ -27,7 +27,7 @@ def own_table(path):
         (lambda path: dd.fit_fragility([1.0, 2.0], [1, 2], 44), ["extrapolated"], ["first_level", "theta"]),
         (lambda path: functions_in_time(), ["function_of_one_wall"], []),
         (
-            lambda path: dd.mean_annual_frequency(dd.fit_fragility([0.2, 0.4], [11, 33], 44, im="pga"), SHORT),
+            lambda path: dd.fit_fragility([0.2, 0.4], [11, 33], 44, im="pga").risk(SHORT),
             ["hazard_too_short"],
             ["lower_bound", "upper_bound"],
         ),
@@ -46,7 +46,7 @@ def test_codes(call, codes, numbers, tmp_path):
 
 
 def test_first_collapses(stripes):
-    none = dd.incremental(dd.multiple_stripe(stripes.wall, dd.Record([0.0, 0.1, 0.0], 0.01), [0.01], progress=False))
+    none = dd.multiple_stripe(stripes.wall, dd.Record([0.0, 0.1, 0.0], 0.01), [0.01], progress=False).incremental()
     with pytest.warns(dd.DondoloWarning, match="no curve of first collapses") as caught:
         none.fit()
     assert (caught[0].message.code, caught[0].message.subject) == ("no_collapse", {"wall": "parapet"})

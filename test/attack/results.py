@@ -42,7 +42,7 @@ def samples(folder: Path) -> None:
     curve = dd.fit_fragility([0.2, 0.4, 0.6], [1, 5, 9], [10, 10, 10])
     made = [stripes, curve, dd.simulate(wall, records[0], scale=0.5)]
     hazard = dd.HazardCurve([0.1, 0.2, 0.4], [0.01, 0.002, 0.0003])
-    made += [hazard, dd.mean_annual_frequency(curve, hazard)]
+    made += [hazard, curve.risk(hazard)]
     for i, one in enumerate(made):
         one.save(folder / f"{i}.npz")
 

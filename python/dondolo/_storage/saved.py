@@ -47,7 +47,10 @@ if TYPE_CHECKING:
 
 _VERSION = 1
 # Fields that archives of earlier versions do not have, and what they are there
-_ADDED: dict[str, dict[str, Any]] = {"HazardCurve": {"rigid_ground": False}, "Logistic": {"likelihood_ratio": math.nan}}
+_ADDED: dict[str, dict[str, Any]] = {
+    "HazardCurve": {"rigid_ground": False},
+    "Logistic": {"likelihood_ratio": math.nan, "im": ""},
+}
 _CONTENT = "dondolo.json"
 # What every file has in its first bytes: the first member is not compressed
 _MARK = '{"format": "dondolo result"'

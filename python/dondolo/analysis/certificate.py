@@ -48,48 +48,7 @@ def certify(
     threads: int = 0,
     progress: bool = True,
 ) -> Stripes:
-    """Run every history whose estimated error leaves a doubt again in 33 digits.
-
-    Parameters
-    ----------
-    stripes : Stripes
-        Stripes with estimated errors. Of those that an interrupted run left only the histories without a status
-        are run.
-    records : Record, iterable of Record, RecordSet, or mapping of float to these
-        The accelerograms that they were run with.
-    threads : int
-        Number of threads; 0: all (OMP_NUM_THREADS is honoured). Results do not depend on it.
-    progress : bool
-        Show a progress bar in a terminal or notebook.
-
-    Returns
-    -------
-    Stripes
-        The same with `status`, `edp_lowest` and `edp_highest`. Histories that were run again have the EDP, the
-        flag, the impacts, the time of the peak and the error of that run.
-
-    Raises
-    ------
-    InputError
-        No stripes, such as a typology; stripes without estimated errors, other records, or a build without quadruple
-        precision.
-    Interrupted
-        Ctrl-C; its `partial` has all stripes, with a status of 0 for the histories in doubt that were not run again
-        yet.
-        `certify` of it goes on there. At most 16 histories that were at work are lost.
-
-    Notes
-    -----
-    A history is in doubt if its estimated error exceeds 1e-6, or may turn the outcome. It is run at a relative
-    tolerance of 1e-12, 1e-14, 1e-16 and 1e-18 until two neighbours agree to 1e-7, and then with factors on its record
-    one unit in the last place smaller and greater (docs/certification.md).
-    """
-    # These two modules need each other: tables of stripes name the statuses.
-    from dondolo.analysis.stripes import Stripes
-
-    if not isinstance(stripes, Stripes):
-        found = type(stripes).__name__
-        raise InputError(f"stripes: is a {found}: must be Stripes; populations and single histories are not certified")
+    """Stripes with certificates: see `Stripes.certify`."""
     if stripes.edp_error is None:
         raise InputError("stripes: have no estimated errors: must be run with estimate_error = True")
     team = check_threads(threads)

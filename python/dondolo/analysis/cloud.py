@@ -52,7 +52,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_levels, as_number, instance_of, shaped
+from dondolo._base.arguments import FloatArray, as_levels, as_number, as_probabilities, instance_of, shaped
+from dondolo._base.shown import Shown
 from dondolo._fortran.library import constants, warn
 from dondolo._fortran.records import describe_measure, unit_of
 from dondolo._storage import tables
@@ -60,8 +61,10 @@ from dondolo._storage.saved import Saved
 from dondolo.analysis.request import SMALL_LEVEL, Polarity, Request, check_threads, new_request, polarity_names
 from dondolo.analysis.solver import Solver, as_solver
 from dondolo.analysis.work import Work
+from dondolo.curves.curve import Curve
 from dondolo.curves.regression import Logistic, Regression, logistic_regression, regress
 from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted
+from dondolo.figures import style
 from dondolo.records.record import Record
 from dondolo.records.record_set import scaled_records
 from dondolo.walls.wall import Wall, notes_on_supports
@@ -163,48 +166,36 @@ class Cloud(tables.Tabular, Saved):
         """
         intensity, name = _intensities(self.wall, self.records, im, self.scale, 0)
         intensity = intensity[self.record_index]
-        found = replace(self, im=name, intensity=intensity, **fit(intensity, self.edp, self.collapsed))
+        found = replace(self, im=name, intensity=intensity, **fit(intensity, self.edp, self.collapsed, name))
         warn(found._doubts())
         return found
 
-    def probability(self, x: ArrayLike, edp_threshold: float | None = None) -> Any:
-        """P(EDP > edp_threshold | IM = x) by total probability.
+    def fit(self, edp_threshold: float | None = None) -> CloudFragility:
+        """The fragility curve P(EDP > edp_threshold | IM) by total probability.
 
         Parameters
         ----------
-        x : array_like
-            Intensities, not negative.
         edp_threshold : float, optional
             Threshold, positive and at most `edp_limit`, which is meant if it is left out.
 
         Returns
         -------
-        float or ndarray, shape of x
-            NaN where the data do not say: see `Logistic`.
+        CloudFragility
+            Its `theta` and `beta` are those of the equivalent lognormal.
 
         Raises
         ------
+        InputError
+            A threshold that is not positive or above `edp_limit`.
         DondoloError
             Too few histories rock without collapse, so that there is no regression.
         """
-        values = as_levels(x)
-        return shaped(self._curve(values.ravel(), self._threshold(edp_threshold)), values)
-
-    def lognormal(self, edp_threshold: float | None = None) -> tuple[float, float]:
-        """Median and dispersion of the lognormal curve that is equivalent to P(EDP > edp_threshold | IM).
-
-        Parameters
-        ----------
-        edp_threshold : float, optional
-            As for `probability`.
-
-        Returns
-        -------
-        theta, beta : float
-            In the unit of the intensity, and of its logarithm. NaN where they are not defined: there is no line or it
-            falls, or one of 16, 50 and 84 % lies in a gap of the data.
-        """
         threshold = self._threshold(edp_threshold)
+        self._need_line()
+        return CloudFragility(cloud=self, edp_threshold=threshold)
+
+    def _lognormal(self, threshold: float) -> tuple[float, float]:
+        """Median and dispersion of the lognormal curve that is equivalent to P(EDP > threshold | IM)."""
         if not self.slope > 0.0 or "decreasing" in (self.rocking.status, self.collapse.status):
             return np.nan, np.nan
         if self.collapse.status == "none" and self.rocking.status == "all":
@@ -259,15 +250,18 @@ class Cloud(tables.Tabular, Saved):
             )
         return threshold
 
-    def _curve(self, x: FloatArray, threshold: float, gap: float = np.nan) -> FloatArray:
-        from scipy.special import ndtr
-
+    def _need_line(self) -> None:
         line = self.regression
         if line.status != "ok":
             raise DondoloError(
                 f"no line was fitted (status '{line.status}'): {line.histories} histories rock without collapse, three"
                 " of different intensity are needed"
             )
+
+    def _curve(self, x: FloatArray, threshold: float, gap: float = np.nan) -> FloatArray:
+        from scipy.special import ndtr
+
+        line = self.regression
         with np.errstate(divide="ignore", invalid="ignore"):
             exceeds = ndtr((line.intercept + line.slope * np.log(x) - np.log(threshold)) / line.sigma)
         collapse = self.collapse._at(x, gap)
@@ -328,6 +322,124 @@ class Cloud(tables.Tabular, Saved):
             ),
             *notes_on_supports((self.wall,)),
             *self.work._notes(),
+        ]
+
+
+@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
+class CloudFragility(Curve, Shown, Saved):
+    """The fragility curve of a cloud, P(EDP > edp_threshold | IM) by total probability: `Cloud.fit`.
+
+    Attributes
+    ----------
+    cloud : Cloud
+        The points and the models that are fitted to them.
+    edp_threshold : float
+        Rotation / capacity.
+    """
+
+    cloud: Cloud
+    edp_threshold: float
+
+    @property
+    def im(self) -> str:  # type: ignore[override]
+        """Intensity measure."""
+        return self.cloud.im
+
+    @property
+    def _equivalent(self) -> tuple[float, float]:
+        return self.cloud._lognormal(self.edp_threshold)
+
+    @property
+    def theta(self) -> float:
+        """Median of the equivalent lognormal, in the unit of the intensity.
+
+        NaN where it is not defined: the line falls, or one of 16, 50 and 84 % lies in a gap of the data.
+        """
+        return self._equivalent[0]
+
+    @property
+    def beta(self) -> float:
+        """Dispersion of the equivalent lognormal, half the distance of ln IM between 16 and 84 %; NaN as `theta`."""
+        return self._equivalent[1]
+
+    def __call__(self, x: ArrayLike) -> Any:
+        """Probability of more than the threshold at intensities.
+
+        Parameters
+        ----------
+        x : array_like
+            Intensities, not negative.
+
+        Returns
+        -------
+        float or ndarray, shape of x
+            NaN where the data do not say: see `Logistic`.
+        """
+        values = as_levels(x)
+        return shaped(self.cloud._curve(values.ravel(), self.edp_threshold), values)
+
+    def ppf(self, p: ArrayLike) -> Any:
+        """Intensities at which the probability is p: the inverse of the curve.
+
+        Parameters
+        ----------
+        p : array_like
+            Probabilities, 0 to 1.
+
+        Returns
+        -------
+        float or ndarray, shape of p
+            NaN where the data do not say.
+
+        Raises
+        ------
+        InputError
+            A probability that is not between 0 and 1.
+        """
+        values = as_probabilities("p", p)
+        ends = {0.0: 0.0, 1.0: np.inf}
+        found = [ends[one] if one in ends else self.cloud._crossing(one, self.edp_threshold) for one in values.flat]
+        return shaped(np.array(found), values)
+
+    def plot(
+        self, ax: Axes | None = None, *, label: str | None = None, color: str = style.BLUE, linestyle: str = "-"
+    ) -> Axes:
+        """Draw the curve.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+        label : str, optional
+            Name of the curve where several are drawn into the same axes.
+        color, linestyle : str
+            Of the curve, to distinguish several.
+
+        Returns
+        -------
+        Axes
+            Probability against intensity, up to the strongest record; without the gap that the data leave, if any.
+        """
+        from dondolo.curves.plots import draw_any
+
+        return draw_any(self, ax, label, color, linestyle, float(self.cloud.intensity.max()))
+
+    def _need_fit(self) -> None:
+        for model, what in ((self.cloud.rocking, "rocking"), (self.cloud.collapse, "collapse")):
+            if model.status in ("separated", "decreasing"):
+                raise DondoloError(
+                    f"the curve has a gap: the probability of {what} is '{model.status}' against {self.im}; another"
+                    " measure may have none: Cloud.against"
+                )
+
+    def _facts(self) -> list[tuple[str, str]]:
+        unit = unit_of(self.im)
+        return [
+            ("wall", self.cloud.wall.name),
+            ("measure", self.im),
+            ("EDP threshold", f"{self.edp_threshold:g}"),
+            ("theta", f"{self.theta:.6g} {unit}".rstrip()),
+            ("beta", f"{self.beta:.6g}"),
         ]
 
 
@@ -416,7 +528,7 @@ def cloud(
         collapsed=outcome.collapsed,
         record_index=plan.record,
         polarity=plan.polarity,
-        **fit(points, outcome.edp, outcome.collapsed),
+        **fit(points, outcome.edp, outcome.collapsed, name),
         edp_limit=float(settings[2]),
         work=outcome.work,
     )
@@ -439,12 +551,12 @@ def _intensities(
     return SMALL_LEVEL * (factor / scale) ** describe_measure(request.im).power, request.im
 
 
-def fit(intensity: FloatArray, edp: FloatArray, collapsed: BoolArray) -> dict[str, Any]:
+def fit(intensity: FloatArray, edp: FloatArray, collapsed: BoolArray, im: str) -> dict[str, Any]:
     """Fit the three models to points: regression, rocking and collapse, by name."""
     x = np.log(intensity)
     stands = ~collapsed
     return {
         "regression": regress(x[stands & (edp > 0.0)], np.log(edp[stands & (edp > 0.0)])),
-        "rocking": logistic_regression(intensity[stands], edp[stands] > 0.0),
-        "collapse": logistic_regression(intensity, collapsed),
+        "rocking": logistic_regression(intensity[stands], edp[stands] > 0.0, im),
+        "collapse": logistic_regression(intensity, collapsed, im),
     }

@@ -42,7 +42,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, instance_of
+from dondolo._base.arguments import FloatArray
 from dondolo._base.shown import Shown
 from dondolo._fortran.library import constants, warn
 from dondolo._fortran.records import blank_unit, unit_of
@@ -274,28 +274,7 @@ class Incremental(Shown, Saved):
 
 
 def incremental(stripes: Stripes) -> Incremental:
-    """Read a multiple stripe analysis as an incremental dynamic analysis.
-
-    Parameters
-    ----------
-    stripes : Stripes
-        Result of `multiple_stripe`, of which each history (record and polarity) becomes a curve. Many levels, close to
-        each other and up to the collapse of all histories, make a good one.
-
-    Returns
-    -------
-    Incremental
-
-    Raises
-    ------
-    InputError
-        What is given is no stripes, or their levels have records of their own.
-
-    Notes
-    -----
-    Vamvatsikos and Cornell (2002). The docstring of the module dondolo.analysis.incremental has the formulas.
-    """
-    instance_of("stripes", stripes, Stripes, "no Stripes")
+    """Read stripes as an incremental dynamic analysis: see `Stripes.incremental`."""
     if not stripes.ran.all():
         raise InputError("stripes: have records of their own at each level: every record must run at every level")
     levels, collapsed = stripes.levels, stripes.collapsed

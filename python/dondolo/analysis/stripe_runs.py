@@ -69,7 +69,7 @@ def multiple_stripe(
     estimate_error : bool
         Run every history twice more, to estimate the error of its EDP?
     certify : bool
-        Estimate errors, and run every history that they leave in doubt again in 33 digits? See `certify`.
+        Estimate errors, and run every history that they leave in doubt again in 33 digits? See `Stripes.certify`.
     threads : int
         Number of threads; 0: all (OMP_NUM_THREADS is honoured). Results do not depend on it.
     progress : bool

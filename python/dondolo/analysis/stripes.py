@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -27,12 +27,15 @@ from dondolo.curves.fitting import fit
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.sample import Sample, cluster_labels, given_labels
 from dondolo.errors import InputError, silent
+from dondolo.records.record import Record
 from dondolo.walls.table import walls_table
 from dondolo.walls.ties import states_of_ties
 from dondolo.walls.wall import Wall, notes_on_supports, upload
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+    from dondolo.analysis.incremental import Incremental
 
 _Counts = np.ndarray[Any, np.dtype[np.int64]]
 _Table = Literal["histories", "stripes", "walls"]
@@ -379,6 +382,116 @@ class Stripes(Shown, Saved):
         data = CurveData(curve.status, numbers)
         sentences = warnings_of_curve(upload((self.wall,)), self.levels, float(np.nanmax(self.edp)), data)
         warn(sentence.placed(where) for sentence in sentences)
+
+    def certify(
+        self,
+        records: Record | Iterable[Record] | Mapping[float, Record | Iterable[Record]],
+        *,
+        threads: int = 0,
+        progress: bool = True,
+    ) -> Stripes:
+        """Run every history whose estimated error leaves a doubt again in 33 digits.
+
+        Parameters
+        ----------
+        records : Record, iterable of Record, RecordSet, or mapping of float to these
+            The accelerograms that they were run with.
+        threads : int
+            Number of threads; 0: all (OMP_NUM_THREADS is honoured). Results do not depend on it.
+        progress : bool
+            Show a progress bar in a terminal or notebook.
+
+        Returns
+        -------
+        Stripes
+            The same with `status`, `edp_lowest` and `edp_highest`. Histories that were run again have the EDP, the
+            flag, the impacts, the time of the peak and the error of that run.
+
+        Raises
+        ------
+        InputError
+            Stripes without estimated errors, other records, or a build without quadruple precision.
+        Interrupted
+            Ctrl-C; its `partial` has all stripes, with a status of 0 for the histories in doubt that were not run again
+            yet. Its own `certify` goes on there. At most 16 histories that were at work are lost.
+
+        Notes
+        -----
+        Of stripes that an interrupted run left only the histories without a status are run. A history is in doubt if
+        its estimated error exceeds 1e-6, or may turn the outcome. It is run at a relative tolerance of 1e-12, 1e-14,
+        1e-16 and 1e-18 until two neighbours agree to 1e-7, and then with factors on its record one unit in the last
+        place smaller and greater (docs/certification.md).
+        """
+        from dondolo.analysis.certificate import certify
+
+        return certify(self, records, threads=threads, progress=progress)
+
+    def incremental(self) -> Incremental:
+        """Read the stripes as an incremental dynamic analysis, record by record.
+
+        Returns
+        -------
+        Incremental
+            Each history (record and polarity) as a curve. Many levels, close to each other and up to the collapse of
+            all histories, make a good one.
+
+        Raises
+        ------
+        InputError
+            The levels have records of their own.
+
+        Notes
+        -----
+        Vamvatsikos and Cornell (2002). The docstring of the module dondolo.analysis.incremental has the formulas.
+        """
+        from dondolo.analysis.incremental import incremental
+
+        return incremental(self)
+
+    def friction_demand(
+        self,
+        records: Record | Iterable[Record] | Mapping[float, Record | Iterable[Record]],
+        *,
+        progress: bool = True,
+    ) -> FloatArray:
+        """Coefficient of friction that each history needs so that the wall does not slide while it rocks.
+
+        Parameters
+        ----------
+        records : Record, iterable of Record, RecordSet, or mapping of float to these
+            The accelerograms that they were run with.
+        progress : bool
+            Show a progress bar in a terminal or notebook.
+
+        Returns
+        -------
+        ndarray, shape (levels, histories)
+            `Response.friction_demand` of each history: 0 where the wall does not move, infinite where it would lift
+            off, NaN where a record does not run.
+
+        Raises
+        ------
+        InputError
+            Other records, or a wall that is more than a rectangular block.
+
+        Notes
+        -----
+        Stripes keep peaks and no forces: every history in which the wall moves is run again, with its motion. Wall and
+        records are those of the stripes, so that the motions are too.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", count=4)
+        >>> stripes = dd.multiple_stripe(dd.OneSidedWall(1.5, 0.25), records, [0.3, 0.9], progress=False)
+        >>> demand = stripes.friction_demand(records, progress=False)
+        >>> sliding = (demand > 0.6).sum(axis=1)
+        >>> sliding.shape
+        (2,)
+        """
+        from dondolo.analysis.sliding import friction_demand
+
+        return friction_demand(self, records, progress=progress)
 
     def plot(self, ax: Axes | None = None) -> Axes:
         """Draw every history: EDP against intensity, collapses set apart above.

@@ -118,6 +118,63 @@ class CodeCheck(Shown, Saved):
             raise InputError(f"curve: its measure is {curve.im!r}, must be 'pga'")
         return {key: float(curve(level)) for key, level in {**self._of("pga", "site"), **self.capacities}.items()}
 
+    def dynamic(
+        self,
+        stripes: Stripes | Record | Iterable[Record] | Mapping[float, Record | Iterable[Record]],
+        *,
+        polarity: Polarity = "as_recorded",
+        solver: Solver | None = None,
+    ) -> CodeCheck:
+        """Add the criterion of Circolare 7/2019, C8.7.1.2.1.9, for time histories at the peak acceleration of the site.
+
+        SLV and SLC are verified if no history goes beyond d_0* and the mean of the largest displacements is at most
+        that which the nonlinear check allows. That no history may makes the verdict depend on their number.
+
+        Parameters
+        ----------
+        stripes : Stripes, Record, iterable of Record, RecordSet, or mapping of float to these
+            Histories of the wall of the check with PGA for measure and a_g S of the site (`CodeCheck.pga`) among the
+            levels; of records, one stripe is run. Records with factors, such as those of a `Selection`, are given as
+            ``{check.pga: selection.records}``, with the levels of both limit states where they differ.
+        polarity : {'as_recorded', 'reversed', 'both'}
+            Of records. A one-sided wall feels their sign: with 'both' it meets the criterion in either direction.
+        solver : Solver, optional
+            Of records. Their histories are followed to d_0* at least, whatever its `edp_limit`.
+
+        Returns
+        -------
+        CodeCheck
+            With the lines of method 'dynamic'.
+
+        Raises
+        ------
+        InputError
+            Stripes of another wall or measure, without the level, or whose histories end before the capacity (edp_limit
+            less than 1).
+        """
+        states: tuple[LimitState, ...] = ("SLV", "SLC")
+        levels = {state: self.site.pga(limit_state=state) for state in states}
+        if not isinstance(stripes, Stripes):
+            several: Sequence[float] = sorted(set(levels.values()))
+            how = as_solver(solver)
+            if how.edp_limit is not None and how.edp_limit < 1.0:
+                how = replace(how, edp_limit=1.0)
+            stripes = multiple_stripe(self.wall, stripes, several, polarity=polarity, progress=False, solver=how)
+        if stripes.im != "pga" or stripes.wall != self.wall:
+            raise InputError("stripes: must be of the wall of the check, with im = 'pga'")
+        if stripes.edp_limit < 1.0:
+            raise InputError(f"edp_limit = {stripes.edp_limit:g}: must be at least 1: histories are followed to d_0*")
+        rows = tuple(row for row in self.rows if row.method != "dynamic")
+        handle = upload((self.wall,))
+        for state, level in levels.items():
+            found = np.flatnonzero(np.abs(stripes.levels - level) <= constants().same_level * level)
+            if not len(found):
+                raise InputError(f"stripes: have no level of {level:.10g} g, the peak acceleration of {state}")
+            ran = stripes.ran[found[0]]
+            edp = stripes.edp[found[0]][ran]
+            rows += dynamic_sheet(handle, state, level, len(np.unique(stripes.record_index[ran])), edp)
+        return replace(self, rows=rows)
+
     def plot(self, ax: Axes | None = None, *, curve: Fragility) -> Axes:
         """Draw the checks as lines on a fragility curve, with the probability of collapse at each.
 
@@ -221,64 +278,3 @@ def check_ntc(wall: Wall, site: Site, *, confidence: float = 1.35, behaviour: fl
     handle = upload((instance_of("wall", wall, Wall, "no wall"),))
     given = instance_of("site", site, Site, "no site")._input(confidence, behaviour)
     return CodeCheck(wall=wall, site=site, rows=kinematic_sheet(handle, given))
-
-
-def check_dynamic(
-    check: CodeCheck,
-    stripes: Stripes | Record | Iterable[Record] | Mapping[float, Record | Iterable[Record]],
-    *,
-    polarity: Polarity = "as_recorded",
-    solver: Solver | None = None,
-) -> CodeCheck:
-    """Add the criterion of Circolare 7/2019, C8.7.1.2.1.9, for time histories at the peak acceleration of the site.
-
-    SLV and SLC are verified if no history goes beyond d_0* and the mean of the largest displacements is at most that
-    which the nonlinear check allows. That no history may makes the verdict depend on their number.
-
-    Parameters
-    ----------
-    check : CodeCheck
-        The kinematic check.
-    stripes : Stripes, Record, iterable of Record, RecordSet, or mapping of float to these
-        Histories of the wall of the check with PGA for measure and a_g S of the site (`CodeCheck.pga`) among the
-        levels; of records, one stripe is run. Records with factors, such as those of a `Selection`, are given as
-        ``{check.pga: selection.records}``, with the levels of both limit states where they differ.
-    polarity : {'as_recorded', 'reversed', 'both'}
-        Of records. A one-sided wall feels their sign: with 'both' it meets the criterion in either direction.
-    solver : Solver, optional
-        Of records. Their histories are followed to d_0* at least, whatever its `edp_limit`.
-
-    Returns
-    -------
-    CodeCheck
-        With the lines of method 'dynamic'.
-
-    Raises
-    ------
-    InputError
-        Stripes of another wall or measure, without the level, or whose histories end before the capacity (edp_limit
-        less than 1).
-    """
-    instance_of("check", check, CodeCheck, "no check")
-    states: tuple[LimitState, ...] = ("SLV", "SLC")
-    levels = {state: check.site.pga(limit_state=state) for state in states}
-    if not isinstance(stripes, Stripes):
-        several: Sequence[float] = sorted(set(levels.values()))
-        how = as_solver(solver)
-        if how.edp_limit is not None and how.edp_limit < 1.0:
-            how = replace(how, edp_limit=1.0)
-        stripes = multiple_stripe(check.wall, stripes, several, polarity=polarity, progress=False, solver=how)
-    if stripes.im != "pga" or stripes.wall != check.wall:
-        raise InputError("stripes: must be of the wall of the check, with im = 'pga'")
-    if stripes.edp_limit < 1.0:
-        raise InputError(f"edp_limit = {stripes.edp_limit:g}: must be at least 1: histories are followed to d_0*")
-    rows = tuple(row for row in check.rows if row.method != "dynamic")
-    handle = upload((check.wall,))
-    for state, level in levels.items():
-        found = np.flatnonzero(np.abs(stripes.levels - level) <= constants().same_level * level)
-        if not len(found):
-            raise InputError(f"stripes: have no level of {level:.10g} g, the peak acceleration of {state}")
-        ran = stripes.ran[found[0]]
-        edp = stripes.edp[found[0]][ran]
-        rows += dynamic_sheet(handle, state, level, len(np.unique(stripes.record_index[ran])), edp)
-    return replace(check, rows=rows)

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, instance_of, tails
+from dondolo._base.arguments import FloatArray, tails
 from dondolo._base.shown import Shown
 from dondolo._storage.saved import Saved
 from dondolo.curves.clusters import freedom
+from dondolo.curves.curve import Curve
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import InputError
 
@@ -70,34 +71,11 @@ class Comparison(Shown, Saved):
         ]
 
 
-def compare(first: Fragility, second: Fragility, *, confidence: float = 0.95) -> Comparison:
-    """Compare two fragility curves of the same intensity measure.
-
-    The covariance of the differences of ln theta and ln beta takes in what the curves share: records that are the same,
-    by their content, and records of the same event depend on each other in both. Records that only one of the curves
-    has are independent of the other curve.
-
-    Parameters
-    ----------
-    first, second : Fragility
-        Curves with standard errors; both clustered, or both naive.
-    confidence : float
-        Of the intervals.
-
-    Returns
-    -------
-    Comparison
-        `pairing` says what the curves share.
-
-    Raises
-    ------
-    InputError
-        No curves, or curves of different measures; one clustered and one naive; curves whose records are not known.
-    DondoloError
-        A curve without a fit or without standard errors.
-    """
-    for curve in (first, second):
-        instance_of("curves", curve, Fragility, "no fragility curve")
+def compare(one: Curve, other: Curve, *, confidence: float = 0.95) -> Comparison:
+    """Compare two curves: see `Curve.compare`."""
+    if not isinstance(other, Curve):
+        raise InputError(f"other: {type(other).__name__} is no fragility curve")
+    first, second = one._fitted(), other._fitted()
     if first.im != second.im:
         raise InputError(f"im = '{first.im}' and '{second.im}': must be the same")
     for curve in (first, second):

@@ -20,6 +20,7 @@ from dondolo._base.arguments import (
 from dondolo._base.shown import Shown
 from dondolo._fortran.records import blank_unit, describe_measure
 from dondolo._storage.saved import Saved
+from dondolo.curves.curve import Curve
 from dondolo.errors import InputError
 from dondolo.figures import style
 
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False, init=False, repr=False)
-class DiscreteFragility(Shown, Saved):
+class DiscreteFragility(Curve, Shown, Saved):
     """A fragility curve as probabilities at levels, such as the mean of a typology, with straight lines in between.
 
     Above the last level the probability is constant. Below the first it is a straight line from 0, at
@@ -57,6 +58,8 @@ class DiscreteFragility(Shown, Saved):
     >>> round(curve(0.3), 6)
     0.5
     """
+
+    _hides_walls = True
 
     levels: FloatArray
     probability: FloatArray
@@ -179,9 +182,15 @@ class DiscreteFragility(Shown, Saved):
             return self.levels, self.probability
         return np.append(self._least, self.levels), np.append(0.0, self.probability)
 
+    def _as_function(self) -> DiscreteFragility:
+        return self
+
+    @property
+    def _end(self) -> float:
+        return float(self(np.inf))
+
     @property
     def _corners(self) -> tuple[float, ...]:
-        """Levels at which the curve has a jump or a kink."""
         return (self._least, *self.levels.tolist())
 
     def _stored(self) -> dict[str, Any]:

@@ -20,6 +20,7 @@ from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.curves.bootstrap import Bootstrap, draw_records, resample
 from dondolo.curves.clusters import Clusters
+from dondolo.curves.curve import Curve
 from dondolo.curves.sample import Sample, given_labels
 from dondolo.errors import DondoloError, InputError
 from dondolo.figures import style
@@ -27,6 +28,8 @@ from dondolo.walls.wall import Wall
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+    from dondolo.curves.discrete import DiscreteFragility
 
 Interval = tuple[float, float]
 
@@ -41,7 +44,7 @@ _WHY = {
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class Fragility(Shown, Saved):
+class Fragility(Curve, Shown, Saved):
     """A fragility curve P(C | IM = x) = Phi(ln(x/theta)/beta), equation (5) of Nale et al., or why there is none.
 
     Attributes
@@ -407,6 +410,18 @@ class Fragility(Shown, Saved):
 
         comments = [f"unit of theta: {unit_of(self.im) or '1'}"] if self.im else []
         tables.write_csv(path, fragility_table([self.wall], [self]), comments, spreadsheet_safe=spreadsheet_safe)
+
+    def _fitted(self) -> Fragility:
+        return self
+
+    def _as_function(self) -> Fragility | DiscreteFragility:
+        self._need_fit()
+        # A lognormal of the format tends to 1
+        return self if self.saturation == 1.0 else super()._as_function()
+
+    @property
+    def _end(self) -> float:
+        return self.saturation
 
     def _need_fit(self) -> None:
         if not self.has_fit:

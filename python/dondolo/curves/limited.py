@@ -73,8 +73,11 @@ class LimitedFragility(Fragility):
         return shaped(np.where(flat > self(np.inf), np.inf, level), values)
 
     @property
+    def _end(self) -> float:
+        return float(self(np.inf))
+
+    @property
     def _corners(self) -> tuple[float, ...]:
-        """Levels at which the curve has a jump or a kink."""
         return tuple(limit for limit in self.limits if limit is not None)
 
     def _facts(self) -> list[tuple[str, str]]:

@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
-from abc import ABC, abstractmethod
+from abc import abstractmethod
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_levels, shaped
+from dondolo.curves.curve import Curve, inverse
+from dondolo.curves.discrete import DiscreteFragility
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.members import Members
+from dondolo.curves.straight_lines import straight_lines
 from dondolo.errors import InputError
 
+# Where the inverse is sought beyond medians and levels
+_FAR = 1e3
 
-class MeanCurve(ABC):
+
+class MeanCurve(Curve):
     """Weighted mean of the curves of walls; a subclass says which walls, and of which measure.
 
     Attributes
@@ -41,6 +47,17 @@ class MeanCurve(ABC):
     def members(self) -> Members:
         """The walls behind the curve."""
 
+    def _fitted(self) -> Fragility:
+        return self.fit
+
+    def _as_function(self) -> DiscreteFragility:
+        levels, p = straight_lines(lambda x: np.asarray(self(x))[None], self.members.levels)
+        return DiscreteFragility(levels, np.maximum.accumulate(p[0]), im=self.im)
+
+    @property
+    def _end(self) -> float:
+        return self.saturation
+
     @property
     def reach(self) -> tuple[float, float]:
         """Intensities beyond which no fitted wall matters under a hazard that falls with the fourth power at most."""
@@ -51,7 +68,7 @@ class MeanCurve(ABC):
 
     @abstractmethod
     def changes(self, x: FloatArray, weights: FloatArray) -> dict[str, FloatArray]:
-        """Changes of sum(weights * mean(x)) if each cluster of records, or each wall, is left out, by their kind."""
+        """Changes of sum(weights * curve(x)) if each cluster of records, or each wall, is left out, by their kind."""
 
     @abstractmethod
     def _at(self, x: FloatArray, q: FloatArray, members: bool = False) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -80,7 +97,7 @@ class MeanCurve(ABC):
         _, _, probabilities = self._at(values.ravel(), np.zeros(0), members=True)
         return probabilities.reshape((len(probabilities), *values.shape))
 
-    def mean(self, x: ArrayLike) -> Any:
+    def __call__(self, x: ArrayLike) -> Any:
         """Weighted mean of the walls' curves at any levels.
 
         Parameters
@@ -100,6 +117,28 @@ class MeanCurve(ABC):
         values = as_levels(x)
         mean, _, _ = self._at(values.ravel(), np.zeros(0))
         return shaped(mean, values)
+
+    def ppf(self, p: ArrayLike) -> Any:
+        """Lowest levels at which the mean comes to p: the inverse of the curve.
+
+        Parameters
+        ----------
+        p : array_like
+            Probabilities, 0 to 1.
+
+        Returns
+        -------
+        float or ndarray, shape of p
+            Infinite where the mean does not come to p, as beyond `saturation`.
+
+        Raises
+        ------
+        InputError
+            A probability that is not between 0 and 1.
+        """
+        known = self.members.theta[~np.isnan(self.members.theta)]
+        places = np.concatenate([known, self.members.levels])
+        return inverse(self, p, (float(places.min()) / _FAR, float(places.max()) * _FAR))
 
     def fractiles(self, x: ArrayLike, q: ArrayLike = (0.16, 0.5, 0.84)) -> FloatArray:
         """Fractiles of the walls' curves at any levels: what a share of the weight does not exceed.

@@ -8,6 +8,7 @@ import numpy as np
 
 from dondolo._base.arguments import tails
 from dondolo._fortran.records import blank_unit
+from dondolo.curves.curve import Curve
 from dondolo.curves.discrete import DiscreteFragility
 from dondolo.curves.fragility import Fragility
 from dondolo.figures import curves, style
@@ -91,6 +92,23 @@ def draw_discrete(curve: DiscreteFragility, ax: Axes | None, label: str | None, 
     ax.plot(x, curve(x), color=color, linestyle=linestyle, label=label)
     ax.plot(curve.levels, curve(curve.levels), color=color, linestyle="none", marker="o", markersize=3)
     ax.set_xlim(0.0, right)
+    ax.set_ylim(-0.02, 1.02)
+    ax.set_xlabel(style.im_label(curve.im))
+    ax.set_ylabel("probability")
+    if label is not None:
+        style.legend(ax, loc="lower right")
+    return ax
+
+
+def draw_any(
+    curve: Curve, ax: Axes | None, label: str | None, color: str, linestyle: str, right: float | None = None
+) -> Axes:
+    """Draw a curve from 0 to a level, or to where little is left to come."""
+    ax = style.axes(ax)
+    far = float(curve.ppf(0.98)) if right is None else right
+    x = curves.grid(far if np.isfinite(far) else float(curve.ppf(0.5)))
+    ax.plot(x, curve(x), color=color, linestyle=linestyle, label=label)
+    ax.set_xlim(0.0, float(x[-1]))
     ax.set_ylim(-0.02, 1.02)
     ax.set_xlabel(style.im_label(curve.im))
     ax.set_ylabel("probability")

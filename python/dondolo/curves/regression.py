@@ -9,13 +9,19 @@ they are separated, and any steep enough curve fits (Albert and Anderson 1984, B
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_levels, shaped
+from dondolo._base.arguments import FloatArray, as_levels, as_probabilities, shaped
 from dondolo._storage.saved import part_of_results
+from dondolo.curves.curve import Curve
+from dondolo.errors import DondoloError
+from dondolo.figures import style
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 BoolArray = np.ndarray[Any, np.dtype[np.bool_]]
 
@@ -56,7 +62,7 @@ class Regression:
 
 @part_of_results
 @dataclass(frozen=True, kw_only=True)
-class Logistic:
+class Logistic(Curve):
     """P(x) = 1/(1 + exp(-(b0 + b1 ln x))), or why there is no such curve.
 
     Attributes
@@ -73,6 +79,8 @@ class Logistic:
         All, and those of the kind.
     likelihood_ratio : float
         Likelihood ratio statistic against no slope; NaN without a curve.
+    im : str
+        Intensity measure.
     """
 
     b0: float
@@ -82,6 +90,7 @@ class Logistic:
     histories: int
     count: int
     likelihood_ratio: float = np.nan
+    im: str = ""
 
     def __call__(self, x: ArrayLike) -> Any:
         """Probability at intensities.
@@ -103,6 +112,67 @@ class Logistic:
         """
         values = as_levels(x)
         return shaped(self._at(values.ravel()), values)
+
+    def ppf(self, p: ArrayLike) -> Any:
+        """Lowest intensities at which the probability is p: the inverse of the curve.
+
+        Parameters
+        ----------
+        p : array_like
+            Probabilities, 0 to 1.
+
+        Returns
+        -------
+        float or ndarray, shape of p
+            Infinite where the curve does not come to p, NaN where the data do not say: see `status`.
+
+        Raises
+        ------
+        InputError
+            A probability that is not between 0 and 1.
+        """
+        from scipy.special import logit
+
+        values = as_probabilities("p", p)
+        flat = values.ravel()
+        if self.status == "ok":
+            return shaped(np.exp((logit(flat) - self.b0) / self.b1), values)
+        within = {"none": np.inf, "all": 0.0}.get(self.status, np.nan)
+        high = self.bracket[1] if self.status == "separated" else within
+        return shaped(np.where(flat <= 0.0, 0.0, np.where(flat >= 1.0, high, within)), values)
+
+    def plot(
+        self, ax: Axes | None = None, *, label: str | None = None, color: str = style.BLUE, linestyle: str = "-"
+    ) -> Axes:
+        """Draw the curve.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+        label : str, optional
+            Name of the curve where several are drawn into the same axes.
+        color, linestyle : str
+            Of the curve, to distinguish several.
+
+        Returns
+        -------
+        Axes
+            Probability against intensity.
+
+        Raises
+        ------
+        DondoloError
+            There is no curve.
+        """
+        from dondolo.curves.plots import draw_any
+
+        self._need_fit()
+        return draw_any(self, ax, label, color, linestyle)
+
+    def _need_fit(self) -> None:
+        if self.status != "ok":
+            raise DondoloError(f"no curve was fitted (status '{self.status}')")
 
     def _at(self, x: FloatArray, gap: float = np.nan) -> FloatArray:
         """Probabilities, with a value for the gap of a separated sample.
@@ -152,10 +222,10 @@ def regress(x: FloatArray, y: FloatArray) -> Regression:
     )
 
 
-def logistic_regression(x: FloatArray, kind: BoolArray) -> Logistic:
-    """Logistic regression on ln x by maximum likelihood."""
+def logistic_regression(x: FloatArray, kind: BoolArray, im: str = "") -> Logistic:
+    """Logistic regression on ln x by maximum likelihood, of an intensity measure."""
     n, count = len(x), int(kind.sum())
-    none = Logistic(b0=np.nan, b1=np.nan, status="none", bracket=(0.0, np.inf), histories=n, count=count)
+    none = Logistic(b0=np.nan, b1=np.nan, status="none", bracket=(0.0, np.inf), histories=n, count=count, im=im)
     if count in (0, n):
         return replace(none, status="all") if count else none
     here, there = x[kind], x[~kind]

@@ -19,7 +19,7 @@ from dondolo.analysis.response import Response, simulate
 from dondolo.analysis.solver import Solver
 from dondolo.analysis.stripe_runs import multiple_stripe
 from dondolo.analysis.stripes import States, Stripes
-from dondolo.checks.ntc import CodeCheck, check_dynamic, check_ntc
+from dondolo.checks.ntc import CodeCheck, check_ntc
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import silent
 from dondolo.exchange.case_checks import complete_checks, kinematic_checks
@@ -155,7 +155,7 @@ class Case(Shown):
         # The stripes have said what the wall looks like.
         with silent():
             check = check_ntc(self.population[0], self.site, confidence=self.confidence, behaviour=self.behaviour)
-        return check_dynamic(check, self.records, polarity=self.polarity, solver=solver)  # type: ignore[arg-type]
+        return check.dynamic(self.records, polarity=self.polarity, solver=solver)  # type: ignore[arg-type]
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)

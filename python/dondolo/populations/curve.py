@@ -24,8 +24,6 @@ from dondolo.figures.style import mechanism_name
 from dondolo.populations.bootstrap import TypologyBootstrap, resample_population
 from dondolo.populations.flags import Flags
 from dondolo.populations.influence import changes
-from dondolo.risk.frequency import Risk, mean_annual_frequency
-from dondolo.risk.hazard import HazardCurve
 from dondolo.walls.population import Population
 
 if TYPE_CHECKING:
@@ -119,7 +117,7 @@ class PopulationCurve(Shown, Group, MeanCurve):
     >>> walls = [dd.OneSidedWall(1.5, 0.25, name="a"), dd.OneSidedWall(1.8, 0.25, name="b")]
     >>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", count=10)
     >>> curve = dd.typology(walls, records, levels=[0.6, 0.8, 1.0], progress=False)["all"]
-    >>> curve.mean(0.9) > curve.mean(0.6)
+    >>> curve(0.9) > curve(0.6)
     True
     """
 
@@ -178,7 +176,7 @@ class PopulationCurve(Shown, Group, MeanCurve):
         return self._source.flags is not None
 
     def changes(self, x: FloatArray, weights: FloatArray) -> dict[str, FloatArray]:
-        """Changes of sum(weights * mean(x)) if each cluster of records, or each wall, is left out, by their kind."""
+        """Changes of sum(weights * curve(x)) if each cluster of records, or each wall, is left out, by their kind."""
         flags = self._source.flags
         if flags is None:
             raise DondoloError(
@@ -207,28 +205,6 @@ class PopulationCurve(Shown, Group, MeanCurve):
         from dondolo.populations.plots import draw_curve
 
         return draw_curve(self, ax)
-
-    def risk(self, hazard: HazardCurve) -> Risk:
-        """Mean annual frequency of collapse of a wall drawn by weight, as `mean_annual_frequency`.
-
-        Parameters
-        ----------
-        hazard : HazardCurve
-            Of the same intensity measure.
-
-        Returns
-        -------
-        Risk
-            Its probabilities within some years are those of the walls, each with its own frequency.
-
-        Raises
-        ------
-        InputError
-            The measures differ.
-        DondoloError
-            The frequency is not finite.
-        """
-        return mean_annual_frequency(self, hazard)
 
     def bootstrap(
         self,

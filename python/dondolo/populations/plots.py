@@ -166,7 +166,7 @@ def _mean(ax: Axes, grid: FloatArray, curve: PopulationCurve, name: str, look: d
     """A mean curve, and thin beside it the lognormal whose parameters its label tells."""
     fitted = f"lognormal {parameters(curve.fit)}" if curve.fit.has_fit else parameters(curve.fit)
     text = style.label(f"{name}: mean; {fitted}")
-    ax.plot(grid, curve.mean(grid), **look, label=text)
+    ax.plot(grid, curve(grid), **look, label=text)
     if curve.fit.has_fit:
         ax.plot(grid, curve.fit(grid), color=look["color"], linewidth=_FITTED, zorder=look.get("zorder"))
 

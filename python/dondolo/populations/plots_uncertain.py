@@ -46,7 +46,7 @@ def _draw_curves(found: UncertainWall, ax: Any) -> None:
         )
     if middle.has_fit:
         ax.plot(grid, middle(grid), color=style.BLUE, linestyle="--", label="sources at their medians", zorder=3)
-    ax.plot(grid, found.curve.mean(grid), color=style.RED, linewidth=2.4, label="mean of the sample", zorder=4)
+    ax.plot(grid, found.curve(grid), color=style.RED, linewidth=2.4, label="mean of the sample", zorder=4)
     if found.as_given.has_fit:
         ax.plot(grid, found.as_given(grid), color=style.BLACK, linestyle=":", label="wall as given", zorder=5)
     ax.set_xlim(0.0, grid[-1])

@@ -24,6 +24,7 @@ from dondolo._storage.transactions import publishing
 from dondolo.analysis.stripe_tables import stripes_table
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import Fragility
+from dondolo.curves.fragility_model import Function
 from dondolo.curves.plots import parameters
 from dondolo.curves.table import errors_table, fragility_table
 from dondolo.errors import DondoloWarning, InputError
@@ -298,6 +299,50 @@ class Typology(Shown, Saved):
     def knows_unions(self) -> bool:
         """Are `unions` known? Not of results that were read back from files without them."""
         return self.flags is not None or self.kept_unions is not None
+
+    def nrml_functions(self) -> tuple[dict[str, dict[str, Function]], list[str]]:
+        """Fragility functions of a population for `write_nrml`, one a group and mechanism, with its damage states.
+
+        Of one facade, or one wall with several mechanisms, there is one function by its name: the curve of the same
+        histories, `Typology.unions`. Designs have one function each by their names. Where collapse is the only state
+        these are the lognormals themselves.
+
+        They are the mean curves of each group, which the report integrates too, and not the lognormals fitted to them:
+        those tend to 1 in OpenQuake, also where some walls cannot collapse, and cross.
+
+        Returns
+        -------
+        functions : dict of dict
+            Taxonomy (group/mechanism, 'population' for the whole; the name of a facade or a design) ->
+            damage state ('edp_0p4' for 0.4, 'collapse') -> curve.
+        sentences : list of str
+            Where curves were raised, and by how much; names that had to be changed.
+
+        Notes
+        -----
+        Levels reach from where the probability is 1e-9, or a thousandth of the lowest level of the analysis, to where
+        it has come to all but 0.14 % of its end, or a hundred times the highest. Straight lines between them differ
+        from the mean curve by 0.5 % of the probability or 1e-9, whichever is more, at most (tried in the middle between
+        levels).
+
+        A less severe state is at least as probable as a more severe one. The means of fitted curves may cross; where
+        they do, the curve of the less severe state is raised to that of the more severe. Fractions of walls without a
+        fit may decrease from level to level; the mean then stays where it is. Both only ever raise a curve.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> walls = [dd.OneSidedWall(1.5, 0.25, name="a"), dd.OneSidedWall(1.8, 0.25, name="b")]
+        >>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", count=10)
+        >>> typology = dd.typology(walls, records, levels=[0.6, 0.8, 1.0], progress=False)
+        >>> functions, sentences = typology.nrml_functions()
+        >>> list(functions)
+        ['population/one_sided']
+        >>> dd.write_nrml("centre.xml", functions)
+        """
+        from dondolo.populations.nrml_functions import nrml_functions
+
+        return nrml_functions(self)
 
     def plot_union(self, ax: Axes | None = None, *, name: str | None = None) -> Axes:
         """Draw the mechanisms of a facade or of a wall, their product, and the union of the same histories.

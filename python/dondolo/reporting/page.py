@@ -23,6 +23,7 @@ from dondolo.exchange.cases import Results
 from dondolo.exchange.results import StoredResults
 from dondolo.figures import style
 from dondolo.figures.style import mechanism_name
+from dondolo.hazard.hazard import HazardCurve
 from dondolo.populations.typology import Typology
 from dondolo.populations.uncertain_wall import UncertainWall
 from dondolo.reporting import designs, facade, inputs, typology, uncertain, wall
@@ -33,7 +34,6 @@ from dondolo.reporting.pdf import write_pdf
 from dondolo.reporting.risk import risk_facts
 from dondolo.reporting.run import Run, run_of
 from dondolo.reporting.ties import ties
-from dondolo.risk.hazard import HazardCurve
 
 if TYPE_CHECKING:
     from jinja2 import Environment

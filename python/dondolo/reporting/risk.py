@@ -8,15 +8,15 @@ from typing import Any
 
 from dondolo._fortran.histories import warnings_of_levels
 from dondolo._fortran.records import blank_unit
+from dondolo.curves.risk import Risk, between
+from dondolo.curves.risk_uncertainty import RiskUncertainty
 from dondolo.errors import DondoloError, DondoloWarning
+from dondolo.hazard.hazard import HazardCurve
 from dondolo.populations.typology import Typology
 from dondolo.reporting.content import Piece, Table, figure, level_unit, state_name
 from dondolo.reporting.numerals import number, percent
 from dondolo.reporting.run import Run
 from dondolo.reporting.typology import combined
-from dondolo.risk.frequency import Risk, between
-from dondolo.risk.hazard import HazardCurve
-from dondolo.risk.uncertainty import RiskUncertainty
 
 _YEARS = 50.0
 
@@ -51,13 +51,11 @@ def _cases(run: Run) -> tuple[list[tuple[str, Any]], int, str]:
 
 def risk_facts(run: Run, hazard: HazardCurve) -> tuple[dict[str, Any], list[str]]:
     """How often a wall collapses at the site, and what to warn of; for populations, a wall drawn by weight."""
-    from dondolo.risk.frequency import mean_annual_frequency
-
     cases, main, whose = _cases(run)
     population = isinstance(run.results, Typology) and not run.is_alike
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always", DondoloWarning)
-        risks = [mean_annual_frequency(fragility, hazard) for _, fragility in cases]
+        risks = [fragility.risk(hazard) for _, fragility in cases]
     risk = risks[main]
     found = [str(one.placed("hazard: ")) for one in warnings_of_levels(hazard.im, hazard.levels)]
     if any(issubclass(one.category, DondoloWarning) for one in caught):

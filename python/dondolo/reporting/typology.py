@@ -115,7 +115,7 @@ def _crossings(people: Typology) -> Table | None:
     limit = float(people.edp_thresholds[-1])
     states = {
         f"{curve.group or 'whole population'}, {mechanism_name(curve.mechanism)}": [
-            people.at(edp)[curve.mechanism, curve.group].mean for edp in people.edp_thresholds
+            people.at(edp)[curve.mechanism, curve.group] for edp in people.edp_thresholds
         ]
         for curve in people.groups
     }

@@ -18,7 +18,7 @@ from dondolo.analysis.solver import Solver
 from dondolo.analysis.stripe_runs import multiple_stripe
 from dondolo.analysis.stripes import Stripes
 from dondolo.checks.ntc import CodeCheck, check_ntc
-from dondolo.curves.comparison import Comparison, compare
+from dondolo.curves.comparison import Comparison
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import InputError, silent
 from dondolo.records.codes import Site
@@ -276,7 +276,7 @@ def _masses(designs: Mapping[str, Wall], steel: Mapping[str, float] | None) -> F
 
 def _against(curve: Fragility, first: Fragility, confidence: float) -> Comparison | None:
     """A design against the first."""
-    return compare(curve, first, confidence=confidence) if curve.has_errors and first.has_errors else None
+    return curve.compare(first, confidence=confidence) if curve.has_errors and first.has_errors else None
 
 
 def _steel(wall: Wall) -> float:

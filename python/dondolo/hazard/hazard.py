@@ -50,8 +50,8 @@ from dondolo._fortran.records import describe_measure, levels_in_words, unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.errors import InputError
-from dondolo.risk.hazard_table import FRACTILE, read_hazard
-from dondolo.risk.openquake import Site, read_curves, write_curves
+from dondolo.hazard.hazard_table import FRACTILE, read_hazard
+from dondolo.hazard.openquake import Site, read_curves, write_curves
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -401,7 +401,7 @@ class HazardCurve(Shown, Saved):
 
         Notes
         -----
-        The docstring of the module dondolo.risk.hazard tells how much that changes annual frequencies.
+        The docstring of the module dondolo.hazard.hazard tells how much that changes annual frequencies.
         """
         parts = as_count("steps", steps, 1)
         if self.endless:
@@ -428,7 +428,7 @@ class HazardCurve(Shown, Saved):
             Annual frequency of exceedance against intensity: the mean with its levels and the fractiles, power laws
             between them, and return periods at the right.
         """
-        from dondolo.risk.plots import draw_hazard
+        from dondolo.hazard.plots import draw_hazard
 
         return draw_hazard(self, ax)
 

@@ -8,7 +8,7 @@ collapse is (Cornell and Krawinkler 2000; McGuire 2004)
 Hazard
     Levels and frequencies are joined by straight lines of ln H against ln x: between two levels H is a power law,
     H(x) = H_j (x/x_j)^-k_j. So the integral over a step is that of P k_j H d(ln x): of a fitted lognormal in closed
-    form, of any other curve by Gauss's rule (dondolo.risk.integrals).
+    form, of any other curve by Gauss's rule (dondolo.hazard.integrals).
 Beyond the levels
     A curve is given between its lowest and highest level, and what lies outside is not made up but bounded. P does not
     fall with x, so that the events above the highest level x_n contribute between P(x_n) H(x_n) and H(x_n), times its
@@ -34,7 +34,7 @@ Populations
 
     walls that never collapse take no part however long the time is, and weak ones collapse once. So it is computed
     from the walls behind the mean of a typology; a wall with mechanisms that may not occur is itself a mixture
-    (dondolo.risk.walls). There is no return period of a population.
+    (dondolo.curves.risk_of_walls). There is no return period of a population.
 
 Units are those of dondolo: accelerations in g, all else in SI units. Hazard is often published as a return period,
 H = 1/T, or as the probability p of being exceeded in t years, H = -ln(1 - p)/t.
@@ -47,7 +47,7 @@ seismic performance assessment, PEER Center News 3(2); McGuire (2004), Seismic h
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeGuard
 
@@ -59,14 +59,15 @@ from dondolo._base.shown import Shown
 from dondolo._fortran.library import warn
 from dondolo._fortran.records import blank_unit
 from dondolo._storage.saved import Saved
-from dondolo.curves.discrete import DiscreteFragility
+from dondolo.curves.curve import Curve
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.limited import LimitedFragility
 from dondolo.curves.mean_curve import MeanCurve
+from dondolo.curves.risk_of_walls import WallFrequencies, wall_frequencies
 from dondolo.errors import DondoloError, DondoloWarning, InputError
 from dondolo.figures.style import Panels
-from dondolo.risk.hazard import HazardCurve
-from dondolo.risk.integrals import (
+from dondolo.hazard.hazard import HazardCurve
+from dondolo.hazard.integrals import (
     integrals,
     integrand,
     lognormal_integrals,
@@ -74,14 +75,11 @@ from dondolo.risk.integrals import (
     of_lognormal,
     with_corners,
 )
-from dondolo.risk.walls import WallFrequencies, wall_frequencies
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from dondolo.risk.uncertainty import RiskUncertainty
-
-Curve = Fragility | MeanCurve | Callable[[Any], Any]
+    from dondolo.curves.risk_uncertainty import RiskUncertainty
 
 # Bounds that differ by more than this are worth a warning
 _WIDE = 0.01
@@ -97,7 +95,7 @@ class Risk(Shown, Saved):
 
     Attributes
     ----------
-    fragility : Fragility, PopulationCurve or callable
+    fragility : Curve
     hazard : HazardCurve
     inside : float
         What the range of the hazard curve contributes [1/year].
@@ -201,7 +199,7 @@ class Risk(Shown, Saved):
         if time == 0.0:
             # Whatever the frequency
             return 0.0, 0.0
-        if self._of_function:
+        if self.fragility._hides_walls:
             sentence = (
                 "the curve is a function, taken for that of one wall: for a population take the risk of its curve,"
                 " typology[mechanism, group].risk(hazard)"
@@ -216,11 +214,6 @@ class Risk(Shown, Saved):
             return wall_frequencies(self.fragility.members, self.hazard)
         share = self.fragility.saturation if isinstance(self.fragility, Fragility) else 1.0
         return WallFrequencies(np.array([share]), *(np.array([end / share]) for end in self.bounds))
-
-    @property
-    def _of_function(self) -> bool:
-        """Whether the curve is a function, which does not show how many walls are behind it."""
-        return not isinstance(self.fragility, (Fragility, MeanCurve))
 
     def density(self, x: ArrayLike) -> Any:
         """Deaggregation: what intensities contribute to the frequency, ``P(C | x) |dH/d(ln x)|``.
@@ -306,7 +299,7 @@ class Risk(Shown, Saved):
             )
         else:
             curve_at = functools.partial(probability, self.fragility)
-            fine = with_corners(np.log(cuts), _corners(self.fragility))
+            fine = with_corners(np.log(cuts), self.fragility._corners)
             of_fine, _ = integrals(lambda u: integrand(curve_at, self.hazard, u), fine)
             parts = np.add.reduceat(of_fine, np.searchsorted(fine, np.log(cuts[:-1])))
         return np.diff(np.append(0.0, np.cumsum(parts))[np.searchsorted(cuts, x)])
@@ -326,7 +319,7 @@ class Risk(Shown, Saved):
         Axes
             Share of the frequency against intensity.
         """
-        from dondolo.risk.plots import draw_deaggregation
+        from dondolo.curves.plots_risk import draw_deaggregation
 
         return draw_deaggregation(self, ax, as_count("bins", bins, 1))
 
@@ -349,22 +342,22 @@ class Risk(Shown, Saved):
         InputError
             Too few draws.
         DondoloError
-            The curve has no standard errors, or is a function.
+            The curve has no standard errors.
 
         Notes
         -----
-        The docstring of the module dondolo.risk.uncertainty tells what is drawn.
+        The docstring of the module dondolo.curves.risk_uncertainty tells what is drawn.
 
         Examples
         --------
         >>> import dondolo as dd
         >>> curve = dd.fit_fragility([0.2, 0.4], [11, 33], 44, im="pga")
-        >>> risk = dd.mean_annual_frequency(curve, dd.HazardCurve.power_law(1e-4, 2.5))
+        >>> risk = curve.risk(dd.HazardCurve.power_law(1e-4, 2.5))
         >>> low, high = risk.uncertainty().interval()
         >>> low < risk.annual_frequency < high
         True
         """
-        from dondolo.risk.uncertainty import uncertainty
+        from dondolo.curves.risk_uncertainty import uncertainty
 
         return uncertainty(self, n_draws, seed)
 
@@ -382,73 +375,30 @@ class Risk(Shown, Saved):
             Annual frequency of exceedance, probability of collapse and share of the risk per unit of ln IM, against
             intensity on a logarithmic axis.
         """
-        from dondolo.risk.plots import draw_risk
+        from dondolo.curves.plots_risk import draw_risk
 
         return draw_risk(self, ax)
 
     def _facts(self) -> list[tuple[str, str]]:
-        of = " of one wall" if self._of_function else ""
+        of = " of one wall" if self.fragility._hides_walls else ""
         facts = [("mean annual frequency of collapse", between(*self.bounds, "a year"))]
         if not isinstance(self.fragility, MeanCurve):
             facts.append((f"return period{of}", between(*self.return_period_bounds, "years")))
         return [*facts, (f"probability in 50 years{of}", between(*self._walls.probability(50.0)))]
 
 
-def mean_annual_frequency(fragility: Curve, hazard: HazardCurve) -> Risk:
-    """Mean annual frequency of collapse: the fragility integrated over the hazard.
-
-    Parameters
-    ----------
-    fragility : Fragility, DiscreteFragility, PopulationCurve or callable
-        A fitted curve, one of a fragility model, that of a population, or a function from intensities (an array) to
-        probabilities that do not fall with the intensity; the last, as a discrete one, is taken for the curve of one
-        wall (`Risk.probability_bounds`).
-    hazard : HazardCurve
-        Of the same intensity measure.
-
-    Returns
-    -------
-    Risk
-
-    Raises
-    ------
-    InputError
-        The measures differ; the function gives no probabilities, or they fall by more than 0.01.
-    DondoloError
-        The fragility has no curve; the frequency is not finite; the function is too rough to be integrated.
-
-    Warns
-    -----
-    DondoloWarning
-        Intensities beyond the hazard curve may contribute more than 1 %.
-
-    Notes
-    -----
-    The docstring of the module dondolo.risk.frequency has the formulas.
-
-    Examples
-    --------
-    >>> import dondolo as dd
-    >>> curve = dd.fit_fragility([0.2, 0.4], [11, 33], 44, im="pga")
-    >>> risk = dd.mean_annual_frequency(curve, dd.HazardCurve.power_law(1e-4, 2.5))
-    >>> round(risk.return_period, 3)
-    186.44
-    """
+def risk_of(fragility: Curve, hazard: HazardCurve) -> Risk:
+    """Mean annual frequency of collapse: see `Curve.risk`."""
     instance_of("hazard", hazard, HazardCurve, "no hazard curve")
-    if not callable(fragility) and not isinstance(fragility, MeanCurve):
-        raise InputError(f"fragility: {type(fragility).__name__} is no curve")
-    # A function does not know its measure.
-    im = getattr(fragility, "im", "")
-    if im and im != hazard.im:
-        raise InputError(f"im = '{im}' of the fragility and '{hazard.im}' of the hazard: must be the same")
-    if isinstance(fragility, Fragility):
-        fragility._need_fit()
-    most = _end(fragility)
+    if fragility.im and fragility.im != hazard.im:
+        raise InputError(f"im = '{fragility.im}' of the fragility and '{hazard.im}' of the hazard: must be the same")
+    fragility._need_fit()
+    most = fragility._end
     if _is_lognormal(fragility):
         one = of_lognormal(np.asarray(fragility.theta), np.asarray(fragility.beta), hazard)
         inside, below, above, error = (most * float(part) for part in one)
     else:
-        one = of_function(functools.partial(probability, fragility), hazard, corners=_corners(fragility))
+        one = of_function(functools.partial(probability, fragility), hazard, corners=fragility._corners)
         inside, below, above, error = map(float, one)
     if np.isinf(inside):
         raise DondoloError(
@@ -478,29 +428,9 @@ def _is_lognormal(fragility: Curve) -> TypeGuard[Fragility]:
     return isinstance(fragility, Fragility) and not isinstance(fragility, LimitedFragility)
 
 
-def _corners(fragility: Curve) -> tuple[float, ...]:
-    """Levels at which a curve has a jump or a kink, if it knows them."""
-    return fragility._corners if isinstance(fragility, (LimitedFragility, DiscreteFragility)) else ()
-
-
-def _end(fragility: Curve) -> float:
-    """Probability that a curve tends to."""
-    if isinstance(fragility, (LimitedFragility, DiscreteFragility)):
-        return float(fragility(np.inf))
-    return fragility.saturation if isinstance(fragility, (Fragility, MeanCurve)) else 1.0
-
-
 def probability(fragility: Curve, x: FloatArray) -> FloatArray:
-    """Probabilities of collapse, checked."""
-    given = fragility.mean(x) if isinstance(fragility, MeanCurve) else fragility(x)
-    try:
-        p = np.asarray(given, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise InputError("fragility: must give numbers for an array of intensities") from None
-    if p.shape != x.shape:
-        raise InputError(f"fragility: gives an array of shape {p.shape} for intensities of shape {x.shape}")
-    if not np.all((p >= 0.0) & (p <= 1.0)):
-        raise InputError(f"fragility = {p[~((p >= 0.0) & (p <= 1.0))][0]:g}: must lie between 0 and 1")
+    """Probabilities of collapse, which must not fall."""
+    p = np.asarray(fragility(x), dtype=np.float64)
     order = np.argsort(x, kind="stable")
     risen = np.maximum.accumulate(p[order])
     falls = p[order] < risen - _FALL

@@ -35,10 +35,10 @@ from dondolo._storage.saved import Saved
 from dondolo.curves.clusters import freedom
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.mean_curve import MeanCurve
+from dondolo.curves.risk import Risk, between, risk_of
 from dondolo.errors import DondoloError
-from dondolo.risk.frequency import Risk, between, mean_annual_frequency
-from dondolo.risk.hazard import HazardCurve
-from dondolo.risk.integrals import nodes, of_lognormal
+from dondolo.hazard.hazard import HazardCurve
+from dondolo.hazard.integrals import nodes, of_lognormal
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -145,7 +145,7 @@ class RiskUncertainty(Shown, Saved):
         Axes
             Probability that the annual frequency is less, against it on a logarithmic axis.
         """
-        from dondolo.risk.plots import draw_uncertainty
+        from dondolo.curves.plots_risk import draw_uncertainty
 
         return draw_uncertainty(self, ax, confidence)
 
@@ -166,7 +166,7 @@ def uncertainty(risk: Risk, n_draws: int, seed: Any) -> RiskUncertainty:
     risks = {q: _risk(risk.fragility, hazard) for q, hazard in risk.hazard._curves().items()}
     curve = risk.fragility
     if not isinstance(curve, Fragility | MeanCurve):
-        raise DondoloError("uncertainty: the curve is a function, of which no standard errors are known")
+        raise DondoloError("uncertainty: no standard errors are known of this curve")
     if isinstance(curve, MeanCurve) and curve.knows_records:
         if curve.fit.errors in ("few_walls", "one_wall"):
             curve.fit._need_errors()
@@ -205,7 +205,7 @@ def _risk(curve: Any, hazard: HazardCurve) -> Risk:
 
     # The ends of a fractile are those of the mean, of which was warned.
     with silent():
-        return mean_annual_frequency(curve, hazard)
+        return risk_of(curve, hazard)
 
 
 def _students(generator: np.random.Generator, count: int, degrees: float) -> FloatArray:
@@ -248,7 +248,7 @@ def _of_population(curve: MeanCurve, hazard: HazardCurve) -> tuple[float, float,
     """Degrees of freedom, standard error of ln lambda, and of what, for the curve of a population."""
     u, weights = nodes(hazard, curve.reach)
     found = curve.changes(np.exp(u), weights)
-    whole = float(weights @ curve.mean(np.exp(u)))
+    whole = float(weights @ curve(np.exp(u)))
     if not whole > 0.0:
         raise DondoloError("uncertainty: nothing collapses at the levels of the hazard curve")
     variances = [(float(changes @ changes), len(changes) - 1) for changes in found.values()]

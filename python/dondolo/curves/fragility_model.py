@@ -1,4 +1,4 @@
-"""Fragility models as OpenQuake keeps them: NRML 0.5, written and read (dondolo.exchange.nrml has the format).
+"""Fragility models as OpenQuake keeps them: NRML 0.5, written and read (dondolo.curves.nrml has the format).
 
 A continuous function has mean and standard deviation of the intensity, from which theta and beta follow but for
 rounding. So that what is written is read again to the bit, dondolo writes theta and beta in a comment above them, which
@@ -25,9 +25,9 @@ from dondolo._storage.saved import Saved
 from dondolo.curves.discrete import DiscreteFragility
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.limited import Limits, limited
+from dondolo.curves.state_order import disorder_at_levels, disorder_of_lognormals
 from dondolo.errors import DondoloWarning, InputError
-from dondolo.exchange.state_order import disorder_at_levels, disorder_of_lognormals
-from dondolo.risk.openquake import as_written, im_of, imt_of, over, times
+from dondolo.hazard.openquake import as_written, im_of, imt_of, over, times
 
 NAMESPACE = "http://openquake.org/xmlns/nrml/0.5"
 _LIMITS = ("noDamageLimit", "minIML", "maxIML")
@@ -36,7 +36,7 @@ _DEEPEST = 100
 _PARAMETERS = re.compile(r"\s*theta = (\S+), beta = (\S+)\s*")
 
 
-Curve = Fragility | DiscreteFragility
+Function = Fragility | DiscreteFragility
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -53,7 +53,7 @@ class FragilityModel(Shown, Saved):
     id, description, asset_category, loss_category : str
     """
 
-    functions: dict[str, dict[str, Curve]]
+    functions: dict[str, dict[str, Function]]
     limits: dict[str, Limits]
     id: str
     description: str
@@ -104,7 +104,7 @@ class FragilityModel(Shown, Saved):
         return [("id", self.id), ("functions", str(len(self.functions))), ("limit states", states)]
 
 
-def _with_limits(curve: Curve, limits: Limits) -> Curve:
+def _with_limits(curve: Function, limits: Limits) -> Function:
     """A curve with the limits of its function."""
     if isinstance(curve, Fragility):
         return limited(curve, limits)
@@ -113,7 +113,7 @@ def _with_limits(curve: Curve, limits: Limits) -> Curve:
     return DiscreteFragility(curve.levels, curve.probability, im=curve.im, no_damage_limit=limits.no_damage_limit)
 
 
-def _append(model: ElementTree.Element, taxonomy: str, curves: dict[str, Curve], limits: Limits) -> None:
+def _append(model: ElementTree.Element, taxonomy: str, curves: dict[str, Function], limits: Limits) -> None:
     """Add a function."""
     first = next(iter(curves.values()))
     imt, unit = imt_of(first.im)
@@ -231,7 +231,7 @@ def _model(root: ElementTree.Element) -> tuple[FragilityModel, list[DondoloWarni
     states = _text(model, "limitStates").split()
     if not states or len(set(states)) < len(states):
         raise InputError("limitStates: must be names, each once")
-    functions: dict[str, dict[str, Curve]] = {}
+    functions: dict[str, dict[str, Function]] = {}
     limits: dict[str, Limits] = {}
     notes: list[DondoloWarning] = []
     for function in _children(model, "fragilityFunction"):
@@ -258,7 +258,7 @@ def _model(root: ElementTree.Element) -> tuple[FragilityModel, list[DondoloWarni
     return made, notes
 
 
-def _doubt(curves: dict[str, Curve], limits: Limits) -> DondoloWarning | None:
+def _doubt(curves: dict[str, Function], limits: Limits) -> DondoloWarning | None:
     """A doubt about a function that `write_nrml` would refuse to write.
 
     Raises
@@ -294,7 +294,7 @@ def _doubt(curves: dict[str, Curve], limits: Limits) -> DondoloWarning | None:
     return None
 
 
-def _function(function: ElementTree.Element, states: list[str]) -> tuple[dict[str, Curve], Limits]:
+def _function(function: ElementTree.Element, states: list[str]) -> tuple[dict[str, Function], Limits]:
     """The curves of a function, and its limits."""
     kind = _attribute(function, "format")
     if kind not in ("continuous", "discrete"):
@@ -325,7 +325,7 @@ def _function(function: ElementTree.Element, states: list[str]) -> tuple[dict[st
         raise InputError(
             f"imls = {beyond[0]:g}: must not be beyond minIML and maxIML, which are of continuous functions"
         )
-    curves: dict[str, Curve] = {}
+    curves: dict[str, Function] = {}
     for state, row in zip(names, rows, strict=True):
         chances = [float(_checked("poes", word)) for word in _content(row).split()]
         try:

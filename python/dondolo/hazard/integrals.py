@@ -30,7 +30,7 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray
 from dondolo.errors import DondoloError
-from dondolo.risk.hazard import HazardCurve
+from dondolo.hazard.hazard import HazardCurve
 
 # A probability at intensities (points,), of one curve or of several: (..., points)
 Probability = Callable[[FloatArray], FloatArray]

@@ -28,7 +28,7 @@ from dondolo._base.files import read_text
 from dondolo._fortran.records import describe_measure
 from dondolo._storage import tables
 from dondolo.errors import DondoloError, DondoloWarning, InputError
-from dondolo.risk.printed import levelled, note_of
+from dondolo.hazard.printed import levelled, note_of
 
 #: Number of a site in a file, from 0, or its longitude and latitude [degrees]
 Site = int | tuple[float, float]

@@ -12,7 +12,7 @@ from dondolo._base.arguments import FloatArray
 from dondolo._fortran.library import constants
 from dondolo._fortran.records import describe_measure, read_number_table
 from dondolo.errors import DondoloWarning, InputError
-from dondolo.risk.printed import levelled, note_of
+from dondolo.hazard.printed import levelled, note_of
 
 #: Columns that say how often a level is exceeded.
 _FREQUENCIES = ("annual_frequency", "return_period", "poe")

@@ -20,8 +20,8 @@ import numpy as np
 from dondolo._base.arguments import FloatArray
 from dondolo.curves.members import Members
 from dondolo.curves.series import in_series
-from dondolo.risk.hazard import HazardCurve
-from dondolo.risk.integrals import Contributions, of_function, of_lognormal
+from dondolo.hazard.hazard import HazardCurve
+from dondolo.hazard.integrals import Contributions, of_function, of_lognormal
 
 # Walls that are integrated together: a few tens of MB
 _BLOCK = 100

@@ -28,8 +28,8 @@ Continuous
     weak shaking is frequent: of the risk under a hazard x^-k the share Phi(k beta - 6) is cut off.
 Discrete
     Probabilities at levels, straight lines in between, constant above the last level. Without noDamageLimit OpenQuake
-    draws a line from 0 at no intensity to the first level, which may be 0. `nrml_functions` writes the mean curves of a
-    population so, at levels that reach far enough down and are close enough.
+    draws a line from 0 at no intensity to the first level, which may be 0. `Typology.nrml_functions` writes the mean
+    curves of a population so, at levels that reach far enough down and are close enough.
 States
     A state contains the next, so its probability is never the smaller one. Lognormal curves of different dispersion
     cross somewhere; between minIML and maxIML they must not. A range that is not given ends where two curves cross,
@@ -58,12 +58,12 @@ from dondolo._base.arguments import as_number, one_of
 from dondolo._fortran.origins import check_replaced
 from dondolo.curves.discrete import DiscreteFragility
 from dondolo.curves.fragility import Fragility
+from dondolo.curves.fragility_model import FragilityModel, Function
 from dondolo.curves.limited import LimitedFragility, Limits
+from dondolo.curves.state_order import crossing, disorder_at_levels, disorder_of_lognormals
+from dondolo.curves.straight_lines import in_order, straight_lines
 from dondolo.errors import DondoloError, InputError
-from dondolo.exchange.fragility_model import Curve, FragilityModel
-from dondolo.exchange.mean_functions import in_order, straight_lines
-from dondolo.exchange.state_order import crossing, disorder_at_levels, disorder_of_lognormals
-from dondolo.risk.openquake import imt_of
+from dondolo.hazard.openquake import imt_of
 
 #: Losses that a model is for
 LossCategory = Literal["structural", "nonstructural", "contents", "business_interruption"]
@@ -78,7 +78,7 @@ _RARE = 1e-3
 
 def write_nrml(
     path: str | os.PathLike[str],
-    functions: Mapping[str, Mapping[str, Curve]],
+    functions: Mapping[str, Mapping[str, Function]],
     *,
     id: str = "dondolo",
     description: str = "Rocking masonry walls, by dondolo",
@@ -98,8 +98,8 @@ def write_nrml(
     functions : mapping of mappings
         Taxonomy -> limit state -> curve. Each taxonomy has the same limit states, from the lightest to the heaviest;
         its curves are all `Fragility`, written as continuous, or all `DiscreteFragility` of the same levels, written as
-        discrete. Taxonomies may differ in that, and in the intensity measure. `nrml_functions` makes those of a
-        population. Curves of `read_nrml` keep their limits unless others are given.
+        discrete. Taxonomies may differ in that, and in the intensity measure. `Typology.nrml_functions` makes
+        those of a population. Curves of `read_nrml` keep their limits unless others are given.
     id : str
         Name of the model: letters, digits, - and _, at most 100.
     description : str
@@ -141,7 +141,7 @@ def write_nrml(
             raise InputError(f"{what} = {value:g}: must be positive")
     states = _states(functions)
     of_functions: dict[str, Limits] = {}
-    written: dict[str, dict[str, Curve]] = {}
+    written: dict[str, dict[str, Function]] = {}
     for taxonomy, given in functions.items():
         _check_curves(taxonomy, given)
         curves = dict(given)
@@ -182,7 +182,7 @@ def _words(name: str, text: Any) -> str:
     return words
 
 
-def _states(functions: Mapping[str, Mapping[str, Curve]]) -> tuple[str, ...]:
+def _states(functions: Mapping[str, Mapping[str, Function]]) -> tuple[str, ...]:
     """The limit states, the same for all taxonomies."""
     if not isinstance(functions, Mapping) or not functions:
         raise InputError("functions: must be a mapping of taxonomies, one at least")
@@ -205,7 +205,7 @@ def _states(functions: Mapping[str, Mapping[str, Curve]]) -> tuple[str, ...]:
     return states
 
 
-def _check_curves(taxonomy: str, curves: Mapping[str, Curve]) -> None:
+def _check_curves(taxonomy: str, curves: Mapping[str, Function]) -> None:
     """Are all curves of a kind, of one measure, and fitted?"""
     kinds = {type(curve) for curve in curves.values()}
     discrete = kinds == {DiscreteFragility}
@@ -226,7 +226,7 @@ def _check_curves(taxonomy: str, curves: Mapping[str, Curve]) -> None:
             )
 
 
-def _own_limits(taxonomy: str, curves: Mapping[str, Curve]) -> Limits:
+def _own_limits(taxonomy: str, curves: Mapping[str, Function]) -> Limits:
     """Limits that the curves themselves have."""
     found = {
         curve.limits
@@ -284,7 +284,7 @@ def _unseen_crossings(curves: list[Fragility]) -> list[tuple[float, bool]]:
     return found
 
 
-def _uncut(functions: dict[str, Fragility]) -> dict[str, Curve]:
+def _uncut(functions: dict[str, Fragility]) -> dict[str, Function]:
     """The same curves; where the crossing of two would cut something of another, all of them at levels, raised."""
     curves = list(functions.values())
     harmless = all(

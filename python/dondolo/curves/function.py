@@ -1,0 +1,141 @@
+"""Any function as a fragility curve."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import KW_ONLY, dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dondolo._base.arguments import as_levels, shaped
+from dondolo._base.shown import Shown
+from dondolo._fortran.records import describe_measure
+from dondolo.curves.curve import Curve, inverse
+from dondolo.errors import InputError
+from dondolo.figures import style
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+# Where the inverse is sought
+_ENDS = (1e-9, 1e9)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class FunctionFragility(Curve, Shown):
+    """A fragility curve that is a function of yours.
+
+    Parameters
+    ----------
+    function : callable
+        From intensities, a flat array, to as many probabilities, which do not fall with the intensity.
+    im : str
+        Intensity measure.
+
+    Raises
+    ------
+    InputError
+        What is given is no function; a measure that is not known.
+
+    Notes
+    -----
+    How many walls are behind it is not known: risks take it for the curve of one. Neither it nor its risks can be
+    saved.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import dondolo as dd
+    >>> curve = dd.FunctionFragility(lambda x: 1.0 - np.exp(-x), im="pga")
+    >>> round(float(curve.ppf(0.5)), 9)
+    0.693147181
+    """
+
+    _hides_walls = True
+
+    function: Callable[[Any], Any]
+    _: KW_ONLY
+    im: str = "pga"
+
+    def __post_init__(self) -> None:
+        if not callable(self.function):
+            raise InputError(f"function: {type(self.function).__name__} is no function")
+        object.__setattr__(self, "im", describe_measure(self.im).name)
+
+    def __call__(self, x: ArrayLike) -> Any:
+        """Probabilities at levels.
+
+        Parameters
+        ----------
+        x : array_like
+            Levels of intensity, not negative.
+
+        Returns
+        -------
+        float or ndarray, shape of x
+
+        Raises
+        ------
+        InputError
+            A level that is negative or no number; the function gives no probabilities.
+        """
+        values = as_levels(x)
+        flat = values.ravel()
+        try:
+            p = np.asarray(self.function(flat), dtype=np.float64)
+        except (TypeError, ValueError):
+            raise InputError("fragility: must give numbers for an array of intensities") from None
+        if p.shape != flat.shape:
+            raise InputError(f"fragility: gives an array of shape {p.shape} for intensities of shape {flat.shape}")
+        if not np.all((p >= 0.0) & (p <= 1.0)):
+            raise InputError(f"fragility = {p[~((p >= 0.0) & (p <= 1.0))][0]:g}: must lie between 0 and 1")
+        return shaped(p, values)
+
+    def ppf(self, p: ArrayLike) -> Any:
+        """Lowest levels at which the probability is p, sought between 1e-9 and 1e9.
+
+        Parameters
+        ----------
+        p : array_like
+            Probabilities, 0 to 1.
+
+        Returns
+        -------
+        float or ndarray, shape of p
+            Infinite where the function does not come to p.
+
+        Raises
+        ------
+        InputError
+            A probability that is not between 0 and 1.
+        """
+        return inverse(self, p, _ENDS)
+
+    def plot(
+        self, ax: Axes | None = None, *, label: str | None = None, color: str = style.BLUE, linestyle: str = "-"
+    ) -> Axes:
+        """Draw the curve.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+        label : str, optional
+            Name of the curve where several are drawn into the same axes.
+        color, linestyle : str
+            Of the curve, to distinguish several.
+
+        Returns
+        -------
+        Axes
+            Probability against intensity.
+        """
+        from dondolo.curves.plots import draw_any
+
+        return draw_any(self, ax, label, color, linestyle)
+
+    def _facts(self) -> list[tuple[str, str]]:
+        name = getattr(self.function, "__name__", type(self.function).__name__)
+        return [("function", name), ("measure", self.im)]
