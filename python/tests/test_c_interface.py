@@ -367,6 +367,7 @@ def test_warnings(c, error, catalogue, records):
         ("walls", {}, "group = 'walls': must be one of 'wall', 'stripes', 'solver'"),
         ("wall", {"thicknes": 1.0}, "wall: thicknes: no such variable; did you mean 'thickness'?"),
         ("wall", {"": 1.0}, "no such variable"),
+        ("wall", {100_000 * "height": 1.0}, "heightheight"),
         (
             "stripes",
             {"edp_thresholds": [0.1]},
@@ -545,6 +546,9 @@ def test_names_of_results(c, error, catalogue):
     assert c.count(error, stripes, b"edps") == -1
     assert "stripes: edps: no such number; there are 'edp_limit', 'levels'" in c.message(error).decode()
     assert "did you mean 'edp'?" in c.message(error).decode()
+    c.clear_error(error)
+    assert c.count(error, stripes, 100_000 * b"edp") == -1
+    assert len(c.message(error)) < 1000
     c.clear_error(error)
     room = ctypes.create_string_buffer(b"left", 5)
     assert c.get_text(error, records, b"title", room, 5) == -1

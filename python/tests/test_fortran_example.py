@@ -10,7 +10,7 @@ import pytest
 import dondolo as dd
 
 
-def compiled(root, folder, *sources):
+def compiled(root, folder, *sources, options=()):
     """A program, compiled with the library of the build; the main program is the last of its sources."""
     libraries = sorted((root / "build-python/src").glob("**/libdondolo*.a"))
     if not libraries or shutil.which("gfortran") is None:
@@ -19,7 +19,7 @@ def compiled(root, folder, *sources):
     program = folder / sources[-1].stem
     archives = ["-Wl,--start-group", *libraries, "-Wl,--end-group"]
     subprocess.run(
-        ["gfortran", "-fopenmp", *modules, *sources, *archives, "-llapack", "-lblas", "-o", program],
+        ["gfortran", "-fopenmp", *options, *modules, *sources, *archives, "-llapack", "-lblas", "-o", program],
         check=True,
         cwd=folder,
     )
@@ -67,6 +67,33 @@ def test_program_of_the_verification(root, tmp_path):
     assert edps.pop("nothing after the record") == none
     assert len(edps) == 9
     assert all(len(several) == exact.size and several != none for several in edps.values())
+
+
+LOOK_UP = """
+program look_up
+   use dondolo_settings, only : group_settings_type, new_settings
+   use dondolo_solver, only : solver_properties
+   implicit none
+
+   type(group_settings_type) :: settings
+
+   call new_settings(settings, solver_properties)
+   print *, settings%number('NAME')
+end program look_up
+"""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["rtol", "height"])
+def test_a_look_up_without_a_row(root, tmp_path, name):
+    """A name of another table is 0 in silence, but in what the tests are built with."""
+    source = tmp_path / "look_up.f90"
+    source.write_text(LOOK_UP.replace("NAME", name))
+    settings = root / "src/dondolo/base/properties/settings.F90"
+    program = compiled(root, tmp_path, settings, source, options=["-DDONDOLO_CHECKED"])
+    done = subprocess.run([program], capture_output=True, text=True, check=False)
+    refused = "there are no settings 'height'" in done.stderr
+    assert (done.returncode == 0, refused) == (name == "rtol", name == "height"), done.stderr
 
 
 def test_the_manifest_uses_the_repository(root):

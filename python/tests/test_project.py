@@ -21,6 +21,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from dondolo._fortran import _core
+from dondolo._fortran.library import properties
 
 import dondolo as dd
 
@@ -233,6 +234,27 @@ def test_no_single_precision_at_the_boundary():
         assert "Wrapper for" in text, name
         assert "array('f')" not in text, name
         assert not re.search(r": .*\bfloat32\b", text), name
+
+
+def looked_up(text):
+    """Names that a Fortran source asks settings for, or sets in them; records have metadata, whose keys may be any."""
+    text = re.sub(r"&\s*\n\s*&?", " ", re.sub(r"(?m)^\s*!.*\n", "", text))
+    calls = r"(\w+)%(?:number|holds|word|list|has|has_word|has_list|clear|set)\( *'([^']*)'"
+    return {name for of, name in re.findall(calls, text) if of != "metadata"}
+
+
+def test_look_ups_of_settings(root):
+    """A name that no table has would be 0 in silence."""
+    example = "x = settings%number('thicknes')\ncall input%set( &\n   & 'heigth', y)\n"
+    assert looked_up(example) == {"thicknes", "heigth"}
+    with pytest.raises(dd.InputError, match="must be one of") as refused:
+        properties("no group")
+    groups = re.findall(r"'(\w+)'", str(refused.value).split("must be one of")[1])
+    known = {row.name for group in groups for row in properties(group)}
+    files = [file for folder in ("src", "app", "python/dondolo") for file in root.glob(f"{folder}/**/*.[fF]90")]
+    found = {name: file.name for file in files for name in looked_up(file.read_text())}
+    assert len(found) > 80
+    assert {name: file for name, file in found.items() if name not in known} == {}
 
 
 def deferred_results(text):

@@ -80,7 +80,7 @@ contains
             value = values(1)
          else
             call take_text(name, 'name', text, problem)
-            call raise_input(problem, text//': has '//to_text(size(values))//' values, dondolo_get_numbers gets them')
+            call raise_input(problem, shown(text)//': has '//to_text(size(values))//' values, dondolo_get_numbers gets them')
          end if
       end if
       call failure%take(problem)
@@ -192,7 +192,7 @@ contains
          character(len=:), allocatable :: allowed
 
          if (is_known) return
-         call say_allowed(text, names, '', allowed)
+         call say_allowed(text(:min(len(text), 2*longest)), names, '', allowed)
          call raise_input(error, of//': '//shown(text)//': no such number'//allowed)
       end subroutine check_name
 
@@ -443,7 +443,7 @@ contains
 
          is_one_of = any(names == what)
          if (is_one_of) return
-         call say_allowed(what, names, '', allowed)
+         call say_allowed(what(:min(len(what), 2*longest)), names, '', allowed)
          call raise_input(error, of//': '//shown(what)//': no such text'//allowed)
       end function is_one_of
 

@@ -5,6 +5,7 @@ module dondolo_c_settings
    use dondolo_c_text, only : as_handle, as_pointer, check_finite, take_numbers, take_text
    use dondolo_error, only : error_type, problems_type, raise_input
    use dondolo_handles, only : content_of, hold, refuse_handle
+   use dondolo_plain, only : shown
    use dondolo_property, only : find_property, is_integer, is_list, is_logical, is_text, is_words, name_length, property_type
    use dondolo_records_group, only : records_properties
    use dondolo_settings, only : group_settings_type, new_settings, settings_type
@@ -63,7 +64,7 @@ contains
       if (.not. is_ready(error, failure)) return
       call take_text(group, 'group', name, problem)
       if (.not. allocated(problem) .and. .not. any(group_names == name)) call raise_input(problem, &
-         & 'group = '''//name//''': must be one of '//join(group_names))
+         & 'group = '''//shown(name)//''': must be one of '//join(group_names))
       if (.not. allocated(problem)) then
          allocate (settings)
          settings%group = name
@@ -133,8 +134,9 @@ contains
       if (len_trim(text) > 0) row = find_property(settings%table, lower(trim(text)))
       if (row > 0) return
       names = settings%table%name
-      call say_allowed(lower(text), names, '--template', allowed)
-      call raise_input(error, settings%group//': '//text//': no such variable'//allowed)
+      ! A hint compares whole texts, which may be of any length
+      call say_allowed(lower(text(:min(len(text), 2*name_length))), names, '--template', allowed)
+      call raise_input(error, settings%group//': '//shown(text)//': no such variable'//allowed)
    end subroutine find_row
 
    !> Set a number: a logical is 1 or 0, and of a list it is the only value
@@ -198,7 +200,7 @@ contains
             case (is_text, is_words)
                call found%values%set(trim(found%table(row)%name), text)
             case default
-               call raise_input(problem, trim(found%table(row)%name)//' = '''//text//''': must be a number')
+               call raise_input(problem, trim(found%table(row)%name)//' = '''//shown(text)//''': must be a number')
             end select
          end if
          call failure%take(problem)

@@ -136,6 +136,10 @@ contains
       !> Name of the property, in lower case
       character(len=*), intent(in) :: name
 
+#ifdef DONDOLO_CHECKED
+      ! A look-up of a name that no row has would find nothing in silence, so that tests end here.
+      if (self%find(name) == 0) error stop 'dondolo: there are no settings '''//trim(name)//''''
+#endif
       place = 0
       if (.not. allocated(self%known)) return
       place = self%find(name)
