@@ -6,7 +6,7 @@ module dondolo_plan
    use dondolo_check_rows, only : check_wall
    use dondolo_check_sheet, only : sheet_type
    use dondolo_clusters, only : cluster_label
-   use dondolo_error, only : error_type, raise_failure
+   use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    use dondolo_name_column, only : name_width
@@ -177,7 +177,7 @@ contains
    !> Print the first rows of the population
    subroutine print_population(case, error)
       type(case_type), intent(in) :: case
-      !> The population has changed
+      !> A row that is wrong
       type(error_type), allocatable, intent(out) :: error
 
       type(population_reader_type) :: reader
@@ -187,9 +187,8 @@ contains
 
       associate (survey => case%survey)
          shown = min(survey%last - survey%first + 1, shown_rows)
-         call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false., &
-            & facade=case%facade)
-         if (.not. allocated(error)) call reader%skip(survey%first - 1, error)
+         reader%names%is_checked = .false.
+         call reader%skip(case%table, survey%first - 1, error)
          if (allocated(error)) return
          if (survey%walls < survey%rows) write (output_unit, '(a)') counted(survey%walls, 'wall')//', with '// &
             & to_text(survey%rows)//' mechanisms in all'
@@ -197,15 +196,10 @@ contains
             & to_text(survey%first)//' to '//to_text(survey%last)//' of '//to_text(survey%rows)
          longest = 0
          do i = 1, shown
-            call reader%next(members(i), found, error)
-            if (.not. found .and. .not. allocated(error)) then
-               call raise_failure(error, case%population_path()//': has changed while it was read')
-            end if
-            if (allocated(error)) exit
+            call reader%next(case%table, members(i), found, error)
+            if (allocated(error)) return
             longest = max(longest, len(members(i)%wall%name()))
          end do
-         call reader%close()
-         if (allocated(error)) return
          call print_head(name_width(longest))
          do i = 1, shown
             call print_row(members(i)%wall, name_width(longest))

@@ -132,7 +132,7 @@ contains
 
       call make_model_sentence(case, results, line)
       write (output_unit, '(a)') '', line
-      do i = 1, size(case%facade%sources)
+      do i = 1, size(case%table%facade%sources)
          call make_source_sentence(case, results, i, line)
          write (output_unit, '(a)') line
       end do

@@ -34,6 +34,7 @@ module dondolo
    use dondolo_member, only : member_type
    use dondolo_population, only : population_type
    use dondolo_population_reader, only : population_reader_type, read_population
+   use dondolo_population_table, only : population_table_type
    use dondolo_record, only : new_record, record_type
    use dondolo_record_reader, only : read_record, read_records
    use dondolo_reports, only : check_reports, write_reports
@@ -75,6 +76,6 @@ module dondolo
    public :: fragility_type, fit_fragility, typology_type, combine_population, population_type
    ! Cases
    public :: case_type, read_case, results_type, run_case, merge_population, check_reports, write_reports
-   public :: member_type, population_reader_type, read_population
+   public :: member_type, population_table_type, population_reader_type, read_population
 
 end module dondolo

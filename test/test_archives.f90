@@ -4,7 +4,7 @@
 program test_archives
    use archive_files, only : cosmos, cosmos_type, csmip, geonet, motion, smc, with_crlf
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, skip, suite
-   use dondolo_csv_reader, only : csv_reader_type
+   use dondolo_csv_reader, only : csv_row_type, csv_table_type
    use dondolo_error, only : error_type
    use dondolo_header_text, only : after, before, leading_number, parse_format, squeezed
    use dondolo_kinds, only : wp
@@ -513,7 +513,8 @@ contains
 
    !> Recorded files, where there are any: peaks and steps as in their manifest, counts, first and last values
    subroutine test_samples()
-      type(csv_reader_type) :: table
+      type(csv_table_type) :: table
+      type(csv_row_type) :: row
       type(record_type) :: record
       type(error_type), allocatable :: error
       character(len=:), allocatable :: folder, file, channel
@@ -531,15 +532,15 @@ contains
          call skip('no recorded accelerograms: DONDOLO_RECORDS names their folder')
          return
       end if
-      call table%open(folder//'/manifest.csv', error)
+      call table%read(folder//'/manifest.csv', error)
       call check_ok(error, 'manifest')
       if (allocated(error)) return
       tested = 0
       do
-         call table%next(found, error)
+         call table%next(row, found, error)
          call check_ok(error, 'row')
          if (.not. found) exit
-         file = table%get_text(table%column('file'))
+         file = row%get_text(table%column('file'))
          if (index(file, 'formats/cosmos/') + index(file, 'formats/csmip_v2/') + index(file, 'formats/geonet/') + &
             & index(file, 'formats/smc/') == 0) cycle
          tested = tested + 1
@@ -549,11 +550,11 @@ contains
          call read_record(folder//'/'//before(file, ' ('), record, error, channel=channel)
          call check_ok(error, file)
          if (allocated(error)) cycle
-         call table%get_real(table%column('pga_m_s2'), number, error)
+         call table%get_real(row, table%column('pga_m_s2'), number, error)
          call check_close(record%pga(), number, 1.0e-3_wp, 'PGA of '//file)
-         call table%get_real(table%column('dt_s'), number, error)
+         call table%get_real(row, table%column('dt_s'), number, error)
          call check_close(record%dt, number, 1.0e-9_wp, 'dt of '//file)
-         call table%get_real(table%column('npts'), number, error)
+         call table%get_real(row, table%column('npts'), number, error)
          call check(size(record%acceleration) == nint(number), 'number of values of '//file)
          if (index(file, '.V2c') > 0) then
             call check_ends(record, 3.437285e-6_wp, 2.412614e-6_wp)

@@ -7,6 +7,7 @@ program test_facade
    use dondolo_kinds, only : wp
    use dondolo_member, only : member_type
    use dondolo_population_reader, only : population_reader_type, read_population
+   use dondolo_population_table, only : population_table_type
    use dondolo_variants, only : stated_wall_type
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    implicit none
@@ -331,6 +332,7 @@ contains
          & 'inner,one_sided,3,0.12,,,1,leaves,1', &
          & 'inner,two_block,3,0.12,,,1,leaves,0.5']
       type(member_type), allocatable :: members(:)
+      type(population_table_type) :: walls
       type(population_reader_type) :: reader
       type(member_type) :: member
       type(error_type), allocatable :: error
@@ -349,11 +351,11 @@ contains
       call check_close(members(3)%wall%input%number('height'), 3.5_wp, exact, 'the wall above')
       call check_close(members(3)%weight, 2.0_wp, exact, 'its weight')
       call check(all(members%continues .eqv. [.false., .false., .true., .false., .true., .true.]), 'who goes on')
-      call reader%open(table, error)
-      call reader%skip(2, error)
-      call reader%next(member, found, error)
+      call walls%read(table, error)
+      call check_ok(error, 'the table is read')
+      call reader%skip(walls, 2, error)
+      call reader%next(walls, member, found, error)
       call check(found .and. member%wall%name() == 'b at 2.5 m' .and. member%continues, 'rows can be passed over')
-      call reader%close()
    end subroutine test_rows
 
    !> Rows that do not go together
@@ -395,6 +397,7 @@ contains
    subroutine test_given_facade()
 
       type(stated_wall_type) :: input
+      type(population_table_type) :: table
       type(population_reader_type) :: reader
       type(member_type) :: member
       type(error_type), allocatable :: error
@@ -405,11 +408,11 @@ contains
       input%wall_input_type = facade('both')
       call input%set('name', 'F')
       call input%set('hinge_at', 'storeys')
-      call reader%open('case.nml', error, facade=input)
-      call check_ok(error, 'opened')
+      table%file = 'case.nml'
+      table%facade = input
       rows = 0
       do
-         call reader%next(member, found, error)
+         call reader%next(table, member, found, error)
          call check_ok(error, 'a row')
          if (.not. found .or. allocated(error)) exit
          rows = rows + 1

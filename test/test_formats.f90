@@ -2,7 +2,7 @@
 program test_formats
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, skip, suite
    use dondolo_catalogue, only : read_catalogue
-   use dondolo_csv_reader, only : csv_reader_type
+   use dondolo_csv_reader, only : csv_row_type, csv_table_type
    use dondolo_dates, only : find_moment, make_stamp
    use dondolo_error, only : error_type
    use dondolo_kinds, only : pi, wp
@@ -814,7 +814,8 @@ contains
       character(len=*), parameter :: folders(*) = [character(len=22) :: 'formats/peer_at2/', 'formats/esm_dyna12/', &
          & 'formats/itaca_', 'formats/gem_smtk/', 'formats/knet/', 'formats/cwa/', 'formats/asa_mexico/', &
          & 'formats/multi_column/']
-      type(csv_reader_type) :: table
+      type(csv_table_type) :: table
+      type(csv_row_type) :: row
       type(record_type) :: record
       type(error_type), allocatable :: error
       character(len=:), allocatable :: folder, file, channel
@@ -832,17 +833,17 @@ contains
          call skip('no recorded accelerograms: DONDOLO_RECORDS names their folder')
          return
       end if
-      call table%open(folder//'/manifest.csv', error)
+      call table%read(folder//'/manifest.csv', error)
       call check_ok(error, 'manifest')
       if (allocated(error)) return
       tested = 0
       do
-         call table%next(found, error)
+         call table%next(row, found, error)
          call check_ok(error, 'row')
          if (.not. found) exit
-         file = table%get_text(table%column('file'))
+         file = row%get_text(table%column('file'))
          if (.not. any([(index(file, trim(folders(i))) == 1, i=1, size(folders))])) cycle
-         if (len(table%get_text(table%column('pga_m_s2'))) == 0) cycle
+         if (len(row%get_text(table%column('pga_m_s2'))) == 0) cycle
          tested = tested + 1
          bracket = index(file, ' (')
          channel = ''
@@ -850,9 +851,9 @@ contains
             channel = file(bracket + 2:len(file) - 1)
             file = file(:bracket - 1)
          end if
-         call table%get_real(table%column('dt_s'), dt, error)
-         call table%get_real(table%column('pga_m_s2'), pga, error)
-         call table%get_real(table%column('npts'), npts, error)
+         call table%get_real(row, table%column('dt_s'), dt, error)
+         call table%get_real(row, table%column('pga_m_s2'), pga, error)
+         call table%get_real(row, table%column('npts'), npts, error)
          if (index(file, 'multi_column') > 0) then
             call read_record(folder//'/'//file, record, error, units='g', channel=channel)
          else

@@ -3,9 +3,9 @@ program test_record
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, skip, suite
    use dondolo_catalogue, only : read_catalogue, record_rows_type
    use dondolo_clusters, only : cluster_records
-   use dondolo_csv_reader, only : csv_reader_type
+   use dondolo_csv_reader, only : csv_row_type, csv_table_type
    use dondolo_csv_row, only : cell_type, split_row, text_cell
-   use dondolo_encoding, only : is_ascii, is_utf8, take_utf16
+   use dondolo_encoding, only : from_utf16, is_ascii, is_utf8
    use dondolo_error, only : error_type, status_missing
    use dondolo_kinds, only : wp
    use dondolo_limits, only : longest_case
@@ -297,7 +297,8 @@ contains
 
    !> Tables that are right
    subroutine test_csv()
-      type(csv_reader_type) :: table
+      type(csv_table_type) :: table
+      type(csv_row_type) :: row
       type(error_type), allocatable :: error
       real(wp) :: value
       logical :: found
@@ -307,49 +308,51 @@ contains
          & 'name, height_m ,"a ""b"", c"'// &
          & cr//lf//'x , 2.5,plain'//cr//lf//'  '//lf//'# again'//lf//'"two'//lf//'lines, one cell" , 1.0D-3 ,""'// &
          & lf//',,"say ""hi"""')
-      call table%open(scratch//'/good.csv', error)
+      call table%read(scratch//'/good.csv', error)
       call check_ok(error, 'read')
       if (allocated(error)) return
       call check(size(table%columns) == 3, 'three columns')
       call check(table%column('name') == 1 .and. table%column('HEIGHT_m') == 2 .and. table%column('a "b", c') == 3, &
          & 'columns')
       call check(table%column('a') == 0 .and. table%column('') == 0, 'no such column')
-      call next_row(table, 4, 'x', 'plain')
-      call table%get_real(2, value, error)
+      call next_row(table, row, 4, 'x', 'plain')
+      call table%get_real(row, 2, value, error)
       call check_close(value, 2.5_wp, 0.0_wp, 'number')
-      call table%get_real(3, value, error)
+      call table%get_real(row, 3, value, error)
       call check_error(error, 'a "b", c = ''plain'': must be a number', 'word')
-      call next_row(table, 7, 'two'//lf//'lines, one cell', '')
-      call table%get_real(2, value, error)
+      call next_row(table, row, 7, 'two'//lf//'lines, one cell', '')
+      call table%get_real(row, 2, value, error)
       call check_close(value, 1.0e-3_wp, 0.0_wp, 'number with D exponent')
-      call next_row(table, 9, '', 'say "hi"')
-      call check_text(table%get_text(0), '', 'cell of a column that is absent')
-      call table%get_real(2, value, error)
+      call next_row(table, row, 9, '', 'say "hi"')
+      call check_text(row%get_text(0), '', 'cell of a column that is absent')
+      call table%get_real(row, 2, value, error)
       call check_error(error, 'height_m = '''': must be a number', 'empty cell')
-      call table%next(found, error)
+      call table%next(row, found, error)
       call check_ok(error, 'end')
       call check(.not. found, 'three rows')
       call write_file('good.csv', 'a,b'//cr//lf)
-      call table%open(scratch//'/good.csv', error)
+      call table%read(scratch//'/good.csv', error)
       call check_ok(error, 'header only')
-      call table%next(found, error)
+      row = csv_row_type()
+      call table%next(row, found, error)
       call check(.not. found, 'no rows')
    end subroutine test_csv
 
    !> The next row of a table
-   subroutine next_row(table, line, first, last)
-      type(csv_reader_type), intent(inout) :: table
+   subroutine next_row(table, row, line, first, last)
+      type(csv_table_type), intent(in) :: table
+      type(csv_row_type), intent(inout) :: row
       integer, intent(in) :: line
       character(len=*), intent(in) :: first, last
       type(error_type), allocatable :: error
       logical :: found
 
-      call table%next(found, error)
+      call table%next(row, found, error)
       call check_ok(error, 'row')
-      call check(found .and. table%line == line, 'line number')
-      call check_text(table%place(), scratch//'/good.csv: line '//to_text(line), 'place')
-      call check_text(table%get_text(1), first, 'first cell')
-      call check_text(table%get_text(3), last, 'last cell')
+      call check(found .and. row%line == line, 'line number')
+      call check_text(table%place(row), scratch//'/good.csv: line '//to_text(line), 'place')
+      call check_text(row%get_text(1), first, 'first cell')
+      call check_text(row%get_text(3), last, 'last cell')
    end subroutine next_row
 
    !> Tables that are wrong
@@ -432,20 +435,21 @@ contains
    subroutine check_numbers(content, want, note)
       character(len=*), intent(in) :: content, note
       real(wp), intent(in) :: want(2)
-      type(csv_reader_type) :: table
+      type(csv_table_type) :: table
+      type(csv_row_type) :: row
       type(error_type), allocatable :: error
       real(wp) :: value
       integer :: i
       logical :: found
 
       call write_file('numbers.csv', content)
-      call table%open(scratch//'/numbers.csv', error)
-      if (.not. allocated(error)) call table%find_decimal_mark([1, 2], error)
-      if (.not. allocated(error)) call table%next(found, error)
+      call table%read(scratch//'/numbers.csv', error)
+      if (.not. allocated(error)) call table%find_decimal_mark([1, 2])
+      if (.not. allocated(error)) call table%next(row, found, error)
       call check_ok(error, 'table '//content)
       if (allocated(error)) return
       do i = 1, 2
-         call table%get_real(i, value, error)
+         call table%get_real(row, i, value, error)
          call check_ok(error, 'number in '//content)
          call check_close(value, want(i), 0.0_wp, 'number in '//content)
       end do
@@ -454,7 +458,7 @@ contains
       else
          call check_text(table%note(), scratch//'/numbers.csv'//note, 'note on '//content)
       end if
-      call table%next(found, error)
+      call table%next(row, found, error)
       call check_ok(error, 'end')
       call check(.not. found, 'one row in '//content)
    end subroutine check_numbers
@@ -462,20 +466,20 @@ contains
    !> A table whose first number is refused
    subroutine check_no_numbers(content, part)
       character(len=*), intent(in) :: content, part
-      type(csv_reader_type) :: table
+      type(csv_table_type) :: table
+      type(csv_row_type) :: row
       type(error_type), allocatable :: error
       real(wp) :: value
       logical :: found
 
       call write_file('numbers.csv', content)
-      call table%open(scratch//'/numbers.csv', error)
-      if (.not. allocated(error)) call table%find_decimal_mark([1, 2], error)
-      if (.not. allocated(error)) call table%next(found, error)
+      call table%read(scratch//'/numbers.csv', error)
+      if (.not. allocated(error)) call table%find_decimal_mark([1, 2])
+      if (.not. allocated(error)) call table%next(row, found, error)
       call check_ok(error, 'table '//content)
       if (allocated(error)) return
-      call table%get_real(1, value, error)
+      call table%get_real(row, 1, value, error)
       call check_error(error, part, 'number in '//content)
-      call table%close()
    end subroutine check_no_numbers
 
    !> What is UTF-8, and what is not
@@ -487,7 +491,7 @@ contains
       integer, parameter :: wrong(4, 5) = reshape([97, 224, 98, 99, 192, 175, 97, 98, 237, 160, 128, 97, &
          & 244, 144, 128, 128, 97, 98, 226, 130], [4, 5])
       character(len=:), allocatable :: text
-      integer :: i, used
+      integer :: i
 
       call suite('encodings')
       do i = 1, size(right, 2)
@@ -502,12 +506,12 @@ contains
       call check_numbers(achar(254)//achar(255)//achar(0)//wide('a,b'//cr//lf//'1.5,2'//lf)//' ', [1.5_wp, 2.0_wp], '')
       call check_numbers('a,b'//cr//'1.5,2'//cr, [1.5_wp, 2.0_wp], '')
       call check_numbers('a,b'//cr//cr//lf//'1.5,2'//cr//cr//lf, [1.5_wp, 2.0_wp], '')
-      ! Code points beyond 16 bits are pairs of surrogates; the first half of one waits for the second
-      call take_utf16(bytes([60, 216, 219, 223, 233, 0, 60, 216]), 1, .false., text, used)
-      call check(used == 6, 'half a pair waits')
+      ! Code points beyond 16 bits are pairs of surrogates
+      call from_utf16(bytes([60, 216, 219, 223, 233, 0]), 1, text)
       call check_text(text, bytes([240, 159, 143, 155, 195, 169]), 'UTF-16')
-      call take_utf16(bytes([216, 60, 0, 97, 223, 219, 0]), 2, .true., text, used)
-      call check(used == 7, 'all is used')
+      call from_utf16(bytes([60, 216, 219, 223, 233, 0, 60, 216]), 1, text)
+      call check_text(text, bytes([240, 159, 143, 155, 195, 169, 239, 191, 189]), 'half a pair at the end')
+      call from_utf16(bytes([216, 60, 0, 97, 223, 219, 0]), 2, text)
       call check_text(text, bytes([239, 191, 189, 97, 239, 191, 189, 239, 191, 189]), 'surrogates alone')
    end subroutine test_encodings
 
@@ -536,17 +540,17 @@ contains
    !> A table with an error
    subroutine check_csv(content, part)
       character(len=*), intent(in) :: content, part
-      type(csv_reader_type) :: table
+      type(csv_table_type) :: table
+      type(csv_row_type) :: row
       type(error_type), allocatable :: error
       logical :: found
 
       call write_file('bad.csv', content)
-      call table%open(scratch//'/bad.csv', error)
+      call table%read(scratch//'/bad.csv', error)
       found = .true.
       do while (found .and. .not. allocated(error))
-         call table%next(found, error)
+         call table%next(row, found, error)
       end do
-      call table%close()
       call check_error(error, scratch//'/bad.csv'//part, 'table '//content)
    end subroutine check_csv
 
@@ -960,13 +964,14 @@ contains
 
    !> Recorded accelerograms, where there are any: peaks and steps as in their manifest, and the catalogue italy44
    subroutine test_samples()
-      type(csv_reader_type) :: table
+      type(csv_table_type) :: table
+      type(csv_row_type) :: row
       type(record_type), allocatable :: records(:), again(:)
       type(record_type) :: record
       type(error_type), allocatable :: error
       character(len=:), allocatable :: folder, file
       real(wp) :: pga, dt
-      integer :: row, length, tested
+      integer :: i, length, tested
       logical :: found
       logical :: exists
 
@@ -979,18 +984,18 @@ contains
          call skip('no recorded accelerograms: DONDOLO_RECORDS names their folder')
          return
       end if
-      call table%open(folder//'/manifest.csv', error)
+      call table%read(folder//'/manifest.csv', error)
       call check_ok(error, 'manifest')
       if (allocated(error)) return
       tested = 0
       do
-         call table%next(found, error)
+         call table%next(row, found, error)
          call check_ok(error, 'row')
          if (.not. found) exit
-         file = table%get_text(table%column('file'))
+         file = row%get_text(table%column('file'))
          if (.not. is_read(file)) cycle
          tested = tested + 1
-         call table%get_real(table%column('dt_s'), dt, error)
+         call table%get_real(row, table%column('dt_s'), dt, error)
          call check_ok(error, 'dt of '//file)
          if (index(file, '.VEL.') > 0) then
             call read_record(folder//'/'//file, record, error)
@@ -1007,8 +1012,8 @@ contains
          call check_ok(error, file)
          if (allocated(error)) cycle
          call check_close(record%dt, dt, 1.0e-6_wp, 'dt of '//file)
-         if (len(table%get_text(table%column('pga_m_s2'))) == 0) cycle
-         call table%get_real(table%column('pga_m_s2'), pga, error)
+         if (len(row%get_text(table%column('pga_m_s2'))) == 0) cycle
+         call table%get_real(row, table%column('pga_m_s2'), pga, error)
          call check_close(record%pga(), pga, 1.0e-3_wp, 'PGA of '//file)
       end do
       call check(tested >= 97, to_text(tested)//' files tested')
@@ -1017,16 +1022,17 @@ contains
       call read_catalogue(folder//'/italy44.csv', again, error, threads=3)
       call check_ok(error, 'italy44 on three threads')
       if (allocated(error)) return
-      call check(all([(all(abs(again(row)%acceleration - records(row)%acceleration) <= 0.0_wp) .and. &
-         & again(row)%name == records(row)%name, row=1, size(records))]), 'the same records on three threads')
+      call check(all([(all(abs(again(i)%acceleration - records(i)%acceleration) <= 0.0_wp) .and. &
+         & again(i)%name == records(i)%name, i=1, size(records))]), 'the same records on three threads')
       if (allocated(error)) return
       call check(size(records) == 44, '44 records')
-      call table%open(folder//'/italy44.csv', error)
-      do row = 1, size(records)
-         call table%next(found, error)
+      call table%read(folder//'/italy44.csv', error)
+      row = csv_row_type()
+      do i = 1, size(records)
+         call table%next(row, found, error)
          call check(found, 'as many rows')
-         call table%get_real(table%column('pga_m_s2'), pga, error)
-         call check_close(records(row)%pga(), pga, 1.0e-3_wp, 'PGA of '//records(row)%name)
+         call table%get_real(row, table%column('pga_m_s2'), pga, error)
+         call check_close(records(i)%pga(), pga, 1.0e-3_wp, 'PGA of '//records(i)%name)
       end do
    end subroutine test_samples
 

@@ -5,7 +5,7 @@
 program test_reference
    use checks, only : check, check_close, check_ok, check_text, finish, skip, suite
    use dondolo_catalogue, only : read_catalogue
-   use dondolo_csv_reader, only : csv_reader_type
+   use dondolo_csv_reader, only : csv_row_type, csv_table_type
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_record, only : record_type
@@ -121,36 +121,38 @@ contains
       character(len=*), intent(in) :: path
       real(wp), intent(in) :: levels(:)
       type(response_type), allocatable, intent(out) :: exact(:, :)
-      type(csv_reader_type) :: table
+      type(csv_table_type) :: table
+      type(csv_row_type) :: row
       integer :: j, k
       logical :: found
 
-      call table%open(path, error)
+      call table%read(path, error)
       call check_ok(error, path)
       allocate(exact(size(records), size(levels)))
       if (allocated(error)) call finish()
       do k = 1, size(levels)
          do j = 1, size(records)
-            call table%next(found, error)
+            call table%next(row, found, error)
             call check(found .and. .not. allocated(error), 'rows of '//path)
             if (.not. found) call finish()
-            exact(j, k)%edp = number(table, 'edp')
-            exact(j, k)%collapsed = number(table, 'collapsed') > 0.5_wp
-            exact(j, k)%time_of_peak = number(table, 'time_of_peak_s')
-            call check_text(table%get_text(table%column('record')), records(j)%name, 'record')
-            call check_close(number(table, 'im_level'), levels(k), 1.0e-12_wp, 'level')
+            exact(j, k)%edp = number(table, row, 'edp')
+            exact(j, k)%collapsed = number(table, row, 'collapsed') > 0.5_wp
+            exact(j, k)%time_of_peak = number(table, row, 'time_of_peak_s')
+            call check_text(row%get_text(table%column('record')), records(j)%name, 'record')
+            call check_close(number(table, row, 'im_level'), levels(k), 1.0e-12_wp, 'level')
          end do
       end do
-      call table%next(found, error)
+      call table%next(row, found, error)
       call check(.not. found, 'no more rows in '//path)
    end subroutine read_table
 
    !> A number in the row that was read
-   real(wp) function number(table, column)
-      type(csv_reader_type), intent(in) :: table
+   real(wp) function number(table, row, column)
+      type(csv_table_type), intent(in) :: table
+      type(csv_row_type), intent(in) :: row
       character(len=*), intent(in) :: column
 
-      call table%get_real(table%column(column), number, error)
+      call table%get_real(row, table%column(column), number, error)
       call check_ok(error, column)
    end function number
 

@@ -7,7 +7,7 @@ module cases
    use dondolo_error, only : error_type
    use dondolo_parcel, only : parcel_type, send
    use dondolo_member, only : member_type
-   use dondolo_population_reader, only : read_population
+   use dondolo_population_reader, only : read_rows
    use dondolo_record_parcel, only : pack_records
    use dondolo_result_tables, only : table_suffixes
    use dondolo_wall_parcel, only : pack_members
@@ -37,7 +37,7 @@ contains
       call load_case(path, case, error)
       if (.not. allocated(error)) then
          if (case%job%task == 'typology') then
-            call read_population(case%population_path(), members, error, case%solver%gravity, facade=case%facade)
+            call read_rows(case%table, members, error)
          else
             allocate (members(1))
             members(1)%wall = case%wall

@@ -1,8 +1,9 @@
-!> The table of a population: its columns, and the cells of its rows.
+!> What the rows of a population are taken from: a CSV table with one row a mechanism of a wall, its columns those of &wall,
+!> and weight, group, p_occ and facade; or one facade or wall with variants, as &wall says it.
 !>
-!> A cell that is empty was not given. A list has a column for each of its values.
+!> A cell that is empty was not given. A list has a column for each of its values. The text of the table stays in memory.
 module dondolo_population_table
-   use dondolo_csv_reader, only : csv_reader_type
+   use dondolo_csv_reader, only : csv_row_type, csv_table_type
    use dondolo_error, only : error_type, problems_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_member, only : member_properties
@@ -11,24 +12,33 @@ module dondolo_population_table
    use dondolo_settings, only : settings_type
    use dondolo_spelling, only : say_allowed
    use dondolo_text, only : lower
+   use dondolo_variants, only : stated_wall_type
    use dondolo_wall_properties, only : wall_input_type, wall_properties
    implicit none
    private
 
    public :: population_table_type
 
-   !> A table and its columns
+   !> A table and its columns, or what stands for it
    type :: population_table_type
+      !> Path of what is read, for messages
+      character(len=:), allocatable :: file
+      !> Gravity [m/s2]; not allocated: standard
+      real(wp), allocatable :: gravity
+      !> A facade, or a wall with variants, that is the whole population; not allocated: there is a table
+      type(stated_wall_type), allocatable :: facade
       !> The table
-      type(csv_reader_type) :: table
+      type(csv_table_type) :: csv
       !> Its columns of the properties of walls and of members; 0 where it has none
       integer :: wall_columns(size(wall_properties)) = 0, member_columns(size(member_properties)) = 0
       !> Columns of values of lists: place of each list among the properties of walls, number of the value and column, and
       !> in the order of the values of each list
       integer, allocatable :: items(:, :)
    contains
-      !> Open the table and find its columns
-      procedure :: open_table
+      !> Read the table and find its columns
+      procedure :: read => read_table
+      !> Can a row become several?
+      procedure :: has_hinges
       !> Has the row something in a column?
       procedure :: is_given
       !> Read the cells of a row that give properties
@@ -39,13 +49,15 @@ module dondolo_population_table
 
 contains
 
-   !> Open the table and find its columns
-   subroutine open_table(self, file, error)
+   !> Read the table and find its columns
+   subroutine read_table(self, file, error, gravity)
       class(population_table_type), intent(inout) :: self
       !> Its path
       character(len=*), intent(in) :: file
       !> No table, or a column that does not exist, or one that is missing
       type(error_type), allocatable, intent(out) :: error
+      !> Gravity [m/s2], standard if absent
+      real(wp), intent(in), optional :: gravity
 
       ! Properties of walls as columns: of a list its first value. An array, for gfortran 12 takes a wrong length for a text
       ! whose length follows from the result of a function.
@@ -59,11 +71,13 @@ contains
          if (is_many(wall_properties(i)%kind)) shown(i) = item_name(trim(wall_properties(i)%name), 1)
       end do
       of_members = member_properties%name
-      call self%table%open(file, error)
+      self%file = file
+      if (present(gravity)) self%gravity = gravity
+      call self%csv%read(file, error)
       if (allocated(error)) return
       self%items = reshape([integer ::], [3, 0])
-      do i = 1, size(self%table%columns)
-         associate (column => self%table%columns(i)%text)
+      do i = 1, size(self%csv%columns)
+         associate (column => self%csv%columns(i)%text)
             call find_item(wall_properties, lower(column), at, item)
             if (at > 0) self%items = reshape([self%items, at, item, i], [3, size(self%items, 2) + 1])
             if (at > 0 .or. any(lower(column) == shown) .or. any(lower(column) == of_members)) cycle
@@ -74,21 +88,16 @@ contains
             if (len_trim(odd_character(column)) > 0) allowed = '; it has '//trim(odd_character(column))
             call raise_input(error, file//': column '''//column//''': no such column'//allowed)
          end associate
-         call self%table%close()
          return
       end do
       call sort_items(self%items)
-      self%wall_columns = [(self%table%column(trim(wall_properties(i)%name)), i=1, size(wall_properties))]
-      self%member_columns = [(self%table%column(trim(member_properties(i)%name)), i=1, size(member_properties))]
+      self%wall_columns = [(self%csv%column(trim(wall_properties(i)%name)), i=1, size(wall_properties))]
+      self%member_columns = [(self%csv%column(trim(member_properties(i)%name)), i=1, size(member_properties))]
       call find_missing(self, file, error)
-      if (allocated(error)) then
-         call self%table%close()
-         return
-      end if
-      call self%table%find_decimal_mark([pack(self%wall_columns, wall_properties%kind /= is_text), &
+      if (.not. allocated(error)) call self%csv%find_decimal_mark([pack(self%wall_columns, wall_properties%kind /= is_text), &
          & pack(self%member_columns, member_properties%kind /= is_text), &
-         & pack(self%items(3, :), wall_properties(self%items(1, :))%kind == is_list)], error)
-   end subroutine open_table
+         & pack(self%items(3, :), wall_properties(self%items(1, :))%kind == is_list)])
+   end subroutine read_table
 
    !> Find a column that every wall needs and the table does not have: said once, not of each row
    subroutine find_missing(self, file, error)
@@ -130,20 +139,29 @@ contains
       end do
    end subroutine sort_items
 
-   !> Has the row something in a column? Blanks alone are nothing
-   logical function is_given(self, column)
-      !> The table, at a row
+   !> Can a row become several, for each of its hinges?
+   pure logical function has_hinges(self)
       class(population_table_type), intent(in) :: self
+
+      has_hinges = allocated(self%facade)
+      if (.not. has_hinges) has_hinges = self%wall_columns(find_property(wall_properties, 'hinge_at')) > 0 &
+         & .or. any(self%items(1, :) == find_property(wall_properties, 'hinge_level'))
+   end function has_hinges
+
+   !> Has a row something in a column? Blanks alone are nothing
+   logical function is_given(self, row, column)
+      class(population_table_type), intent(in) :: self
+      type(csv_row_type), intent(in) :: row
       !> Its number, or 0
       integer, intent(in) :: column
 
-      is_given = len_trim(self%table%get_text(column)) > 0
+      is_given = len_trim(row%get_text(column)) > 0
    end function is_given
 
    !> Read the cells of a row that give properties
-   subroutine read_cells(self, columns, settings, problems)
-      !> The table, at a row
+   subroutine read_cells(self, row, columns, settings, problems)
       class(population_table_type), intent(in) :: self
+      type(csv_row_type), intent(in) :: row
       !> Columns of the properties
       integer, intent(in) :: columns(:)
       !> What is said in the row
@@ -158,21 +176,21 @@ contains
 
       call settings%get_table(table)
       do i = 1, size(table)
-         if (.not. self%is_given(columns(i))) cycle
+         if (.not. self%is_given(row, columns(i))) cycle
          if (table(i)%kind == is_text) then
-            call settings%set(table(i)%name, self%table%get_text(columns(i)))
+            call settings%set(table(i)%name, row%get_text(columns(i)))
             cycle
          end if
-         call self%table%get_real(columns(i), number, error)
+         call self%csv%get_real(row, columns(i), number, error)
          if (.not. allocated(error)) call settings%set(table(i)%name, number)
          call problems%take(error)
       end do
    end subroutine read_cells
 
    !> Read the cells of a row that give values of lists; a list ends at the first cell that is empty
-   subroutine read_lists(self, input, problems)
-      !> The table, at a row
+   subroutine read_lists(self, row, input, problems)
       class(population_table_type), intent(in) :: self
+      type(csv_row_type), intent(in) :: row
       !> What is said of the wall
       type(wall_input_type), intent(inout) :: input
       !> Takes every cell that should be a number and is none, or that stands behind an empty one
@@ -193,7 +211,7 @@ contains
             end if
             if (count == 0) values = [real(wp) ::]
             if (count == 0) words = ''
-            cell = trim(self%table%get_text(self%items(3, i)))
+            cell = trim(row%get_text(self%items(3, i)))
             if (len(cell) == 0) cycle
             if (item /= count + 1) then
                call problems%note(trim(item_name(trim(property%name), item))//': only behind '// &
@@ -207,7 +225,7 @@ contains
                call input%set(property%name, words)
                cycle
             end if
-            call self%table%get_real(self%items(3, i), number, error)
+            call self%csv%get_real(row, self%items(3, i), number, error)
             call problems%take(error)
             values = [values, number]
             call input%set(property%name, values)

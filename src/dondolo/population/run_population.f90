@@ -1,11 +1,11 @@
 !> A population through the stripes, block after block, so that memory holds the histories of one block only: rows that a
 !> store lacks are read, run, and put into it.
 module dondolo_run_population
-   use dondolo_error, only : error_type, raise_failure
+   use dondolo_error, only : error_type
    use dondolo_interrupt, only : check_interrupt
-   use dondolo_kinds, only : wp
    use dondolo_member, only : member_type
    use dondolo_population_reader, only : population_reader_type
+   use dondolo_population_table, only : population_table_type
    use dondolo_queue, only : progress_interface
    use dondolo_row_result, only : row_result_type
    use dondolo_run_rows, only : run_rows
@@ -13,7 +13,6 @@ module dondolo_run_population
    use dondolo_study, only : study_type
    use dondolo_text, only : to_text
    use dondolo_threads, only : team_of
-   use dondolo_variants, only : stated_wall_type
    implicit none
    private
 
@@ -28,23 +27,19 @@ module dondolo_run_population
 contains
 
    !> Run the rows that a store lacks
-   subroutine run_population(study, table, gravity, store, histories, error, progress, facade)
+   subroutine run_population(study, table, store, histories, error, progress)
       !> What the walls are tried with
       type(study_type), intent(in) :: study
-      !> Path of the table of walls, which was checked
-      character(len=*), intent(in) :: table
-      !> Gravity [m/s2]
-      real(wp), intent(in) :: gravity
+      !> The table of walls, which was checked
+      type(population_table_type), intent(in) :: table
       !> The store, claimed; complete at the end
       type(store_type), intent(inout) :: store
       !> Histories of all rows that the store is for
       integer, intent(in) :: histories
-      !> What cannot be run, or the table has changed
+      !> What cannot be run
       type(error_type), allocatable, intent(out) :: error
       !> Hears how far the work is, in histories
       procedure(progress_interface), optional :: progress
-      !> The facade, or the wall with variants, that is the whole population; absent: the table
-      type(stated_wall_type), intent(in), optional :: facade
 
       type(population_reader_type) :: reader
       type(member_type), allocatable :: members(:)
@@ -53,8 +48,8 @@ contains
       integer :: block
 
       block = block_size(study, histories, store%identity%last - store%identity%first + 1)
-      call reader%open(table, error, gravity, is_checked=.false., facade=facade)
-      do while (.not. allocated(error))
+      reader%names%is_checked = .false.
+      do
          call read_block(reader, table, store, block, members, numbers, error)
          if (allocated(error) .or. size(members) == 0) exit
          call run_rows(study, members, rows, error, int(store%work%histories), histories, progress)
@@ -69,15 +64,13 @@ contains
          rows%row = numbers
          call store%put(rows, error)
       end do
-      call reader%close()
       if (present(progress) .and. .not. allocated(error)) call progress(histories, histories)
    end subroutine run_population
 
    !> Read the next rows that a store lacks
    subroutine read_block(reader, table, store, most, members, numbers, error)
       type(population_reader_type), intent(inout) :: reader
-      !> Its path
-      character(len=*), intent(in) :: table
+      type(population_table_type), intent(in) :: table
       type(store_type), intent(in) :: store
       !> How many at most
       integer, intent(in) :: most
@@ -85,7 +78,7 @@ contains
       type(member_type), allocatable, intent(out) :: members(:)
       !> Their numbers
       integer, allocatable, intent(out) :: numbers(:)
-      !> The table has changed
+      !> A row that is wrong
       type(error_type), allocatable, intent(out) :: error
 
       integer :: i, row
@@ -102,10 +95,8 @@ contains
       numbers = numbers(:i)
       allocate (members(i))
       do i = 1, size(numbers)
-         call reader%skip(numbers(i) - 1 - reader%row, error)
-         if (allocated(error)) return
-         call reader%next(members(i), found, error)
-         if (.not. found .and. .not. allocated(error)) call raise_failure(error, table//': has changed while it was read')
+         call reader%skip(table, numbers(i) - 1 - reader%row, error)
+         if (.not. allocated(error)) call reader%next(table, members(i), found, error)
          if (allocated(error)) return
       end do
    end subroutine read_block

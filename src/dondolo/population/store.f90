@@ -20,7 +20,7 @@ module dondolo_store
    implicit none
    private
 
-   public :: store_type, open_store, look_into_store
+   public :: store_type, open_store, look_into_store, read_result
 
    !> A store
    type :: store_type
@@ -344,8 +344,28 @@ contains
       if (bytes == 0 .or. row%row /= number) call raise_failure(error, self%path//': has changed while it was read')
    end subroutine read_row
 
+   !> Read what came of a row from the store that has it
+   subroutine read_result(stores, number, row, error)
+      !> Stores of all rows, complete and in their order
+      type(store_type), intent(inout) :: stores(:)
+      !> Number of the row
+      integer, intent(in) :: number
+      type(row_result_type), intent(out) :: row
+      !> The file has changed
+      type(error_type), allocatable, intent(out) :: error
+
+      integer :: k
+
+      do k = 1, size(stores) - 1
+         if (number <= stores(k)%identity%last) exit
+      end do
+      call stores(k)%read(number, row, error)
+      ! Rows are read in their order: many parts need not be open at once.
+      if (number == stores(k)%identity%last) call stores(k)%close()
+   end subroutine read_result
+
    !> End putting in and reading; a store that has all rows gets them in their order
-   subroutine close_store(self)
+   impure elemental subroutine close_store(self)
       class(store_type), intent(inout) :: self
 
       logical :: ok

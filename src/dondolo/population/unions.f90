@@ -110,6 +110,7 @@ contains
       type(union_type), intent(in) :: union
 
       self%wall(place) = wall
+      self%name(place)%text = union%name
       self%fraction(:, :, place) = union%fraction
       self%curve(:, place) = union%curve
    end subroutine keep
@@ -157,7 +158,7 @@ contains
 
    !> Count and fit the union of the mechanisms of a wall
    subroutine wall_union(union, builder, population, wall, clusters, runs, error)
-      !> The union: fractions and curves are set, what else it has follows from the population
+      !> The union: fractions and curves are set, what else it has but its name follows from the population
       type(union_type), intent(out) :: union
       !> All mechanisms of the wall
       type(union_builder_type), intent(in) :: builder

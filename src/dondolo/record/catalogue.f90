@@ -10,7 +10,7 @@
 module dondolo_catalogue
    use dondolo_catalogue_source, only : describe_source, read_source, source_type, take_source
    use dondolo_channel, only : stem
-   use dondolo_csv_reader, only : csv_reader_type
+   use dondolo_csv_reader, only : csv_row_type, csv_table_type
    use dondolo_error, only : add_place, error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
@@ -68,28 +68,25 @@ contains
       !> Threads that read the files; 0 or absent: all that OpenMP gives
       integer, intent(in), optional :: threads
 
-      type(csv_reader_type) :: table
+      type(csv_table_type) :: table
       type(lines_type) :: paths, places, names
       type(record_rows_type) :: runs
       type(source_type), allocatable :: sources(:)
       type(error_type), allocatable :: later
       integer :: number, count, row, asked
 
-      call count_rows(file, number, error)
+      call table%read(file, error)
+      if (.not. allocated(error)) call count_rows(table, number, error)
       if (.not. allocated(error)) call check_room(bytes_of_row*real(number, wp), error)
-      if (.not. allocated(error)) call table%open(file, error)
-      if (.not. allocated(error)) call table%find_decimal_mark([table%column('dt_s'), table%column('level'), &
-         & table%column('factor')], error)
       if (allocated(error)) return
+      call table%find_decimal_mark([table%column('dt_s'), table%column('level'), table%column('factor')])
       if (present(vertical_factor) .and. table%column('vertical') == 0) then
          call raise_input(error, file//': no column ''vertical'': must name the vertical component of each record')
-         call table%close()
          return
       end if
       if (present(note)) note = table%note()
       allocate (sources(number))
       call take_rows(table, present(vertical_factor), runs, sources, count, later)
-      call table%close()
       allocate (records(count))
       asked = 0
       if (present(threads)) asked = threads
@@ -113,8 +110,8 @@ contains
 
    !> Take what the rows say, up to one that is wrong
    subroutine take_rows(table, with_verticals, runs, sources, count, error)
-      !> The catalogue, open
-      type(csv_reader_type), intent(inout) :: table
+      !> The catalogue
+      type(csv_table_type), intent(in) :: table
       !> Are vertical components read?
       logical, intent(in) :: with_verticals
       !> Which records run at which levels
@@ -126,35 +123,34 @@ contains
       !> What is wrong
       type(error_type), allocatable, intent(out) :: error
 
+      type(csv_row_type) :: row
       type(name_index_type) :: known
       character(len=:), allocatable :: described
-      integer :: row, earlier
+      integer :: i, earlier
       logical :: found
 
       runs%have_levels = table%column('level') > 0
       allocate (runs%record(size(sources)))
       allocate (runs%level(size(sources)), runs%factor(size(sources)), source=0.0_wp)
       count = 0
-      do row = 1, size(sources)
-         call table%next(found, error)
-         if (.not. allocated(error) .and. .not. found) call raise_input(error, table%lines%file// &
-            & ': has changed while it was read')
-         if (.not. allocated(error)) call read_run(table, runs%level(row), runs%factor(row), error)
+      do i = 1, size(sources)
+         call table%next(row, found, error)
+         if (.not. allocated(error)) call read_run(table, row, runs%level(i), runs%factor(i), error)
          if (allocated(error)) return
          ! Of a record at several levels the first row reads it.
          earlier = 0
          if (runs%have_levels) then
-            call describe_source(table, described)
+            call describe_source(table, row, described)
             call known%note(described, count + 1, earlier)
          end if
          if (earlier == 0) then
-            call take_source(table, with_verticals, sources(count + 1), error)
+            call take_source(table, row, with_verticals, sources(count + 1), error)
             if (allocated(error)) return
             count = count + 1
             earlier = count
          end if
-         runs%record(row) = earlier
-         call runs%place%add(table%place())
+         runs%record(i) = earlier
+         call runs%place%add(table%place(row))
       end do
    end subroutine take_rows
 
@@ -191,9 +187,10 @@ contains
    end subroutine read_files
 
    !> Read the level and the factor of a row
-   subroutine read_run(table, level, factor, error)
-      !> The catalogue, with a row
-      type(csv_reader_type), intent(in) :: table
+   subroutine read_run(table, row, level, factor, error)
+      !> The catalogue, and a row of it
+      type(csv_table_type), intent(in) :: table
+      type(csv_row_type), intent(in) :: row
       !> Level; 0: every level
       real(wp), intent(inout) :: level
       !> Factor; 0: computed
@@ -201,16 +198,17 @@ contains
       !> A level or a factor that is none
       type(error_type), allocatable, intent(out) :: error
 
-      call read_positive(table, 'level', level, error)
-      if (.not. allocated(error)) call read_positive(table, 'factor', factor, error)
+      call read_positive(table, row, 'level', level, error)
+      if (.not. allocated(error)) call read_positive(table, row, 'factor', factor, error)
       if (allocated(error) .or. .not. factor > 0.0_wp .or. level > 0.0_wp) return
-      call raise_input(error, table%place()//': factor = '//to_text(factor)//': needs the level at which it applies')
+      call raise_input(error, table%place(row)//': factor = '//to_text(factor)//': needs the level at which it applies')
    end subroutine read_run
 
    !> Read a cell with a positive number
-   subroutine read_positive(table, name, value, error)
-      !> The catalogue, with a row
-      type(csv_reader_type), intent(in) :: table
+   subroutine read_positive(table, row, name, value, error)
+      !> The catalogue, and a row of it
+      type(csv_table_type), intent(in) :: table
+      type(csv_row_type), intent(in) :: row
       !> Name of the column
       character(len=*), intent(in) :: name
       !> The number; stays as it is where the cell is empty
@@ -218,48 +216,45 @@ contains
       !> No number, or not positive
       type(error_type), allocatable, intent(out) :: error
 
-      if (len_trim(table%get_text(table%column(name))) == 0) return
-      call table%get_real(table%column(name), value, error)
-      call add_place(error, table%place())
+      if (len_trim(row%get_text(table%column(name))) == 0) return
+      call table%get_real(row, table%column(name), value, error)
+      call add_place(error, table%place(row))
       if (allocated(error)) return
-      if (.not. (value > 0.0_wp .and. value <= huge(value))) call raise_input(error, table%place()//': '//name//' = '// &
+      if (.not. (value > 0.0_wp .and. value <= huge(value))) call raise_input(error, table%place(row)//': '//name//' = '// &
          & to_text(value)//': must be positive')
    end subroutine read_positive
 
    !> Look through a catalogue before its records are read
-   subroutine count_rows(file, rows, error)
-      !> Path of the catalogue
-      character(len=*), intent(in) :: file
+   subroutine count_rows(table, rows, error)
+      !> The catalogue
+      type(csv_table_type), intent(in) :: table
       !> Number of its rows
       integer, intent(out) :: rows
       !> It is no table, or not of records
       type(error_type), allocatable, intent(out) :: error
 
-      type(csv_reader_type) :: table
+      type(csv_row_type) :: row
       logical :: found
 
       rows = 0
-      call table%open(file, error)
-      if (allocated(error)) return
       if (table%column('file') == 0) then
-         call raise_input(error, file//': no column ''file'': must have file, and dt_s and units '// &
+         call raise_input(error, table%file//': no column ''file'': must have file, and dt_s and units '// &
             & 'where the files do not state them')
       else if (table%column('dt') > 0 .and. table%column('dt_s') == 0) then
-         call raise_input(error, file//': column ''dt'': the time step must stand in the column dt_s, in seconds')
+         call raise_input(error, table%file//': column ''dt'': the time step must stand in the column dt_s, in seconds')
       else if (table%column('unit') > 0 .and. table%column('units') == 0) then
-         call raise_input(error, file//': column ''unit'': the units of the accelerations must stand in the column units')
+         call raise_input(error, table%file//': column ''unit'': the units of the accelerations must stand in the column units')
       else
          do
-            call table%next(found, error)
+            call table%next(row, found, error)
             if (allocated(error) .or. .not. found) exit
             rows = rows + 1
             if (rows <= most_records) cycle
-            call raise_input(error, file//': more than '//to_text(most_records)//' records')
+            call raise_input(error, table%file//': more than '//to_text(most_records)//' records')
             exit
          end do
-         if (rows == 0 .and. .not. allocated(error)) call raise_input(error, file//': no records')
+         if (rows == 0 .and. .not. allocated(error)) call raise_input(error, table%file//': no records')
       end if
-      call table%close()
    end subroutine count_rows
 
    !> Give every record a name of its own

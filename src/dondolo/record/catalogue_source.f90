@@ -7,7 +7,7 @@
 module dondolo_catalogue_source
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_checksum, only : crc32_length, crc32_of_file
-   use dondolo_csv_reader, only : csv_reader_type
+   use dondolo_csv_reader, only : csv_row_type, csv_table_type
    use dondolo_dead_channel, only : check_vertical_motion
    use dondolo_earthquake, only : settle_labels
    use dondolo_error, only : add_place, error_type, raise_input
@@ -56,9 +56,10 @@ module dondolo_catalogue_source
 contains
 
    !> What a row says of the record that it names, by which rows of the same record are recognised
-   subroutine describe_source(table, text)
-      !> The catalogue, with a row
-      type(csv_reader_type), intent(in) :: table
+   subroutine describe_source(table, row, text)
+      !> The catalogue, and a row of it
+      type(csv_table_type), intent(in) :: table
+      type(csv_row_type), intent(in) :: row
       !> Its cells, with a character in between that none of them holds
       character(len=:), allocatable, intent(out) :: text
 
@@ -66,14 +67,15 @@ contains
 
       text = ''
       do i = 1, columns_of_record
-         text = text//table%get_text(table%column(trim(own_columns(i))))//achar(0)
+         text = text//row%get_text(table%column(trim(own_columns(i))))//achar(0)
       end do
    end subroutine describe_source
 
    !> Take what a row says of a record
-   subroutine take_source(table, with_vertical, source, error)
-      !> The catalogue, with a row
-      type(csv_reader_type), intent(in) :: table
+   subroutine take_source(table, row, with_vertical, source, error)
+      !> The catalogue, and a row of it
+      type(csv_table_type), intent(in) :: table
+      type(csv_row_type), intent(in) :: row
       !> Is the vertical component read too?
       logical, intent(in) :: with_vertical
       !> Where the record is
@@ -83,35 +85,36 @@ contains
 
       integer :: i
 
-      source%place = table%place()
-      source%written = table%get_text(table%column('file'))
-      source%name = trim(adjustl(table%get_text(table%column('name'))))
-      call find_path(table, 'file', source%path, error)
+      source%place = table%place(row)
+      source%written = row%get_text(table%column('file'))
+      source%name = trim(adjustl(row%get_text(table%column('name'))))
+      call find_path(table, row, 'file', source%path, error)
       if (allocated(error)) return
-      source%units = table%get_text(table%column('units'))
-      source%channel = table%get_text(table%column('channel'))
-      source%format = table%get_text(table%column('format'))
-      call take_checksum(table, 'crc32', source%checksum, error)
-      if (.not. allocated(error)) call take_checksum(table, 'vertical_crc32', source%vertical_checksum, error)
+      source%units = row%get_text(table%column('units'))
+      source%channel = row%get_text(table%column('channel'))
+      source%format = row%get_text(table%column('format'))
+      call take_checksum(table, row, 'crc32', source%checksum, error)
+      if (.not. allocated(error)) call take_checksum(table, row, 'vertical_crc32', source%vertical_checksum, error)
       if (allocated(error)) return
-      if (len_trim(table%get_text(table%column('dt_s'))) > 0) then
+      if (len_trim(row%get_text(table%column('dt_s'))) > 0) then
          allocate (source%dt)
-         call table%get_real(table%column('dt_s'), source%dt, error)
+         call table%get_real(row, table%column('dt_s'), source%dt, error)
          call add_place(error, source%place)
          if (allocated(error)) return
       end if
       do i = 1, size(table%columns)
          associate (title => table%columns(i)%text)
-            if (.not. any(own_columns == lower(title))) call source%metadata%set(title, table%get_text(i))
+            if (.not. any(own_columns == lower(title))) call source%metadata%set(title, row%get_text(i))
          end associate
       end do
-      if (with_vertical) call take_vertical(table, source)
+      if (with_vertical) call take_vertical(table, row, source)
    end subroutine take_source
 
    !> Take the checksum of a file
-   subroutine take_checksum(table, name, checksum, error)
-      !> The catalogue, with a row
-      type(csv_reader_type), intent(in) :: table
+   subroutine take_checksum(table, row, name, checksum, error)
+      !> The catalogue, and a row of it
+      type(csv_table_type), intent(in) :: table
+      type(csv_row_type), intent(in) :: row
       !> Name of the column
       character(len=*), intent(in) :: name
       !> Hexadecimal figures in lower case; empty: none is given
@@ -119,27 +122,28 @@ contains
       !> It is none
       type(error_type), allocatable, intent(out) :: error
 
-      checksum = lower(trim(adjustl(table%get_text(table%column(name)))))
+      checksum = lower(trim(adjustl(row%get_text(table%column(name)))))
       if (len(checksum) == 0) return
       if (len(checksum) == crc32_length .and. verify(checksum, '0123456789abcdef') == 0) return
-      call raise_input(error, table%place()//': '//name//' = '''//shown(checksum)//''': must be a CRC-32 of '// &
+      call raise_input(error, table%place(row)//': '//name//' = '''//shown(checksum)//''': must be a CRC-32 of '// &
          & to_text(crc32_length)//' hexadecimal figures')
    end subroutine take_checksum
 
    !> Take where the vertical component is: a channel of the same file where the record is one, else a file
-   subroutine take_vertical(table, source)
-      !> The catalogue, with a row
-      type(csv_reader_type), intent(in) :: table
+   subroutine take_vertical(table, row, source)
+      !> The catalogue, and a row of it
+      type(csv_table_type), intent(in) :: table
+      type(csv_row_type), intent(in) :: row
       !> Where the record is
       type(source_type), intent(inout) :: source
 
       source%vertical_channel = ''
-      if (len_trim(table%get_text(table%column('vertical'))) == 0) then
+      if (len_trim(row%get_text(table%column('vertical'))) == 0) then
          call raise_input(source%vertical_error, source%place//': vertical is empty: must name the vertical component')
       else if (len_trim(source%channel) > 0) then
-         source%vertical_channel = table%get_text(table%column('vertical'))
+         source%vertical_channel = row%get_text(table%column('vertical'))
       else
-         call find_path(table, 'vertical', source%vertical_path, source%vertical_error)
+         call find_path(table, row, 'vertical', source%vertical_path, source%vertical_error)
       end if
    end subroutine take_vertical
 
@@ -209,9 +213,10 @@ contains
    end subroutine read_component
 
    !> Path in a cell of a row, relative to the folder of the catalogue
-   subroutine find_path(table, name, path, error)
-      !> The catalogue, with a row
-      type(csv_reader_type), intent(in) :: table
+   subroutine find_path(table, row, name, path, error)
+      !> The catalogue, and a row of it
+      type(csv_table_type), intent(in) :: table
+      type(csv_row_type), intent(in) :: row
       !> Name of the column
       character(len=*), intent(in) :: name
       !> Path from the current folder
@@ -221,16 +226,16 @@ contains
 
       logical :: exists
 
-      path = table%get_text(table%column(name))
+      path = row%get_text(table%column(name))
       if (len_trim(path) == 0) then
-         call raise_input(error, table%place()//': '//name//' is empty: must name a file')
+         call raise_input(error, table%place(row)//': '//name//' is empty: must name a file')
          return
       end if
-      associate (file => table%lines%file)
+      associate (file => table%file)
          if (.not. is_absolute(path)) path = file(:scan(file, '/\', back=.true.))//path
       end associate
       inquire (file=path, exist=exists)
-      if (index(path, '\') > 0 .and. .not. exists) call raise_input(error, table%place()//': '//path// &
+      if (index(path, '\') > 0 .and. .not. exists) call raise_input(error, table%place(row)//': '//path// &
          & ': no such file: folders must be separated by /, not \')
    end subroutine find_path
 

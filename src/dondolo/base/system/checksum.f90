@@ -9,7 +9,7 @@ module dondolo_checksum
    implicit none
    private
 
-   public :: crc32_of_file, crc32_of_reals, crc32_length
+   public :: crc32_of_file, crc32_of_reals, crc32_of_text, crc32_length
 
    !> Length of a checksum in hexadecimal figures
    integer, parameter :: crc32_length = 8
@@ -67,11 +67,27 @@ contains
       close (unit)
       ok = stat == 0
       if (.not. ok) return
-      do i = 1, int(left)
-         crc = ieor(table(iand(ieor(crc, int(ichar(tail(i:i)), int32)), 255), 1), shiftr(crc, 8))
-      end do
+      call add_tail(crc, tail(:left), table)
       checksum = hexadecimal(not(crc))
    end subroutine crc32_of_file
+
+   !> Checksum of the bytes of a text
+   pure function crc32_of_text(text) result(checksum)
+      character(len=*), intent(in) :: text
+      !> Checksum, hexadecimal in lower case
+      character(len=crc32_length) :: checksum
+
+      integer(int32) :: table(0:255, 8), crc
+      integer :: i
+
+      call make_tables(table)
+      crc = not(0_int32)
+      do i = 1, len(text) - 7, 8
+         call add_bytes(crc, transfer(text(i:i + 7), 0_int64), table)
+      end do
+      call add_tail(crc, text(i:), table)
+      checksum = hexadecimal(not(crc))
+   end function crc32_of_text
 
    !> Checksum of numbers in double precision
    pure function crc32_of_reals(values) result(checksum)
@@ -102,6 +118,22 @@ contains
          if (text(i:i) >= 'A') text(i:i) = achar(iachar(text(i:i)) + 32)
       end do
    end function hexadecimal
+
+   !> Take in what is left, less than eight bytes
+   pure subroutine add_tail(crc, tail, table)
+      !> Remainder so far
+      integer(int32), intent(inout) :: crc
+      !> The bytes
+      character(len=*), intent(in) :: tail
+      !> Tables of make_tables
+      integer(int32), intent(in) :: table(0:255, 8)
+
+      integer :: i
+
+      do i = 1, len(tail)
+         crc = ieor(table(iand(ieor(crc, int(ichar(tail(i:i)), int32)), 255), 1), shiftr(crc, 8))
+      end do
+   end subroutine add_tail
 
    !> Take in eight bytes; the word is little-endian, as those of all processors that dondolo runs on
    pure subroutine add_bytes(crc, word, table)

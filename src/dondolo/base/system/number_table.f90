@@ -1,6 +1,6 @@
 !> Tables of numbers alone, such as hazard curves.
 module dondolo_number_table
-   use dondolo_csv_reader, only : csv_reader_type
+   use dondolo_csv_reader, only : csv_row_type, csv_table_type
    use dondolo_csv_row, only : cell_type
    use dondolo_error, only : add_place, error_type, raise_input
    use dondolo_kinds, only : wp
@@ -26,20 +26,21 @@ contains
       !> No table, a cell that is no number, or too many numbers
       type(error_type), allocatable, intent(out) :: error
 
-      type(csv_reader_type) :: table
+      type(csv_table_type) :: table
+      type(csv_row_type) :: row
       real(wp), allocatable :: more(:, :)
       integer :: i, rows
       logical :: found
 
-      call table%open(file, error)
-      if (.not. allocated(error)) call table%find_decimal_mark([(i, i=1, size(table%columns))], error)
+      call table%read(file, error)
       if (allocated(error)) return
+      call table%find_decimal_mark([(i, i=1, size(table%columns))])
       note = table%note()
       columns = table%columns
       allocate (values(size(columns), 8))
       rows = 0
       do
-         call table%next(found, error)
+         call table%next(row, found, error)
          if (allocated(error) .or. .not. found) exit
          if (rows == size(values, 2)) then
             allocate (more(size(columns), 2*rows))
@@ -48,17 +49,16 @@ contains
          end if
          rows = rows + 1
          if (rows*size(columns) > most_numbers) then
-            call raise_input(error, table%place()//': more than '//to_text(most_numbers)//' numbers')
+            call raise_input(error, table%place(row)//': more than '//to_text(most_numbers)//' numbers')
             exit
          end if
          do i = 1, size(columns)
-            call table%get_real(i, values(i, rows), error)
-            call add_place(error, table%place())
+            call table%get_real(row, i, values(i, rows), error)
+            call add_place(error, table%place(row))
             if (allocated(error)) exit
          end do
          if (allocated(error)) exit
       end do
-      call table%close()
       values = values(:, :rows)
    end subroutine read_number_table
 

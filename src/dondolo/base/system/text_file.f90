@@ -2,7 +2,7 @@
 module dondolo_text_file
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_encoding, only : byte_order_mark, encoding_problem, from_latin, is_ascii, is_utf8, mend_line_ends, &
-      & take_utf16, utf16_order
+      & from_utf16, utf16_order
    use dondolo_error, only : add_place, error_type, raise_input, raise_missing
    use dondolo_kinds, only : wp
    use dondolo_memory, only : check_room
@@ -12,7 +12,7 @@ module dondolo_text_file
    implicit none
    private
 
-   public :: text_file_type, read_text_file, load_text, find_lines, find_content, open_text, is_blank
+   public :: text_file_type, read_text_file, load_text, decode_text, find_lines, find_content, is_blank
    public :: padding
 
    !> Memory that a text, the index of its lines and the numbers in it may take, in parts of its size
@@ -67,7 +67,7 @@ contains
    end subroutine read_text_file
 
    !> Read the bytes of a text file, in which no lines are known yet
-   subroutine load_text(file, text, error, longest)
+   subroutine load_text(file, text, error, longest, room)
       !> Path of the file
       character(len=*), intent(in) :: file
       type(text_file_type), intent(out) :: text
@@ -75,11 +75,17 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Most bytes that it may have, less than 2 GiB
       integer(int64), intent(in) :: longest
+      !> Memory that is needed, in parts of its size; if absent as much as the index of its lines and numbers in it may take
+      real(wp), intent(in), optional :: room
 
+      real(wp) :: parts
+
+      parts = bytes_of_byte
+      if (present(room)) parts = room
       text%file = file
       ! One thread at a time: a file that two rows of a catalogue name must not be open twice.
       !$omp critical (open_file)
-      call load(file, longest, text%text, error)
+      call load(file, longest, parts, text%text, error)
       !$omp end critical (open_file)
    end subroutine load_text
 
@@ -94,7 +100,8 @@ contains
 
       character(len=:), allocatable :: bytes_read
 
-      call settle(text)
+      call decode_text(text%text)
+      call index_lines(text)
       if (text%lines() == 0) then
          call raise_input(error, text%file//': the file is empty')
          return
@@ -111,11 +118,13 @@ contains
    end subroutine find_lines
 
    !> The bytes of a file
-   subroutine load(file, longest, content, error)
+   subroutine load(file, longest, room, content, error)
       !> Path of the file
       character(len=*), intent(in) :: file
       !> Most bytes that it may have
       integer(int64), intent(in) :: longest
+      !> Memory that is needed, in parts of its size
+      real(wp), intent(in) :: room
       !> What is in it
       character(len=:), allocatable, intent(out) :: content
       !> The file is missing, unreadable, empty or too large, for the memory too
@@ -131,7 +140,7 @@ contains
          call raise_input(error, file//': has '//to_text(bytes)//' bytes: must be at most '//to_text(longest))
          return
       end if
-      call check_room(bytes_of_byte*real(bytes, wp), error)
+      call check_room(room*real(bytes, wp), error)
       if (allocated(error)) then
          close (unit)
          call add_place(error, file)
@@ -145,24 +154,20 @@ contains
    end subroutine load
 
    !> Make UTF-8 with lines that end in LF or CRLF of what was read
-   subroutine settle(text)
-      !> Text file, its `text` known; its lines are found
-      type(text_file_type), intent(inout) :: text
+   subroutine decode_text(text)
+      !> Everything in a file
+      character(len=:), allocatable, intent(inout) :: text
 
       character(len=:), allocatable :: decoded
-      integer :: order, used
-      logical :: is_known, is_return
+      integer :: order
 
-      order = utf16_order(text%text)
+      order = utf16_order(text)
       if (order > 0) then
-         call take_utf16(text%text, order, .true., decoded, used)
-         call move_alloc(decoded, text%text)
+         call from_utf16(text, order, decoded)
+         call move_alloc(decoded, text)
       end if
-      is_known = .false.
-      is_return = .false.
-      call mend_line_ends(text%text, is_known, is_return)
-      call index_lines(text)
-   end subroutine settle
+      call mend_line_ends(text)
+   end subroutine decode_text
 
    !> Refuse a line that is not UTF-8, or has a NUL
    subroutine check_encoding(text, error)

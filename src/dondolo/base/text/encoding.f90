@@ -4,7 +4,7 @@ module dondolo_encoding
    implicit none
    private
 
-   public :: is_ascii, is_utf8, encoding_problem, next_character, utf16_order, take_utf16, from_latin
+   public :: is_ascii, is_utf8, encoding_problem, next_character, utf16_order, from_utf16, from_latin
    public :: mend_line_ends
    public :: byte_order_mark
 
@@ -153,17 +153,13 @@ contains
    end function utf16_order
 
    !> Make UTF-8 of UTF-16, without a byte order mark; a surrogate alone becomes U+FFFD
-   pure subroutine take_utf16(bytes, order, is_last, text, used)
-      !> UTF-16, from the beginning of a character
+   pure subroutine from_utf16(bytes, order, text)
+      !> UTF-16
       character(len=*), intent(in) :: bytes
       !> Byte order as of `utf16_order`
       integer, intent(in) :: order
-      !> Does nothing follow? A character that is cut off then is U+FFFD
-      logical, intent(in) :: is_last
-      !> UTF-8
+      !> UTF-8; a character that is cut off is U+FFFD
       character(len=:), allocatable, intent(out) :: text
-      !> Bytes that were used: all but those of a character that goes on beyond the end
-      integer, intent(out) :: used
 
       integer :: at, length, code, low
 
@@ -175,10 +171,6 @@ contains
          code = unit_at(at)
          at = at + 2
          if (code >= int(z'd800') .and. code <= int(z'dbff')) then
-            if (at > len(bytes) - 1 .and. .not. is_last) then
-               at = at - 2
-               exit
-            end if
             low = 0
             if (at <= len(bytes) - 1) low = unit_at(at)
             if (low >= int(z'dc00') .and. low <= int(z'dfff')) then
@@ -189,11 +181,7 @@ contains
          if (code >= int(z'd800') .and. code <= int(z'dfff')) code = replacement
          if (code /= int(z'feff')) call append_character(text, length, code)
       end do
-      used = at - 1
-      if (is_last .and. used < len(bytes)) then
-         call append_character(text, length, replacement)
-         used = len(bytes)
-      end if
+      if (at == len(bytes)) call append_character(text, length, replacement)
       text = text(:length)
 
    contains
@@ -207,7 +195,7 @@ contains
          if (order == 2) unit_at = iachar(bytes(i + 1:i + 1)) + 256*iachar(bytes(i:i))
       end function unit_at
 
-   end subroutine take_utf16
+   end subroutine from_utf16
 
    !> Make UTF-8 of Latin-1; what only Windows-1252 has becomes U+FFFD
    pure subroutine from_latin(bytes, text)
@@ -233,27 +221,17 @@ contains
    end subroutine from_latin
 
    !> Replace CR by LF where lines end in CR alone, as the first one shows
-   pure subroutine mend_line_ends(text, is_known, is_return)
-      !> Text, or the next part of it
+   pure subroutine mend_line_ends(text)
       character(len=*), intent(inout) :: text
-      !> Has the end of a line been seen?
-      logical, intent(inout) :: is_known
-      !> Is it a CR?
-      logical, intent(inout) :: is_return
 
       character(len=*), parameter :: line_feed = achar(10), return = achar(13)
       integer :: at, next, i
 
-      if (.not. is_known) then
-         at = scan(text, line_feed//return)
-         if (at == 0) return
-         next = verify(text(at:), return)
-         ! What follows the CR may stand in the next part
-         if (next == 0) return
-         is_known = .true.
-         is_return = text(at + next - 1:at + next - 1) /= line_feed
-      end if
-      if (.not. is_return) return
+      at = scan(text, line_feed//return)
+      if (at == 0) return
+      next = verify(text(at:), return)
+      if (next == 0) return
+      if (text(at + next - 1:at + next - 1) == line_feed) return
       do i = 1, len(text)
          if (text(i:i) == return) text(i:i) = line_feed
       end do

@@ -20,6 +20,9 @@ module dondolo_limits
    !> Samples of an accelerogram
    integer, parameter, public :: most_samples = 10000000
 
+   !> Bytes of a table
+   integer(int64), parameter, public :: longest_table = 2_int64**31 - 1
+
    !> Bytes of a line of a table, and of a cell over several lines
    integer, parameter, public :: longest_line = 2**20
 

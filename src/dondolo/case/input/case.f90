@@ -9,6 +9,7 @@ module dondolo_case
    use dondolo_lines, only : lines_type
    use dondolo_paths, only : beside
    use dondolo_population_group, only : put_population
+   use dondolo_population_table, only : population_table_type
    use dondolo_records_group, only : records_input_type
    use dondolo_settings, only : group_settings_type, new_settings
    use dondolo_settings_group, only : echo_settings
@@ -17,7 +18,6 @@ module dondolo_case
    use dondolo_study, only : new_study, study_type
    use dondolo_suite, only : suite_type
    use dondolo_survey, only : survey_type
-   use dondolo_variants, only : stated_wall_type
    use dondolo_wall, only : wall_type
    use dondolo_wall_properties, only : is_of_building, own_properties, wall_properties
    implicit none
@@ -35,8 +35,8 @@ module dondolo_case
       character(len=:), allocatable :: population_file
       !> Are its walls designs of one wall, to be compared with the first?
       logical :: designs = .false.
-      !> The facade, or the wall with variants, that is the population; not allocated: there is a table, or one wall
-      type(stated_wall_type), allocatable :: facade
+      !> What the rows of the population are taken from: its table, or a facade or wall with variants
+      type(population_table_type) :: table
       !> What is said of its variants; not allocated: it has none
       type(group_settings_type), allocatable :: uncertainty
       !> The wall, unless the task is 'typology'
@@ -153,10 +153,10 @@ contains
       if (allocated(self%population_file)) then
          call put_population(self%population_file, self%designs, settings)
          call echo_settings('population', settings, echoed)
-      else if (allocated(self%facade)) then
-         call echo_settings('wall', self%facade, echoed, last='restitution_factor', &
+      else if (allocated(self%table%facade)) then
+         call echo_settings('wall', self%table%facade, echoed, last='restitution_factor', &
             & rows=wall_properties(:own_properties))
-         if (self%facade%gives(is_of_building)) call echo_settings('building', self%facade, echoed, &
+         if (self%table%facade%gives(is_of_building)) call echo_settings('building', self%table%facade, echoed, &
             & rows=building_properties)
          if (allocated(self%uncertainty)) call echo_settings('uncertainty', self%uncertainty, echoed)
       else

@@ -118,7 +118,8 @@ contains
       range = [1, huge(1)]
       if (present(rows)) range = rows
       call case%make_study(study)
-      call survey_population(case%survey, case%population_path(), study, case%solver%gravity, range, error, case%facade)
+      if (.not. allocated(case%table%facade)) call case%table%read(case%population_path(), error, case%solver%gravity)
+      if (.not. allocated(error)) call survey_population(case%survey, case%table, study, range, error)
       if (allocated(error)) return
       if (len(case%survey%note) > 0) call case%notes%add(case%survey%note)
       if (case%survey%rubbing > 0) call note_friction(case, to_text(case%survey%rubbing)//' of '// &
@@ -245,18 +246,20 @@ contains
       type(member_type) :: member
       logical :: found
 
-      allocate (case%facade)
-      case%facade%wall_input_type = input
-      if (.not. case%facade%has('name')) call case%facade%set('name', trim(merge('wall  ', 'facade', variants%line > 0)))
+      case%table%file = case%file
+      case%table%gravity = case%solver%gravity
+      allocate (case%table%facade)
+      case%table%facade%wall_input_type = input
+      if (.not. case%table%facade%has('name')) call case%table%facade%set('name', trim(merge('wall  ', 'facade', &
+         & variants%line > 0)))
       if (variants%line > 0) then
          allocate (case%uncertainty)
-         call read_uncertainty_group(variants, case%facade, case%uncertainty, error)
+         call read_uncertainty_group(variants, case%table%facade, case%uncertainty, error)
          if (allocated(error)) return
       end if
-      call reader%open(case%file, error, case%solver%gravity, facade=case%facade)
-      found = .not. allocated(error)
+      found = .true.
       do while (found .and. .not. allocated(error))
-         call reader%next(member, found, error)
+         call reader%next(case%table, member, found, error)
       end do
    end subroutine make_facade
 

@@ -6,26 +6,24 @@ module dondolo_survey
    use dondolo_error, only : add_place, error_type, problems_type, raise_input
    use dondolo_fingerprint, only : fingerprint_type
    use dondolo_identity, only : add_wall
-   use dondolo_kinds, only : wp
    use dondolo_limits, only : most_groups
-   use dondolo_line_reader, only : line_reader_type
    use dondolo_lines, only : lines_type
    use dondolo_plausibility, only : wall_warning_type
    use dondolo_member, only : member_type
    use dondolo_population, only : population_type
    use dondolo_population_reader, only : population_reader_type
+   use dondolo_population_table, only : population_table_type
    use dondolo_solver, only : check_limit
    use dondolo_stripes, only : plan_stripes, stripes_type
    use dondolo_study, only : study_type
    use dondolo_support_notes, only : supports_type
    use dondolo_text, only : to_text
-   use dondolo_variants, only : stated_wall_type
    use dondolo_wall_properties, only : wall_properties
    use dondolo_warnings, only : scale_warning_type
    implicit none
    private
 
-   public :: survey_type, survey_population, check_size, fingerprint_lines
+   public :: survey_type, survey_population, check_size
 
    !> What a survey has found
    type :: survey_type
@@ -47,8 +45,8 @@ module dondolo_survey
       type(scale_warning_type) :: scales
       !> What there is to say of values that no masonry has
       type(wall_warning_type) :: oddities
-      !> Fingerprints of the lines of the table, and of the walls in it
-      type(fingerprint_type) :: fingerprint, walls_fingerprint
+      !> Fingerprint of the walls
+      type(fingerprint_type) :: walls_fingerprint
       !> How many values each property of a wall has at most
       integer, allocatable :: lengths(:)
       !> What moves the walls
@@ -63,21 +61,17 @@ module dondolo_survey
 contains
 
    !> Survey a population
-   subroutine survey_population(survey, file, study, gravity, rows, error, facade)
+   subroutine survey_population(survey, table, study, rows, error)
       !> What is found
       type(survey_type), intent(out) :: survey
-      !> Path of the table
-      character(len=*), intent(in) :: file
+      !> What it is taken from
+      type(population_table_type), intent(in) :: table
       !> What the walls are tried with
       type(study_type), intent(in) :: study
-      !> Gravity [m/s2]
-      real(wp), intent(in) :: gravity
       !> First and last row that are to be run
       integer, intent(in) :: rows(2)
       !> Everything that is wrong with the table, or the first level that asks too much
       type(error_type), allocatable, intent(out) :: error
-      !> The facade, or the wall with variants, that is the whole population; absent: the table
-      type(stated_wall_type), intent(in), optional :: facade
 
       type(population_reader_type) :: reader
       type(member_type) :: member
@@ -85,14 +79,12 @@ contains
       type(problems_type) :: problems
       logical :: found
 
-      call reader%open(file, error, gravity, facade=facade)
-      if (allocated(error)) return
       survey%first = rows(1)
       survey%note = ''
-      if (.not. present(facade)) survey%note = reader%table%note()
+      if (.not. allocated(table%facade)) survey%note = table%csv%note()
       allocate (survey%lengths(size(wall_properties)), source=0)
       do
-         call reader%next(member, found, error)
+         call reader%next(table, member, found, error)
          if (.not. found) exit
          survey%rows = reader%row
          if (.not. allocated(error)) then
@@ -108,13 +100,12 @@ contains
             if (survey%population%groups%count > most_groups) call refuse_group(survey%population%groups, error)
             if (.not. allocated(error)) call check_limit(study%solver, member%wall%mechanism, error)
             if (.not. allocated(error)) call check_engine(study%solver, member%wall%mechanism, error)
-            call add_place(error, reader%place())
+            call add_place(error, reader%place(table))
          end if
          if (.not. allocated(error)) then
             call plan_stripes(plan, member%wall, study, error)
             if (allocated(error)) then
-               call add_place(error, reader%place())
-               call reader%close()
+               call add_place(error, reader%place(table))
                return
             end if
             call survey%scales%look(plan, study, member%wall)
@@ -128,7 +119,6 @@ contains
       survey%last = min(rows(2), survey%rows)
       call problems%take(error)
       call problems%raise(error)
-      if (.not. (allocated(error) .or. present(facade))) call fingerprint_lines(file, survey%fingerprint, error)
    end subroutine survey_population
 
    !> Refuse a group that is one too many
@@ -155,26 +145,5 @@ contains
       if (histories > huge(1)) call raise_input(error, file//': '//to_text(histories)//' histories: run at most '// &
          & to_text(huge(1))//' at a time, parts of the population with --walls FIRST:LAST')
    end subroutine check_size
-
-   !> Fingerprint of the lines of a file
-   subroutine fingerprint_lines(file, fingerprint, error)
-      !> Path of the file
-      character(len=*), intent(in) :: file
-      type(fingerprint_type), intent(out) :: fingerprint
-      !> It cannot be read
-      type(error_type), allocatable, intent(out) :: error
-
-      type(line_reader_type) :: reader
-      character(len=:), allocatable :: line
-      logical :: found
-
-      call reader%open(file, error)
-      if (allocated(error)) return
-      do
-         call reader%next(line, found, error)
-         if (allocated(error) .or. .not. found) return
-         call fingerprint%add_text(line)
-      end do
-   end subroutine fingerprint_lines
 
 end module dondolo_survey

@@ -276,7 +276,7 @@ contains
 
       integer :: i
 
-      do i = 1, size(case%facade%sources)
+      do i = 1, size(case%table%facade%sources)
          call put_source(table, case, results, i)
          call table%end_row()
       end do

@@ -3,13 +3,14 @@
 module dondolo_row_tables
    use dondolo_case, only : case_type
    use dondolo_check_rows, only : put_check, verdicts_type
-   use dondolo_error, only : error_type, raise_failure
+   use dondolo_error, only : error_type
    use dondolo_member, only : member_type
    use dondolo_population_reader, only : population_reader_type
    use dondolo_report_rows, only : put_certified, put_fragility, put_history, put_names, put_stripe, put_wall
    use dondolo_results, only : results_type, row_counts_type
    use dondolo_row_result, only : row_result_type
    use dondolo_stripes, only : find_lifts, plan_stripes, stripes_type
+   use dondolo_store, only : read_result
    use dondolo_study, only : study_type
    use dondolo_table, only : table_type
    use dondolo_tie_rows, only : put_tally
@@ -28,7 +29,7 @@ contains
       type(case_type), intent(in), target :: case
       type(results_type), intent(inout) :: results
       class(table_type), intent(inout) :: table
-      !> The population or a store has changed
+      !> A store has changed
       type(error_type), allocatable, intent(out) :: error
 
       call each_row(case, results, of_walls, table, error)
@@ -39,7 +40,7 @@ contains
       type(case_type), intent(in), target :: case
       type(results_type), intent(inout) :: results
       class(table_type), intent(inout) :: table
-      !> The population or a store has changed
+      !> A store has changed
       type(error_type), allocatable, intent(out) :: error
 
       call each_row(case, results, of_histories, table, error)
@@ -50,7 +51,7 @@ contains
       type(case_type), intent(in), target :: case
       type(results_type), intent(inout) :: results
       class(table_type), intent(inout) :: table
-      !> The population or a store has changed
+      !> A store has changed
       type(error_type), allocatable, intent(out) :: error
 
       call each_row(case, results, of_stripes, table, error)
@@ -61,7 +62,7 @@ contains
       type(case_type), intent(in), target :: case
       type(results_type), intent(inout) :: results
       class(table_type), intent(inout) :: table
-      !> The population or a store has changed
+      !> A store has changed
       type(error_type), allocatable, intent(out) :: error
 
       call each_row(case, results, of_curves, table, error)
@@ -72,7 +73,7 @@ contains
       type(case_type), intent(in), target :: case
       type(results_type), intent(inout) :: results
       class(table_type), intent(inout) :: table
-      !> The population or a store has changed
+      !> A store has changed
       type(error_type), allocatable, intent(out) :: error
 
       call each_row(case, results, of_ties, table, error)
@@ -84,7 +85,7 @@ contains
       !> Its verdicts are counted
       type(results_type), intent(inout) :: results
       class(table_type), intent(inout) :: table
-      !> The population or a store has changed
+      !> A store has changed
       type(error_type), allocatable, intent(out) :: error
 
       type(verdicts_type) :: none_yet
@@ -100,13 +101,13 @@ contains
       !> What is put of it, such as of_walls
       integer, intent(in) :: what
       class(table_type), intent(inout) :: table
-      !> The population or a store has changed, or histories cannot be chosen again
+      !> A store has changed, or histories cannot be chosen again
       type(error_type), allocatable, intent(out) :: error
 
       type(population_reader_type) :: reader
       type(member_type) :: member
       type(row_counts_type) :: row
-      integer :: i, rows
+      integer :: i
       logical :: found
 
       if (case%job%task /= 'typology') then
@@ -116,15 +117,10 @@ contains
          call put_row(case, member, results%row, what, results%verdicts, table, error)
          return
       end if
-      rows = results%population%rows
-      call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false., facade=case%facade)
-      do i = 1, rows + 1
+      reader%names%is_checked = .false.
+      do i = 1, results%population%rows
+         call reader%next(case%table, member, found, error)
          if (allocated(error)) exit
-         call reader%next(member, found, error)
-         if (.not. allocated(error) .and. (found .neqv. i <= rows)) then
-            call raise_failure(error, case%population_path()//': has changed while it was read')
-         end if
-         if (allocated(error) .or. .not. found) exit
          row%histories = results%population%histories(:, i)
          row%reached = results%population%reached(:, :, i)
          row%curve = results%population%curve(:, i)
@@ -132,11 +128,9 @@ contains
             call read_stored(results, i, row, error)
          end if
          if (.not. allocated(error)) call put_row(case, member, row, what, results%verdicts, table, error)
+         if (allocated(error)) exit
       end do
-      call reader%close()
-      do i = 1, size(results%stores)
-         call results%stores(i)%close()
-      end do
+      call results%stores%close()
    end subroutine each_row
 
    !> What a store has of a row of a population
@@ -150,12 +144,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(row_result_type) :: stored
-      integer :: k
 
-      do k = 1, size(results%stores) - 1
-         if (number <= results%stores(k)%identity%last) exit
-      end do
-      call results%stores(k)%read(number, stored, error)
+      call read_result(results%stores, number, stored, error)
       if (allocated(error)) return
       call move_alloc(stored%tallies, row%tallies)
       if (allocated(row%response)) deallocate (row%response)

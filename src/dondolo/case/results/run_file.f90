@@ -84,20 +84,22 @@ contains
       integer :: i
 
       call json%open_array('inputs')
-      call put_input('case', case%file)
-      call put_input('catalogue', beside(case%records_input%catalogue, case%file))
+      call put_file('case', case%file)
+      call put_file('catalogue', beside(case%records_input%catalogue, case%file))
       do i = 1, size(case%suite%records)
-         if (allocated(case%suite%records(i)%file)) call put_input('record', case%suite%records(i)%file)
-         if (allocated(case%suite%records(i)%vertical_file)) call put_input('vertical', &
+         if (allocated(case%suite%records(i)%file)) call put_file('record', case%suite%records(i)%file)
+         if (allocated(case%suite%records(i)%vertical_file)) call put_file('vertical', &
             & case%suite%records(i)%vertical_file)
       end do
-      if (allocated(case%population_file)) call put_input('population', case%population_path())
+      ! As it was read, whatever has become of it
+      if (allocated(case%population_file)) call put_input('population', case%population_path(), .true., case%table%csv%bytes, &
+         & case%table%csv%checksum)
       call json%close_array()
 
    contains
 
-      !> Put one file
-      subroutine put_input(role, path)
+      !> Put a file as it is now
+      subroutine put_file(role, path)
          character(len=*), intent(in) :: role, path
 
          character(len=crc32_length) :: checksum
@@ -105,6 +107,19 @@ contains
          logical :: ok
 
          call crc32_of_file(path, checksum, bytes, ok)
+         call put_input(role, path, ok, bytes, checksum)
+      end subroutine put_file
+
+      !> Put one file
+      subroutine put_input(role, path, ok, bytes, checksum)
+         character(len=*), intent(in) :: role, path
+         !> Are its length and its checksum known?
+         logical, intent(in) :: ok
+         !> Its length
+         integer(int64), intent(in) :: bytes
+         !> Its checksum
+         character(len=*), intent(in) :: checksum
+
          call json%open_object()
          call json%put('role', role)
          call json%put('path', path)

@@ -6,14 +6,16 @@ module dondolo_combine_rows
    use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_member, only : member_type
+   use dondolo_memory, only : check_room
    use dondolo_population_errors, only : population_errors_type
+   use dondolo_population_reader, only : population_reader_type
    use dondolo_results, only : results_type, shown_rows
    use dondolo_row_result, only : row_result_type
-   use dondolo_rows_again, only : rows_again_type
    use dondolo_sensitivity, only : new_sensitivity
+   use dondolo_store, only : read_result
    use dondolo_study, only : runs_of, study_type
    use dondolo_typology, only : combine_population, typology_type
-   use dondolo_unite_rows, only : unite_rows
+   use dondolo_unions, only : mean_unions, union_builder_type, union_type, wall_union
    use dondolo_warnings, only : fit_warning_type, warn_of_events, warn_of_records, warn_of_union
    implicit none
    private
@@ -51,9 +53,7 @@ contains
          results%typologies(:, k) = typologies
       end do
       if (case%designs) allocate (results%designs(results%population%rows))
-      call set_errors(results, study, error)
-      if (.not. allocated(error)) call look_at_rows(case, results, fits, error)
-      if (.not. allocated(error)) call unite_rows(case, results, study, error)
+      call look_at_rows(case, results, study, fits, error)
       if (allocated(error)) return
       if (case%designs) call compare_designs(results%designs)
       if (allocated(case%uncertainty)) call find_sensitivity(case, results)
@@ -80,8 +80,8 @@ contains
       logical, allocatable :: fitted(:)
       integer :: n, k, i
 
-      n = case%facade%samples
-      associate (curves => results%population%curve(size(case%stripes%thresholds), :n), values => case%facade%values)
+      n = case%table%facade%samples
+      associate (curves => results%population%curve(size(case%stripes%thresholds), :n), values => case%table%facade%values)
          fitted = [(curves(i)%has_fit(), i=1, n)]
          allocate (results%sensitivity)
          call new_sensitivity(results%sensitivity, reshape([(pack(values(k, :n), fitted), k=1, size(values, 1))], &
@@ -102,109 +102,143 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(row_result_type) :: row
-      integer :: i, k
-
-      do k = 1, size(results%stores)
-         associate (store => results%stores(k), population => results%population)
-            do i = store%identity%first, store%identity%last
-               call store%read(i, row, error)
-               if (allocated(error)) exit
-               population%histories(:, i) = nint(real(row%histories, wp)*share)
-               population%reached(:, :, i) = count(row%flags, dim=1)
-            end do
-            call store%close()
-            if (allocated(error)) return
-         end associate
-      end do
-   end subroutine gather
-
-   !> Set the clustered standard errors of the curves of the rows and of the population
-   subroutine set_errors(results, study, error)
-      !> Results: the population and its curves are there
-      type(results_type), intent(inout) :: results
-      type(study_type), intent(in) :: study
-      !> A store has changed
-      type(error_type), allocatable, intent(out) :: error
-
-      type(row_result_type) :: row
-      type(population_errors_type) :: sums
-      real(wp), dimension(size(study%levels), maxval(study%suite%clusters)) :: histories, part
-      real(wp), allocatable :: counts(:, :, :, :)
-      real(wp) :: changes(2, maxval(study%suite%clusters))
-      logical :: runs(size(study%suite%clusters), size(study%levels))
-      integer :: g, i, j, k, state, wall
-
-      part = 0.0_wp
-      runs = runs_of(study)
-      do j = 1, size(runs, 2)
-         do i = 1, size(runs, 1)
-            g = study%suite%clusters(i)
-            if (runs(i, j)) part(j, g) = part(j, g) + 1.0_wp/real(size(runs, 1), wp)
-         end do
-      end do
-      associate (population => results%population)
-         call sums%begin(results%typologies, population, part, error)
-         if (allocated(error)) return
-         wall = 1
-         do k = 1, size(results%stores)
-            do i = results%stores(k)%identity%first, results%stores(k)%identity%last
-               call results%stores(k)%read(i, row, error)
-               if (allocated(error)) exit
-               if (i == population%first(wall)) then
-                  if (allocated(counts)) deallocate (counts)
-                  allocate (counts(size(part, 1), size(part, 2), size(population%curve, 1), &
-                     & population%first(wall + 1) - population%first(wall)))
-               end if
-               do state = 1, size(population%curve, 1)
-                  associate (own => counts(:, :, state, i - population%first(wall) + 1))
-                     call row%by_cluster(state, study%suite%clusters, runs, own, histories)
-                     call cluster_errors(population%curve(state, i), population%levels, own, histories, changes)
-                     own = own/real(row%histories, wp)
-                  end associate
-                  if (.not. allocated(results%designs) .or. state < size(population%curve, 1)) cycle
-                  results%designs(i)%curve = population%curve(state, i)
-                  results%designs(i)%change = changes(1, :)
-               end do
-               if (i + 1 < population%first(wall + 1)) cycle
-               call sums%add(population, wall, counts)
-               wall = wall + 1
-            end do
-            call results%stores(k)%close()
-            if (allocated(error)) return
-         end do
-         call sums%finish(results%typologies)
-      end associate
-   end subroutine set_errors
-
-   !> Go through the rows and their names: what there is to say of the curves, and those that are shown
-   subroutine look_at_rows(case, results, fits, error)
-      type(case_type), intent(in) :: case
-      !> Its results: the rows that are shown are set
-      type(results_type), intent(inout) :: results
-      !> What there is to say of the curves
-      type(fit_warning_type), intent(inout) :: fits
-      !> The table has changed
-      type(error_type), allocatable, intent(out) :: error
-
-      type(rows_again_type) :: rows
-      type(member_type) :: member
       integer :: i
 
+      associate (population => results%population)
+         do i = 1, population%rows
+            call read_result(results%stores, i, row, error)
+            if (allocated(error)) exit
+            population%histories(:, i) = nint(real(row%histories, wp)*share)
+            population%reached(:, :, i) = count(row%flags, dim=1)
+         end do
+      end associate
+      call results%stores%close()
+   end subroutine gather
+
+   !> Go through the rows with all that is known of each: standard errors of the curves of rows, walls and population,
+   !> unions of the walls with several mechanisms, what there is to say of the curves, and the rows that are shown
+   subroutine look_at_rows(case, results, study, fits, error)
+      type(case_type), intent(in) :: case
+      !> Its results: the population and its curves are there
+      type(results_type), intent(inout) :: results
+      type(study_type), intent(in) :: study
+      !> What there is to say of the curves
+      type(fit_warning_type), intent(inout) :: fits
+      !> A store has changed, counts that cannot be fitted, or lack of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      type(population_reader_type) :: reader
+      type(member_type) :: member
+      type(row_result_type) :: row
+      type(population_errors_type) :: errors
+      type(union_builder_type) :: builder
+      type(union_type) :: union
+      character(len=:), allocatable :: name
+      real(wp), allocatable :: counts(:, :, :, :)
+      real(wp) :: share(size(study%levels), maxval(study%suite%clusters))
+      logical :: runs(size(study%suite%clusters), size(study%levels)), found
+      integer :: i, states, wall, united, rows(2)
+
+      runs = runs_of(study)
+      call share_clusters(study%suite%clusters, runs, share)
+      states = size(case%stripes%thresholds)
       allocate (results%shown(min(shown_rows, case%survey%rows)))
-      call rows%open(case, error)
-      do i = 1, case%survey%rows
-         call rows%next(member, error)
-         if (allocated(error)) exit
-         associate (curve => results%population%curve(size(case%stripes%thresholds), i))
-            call fits%look(curve, member%wall%name())
-            if (case%designs) call results%designs(i)%take_wall(member%wall)
-            if (i > shown_rows) cycle
-            results%shown(i)%name = member%wall%name()
-            results%shown(i)%mechanism = member%wall%mechanism_name()
-            results%shown(i)%curve = curve
-         end associate
-      end do
-      call rows%close()
+      associate (population => results%population)
+         united = count(population%is_several([(i, i=1, population%walls)]))
+         call check_room(real(size(study%levels)*8, wp)*(real(2*united, wp)*real(states + 1, wp) &
+            & + real(population%rows + population%walls, wp)), error)
+         if (.not. allocated(error)) call errors%begin(results%typologies, population, share, error)
+         if (allocated(error)) return
+         if (united > 0) call results%unions%reserve(united, size(study%levels), states)
+         reader%names%is_checked = .false.
+         united = 0
+         do i = 1, population%rows
+            call reader%next(case%table, member, found, error)
+            if (.not. allocated(error)) call read_result(results%stores, i, row, error)
+            if (allocated(error)) exit
+            wall = population%row(i)%wall
+            rows = population%rows_of(population%rows + wall)
+            if (i == rows(1)) then
+               name = member%wall%name()
+               if (len(member%facade) > 0) name = member%facade
+               if (allocated(counts)) deallocate (counts)
+               allocate (counts(size(share, 1), size(share, 2), states, rows(2) - rows(1) + 1))
+            end if
+            call count_clusters(results, row, study%suite%clusters, runs, counts(:, :, :, i - rows(1) + 1))
+            associate (curve => population%curve(states, i))
+               call fits%look(curve, member%wall%name())
+               if (case%designs) call results%designs(i)%take_wall(member%wall)
+               if (i <= shown_rows) then
+                  results%shown(i)%name = member%wall%name()
+                  results%shown(i)%mechanism = member%wall%mechanism_name()
+                  results%shown(i)%curve = curve
+               end if
+            end associate
+            if (population%is_several(wall)) call builder%add(row, population%row(i)%p_occ)
+            if (i < rows(2)) cycle
+            call errors%add(population, wall, counts)
+            if (.not. population%is_several(wall)) cycle
+            united = united + 1
+            call wall_union(union, builder, population, wall, study%suite%clusters, runs, error)
+            if (allocated(error)) exit
+            union%name = name
+            call results%unions%keep(united, wall, union)
+            deallocate (builder%survival)
+         end do
+         call results%stores%close()
+         if (allocated(error)) return
+         call errors%finish(results%typologies)
+         if (united > 0) call mean_unions(results%unions, population, results%typologies, error)
+      end associate
    end subroutine look_at_rows
+
+   !> Share of all records that each cluster has and that run at each level
+   pure subroutine share_clusters(clusters, runs, share)
+      !> Number of the cluster of each record
+      integer, intent(in) :: clusters(:)
+      !> Whether a record runs at a level (records, levels)
+      logical, intent(in) :: runs(:, :)
+      !> Shares (levels, clusters)
+      real(wp), intent(out) :: share(:, :)
+
+      integer :: i, j
+
+      share = 0.0_wp
+      do j = 1, size(runs, 2)
+         do i = 1, size(runs, 1)
+            associate (g => clusters(i))
+               if (runs(i, j)) share(j, g) = share(j, g) + 1.0_wp/real(size(runs, 1), wp)
+            end associate
+         end do
+      end do
+   end subroutine share_clusters
+
+   !> Count the histories of a row by clusters of records, and set the clustered standard errors of its curves
+   subroutine count_clusters(results, row, clusters, runs, counts)
+      !> Results: the errors of the row are set, and of a design its curve
+      type(results_type), intent(inout) :: results
+      !> What came of the row
+      type(row_result_type), intent(in) :: row
+      !> Number of the cluster of each record
+      integer, intent(in) :: clusters(:)
+      !> Whether a record runs at a level (records, levels)
+      logical, intent(in) :: runs(:, :)
+      !> Histories of each cluster that reach each state, over all records (levels, clusters, states)
+      real(wp), intent(out) :: counts(:, :, :)
+
+      real(wp) :: histories(size(counts, 1), size(counts, 2)), changes(2, size(counts, 2))
+      integer :: k
+
+      associate (curves => results%population%curve(:, row%row))
+         do k = 1, size(counts, 3)
+            call row%by_cluster(k, clusters, runs, counts(:, :, k), histories)
+            call cluster_errors(curves(k), results%population%levels, counts(:, :, k), histories, changes)
+            counts(:, :, k) = counts(:, :, k)/real(row%histories, wp)
+         end do
+         if (.not. allocated(results%designs)) return
+         results%designs(row%row)%curve = curves(size(curves))
+         results%designs(row%row)%change = changes(1, :)
+      end associate
+   end subroutine count_clusters
 
 end module dondolo_combine_rows

@@ -4,7 +4,6 @@ module dondolo_population_case
    use dondolo_case, only : case_type
    use dondolo_combine_rows, only : combine_rows
    use dondolo_error, only : error_type, raise_failure, raise_input
-   use dondolo_fingerprint, only : fingerprint_type
    use dondolo_floors, only : floors_type
    use dondolo_identity, only : study_identity
    use dondolo_lines, only : lines_type
@@ -15,7 +14,7 @@ module dondolo_population_case
    use dondolo_store, only : look_into_store, open_store, store_type
    use dondolo_store_format, only : identity_type
    use dondolo_study, only : study_type
-   use dondolo_survey, only : check_size, fingerprint_lines
+   use dondolo_survey, only : check_size
    use dondolo_text, only : to_text
    implicit none
    private
@@ -48,10 +47,8 @@ contains
          if (allocated(error)) return
          call case%make_study(study, team)
          study%floors => floors
-         call run_population(study, case%population_path(), case%solver%gravity, store, int(case%survey%histories), &
-            & error, progress, case%facade)
+         call run_population(study, case%table, store, int(case%survey%histories), error, progress)
          call store%close()
-         if (.not. allocated(error)) call check_table(case, store, error)
          if (allocated(error)) return
          results%work = store%work
       end associate
@@ -199,22 +196,5 @@ contains
       end if
       call store%claim(error)
    end subroutine begin
-
-   !> Check that the table is still the one that was surveyed; if not, what was computed may be of either
-   subroutine check_table(case, store, error)
-      type(case_type), intent(in) :: case
-      type(store_type), intent(inout) :: store
-      !> It is not; the store is removed
-      type(error_type), allocatable, intent(out) :: error
-
-      type(fingerprint_type) :: now
-
-      if (allocated(case%facade)) return
-      call fingerprint_lines(case%population_path(), now, error)
-      if (allocated(error)) return
-      if (now%text() == case%survey%fingerprint%text()) return
-      call store%remove()
-      call raise_failure(error, case%population_path()//': has changed during the run, which must begin anew')
-   end subroutine check_table
 
 end module dondolo_population_case

@@ -5,7 +5,7 @@ module dondolo_run_case
    use dondolo_certified, only : bound_states, certify_stripes
    use dondolo_check_case, only : check_stripes
    use dondolo_check_rows, only : check_wall
-   use dondolo_error, only : error_type, raise_failure
+   use dondolo_error, only : error_type
    use dondolo_floor_motion, only : filter_record
    use dondolo_floors, only : floors_type
    use dondolo_interrupt, only : check_interrupt
@@ -103,19 +103,12 @@ contains
          return
       end if
       call check_size(case%population_path(), case%survey%histories, error)
-      if (.not. allocated(error)) then
-         call reader%open(case%population_path(), error, case%solver%gravity, is_checked=.false., &
-            & facade=case%facade)
-      end if
-      if (.not. allocated(error)) call reader%skip(case%survey%first - 1, error)
+      reader%names%is_checked = .false.
+      if (.not. allocated(error)) call reader%skip(case%table, case%survey%first - 1, error)
       do while (reader%row < case%survey%last .and. .not. allocated(error))
-         call reader%next(member, found, error)
-         if (.not. found .and. .not. allocated(error)) then
-            call raise_failure(error, case%population_path()//': has changed while it was read')
-         end if
+         call reader%next(case%table, member, found, error)
          if (.not. allocated(error)) call plan_wall(member%wall)
       end do
-      call reader%close()
 
    contains
 

@@ -1,44 +1,44 @@
 !> The walls and facades of a population by their names: which rows belong together, and which names stand twice.
-module dondolo_population_roll
+module dondolo_wall_names
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : wp
    use dondolo_member, only : member_type
    use dondolo_memory, only : raise_shortage
    use dondolo_name_index, only : name_index_type
-   use dondolo_population_table, only : population_table_type
    use dondolo_text, only : to_text
    implicit none
    private
 
-   public :: population_roll_type
+   public :: wall_names_type
 
    !> Memory that the index of names takes for a row while it grows [bytes]
    real(wp), parameter :: bytes_of_name = 72.0_wp
 
-   !> A table whose rows are read one after the other, and the walls so far
-   type, extends(population_table_type) :: population_roll_type
-      !> Number of the row that was read last
-      integer :: row = 0
-      !> Are names looked up, to find those that stand twice, and is a weight asked for? A table that was read before
-      !> needs it no more
+   !> The walls and facades so far, as rows are read one after the other
+   type :: wall_names_type
+      !> Are names looked up, to find those that stand twice? A table that was gone through before needs it no more
       logical :: is_checked = .true.
       !> Names of the walls so far
-      type(name_index_type) :: names
+      type(name_index_type), private :: names
       !> The wall of the row before, its first row
-      type(member_type) :: wall
+      type(member_type), private :: wall
       !> Name of the row before, and the mechanisms that it has had, with a blank after each
-      character(len=:), allocatable :: name, mechanisms
+      character(len=:), allocatable, private :: name, mechanisms
    contains
       !> Place a row among those before it
       procedure :: place_row
-   end type population_roll_type
+      !> Note that a row was wrong
+      procedure :: pass_over
+   end type wall_names_type
 
 contains
 
    !> Place a row among those before it: a further mechanism of the wall or the facade before, or a new one
-   subroutine place_row(self, member, error)
+   subroutine place_row(self, line, member, error)
       !> It remembers the wall
-      class(population_roll_type), intent(inout) :: self
+      class(wall_names_type), intent(inout) :: self
+      !> Line of the row, for messages
+      integer, intent(in) :: line
       !> The row: whether it continues the wall before is set
       type(member_type), intent(inout) :: member
       !> The name stands elsewhere too, or what is said of the wall differs
@@ -51,15 +51,16 @@ contains
       mechanism = member%wall%mechanism_name()
       what = 'wall'
       if (len(member%facade) > 0) what = 'facade'
-      repeats = self%wall%has_name .and. member%has_name .and. self%name == name
+      repeats = .false.
+      if (self%wall%has_name .and. member%has_name) repeats = self%name == name
       if (len(member%facade) > 0) then
-         member%continues = self%wall%has_name .and. self%wall%facade == member%facade
+         if (self%wall%has_name) member%continues = self%wall%facade == member%facade
       else if (repeats) then
          member%continues = len(self%wall%facade) == 0
       end if
       if (.not. member%continues) then
-         if (len(member%facade) > 0) call note_name(self, 'facade', member%facade, error)
-         if (.not. allocated(error)) call note_name(self, 'name', name, error)
+         if (len(member%facade) > 0) call note_name(self, 'facade', member%facade, line, error)
+         if (.not. allocated(error)) call note_name(self, 'name', name, line, error)
          if (allocated(error)) return
          self%wall = member
          self%wall%has_name = member%has_name .or. len(member%facade) > 0
@@ -76,36 +77,48 @@ contains
       else if (repeats) then
          self%mechanisms = self%mechanisms//mechanism//' '
       else
-         call note_name(self, 'name', name, error)
+         call note_name(self, 'name', name, line, error)
          self%name = name
          self%mechanisms = mechanism//' '
       end if
    end subroutine place_row
 
+   !> Note that a row was wrong: those behind it do not go on with the wall before it, unless it was of the same
+   pure subroutine pass_over(self, member)
+      class(wall_names_type), intent(inout) :: self
+      !> What is known of the row
+      type(member_type), intent(in) :: member
+
+      if (self%wall%has_name) self%wall%has_name = self%name == member%wall%name() .or. &
+         & (len(member%facade) > 0 .and. self%wall%facade == member%facade)
+   end subroutine pass_over
+
    !> Note the name of a wall or a facade, which no other has; a wall may have that of its facade
-   subroutine note_name(self, property, name, error)
-      class(population_roll_type), intent(inout) :: self
+   subroutine note_name(self, property, name, line, error)
+      class(wall_names_type), intent(inout) :: self
       !> What it is the name of: 'name' or 'facade'
       character(len=*), intent(in) :: property
       !> The name
       character(len=*), intent(in) :: name
+      !> Line of the row
+      integer, intent(in) :: line
       !> Another has it
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: line
+      integer :: earlier
 
       if (.not. self%is_checked) return
-      line = 0
-      call self%names%note(property//' '//name, max(self%table%line, 1), line)
+      earlier = 0
+      call self%names%note(property//' '//name, max(line, 1), earlier)
       if (self%names%lacks_memory) then
-         call raise_shortage(bytes_of_name*real(self%row, wp), error)
-      else if (line > 0 .and. property == 'name') then
-         call raise_input(error, 'name = '''//name//''': another wall has this name (line '//to_text(line)// &
+         call raise_shortage(bytes_of_name*real(line, wp), error)
+      else if (earlier > 0 .and. property == 'name') then
+         call raise_input(error, 'name = '''//name//''': another wall has this name (line '//to_text(earlier)// &
             & '); mechanisms of one wall must be on consecutive rows')
-      else if (line > 0) then
-         call raise_input(error, 'facade = '''//name//''': another facade has this name (line '//to_text(line)// &
+      else if (earlier > 0) then
+         call raise_input(error, 'facade = '''//name//''': another facade has this name (line '//to_text(earlier)// &
             & '); walls of one facade must be on consecutive rows')
       end if
    end subroutine note_name
 
-end module dondolo_population_roll
+end module dondolo_wall_names
