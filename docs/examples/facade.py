@@ -10,8 +10,8 @@ out = Path("out/examples")
 out.mkdir(parents=True, exist_ok=True)
 
 # %% The facade of the case facade_hinges, its records and levels
-case = dd.read_case(data / "cases" / "facade_hinges.nml")
-result = case.run().typology
+results = dd.run_case(data / "cases" / "facade_hinges.nml")
+case, result = results.case, results.typology
 union = result.unions["facade"]
 for wall, curve in zip(case.population, result.curves, strict=True):
     check = dd.check_ntc(wall, case.site, confidence=case.confidence)

@@ -43,11 +43,10 @@ from dondolo.errors import InputError as InputError
 from dondolo.errors import Interrupted as Interrupted
 from dondolo.errors import MissingFileError as MissingFileError
 from dondolo.exchange.cases import Case as Case
-from dondolo.exchange.cases import Results as Results
 from dondolo.exchange.cases import read_case as read_case
-from dondolo.exchange.cases import run_case as run_case
-from dondolo.exchange.results import StoredResults as StoredResults
-from dondolo.exchange.results import read_results as read_results
+from dondolo.exchange.reading import read_results as read_results
+from dondolo.exchange.results import Results as Results
+from dondolo.exchange.running import run_case as run_case
 from dondolo.exchange.workbook import write_workbook as write_workbook
 from dondolo.hazard.hazard import HazardCurve as HazardCurve
 from dondolo.populations.bootstrap import TypologyBootstrap as TypologyBootstrap

@@ -263,7 +263,7 @@ def _plot_designs(
         save(f"design_{number}", wall.plot)
 
 
-def _plot_walls(results: dd.StoredResults, people: dd.Typology, save: Callable[[str, Callable[[], Any]], None]) -> None:
+def _plot_walls(results: dd.Results, people: dd.Typology, save: Callable[[str, Callable[[], Any]], None]) -> None:
     """Draw the curves of a population, or of one facade."""
     save("typology", people.plot)
     if (uncertain := results.uncertain) is not None:

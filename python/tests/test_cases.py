@@ -1,8 +1,17 @@
 """Parity with the executable: every number of its files, and its sentences."""
 
+import os
+import signal
+import threading
+from contextlib import contextmanager
+
 import numpy as np
 import pytest
 import study
+from dondolo._fortran import _core
+from dondolo._fortran.library import receive
+from dondolo.exchange import running
+from dondolo.exchange.cases import case_of
 
 import dondolo as dd
 
@@ -139,3 +148,82 @@ def test_estimated_errors(name, root, run, tmp_path):
     mine, theirs = (each.response or each.stripes for each in (results, stored))
     assert mine.edp_error is not None
     assert np.array_equal(mine.edp_error, theirs.edp_error)
+
+
+def test_records_at_levels(few, run, tmp_path):
+    """Levels that have records of their own: `run_case` runs those alone, as the executable does."""
+    dd.RecordSet.of_levels({0.3: few[:5], 0.6: few[2:]}).to_catalogue(tmp_path / "sets.csv")
+    case = tmp_path / "case.nml"
+    case.write_text(
+        f"&job output = '{tmp_path}/out' /\n&wall mechanism = 'one_sided', height = 1.5, thickness = 0.25 /\n"
+        "&records catalogue = 'sets.csv' /\n&stripes levels = 0.3, 0.6 /\n"
+    )
+    finished = run(case)
+    assert finished.returncode == 0, finished.stderr
+    mine, theirs = dd.run_case(case, progress=False).stripes, dd.read_results(tmp_path / "out").stripes
+    assert mine.ran.sum(axis=1).tolist() == [5, len(few) - 2]
+    assert np.array_equal(mine.edp, theirs.edp, equal_nan=True)
+
+
+def test_no_file_is_written(root, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    for name in ("history", "parapet", "population"):
+        dd.run_case(root / f"data/cases/{name}.nml", progress=False)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("walls", [1, 400])
+def test_interrupted(walls, root, tmp_path, monkeypatch):
+    """Ctrl-C keeps the walls of a population that are complete, with what comes of them in the whole run."""
+    # Most histories never move: there are several blocks of them, which take little time.
+    levels = np.append(np.linspace(0.001, 0.02, 20), [0.4, 0.8])
+    rng = np.random.default_rng(3)
+    rows = [f"wall {i},one_sided,{rng.uniform(1.0, 4.0):.3f},0.3" for i in range(walls)]
+    (tmp_path / "walls.csv").write_text("\n".join(["name,mechanism,height,thickness", *rows]) + "\n")
+    case = tmp_path / "case.nml"
+    case.write_text(
+        "&job task = 'typology', threads = 1 /\n&population file = 'walls.csv' /\n"
+        f"&records catalogue = '{root}/data/records/synthetic44.csv' /\n"
+        f"&stripes levels = {', '.join(map(str, levels))} /\n"
+    )
+
+    @contextmanager
+    def listening(wanted):
+        heard, over = np.zeros(2, dtype=np.int32), threading.Event()
+
+        def interrupt():
+            while not over.is_set():
+                done, total = heard.tolist()
+                if total and done >= 0.5 * total:
+                    os.kill(os.getpid(), signal.SIGINT)
+                    return
+
+        watcher = threading.Thread(target=interrupt)
+        watcher.start()
+        yield heard
+        over.set()
+        watcher.join()
+
+    monkeypatch.setattr(running, "_shown", listening)
+    with pytest.raises(dd.Interrupted) as caught:
+        dd.run_case(case)
+    partial = caught.value.partial
+    if walls == 1:
+        assert partial is None or len(partial.walls) == 1
+        return
+    assert 0 < len(partial.walls) < walls
+    assert f"interrupted: {len(partial.walls)} of {walls} walls are complete" == str(caught.value)
+    monkeypatch.undo()
+    whole = dd.run_case(case, progress=False).typology
+    assert partial.exceedances.any()
+    assert np.array_equal(partial.exceedances, whole.exceedances[:, :, : len(partial.walls)])
+
+
+def test_progress_is_told(root):
+    """How far a run is is told while it runs: all histories at the end."""
+    path = bytes(root / "data/cases/parapet.nml")
+    heard = np.zeros(2, dtype=np.int32)
+    case, _, results = map(receive, _core.cases.run_case(path, heard.ctypes.data))
+    running._tables(results)
+    case_of(case)
+    assert heard.tolist() == [44 * 9, 44 * 9]

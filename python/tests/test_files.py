@@ -319,6 +319,17 @@ def test_standard_errors_of_populations_stay_with_their_files(run, root, tmp_pat
                     assert (one.errors, one.clusters) == (two.errors, two.clusters)
                     np.testing.assert_allclose(two.covariance, one.covariance, rtol=1e-10)
                     np.testing.assert_allclose(two.degrees_of_freedom, one.degrees_of_freedom, rtol=1e-12)
+    # Of walls whose mechanisms are in series, by the sums of NumPy
+    people, records = ran.population, dd.read_catalogue(root / "data/records/synthetic44.csv")
+    given = {"polarity": "both", "edp_thresholds": [0.3], "progress": False}
+    with pytest.warns(dd.DondoloWarning):
+        objects = dd.typology(people, records, ran.levels, **given)
+    for edp in ran.edp_thresholds:
+        for name, curve in objects.at(edp).combined.items():
+            stored = read.at(edp).combined[name]
+            assert (stored.errors, stored.clusters) == (curve.errors, curve.clusters)
+            np.testing.assert_allclose(stored.covariance, curve.covariance, rtol=1e-9)
+    assert read.combined["a"].se_ln_theta > 1.2 * read.combined["a"].naive_covariance[0, 0] ** 0.5
     with pytest.raises(dd.InputError, match="or of a population that was read back, does not know its records"):
         back["all"].fit.compare(back["all"].fit)
 

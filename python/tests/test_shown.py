@@ -58,7 +58,8 @@ def things(wall, stripes, few, records, root, tmp_path_factory):
     people.write_results(prefix)
     nrml = prefix.with_suffix(".xml")
     dd.write_nrml(nrml, {"walls": {"collapse": curve}})
-    case = dd.read_case(root / "data/cases/parapet.nml")
+    path = root / "data/cases/parapet.nml"
+    case = dd.read_case(path)
     house = dd.Building(0.3, storeys=3, level=9.0, building_height=9.0)
     found = [
         wall, dd.FreeStandingWall(1.5, 0.25), two_block, dd.Population([wall, other]), house,
@@ -66,7 +67,7 @@ def things(wall, stripes, few, records, root, tmp_path_factory):
         target, stripes, curve, curve.bootstrap(n_resamples=20), ida, ida.fit(), dd.cloud(wall, records),
         curve.compare(dd.multiple_stripe(other, records, levels, **quiet).fit()), people, people["all"],
         people["all"].bootstrap(n_resamples=20), hazard, risk, risk.uncertainty(n_draws=100),
-        dd.simulate(wall, few[0]), case, case.run(progress=False), dd.check_ntc(wall, site),
+        dd.simulate(wall, few[0]), case, dd.run_case(path, progress=False), dd.check_ntc(wall, site),
         dd.compare_designs({"now": wall, "thicker": dd.OneSidedWall(1.5, 0.3)}, records, levels, **quiet),
         dd.compare_intensities(wall, records, ["pga", "pgv"], n_levels=6, n_resamples=20, **quiet),
         dd.overturning_spectrum(wall, dd.pulses.one_sine, **pulses, **quiet),

@@ -73,7 +73,7 @@ def unsound(value: Any) -> str:
     return ""
 
 
-def digest(stored: dd.StoredResults) -> str:
+def digest(stored: dd.Results) -> str:
     """A digest of all that makes one study another: walls, settings, and what came of the histories."""
     parts = [(wall.name, wall.height, wall.thickness) for wall in stored.population.walls]
     settings = [stored.run.setting("job", "title", ""), stored.run.settings.get("stripes", {})]

@@ -1,6 +1,6 @@
 !> Case files.
 module cases
-   use, intrinsic :: iso_c_binding, only : c_double, c_int64_t
+   use, intrinsic :: iso_c_binding, only : c_double, c_f_pointer, c_int, c_int64_t, c_intptr_t, c_ptr
    use dondolo_boundary, only : check_room
    use dondolo_case, only : case_type
    use dondolo_read_case, only : load_case => read_case
@@ -10,40 +10,121 @@ module cases
    use dondolo_population_reader, only : read_rows
    use dondolo_record_parcel, only : pack_records
    use dondolo_result_tables, only : table_suffixes
+   use dondolo_results, only : results_type
+   use dondolo_results_parcel, only : pack_results
+   use dondolo_run_case, only : run => run_case
+   use dondolo_store_parcel, only : pack_store
+   use dondolo_study, only : runs_of, study_type
    use dondolo_wall_parcel, only : pack_members
    implicit none
    private
 
-   public :: read_case, result_tables
+   public :: read_case, run_case, result_tables
+
+   !> Where the histories that the run of a thread has done, and all of them, are told: the library calls back in the thread
+   !> that runs, and a callback carries no data of its own
+   integer(c_int), pointer :: told(:) => null()
+   !$omp threadprivate(told)
 
 contains
 
-   !> Read a case. Integers: number of walls, of levels, of records, of EDP thresholds, threads, record of the history from
+   !> Read a case, as pack_case says
+   subroutine read_case(path, sent)
+      character(len=*), intent(in) :: path
+      integer(c_int64_t), intent(out) :: sent(5)
+      type(case_type), allocatable :: case
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+
+      ! On the heap: stacks may be small.
+      allocate (case)
+      call load_case(path, case, error)
+      if (.not. allocated(error)) call pack_case(case, parcel, error)
+      call send(parcel, error, sent)
+   end subroutine read_case
+
+   !> Run a case. Three parcels are sent: the case (pack_case); the rows of its population (pack_store), which after Ctrl-C are
+   !> those that are complete, with 1 or 0 for each record (records, levels) that runs at a level behind the integers and
+   !> counts of what was computed behind the reals; and its results (pack_results). With an error the first two are sent as far
+   !> as they are there. heard: address of two integers that the histories that are done, and all of them, are written to meanwhile
+   subroutine run_case(path, heard, sent_case, sent_rows, sent_results)
+      !f2py threadsafe
+      character(len=*), intent(in) :: path
+      integer(c_intptr_t), intent(in) :: heard
+      integer(c_int64_t), intent(out) :: sent_case(5), sent_rows(5), sent_results(5)
+      type(case_type), allocatable, target :: case
+      type(results_type), allocatable :: results
+      type(study_type) :: study
+      type(parcel_type) :: parcel, rows, tables
+      type(error_type), allocatable :: error, fault, none
+      type(c_ptr) :: address
+
+      sent_case = 0
+      sent_rows = 0
+      sent_results = 0
+      ! On the heap: stacks may be small.
+      allocate (case, results)
+      call load_case(path, case, error)
+      if (allocated(error)) then
+         call send(tables, error, sent_results)
+         return
+      end if
+      address = transfer(heard, address)
+      call c_f_pointer(address, told, [2])
+      call run(case, results, error, progress=hear, in_memory=.true.)
+      if (allocated(results%stores)) then
+         call pack_store(results%stores(1), rows, fault)
+         if (.not. allocated(fault)) then
+            call case%make_study(study)
+            call rows%add(int(pack(merge(1, 0, runs_of(study)), .true.), c_int))
+            call rows%add(real(results%stores(1)%work%counts(), c_double))
+            call send(rows, none, sent_rows)
+         else if (.not. allocated(error)) then
+            call move_alloc(fault, error)
+         end if
+      end if
+      if (.not. allocated(error)) call pack_results(case, results, tables, error)
+      ! The samples of its records are moved away.
+      call pack_case(case, parcel, fault)
+      if (.not. allocated(fault)) then
+         call send(parcel, none, sent_case)
+      else if (.not. allocated(error)) then
+         call move_alloc(fault, error)
+      end if
+      call send(tables, error, sent_results)
+   end subroutine run_case
+
+   !> Hear how far the run of this thread is
+   subroutine hear(done, total)
+      integer, intent(in) :: done, total
+
+      told = [done, total]
+   end subroutine hear
+
+   !> A case. Integers: number of walls, of levels, of records, of EDP thresholds, threads, record of the history from
    !> 1, number of values of ag, of f0 and of tc_star of a check, 0 without one, then walls and records as they are packed;
    !> reals: rtol, atol, edp_limit, 1 where errors are to be estimated, scale of the history (with its sign), levels,
    !> thresholds, the values of the check with its confidence and behaviour factors, then walls with their weights and
    !> probabilities, and records; text: task, title, output, im, polarity, engine, states, soil and topography of the check,
    !> then walls, their groups and facades, and records, and how its tables were read, where there is something to say of it
-   subroutine read_case(path, sent)
-      character(len=*), intent(in) :: path
-      integer(c_int64_t), intent(out) :: sent(5)
-      type(case_type) :: case
+   subroutine pack_case(case, parcel, error)
+      type(case_type), intent(inout) :: case
+      !> Empty
+      type(parcel_type), intent(inout) :: parcel
+      !> Lack of memory, or the table of walls has changed
+      type(error_type), allocatable, intent(out) :: error
+
       type(member_type), allocatable :: members(:)
-      type(parcel_type) :: parcel
-      type(error_type), allocatable :: error
       real(c_double) :: scale
       integer :: i
 
-      call load_case(path, case, error)
-      if (.not. allocated(error)) then
-         if (case%job%task == 'typology') then
-            call read_rows(case%table, members, error)
-         else
-            allocate (members(1))
-            members(1)%wall = case%wall
-            members(1)%group = ''
-            members(1)%facade = ''
-         end if
+      if (case%job%task == 'typology') then
+         call read_rows(case%table, members, error)
+      else
+         allocate (members(1))
+         members(1)%wall = case%wall
+         members(1)%group = ''
+         members(1)%facade = ''
       end if
       if (.not. allocated(error)) call check_room(error, walls=size(members))
       if (.not. allocated(error)) then
@@ -69,8 +150,7 @@ contains
             call parcel%lines%add(case%notes%line(i)%text)
          end do
       end if
-      call send(parcel, error, sent)
-   end subroutine read_case
+   end subroutine pack_case
 
    !> What the names of the tables of results end with, of any case: a line each
    subroutine result_tables(sent)

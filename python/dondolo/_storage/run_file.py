@@ -78,11 +78,11 @@ class RunFile:
         How tables were read.
     warnings : tuple of DondoloWarning
     written : datetime or None
-        When the file was written.
+        When the file was written; None for results in memory.
     path : str
-        The file, for messages.
+        The file, or the case that was run, for messages.
     run : str
-        Name of the run, which every table of the set gives.
+        Name of the run, which every table of the set gives; '' for results in memory.
     shape : mapping
         Numbers of walls (rows of the population), levels, damage states and records; Python does not write the last.
     files : tuple of Written
@@ -164,9 +164,17 @@ def read_run_file(path: str) -> RunFile:
     """
     text = read_text(path)
     try:
-        content = json.loads(text)
         written = _date(os.stat(path).st_mtime)
-    except (OSError, ValueError, RecursionError) as error:
+    except OSError as error:
+        raise InputError(f"{path}: {error}") from error
+    return parse_run_file(text, path, written)
+
+
+def parse_run_file(text: str, path: str, written: datetime | None = None) -> RunFile:
+    """The contents of a file of a run; `path` names it in messages, and results in memory have no date."""
+    try:
+        content = json.loads(text)
+    except (ValueError, RecursionError) as error:
         raise InputError(f"{path}: no JSON: {error}") from error
     if not isinstance(content, dict) or content.get("format") != FORMAT:
         raise InputError(f"{path}: not a run file: format must be '{FORMAT}'")
@@ -191,7 +199,7 @@ def read_run_file(path: str) -> RunFile:
             tuple(_warning(one) for one in _all(content, "warnings", dict)),
             written,
             path,
-            _run(content),
+            _run(content) if written else "",
             {name: _member(shape, name, int) for name in shape},
             tuple(_written(one) for one in _all(content, "files", dict)),
             _member(_member(content, "standard_errors", dict, {}), "confidence", float, float("nan")),

@@ -6,10 +6,10 @@ from collections.abc import Iterable
 from typing import Any
 
 from dondolo._fortran.checks import SheetRow
+from dondolo._storage.columns import Columns
 from dondolo._storage.run_file import RunFile
 from dondolo.checks.ntc import CodeCheck, check_ntc
 from dondolo.errors import InputError, silent
-from dondolo.exchange.result_file import ResultFile
 from dondolo.records.codes import Site
 from dondolo.walls.wall import Wall
 
@@ -50,7 +50,7 @@ def complete_checks(checks: Iterable[CodeCheck | None]) -> tuple[CodeCheck, ...]
     return tuple(one for one in found if one is not None) if None not in found else ()
 
 
-def stored_check(table: ResultFile, run: RunFile, wall: Wall) -> CodeCheck:
+def stored_check(table: Columns, run: RunFile, wall: Wall) -> CodeCheck:
     """The check of a wall, ``_check.csv``."""
     columns: dict[str, Any] = {name: table.texts(name) for name in SheetRow._fields}
     columns["value"] = table.numbers("value").tolist()

@@ -1,10 +1,9 @@
-"""The executable's job from Python: a case file in, results as objects out."""
+"""Case files."""
 
 from __future__ import annotations
 
 import os
-from contextlib import nullcontext
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -12,22 +11,12 @@ import numpy as np
 from dondolo._base.arguments import FloatArray, as_path
 from dondolo._base.shown import Shown
 from dondolo._fortran import _core
-from dondolo._fortran.library import receive, warn_of_notes
+from dondolo._fortran.library import Parcel, receive, warn_of_notes
 from dondolo._fortran.records import levels_in_words, records_end, unpack_records
 from dondolo._fortran.walls import unpack_walls, walls_end
-from dondolo.analysis.response import Response, simulate
-from dondolo.analysis.solver import Solver
-from dondolo.analysis.stripe_runs import multiple_stripe
-from dondolo.analysis.stripes import States, Stripes
-from dondolo.checks.ntc import CodeCheck, check_ntc
-from dondolo.curves.fragility import Fragility
-from dondolo.errors import silent
-from dondolo.exchange.case_checks import complete_checks, kinematic_checks
-from dondolo.populations.study import typology
-from dondolo.populations.typology import Typology
+from dondolo.analysis.stripes import States
 from dondolo.records.codes import Site
 from dondolo.records.record import Record, record_from
-from dondolo.retrofit.designs import DesignComparison, compare_designs
 from dondolo.walls.mechanisms import wall_from
 from dondolo.walls.population import Population
 
@@ -101,98 +90,6 @@ class Case(Shown):
             facts.append(("levels", levels_in_words(self.levels, self.im)))
         return facts
 
-    def run(self, *, progress: bool = True) -> Results:
-        """Run it; see `run_case`.
-
-        Parameters
-        ----------
-        progress : bool
-            Show a progress bar in a terminal or notebook.
-
-        Returns
-        -------
-        Results
-        """
-        how = Solver(rtol=self.rtol, atol=self.atol, edp_limit=self.edp_limit, engine=self.engine)  # type: ignore[arg-type]
-        if self.task == "history":
-            record = self.records[self.record_index]
-            response = simulate(self.population[0], record, self.scale, estimate_error=self.estimate_error, solver=how)
-            return Results(case=self, response=response)
-        ensemble: dict[str, Any] = {
-            "im": self.im,
-            "polarity": self.polarity,
-            "threads": self.threads,
-            "progress": progress,
-            "solver": how,
-        }
-        if self.task == "stripes":
-            ensemble |= {"estimate_error": self.estimate_error, "certify": self.certify}
-            stripes = multiple_stripe(self.population[0], self.records, self.levels, **ensemble)
-            curves = [stripes.fit()]
-            if self.states == "ordinal":
-                curves = [*stripes.fit_damage_states(self.edp_thresholds, states="ordinal")]
-            return Results(case=self, stripes=stripes, fragility=curves[-1], check=self._check(how))
-        checks = kinematic_checks(
-            self.population.walls, self.site, confidence=self.confidence, behaviour=self.behaviour
-        )
-        compared = None
-        if self.designs:
-            walls = {wall.name: wall for wall in self.population.walls}
-            compared = compare_designs(walls, self.records, self.levels, **ensemble)
-            compared = replace(compared, checks=complete_checks(checks))
-        ensemble["edp_thresholds"] = self.edp_thresholds
-        # What is said of a mean over designs is of nothing, and the rest of it is said.
-        with silent() if self.designs else nullcontext():
-            found = typology(self.population, self.records, self.levels, **ensemble)
-        if self.designs:
-            found = found._as_alternatives()
-        return Results(case=self, typology=found, designs=compared, checks=checks)
-
-    def _check(self, solver: Solver) -> CodeCheck | None:
-        """The check of the wall, its histories by one stripe more."""
-        if self.site is None:
-            return None
-        # The stripes have said what the wall looks like.
-        with silent():
-            check = check_ntc(self.population[0], self.site, confidence=self.confidence, behaviour=self.behaviour)
-        return check.dynamic(self.records, polarity=self.polarity, solver=solver)  # type: ignore[arg-type]
-
-
-@dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class Results(Shown):
-    """Results of a case; what its task does not make is None.
-
-    Attributes
-    ----------
-    case : Case
-    response : Response or None
-        Of the task 'history'.
-    stripes, fragility : Stripes, Fragility or None
-        Of the task 'stripes'.
-    typology : Typology or None
-        Of the task 'typology'; of designs their curves alone, with nothing over them (`Typology.are_alternatives`).
-    check : CodeCheck or None
-        Of a case with a group &check.
-    designs : DesignComparison or None
-        Of a case with ``designs = .true.``.
-    checks : tuple of CodeCheck or None
-        The kinematic check of each row of a population with a group &check, None where it has none; else empty.
-    """
-
-    case: Case
-    response: Response | None = None
-    stripes: Stripes | None = None
-    fragility: Fragility | None = None
-    typology: Typology | None = None
-    check: CodeCheck | None = None
-    designs: DesignComparison | None = None
-    checks: tuple[CodeCheck | None, ...] = ()
-
-    def _facts(self) -> list[tuple[str, str]]:
-        names = ("response", "stripes", "fragility", "typology", "designs", "check")
-        made = [(name, repr(found)) for name in names if (found := getattr(self, name)) is not None]
-        return [("case", self.case.title or self.case.output), *made]
-
 
 def read_case(path: str | os.PathLike[str]) -> Case:
     """Read a case file and all it names, and check everything.
@@ -211,7 +108,11 @@ def read_case(path: str | os.PathLike[str]) -> Case:
     InputError
         What is wrong, with the sentence of the executable; of the table of a population everything, a line each.
     """
-    parcel = receive(_core.cases.read_case(as_path(path)))
+    return case_of(receive(_core.cases.read_case(as_path(path))))
+
+
+def case_of(parcel: Parcel) -> Case:
+    """A case as Fortran sends it; how its tables were read is warned of."""
     walls, levels, records, thresholds, threads, record = (int(value) for value in parcel.integers[:6])
     are_designs = bool(parcel.integers[9])
     rtol, atol, edp_limit, second_runs, scale = (float(value) for value in parcel.reals[:5])
@@ -254,27 +155,3 @@ def read_case(path: str | os.PathLike[str]) -> Case:
         designs=are_designs,
         **check,
     )
-
-
-def run_case(path: str | os.PathLike[str], *, progress: bool = True) -> Results:
-    """Run a case file as the executable does, with the results as objects and no files written.
-
-    Parameters
-    ----------
-    path : path
-        A namelist file; paths in it are relative to it.
-    progress : bool
-        Show a progress bar in a terminal or notebook.
-
-    Returns
-    -------
-    Results
-
-    Raises
-    ------
-    InputError
-        The case is wrong.
-    Interrupted
-        Ctrl-C; its `partial` has what is complete.
-    """
-    return read_case(path).run(progress=progress)

@@ -5,14 +5,14 @@ from __future__ import annotations
 import csv
 import math
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from dondolo._base.arguments import FloatArray
 from dondolo._base.files import read_text
+from dondolo._storage.columns import Columns
 from dondolo._storage.run_file import RunFile
 from dondolo._storage.tables import unguarded
 from dondolo._storage.transactions import described, run_of, staged
@@ -38,10 +38,8 @@ def _text_of(path: str, run: RunFile) -> str:
     raise MissingFileError(f"{path}: cannot be read: no such file")
 
 
-class ResultFile:
-    """A result file.
-
-    What is wrong with its contents is raised as a ValueError without its path, which `reading` adds.
+class ResultFile(Columns):
+    """A table in a result file.
 
     Parameters
     ----------
@@ -60,7 +58,9 @@ class ResultFile:
 
     def __init__(self, path: str, run: RunFile) -> None:
         self.path = path
+        self._run = run
         self._text = _text_of(path, run)
+        self._numbers: dict[str, FloatArray] = {}
         lines = self._text.split("\n")
         # Comments stand at the head: a # or a line end in a cell begins none.
         head = next((i for i, line in enumerate(lines) if not line.startswith("#")), len(lines))
@@ -68,9 +68,9 @@ class ResultFile:
         with self.reading():
             self._columns = self._read(lines[head:], head)
 
-    def check(self, run: RunFile) -> None:
+    def check(self) -> None:
         """Check that the file is as its run has written it; what has a worse place is said first by the others."""
-        for written in run.files:
+        for written in self._run.files:
             if self.path.endswith(written.name) and (found := described(written.name, self._text)) != written:
                 why = f"{found.bytes} bytes, {written.bytes} written" if found.bytes != written.bytes else "its CRC-32"
                 raise InputError(f"{self.path}: is not as its run has written it ({why})")
@@ -94,14 +94,6 @@ class ResultFile:
             columns = ([unguarded(cell) for cell in column] for column in columns)
         return dict(zip(names, columns, strict=True))
 
-    @contextmanager
-    def reading(self) -> Iterator[None]:
-        """Turn whatever is wrong with the contents into an InputError that names the file."""
-        try:
-            yield
-        except (ArithmeticError, LookupError, TypeError, ValueError) as error:
-            raise InputError(f"{self.path}: {error}") from error
-
     def __contains__(self, name: str) -> bool:
         return name in self._columns
 
@@ -117,48 +109,26 @@ class ResultFile:
         return f"line {self._lines[i]}"
 
     def texts(self, name: str) -> list[str]:
-        """A column."""
+        """A column; '' where there is nothing."""
         if name not in self._columns:
             raise ValueError(f"no column '{name}'")
         return self._columns[name]
 
-    def number(self, name: str, i: int) -> float:
-        """A cell that is a finite number."""
-        cell = self.texts(name)[i]
-        try:
-            value = float(cell)
-        except ValueError:
-            value = math.nan
-        if not math.isfinite(value):
-            raise ValueError(f"{self.place(i)}: {name} = {cell!r}: must be a number")
-        return value
+    def _values(self, name: str) -> FloatArray:
+        if name not in self._numbers:
+            cells = self.texts(name)
+            try:
+                values = np.array([float(cell) for cell in cells])
+            except ValueError:
+                values = np.array([_number(cell) for cell in cells])
+            values.flags.writeable = False
+            self._numbers[name] = values
+        return self._numbers[name]
 
-    def numbers(self, name: str) -> FloatArray:
-        """A column of finite numbers."""
-        cells = self.texts(name)
-        try:
-            values = np.array([float(cell) for cell in cells])
-        except ValueError:
-            values = np.array([math.nan])
-        if not np.isfinite(values).all():
-            # Names the first that is no number
-            values = np.array([self.number(name, i) for i in range(len(self))])
-        values.flags.writeable = False
-        return values
 
-    def count(self, name: str, i: int) -> int:
-        """A cell that is a whole number, not negative."""
-        value = self.number(name, i)
-        if not 0.0 <= value < 2**31 or value != math.floor(value):
-            raise ValueError(f"{self.place(i)}: {name} = {value:.15g}: must be an integer between 0 and {2**31 - 1}")
-        return int(value)
-
-    def counts(self, name: str, least: int = 0, most: int = 2**31 - 1) -> NDArray[np.int32]:
-        """A column of whole numbers."""
-        values = self.numbers(name)
-        wrong = (values < least) | (values > most) | (values != np.floor(values))
-        if wrong.any():
-            i = int(np.argmax(wrong))
-            allowed = f"must be an integer between {least} and {most}"
-            raise ValueError(f"{self.place(i)}: {name} = {values[i]:.15g}: {allowed}")
-        return values.astype(np.int32)
+def _number(cell: str) -> float:
+    """The number in a cell; NaN where there is none."""
+    try:
+        return float(cell)
+    except ValueError:
+        return math.nan

@@ -1,36 +1,36 @@
-"""Result files, read back into objects."""
+"""Results of a case as objects: views of the columns of its tables, which come from files or from memory."""
 
 from __future__ import annotations
 
-import os
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from dondolo._base.arguments import one_of
-from dondolo._base.files import as_file
+from dondolo._base.arguments import FloatArray, one_of
 from dondolo._base.shown import Shown
 from dondolo._fortran.library import constants
 from dondolo._fortran.walls import WALL_EXTRAS, WALL_LISTS, WALL_PROPERTIES, WALL_TEXTS, WALL_WORDS, describe_wall
-from dondolo._storage.run_file import HistoryResult, RunFile, read_run_file
-from dondolo._storage.transactions import RUN_FILE, TABLES, published_run
+from dondolo._storage.columns import Columns
+from dondolo._storage.run_file import HistoryResult, RunFile
 from dondolo.analysis.certificate import Certified
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import States, Stripes
 from dondolo.analysis.work import Work
 from dondolo.checks.ntc import CodeCheck
 from dondolo.curves.fragility import Fragility
-from dondolo.errors import DondoloWarning, InputError, MissingFileError, silent
+from dondolo.errors import DondoloWarning, InputError
 from dondolo.exchange.case_checks import checks_of_run, stored_check
-from dondolo.exchange.result_file import MixedError, ResultFile
+from dondolo.exchange.cases import Case
 from dondolo.exchange.stored_designs import stored_designs
 from dondolo.exchange.stored_errors import kept_errors
 from dondolo.exchange.stored_ties import stored_ties
 from dondolo.exchange.stored_unions import kept_unions
 from dondolo.populations.combination import combine
+from dondolo.populations.errors import with_clustered_errors
+from dondolo.populations.flags import Flags
 from dondolo.populations.typology import Typology
 from dondolo.populations.uncertain_wall import UncertainWall
 from dondolo.records.record import Record
@@ -40,10 +40,6 @@ from dondolo.walls.population import Population
 from dondolo.walls.table import numbered
 from dondolo.walls.wall import Wall
 
-# How often results are read again that another run replaces meanwhile
-_TRIES = 20
-# Prefixes that a message shows
-_SHOWN = 5
 # What only some populations have
 _UNIONS, _TIES, _DESIGNS = "_unions.csv", "_ties.csv", "_designs.csv"
 # Columns of _walls.csv and the numbers of a wall
@@ -53,8 +49,8 @@ _LIST_COLUMNS = {column: name for column, name in _COLUMNS.items() if name in WA
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)
-class StoredResults(Shown):
-    """What the result files of one run hold; what its task does not make is None.
+class Results(Shown):
+    """Results of a case, whether it was run here or its files were read; what its task does not make is None.
 
     Attributes
     ----------
@@ -68,14 +64,16 @@ class StoredResults(Shown):
         Task 'typology'; of designs their curves alone, with nothing over them (`Typology.are_alternatives`).
     uncertain : UncertainWall or None
         Of a case with a group &uncertainty: its typology, and what that owes to each source. Its `numbers` and `rest`
-        are NaN, since the files do not have them.
+        are NaN, since a case does not have them.
     designs : DesignComparison or None
-        Of a case with ``designs = .true.``: without `stripes`, and with the ratios of the medians alone in its
+        Of a case with ``designs = .true.``, without `stripes`; read back it has the ratios of the medians alone in its
         `comparisons`.
     check : CodeCheck or None
         Of a case with a group &check.
     run : RunFile
         What ran: version, settings, inputs with checksums, counts of the work, warnings.
+    case : Case or None
+        What `run_case` was given, with its records; None for results that were read back.
     """
 
     population: Population
@@ -87,6 +85,7 @@ class StoredResults(Shown):
     uncertain: UncertainWall | None = None
     designs: DesignComparison | None = None
     check: CodeCheck | None = None
+    case: Case | None = None
 
     @cached_property
     def checks(self) -> tuple[CodeCheck | None, ...]:
@@ -96,7 +95,11 @@ class StoredResults(Shown):
     def _facts(self) -> list[tuple[str, str]]:
         names = ("response", "stripes", "fragility", "typology", "designs", "check")
         made = [(name, repr(found)) for name in names if (found := getattr(self, name)) is not None]
-        return [("run", f"{self.run.run} of dondolo {self.run.version}"), ("population", repr(self.population)), *made]
+        case = self.run.setting("job", "title", "") or self.run.setting("job", "output", "")
+        facts = [("case", case)] if case else []
+        if self.run.run:
+            facts.append(("run", f"{self.run.run} of dondolo {self.run.version}"))
+        return [*facts, ("population", repr(self.population)), *made]
 
     @property
     def edp_thresholds(self) -> list[float]:
@@ -109,137 +112,137 @@ class StoredResults(Shown):
         return "ordinal" if self.run.setting("stripes", "states", "separate") == "ordinal" else "separate"
 
 
-def read_results(prefix: str | os.PathLike[str]) -> StoredResults:
-    """Read the result files of the executable, or those that `Typology.write_results` wrote.
+class Source:
+    """Where the tables of a run come from.
 
     Parameters
     ----------
-    prefix : path
-        What their names begin with: `output` of the case, for example ``out/parapet``.
+    get : callable
+        Gives the table of a name such as '_walls.csv'.
+    names : set of str
+        The names that there are.
+    """
 
-    Returns
-    -------
-    StoredResults
-        The same objects as those of a run in Python; curves are fitted again, to the same counts. Those of a typology
-        have the standard errors of the files, and cannot be compared: the files do not tell which record brings which
-        wall down.
+    def __init__(self, get: Callable[[str], Columns], names: frozenset[str]) -> None:
+        self.names = names
+        self._get = get
+        self._known: dict[str, Columns] = {}
+
+    def __getitem__(self, name: str) -> Columns:
+        if name not in self._known:
+            self._known[name] = self._get(name)
+        return self._known[name]
+
+    def get(self, name: str) -> Columns | None:
+        """A table that the run may not have."""
+        return self[name] if name in self.names else None
+
+    def check(self) -> None:
+        """Check that all tables that were looked at are as their run has made them."""
+        for table in self._known.values():
+            table.check()
+
+
+def results_of(run: RunFile, source: Source, case: Case | None = None, flags: Flags | None = None) -> Results:
+    """The results of a run.
+
+    Parameters
+    ----------
+    run : RunFile
+        What ran.
+    source : Source
+        Its tables.
+    case : Case or None
+        What was run, if it was run here.
+    flags : Flags or None
+        Which history of its population reaches which state, which files do not tell.
 
     Raises
     ------
     InputError
-        They are not result files of dondolo, are not all of one run, or not as their run has written them; the file is
-        named, and the line if there is one.
-    MissingFileError
-        There are no such files.
+        Tables that do not fit together.
     """
-    name = as_file("prefix", prefix).name
-    prefix = os.fspath(prefix)
-    tries = 0
-    while True:
-        try:
-            run = read_run_file(prefix + RUN_FILE)
-        except MissingFileError:
-            for end in (*TABLES, RUN_FILE):
-                if name.endswith(end):
-                    start = prefix.removesuffix(end)
-                    raise InputError(f"prefix = {prefix!r}: must be what the names begin with, {start!r}") from None
-            _refuse_other(prefix)
-            raise
-        try:
-            return _read(prefix, run)
-        except (MissingFileError, MixedError):
-            # Unless another run has published its results meanwhile
-            tries += 1
-            if tries == _TRIES or published_run(Path(prefix)) == run.run:
-                raise
-
-
-def _refuse_other(prefix: str) -> None:
-    """Refuse a case, another file, a folder or a prefix with an underscore, and name the prefix that is meant."""
-    path, what = Path(prefix), f"prefix = {prefix!r}"
-    if prefix.endswith("_") and Path(prefix[:-1] + RUN_FILE).is_file():
-        raise InputError(f"{what}: must be what the names begin with, {prefix[:-1]!r}")
-    if path.is_dir():
-        found = sorted(str(one).removesuffix(RUN_FILE) for one in path.glob(f"*{RUN_FILE}"))
-        more = f" and {len(found) - _SHOWN} more" if len(found) > _SHOWN else ""
-        names = ", ".join(map(repr, found[:_SHOWN])) + more
-        if found:
-            raise InputError(f"{what}: is a folder, must be what the names of result files begin with, such as {names}")
-    if not path.is_file():
-        return
-    if path.suffix.lower() != ".nml":
-        raise InputError(f"{what}: is a file, must be what the names of result files begin with")
-    from dondolo.exchange.cases import read_case
-
-    with silent():
-        output = read_case(prefix).output
-    run = "" if Path(output + RUN_FILE).is_file() else f"; there are none yet, dondolo {prefix} writes them"
-    raise InputError(f"{what}: is a case, must be what the names of its result files begin with, {output!r}{run}")
-
-
-def _read(prefix: str, run: RunFile) -> StoredResults:
-    """The results of a run."""
     # The tables of another task may lie there from a run before: the file of the run names the task of the last.
     task = run.setting("job", "task", "")
-    names = {"history": "history", "stripes": "histories", "typology": "stripes"}
-    if task not in names:
-        raise InputError(f"{run.path}: settings: job: task = {task!r}: must be one of {', '.join(map(repr, names))}")
-    gravity = run.setting("solver", "gravity", constants().gravity)
-    result = run.history if task == "history" else None
-    if task == "history" and result is None:
+    tasks = ("history", "stripes", "typology")
+    if task not in tasks:
+        raise InputError(f"{run.path}: settings: job: task = {task!r}: must be one of {', '.join(map(repr, tasks))}")
+    if task == "history" and run.history is None:
         raise InputError(f"{run.path}: no 'history'")
     try:
         work = Work(**run.work)
     except TypeError as error:
         raise InputError(f"{run.path}: work: {error}") from error
+    walls = source["_walls.csv"]
+    with walls.reading():
+        population = _population(walls, run.setting("solver", "gravity", constants().gravity))
+    results = Results(population=population, run=run, case=case)
+    if task == "history":
+        results = _of_history(results, source["_history.csv"])
+    elif task == "stripes":
+        results = _of_stripes(results, source, work)
+    else:
+        results = _of_typology(results, source, work, flags)
+    source.check()
+    return results
+
+
+def _of_history(results: Results, table: Columns) -> Results:
+    """Results of the task 'history'."""
+    run, case = results.run, results.case
+    assert run.history is not None
+    limit = run.setting("solver", "edp_limit", constants().edp_limit)
+    record = None if case is None else case.records[case.record_index]
+    with table.reading():
+        response = _response(table, results.population.walls[0], run.history, limit, record)
+    return replace(results, response=response)
+
+
+def _of_stripes(results: Results, source: Source, work: Work) -> Results:
+    """Results of the task 'stripes'."""
+    run, table = results.run, source["_histories.csv"]
     limit = run.setting("solver", "edp_limit", constants().edp_limit)
     tolerances = run.setting("solver", "rtol", np.nan), run.setting("solver", "atol", np.nan)
-    engine, thresholds = run.setting("solver", "engine", "auto"), run.edp_thresholds
-    walls = ResultFile(prefix + "_walls.csv", run)
-    with walls.reading():
-        population = _population(walls, gravity)
-    stored = StoredResults(population=population, run=run)
-    table = ResultFile(f"{prefix}_{names[task]}.csv", run)
     with table.reading():
-        if result is not None:
-            stored = replace(stored, response=_response(table, population.walls[0], result, limit))
-        elif task == "stripes":
-            stripes = _stripes(table, population.walls[0], engine, *tolerances, limit, work)
-            if len(run.records) == stripes.n_records:
-                events, checksums = (tuple(one[key] for one in run.records) for key in ("event", "checksum"))
-                stripes = replace(stripes, events=events, checksums=checksums)
-            stored = replace(stored, stripes=stripes)
-            ordinal = stored.states == "ordinal" and thresholds
-            curves = stripes.fit_damage_states(thresholds, states="ordinal") if ordinal else [stripes.fit()]
-            stored = replace(stored, fragility=curves[-1])
-        else:
-            stored = replace(stored, typology=_typology(table, population, work, run.warnings))
+        wall, engine = results.population.walls[0], run.setting("solver", "engine", "auto")
+        stripes = _stripes(table, wall, engine, *tolerances, limit, work)
+        if len(run.records) == stripes.n_records:
+            events, checksums = (tuple(one[key] for one in run.records) for key in ("event", "checksum"))
+            stripes = replace(stripes, events=events, checksums=checksums)
+        ordinal = results.states == "ordinal" and run.edp_thresholds
+        curves = stripes.fit_damage_states(run.edp_thresholds, states="ordinal") if ordinal else [stripes.fit()]
+    results = replace(results, stripes=stripes, fragility=curves[-1])
+    if "check" not in run.settings:
+        return results
+    sheet = source["_check.csv"]
+    with sheet.reading():
+        return replace(results, check=stored_check(sheet, run, results.population.walls[0]))
+
+
+def _of_typology(results: Results, source: Source, work: Work, flags: Flags | None) -> Results:
+    """Results of the task 'typology'."""
+    run, table = results.run, source["_stripes.csv"]
     are_designs = bool(run.setting("population", "designs", False))
-    if stored.typology is not None and are_designs:
-        stored = replace(stored, typology=stored.typology._as_alternatives())
-    if stored.typology is not None:
-        stored = replace(stored, typology=_with_tables(stored.typology, prefix, run))
-    if stored.typology is not None and "uncertainty" in run.settings:
-        sources = ResultFile(prefix + "_sources.csv", run)
+    with table.reading():
+        typology = _typology(table, results.population, work, run.warnings)
+    if are_designs:
+        typology = typology._as_alternatives()
+    if flags is not None:
+        typology = with_clustered_errors(replace(typology, flags=flags), flags)
+    typology = _with_tables(typology, source)
+    results = replace(results, typology=typology)
+    if "uncertainty" in run.settings:
+        sources = source["_sources.csv"]
         with sources.reading():
-            stored = replace(stored, uncertain=_uncertain(sources, stored.typology))
-        sources.check(run)
-    if stored.typology is not None and are_designs and any(file.name == _DESIGNS for file in run.files):
-        beside = ResultFile(prefix + _DESIGNS, run)
+            results = replace(results, uncertain=_uncertain(sources, typology))
+    beside = source.get(_DESIGNS) if are_designs else None
+    if beside is not None:
         with beside.reading():
-            stored = replace(stored, designs=stored_designs(stored.typology, beside, run))
-        beside.check(run)
-    walls.check(run)
-    table.check(run)
-    if task == "stripes" and "check" in run.settings:
-        sheet = ResultFile(prefix + "_check.csv", run)
-        with sheet.reading():
-            stored = replace(stored, check=stored_check(sheet, run, population.walls[0]))
-        sheet.check(run)
-    return stored
+            results = replace(results, designs=stored_designs(typology, beside, run))
+    return results
 
 
-def _population(table: ResultFile, gravity: float) -> Population:
+def _population(table: Columns, gravity: float) -> Population:
     """Walls as they were given."""
     walls: list[Wall] = []
     lists = {column: argument for column, argument in _LIST_COLUMNS.items() if numbered(column, 1) in table}
@@ -247,7 +250,7 @@ def _population(table: ResultFile, gravity: float) -> Population:
         given: dict[str, Any] = {
             argument: table.number(column, i)
             for column, argument in _WALL_COLUMNS.items()
-            if (column in table or argument not in WALL_EXTRAS) and table.texts(column)[i]
+            if (column in table or argument not in WALL_EXTRAS) and table.given(column, i)
         }
         given |= {argument: values for column, argument in lists.items() if (values := _list(table, column, i))}
         try:
@@ -261,34 +264,25 @@ def _population(table: ResultFile, gravity: float) -> Population:
     return Population(tuple(walls), weights, groups=tuple(table.texts("group")), p_occ=p_occ, facades=facades)
 
 
-def _list(table: ResultFile, column: str, i: int) -> list[Any]:
+def _list(table: Columns, column: str, i: int) -> list[Any]:
     """Values of a list in a row, up to the first that is not there."""
     values: list[Any] = []
-    while (one := numbered(column, len(values) + 1)) in table and table.texts(one)[i]:
+    while (one := numbered(column, len(values) + 1)) in table and table.given(one, i):
         is_word = _LIST_COLUMNS[column] in WALL_WORDS
         values.append(table.texts(one)[i] if is_word else table.number(one, i))
     return values
 
 
-def _response(table: ResultFile, wall: Wall, result: HistoryResult, edp_limit: float) -> Response:
-    """A motion; its record is what the history shows of it."""
+def _response(table: Columns, wall: Wall, result: HistoryResult, edp_limit: float, record: Record | None) -> Response:
+    """A motion; where its record is not at hand, it is what the history shows of it."""
     time, acceleration = table.numbers("time_s"), table.numbers("ground_acceleration_m_s2")
     rotation, velocity = table.numbers("rotation_rad"), table.numbers("velocity_rad_s")
     scale = result.scale
     if result.collapsed != (result.edp >= edp_limit):
         raise ValueError(f"collapsed = {result.collapsed}: edp = {result.edp:g} and edp_limit = {edp_limit:g} differ")
-    # Rows stand at every sample and at impacts in between: the samples are the multiples of the commonest step.
-    with np.errstate(over="ignore", invalid="ignore"):
-        steps, counts = np.unique(np.round(np.diff(time), 9), return_counts=True)
-        if not np.any(steps > 0.0) or scale == 0.0:
-            raise ValueError("no motion: time_s must increase, and scale must not be 0")
-        dt = float(steps[np.argmax(np.where(steps > 0.0, counts, 0))])
-        at_sample = np.abs(time / dt - np.round(time / dt)) < 1e-6
-        _, first = np.unique(np.round(time[at_sample] / dt), return_index=True)
-        record = Record(acceleration[at_sample][first] / scale, dt, name=result.record)
     return Response(
         wall=wall,
-        record=record,
+        record=_record(time, acceleration, result) if record is None else record,
         scale=scale,
         edp=result.edp,
         collapsed=result.collapsed,
@@ -306,8 +300,21 @@ def _response(table: ResultFile, wall: Wall, result: HistoryResult, edp_limit: f
     )
 
 
+def _record(time: FloatArray, acceleration: FloatArray, result: HistoryResult) -> Record:
+    """What a history shows of its record."""
+    # Rows stand at every sample and at impacts in between: the samples are the multiples of the commonest step.
+    with np.errstate(over="ignore", invalid="ignore"):
+        steps, counts = np.unique(np.round(np.diff(time), 9), return_counts=True)
+        if not np.any(steps > 0.0) or result.scale == 0.0:
+            raise ValueError("no motion: time_s must increase, and scale must not be 0")
+        dt = float(steps[np.argmax(np.where(steps > 0.0, counts, 0))])
+        at_sample = np.abs(time / dt - np.round(time / dt)) < 1e-6
+        _, first = np.unique(np.round(time[at_sample] / dt), return_index=True)
+        return Record(acceleration[at_sample][first] / result.scale, dt, name=result.record)
+
+
 def _stripes(
-    table: ResultFile, wall: Wall, engine: str, rtol: float, atol: float, edp_limit: float, work: Work
+    table: Columns, wall: Wall, engine: str, rtol: float, atol: float, edp_limit: float, work: Work
 ) -> Stripes:
     """All histories of a wall."""
     levels, row = np.unique(table.numbers("im_level"), return_inverse=True)
@@ -360,7 +367,7 @@ def _stripes(
     )
 
 
-def _typology(table: ResultFile, population: Population, work: Work, warnings: tuple[DondoloWarning, ...]) -> Typology:
+def _typology(table: Columns, population: Population, work: Work, warnings: tuple[DondoloWarning, ...]) -> Typology:
     """Counts of all walls of a population."""
     thresholds = np.unique(table.numbers("edp_threshold"))
     levels = np.unique(table.numbers("im_level"))
@@ -376,14 +383,14 @@ def _typology(table: ResultFile, population: Population, work: Work, warnings: t
     return replace(result, warnings=tuple(dict.fromkeys([*warnings, *result.warnings])))
 
 
-def _uncertain(table: ResultFile, typology: Typology) -> UncertainWall:
+def _uncertain(table: Columns, typology: Typology) -> UncertainWall:
     """What a wall with variants owes to each of its uncertain properties."""
     if len(typology.walls) < 3 + 2 * len(table):
         raise ValueError(f"{len(table)} rows: are too many sources for the {len(typology.walls)} walls of the run")
 
     # What a curve that does not exist leaves is empty.
     def numbers(name: str) -> Any:
-        return np.array([table.number(name, i) if cell else np.nan for i, cell in enumerate(table.texts(name))])
+        return np.array([table.number(name, i) if table.given(name, i) else np.nan for i in range(len(table))])
 
     def several(*names: str) -> Any:
         return np.array([numbers(name) for name in names]).T
@@ -402,22 +409,22 @@ def _uncertain(table: ResultFile, typology: Typology) -> UncertainWall:
     )
 
 
-def _with_tables(typology: Typology, prefix: str, run: RunFile) -> Typology:
+def _with_tables(typology: Typology, source: Source) -> Typology:
     """A typology with what its tables know besides counts: standard errors, unions of mechanisms, ties."""
-    names = {file.name for file in run.files}
-    curves = ResultFile(f"{prefix}_fragility.csv", run)
-    groups = None if typology.are_alternatives else ResultFile(f"{prefix}_typology.csv", run)
-    unions, ties = (ResultFile(prefix + name, run) if name in names else None for name in (_UNIONS, _TIES))
-    kept = kept_errors(typology, curves, groups)
-    of_walls, of_groups = (None, None) if unions is None else kept_unions(typology, unions)
-    typology = replace(
+    groups = None if typology.are_alternatives else source["_typology.csv"]
+    unions = source.get(_UNIONS)
+    kept = kept_errors(typology, source["_fragility.csv"], groups, unions)
+    of_walls: tuple[dict[str, Fragility], ...] | None = None
+    of_groups = of_walls
+    if unions is not None:
+        of_walls, of_groups = kept_unions(typology, unions)
+    elif len(typology.combined) == len(typology.walls):
+        # No wall has several mechanisms.
+        of_walls = of_groups = ({},) * len(typology.edp_thresholds)
+    return replace(
         kept.put_into(typology, -1),
         kept_errors=kept,
         kept_unions=of_walls,
         kept_group_unions=of_groups,
-        ties=stored_ties(typology, ties),
+        ties=stored_ties(typology, source.get(_TIES)),
     )
-    for table in (curves, groups, unions, ties):
-        if table is not None:
-            table.check(run)
-    return typology

@@ -2,25 +2,27 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
+from dondolo._storage.columns import Columns
 from dondolo._storage.run_file import RunFile
-from dondolo.curves.comparison import Comparison
+from dondolo.curves.comparison import Comparison, compare
 from dondolo.curves.fragility import Fragility
 from dondolo.exchange.case_checks import checks_of_run, complete_checks
-from dondolo.exchange.result_file import ResultFile
 from dondolo.populations.typology import Typology
 from dondolo.retrofit.designs import DesignComparison
 
 
-def stored_designs(typology: Typology, table: ResultFile, run: RunFile) -> DesignComparison:
+def stored_designs(typology: Typology, table: Columns, run: RunFile) -> DesignComparison:
     """Designs compared, ``_designs.csv``: the ratios of the table, and the curves of the typology.
 
     Parameters
     ----------
     typology : Typology
         Of the same files.
-    table : ResultFile
+    table : Columns
         A row for each design.
     run : RunFile
         Has the confidence of the intervals, and names the site, if there is one: checks are made again, to the same
@@ -43,7 +45,9 @@ def stored_designs(typology: Typology, table: ResultFile, run: RunFile) -> Desig
         names=names,
         stripes=(),
         curves=typology.curves,
-        comparisons=tuple(_against(curve, first, table, row) for row, curve in enumerate(typology.curves)),
+        comparisons=tuple(
+            _against(curve, first, table, row, run.confidence) for row, curve in enumerate(typology.curves)
+        ),
         steel=table.numbers("steel_kg_m"),
         alpha_0=table.numbers("alpha_0_g"),
         confidence=run.confidence,
@@ -51,11 +55,15 @@ def stored_designs(typology: Typology, table: ResultFile, run: RunFile) -> Desig
     )
 
 
-def _against(curve: Fragility, first: Fragility, table: ResultFile, row: int) -> Comparison | None:
-    """A design against the first; dispersions were not compared."""
-    if not table.texts("ratio")[row]:
+def _against(curve: Fragility, first: Fragility, table: Columns, row: int, confidence: float) -> Comparison | None:
+    """A design against the first; dispersions only where it is known which record brings which design down."""
+    if not table.given("ratio", row):
         return None
     ratio, low, high, p_value = (table.number(name, row) for name in ("ratio", "ratio_low", "ratio_high", "p_value"))
+    if curve.parts and first.parts:
+        return replace(
+            compare(curve, first, confidence=confidence), ratio=ratio, ratio_interval=(low, high), p_value=p_value
+        )
     return Comparison(
         pairing="paired",
         shared=curve.clusters,

@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import numpy as np
 
-from dondolo.exchange.result_file import ResultFile
+from dondolo._storage.columns import Columns
 from dondolo.populations.tie_counts import TieCounts
 from dondolo.populations.typology import Typology
 from dondolo.walls.ties import number_of_ties
 
 
-def stored_ties(typology: Typology, table: ResultFile | None) -> tuple[TieCounts, ...]:
+def stored_ties(typology: Typology, table: Columns | None) -> tuple[TieCounts, ...]:
     """What becomes of the ties of each row.
 
     Parameters
     ----------
     typology : Typology
         Without them.
-    table : ResultFile or None
+    table : Columns or None
         ``_ties.csv``: of each row that has ties all levels, of these all ties; None if there is none, since no wall has
         ties.
 

@@ -64,7 +64,7 @@ def write_workbook(prefix: str | os.PathLike[str], path: str | os.PathLike[str])
     sheets: dict[str, _Sheet] = {"case": (["group", "variable", "value"], _case(run))}
     for written in run.files:
         table = ResultFile(os.fspath(prefix) + written.name, run)
-        table.check(run)
+        table.check()
         if len(table) >= _MOST_ROWS:
             raise InputError(f"{table.path}: has {len(table)} rows, more than a sheet of a workbook can have")
         columns = [_values(table.texts(column)) for column in table]

@@ -103,7 +103,7 @@ def _clustered(levels: FloatArray, curves: list[Fragility], counts: FloatArray, 
 @part_of_results
 @dataclass(frozen=True, eq=False, repr=False)
 class KeptErrors:
-    """Standard errors of the curves of rows and then of groups, which were read back.
+    """Standard errors of a typology as its tables have them: of rows, then of groups, then of walls that are no row.
 
     Attributes
     ----------
@@ -130,15 +130,17 @@ class KeptErrors:
         )
 
     def put_into(self, typology: Typology, state: int) -> Typology:
-        """The typology of a state with these standard errors; walls with several mechanisms keep naive ones."""
+        """The typology of a state with these standard errors."""
+        alone = has_curve_of_row(typology.population).tolist()
+        mixed = [curve for curve, has_row in zip(typology.combined.values(), alone, strict=True) if not has_row]
         number = self.clusters.shape[1]
         kinds = self.kinds[number * (state % len(self.clusters)) :]
         found = [
-            with_errors(curve, Errors(np.array(covariance), kind, int(clusters), float(degrees)))
+            with_errors(curve, Errors(np.array(covariance), kind, int(clusters), float(degrees), curve.parts))
             if curve.has_fit and kind
             else curve
             for curve, kind, covariance, clusters, degrees in zip(
-                (*typology.curves, *(group.fit for group in typology.groups)),
+                (*typology.curves, *(group.fit for group in typology.groups), *mixed),
                 kinds[:number],
                 self.covariances[state],
                 self.clusters[state],
@@ -146,9 +148,8 @@ class KeptErrors:
                 strict=True,
             )
         ]
-        own, fits = found[: len(typology.curves)], found[len(typology.curves) :]
-        alone = has_curve_of_row(typology.population).tolist()
-        mixed = [curve for curve, has_row in zip(typology.combined.values(), alone, strict=True) if not has_row]
+        ends = np.cumsum([len(typology.curves), len(typology.groups)]).tolist()
+        own, fits, mixed = found[: ends[0]], found[ends[0] : ends[1]], found[ends[1] :]
         return replace(
             typology,
             curves=tuple(own),

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 import weakref
+from collections.abc import Iterable
 from types import TracebackType
 from typing import NamedTuple
 
@@ -22,6 +23,7 @@ from dondolo.analysis.work import Work
 from dondolo.curves.sample import cluster_labels
 from dondolo.populations.flags import Flags
 from dondolo.populations.tie_counts import TieCounts
+from dondolo.records.record import Record
 
 IntArray = NDArray[np.int32]
 
@@ -91,20 +93,10 @@ class Store:
 
     def read(self) -> Contents:
         """Everything that is there."""
-        request, rows = self._request, len(self._request.walls)
-        complete, work = self._state()
-        states, levels = len(self._states), len(request.levels)
         parcel = receive(_core.stores.read_store(self._handle))
-        numbers, lengths = parcel.integers, parcel.reals
-        histories, reached, ties, rest = np.split(numbers[:-1], np.cumsum([rows, rows * states * levels, rows]))
-        of_ties, bits = np.split(rest, [2 * levels * ties.sum()])
-        tied = TieCounts.of_rows(ties[complete], levels, of_ties, lengths) if complete.any() else ()
-        exceedances = np.ascontiguousarray(np.moveaxis(reached.reshape(rows, states, levels), 0, -1))
-        packed = bits.view(np.uint8)[: numbers[-1]]
-        events, checksums = zip(*((record.event, record.checksum) for record in request.records), strict=True)
-        labels = cluster_labels(len(events), events, checksums)
-        flags = Flags(histories[complete], levels, states, request.runs, labels, packed)
-        return Contents(complete, exceedances, tied, flags, work)
+        work = self._state()[1]
+        shape = len(self._request.walls), len(self._states)
+        return contents_of(parcel.integers, parcel.reals, shape, self._request.records, self._request.runs, work)
 
     def _state(self) -> tuple[NDArray[np.bool_], Work]:
         there, counts, failure = _core.stores.store_state(self._handle, len(self._request.walls))
@@ -118,3 +110,25 @@ class Store:
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
         self._close()
+
+
+def contents_of(
+    numbers: IntArray,
+    lengths: FloatArray,
+    shape: tuple[int, int],
+    records: Iterable[Record],
+    runs: FloatArray,
+    work: Work,
+) -> Contents:
+    """What a store has, as Fortran sends it; `shape` are its rows and states, `runs` are (records, levels)."""
+    (rows, states), levels = shape, runs.shape[1]
+    histories, reached, ties, rest = np.split(numbers[:-1], np.cumsum([rows, rows * states * levels, rows]))
+    complete = histories > 0
+    of_ties, bits = np.split(rest, [2 * levels * ties.sum()])
+    tied = TieCounts.of_rows(ties[complete], levels, of_ties, lengths) if complete.any() else ()
+    exceedances = np.ascontiguousarray(np.moveaxis(reached.reshape(rows, states, levels), 0, -1))
+    packed = bits.view(np.uint8)[: numbers[-1]]
+    events, checksums = zip(*((record.event, record.checksum) for record in records), strict=True)
+    labels = cluster_labels(len(events), events, checksums)
+    flags = Flags(histories[complete], levels, states, runs, labels, packed)
+    return Contents(complete, exceedances, tied, flags, work)

@@ -10,15 +10,17 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import ArrayLike
 
+from dondolo._base.arguments import FloatArray
 from dondolo._base.interrupts import deferred
 from dondolo._fortran.library import warn
 from dondolo.analysis.request import Polarity, new_request
 from dondolo.analysis.solver import Solver, as_solver
-from dondolo.errors import Interrupted
+from dondolo.errors import DondoloWarning, Interrupted
 from dondolo.populations.blocks import run_walls
 from dondolo.populations.combination import combine
 from dondolo.populations.errors import with_clustered_errors
 from dondolo.populations.flags import states_of
+from dondolo.populations.store import Contents, IntArray
 from dondolo.populations.typology import Typology
 from dondolo.records.record import Record
 from dondolo.walls.population import Population
@@ -95,20 +97,55 @@ def typology(
     plan = request.plan()
     with deferred() as interrupts:
         run = run_walls(request, plan.histories, states, executor, checkpoint, block, progress, interrupts)
-        # A wall is complete with all its mechanisms.
-        first = people.first_rows
-        whole = np.logical_and.reduceat(run.complete, first)
-        rows = np.repeat(whole, np.diff(np.append(first, len(people))))
-        if not whole.any():
-            raise Interrupted("interrupted: no wall is complete")
-        histories = np.rint(request.share[:, None] * plan.histories).astype(np.int32)
-        result = combine(people, request.im, request.levels, states, run.exceedances, histories, rows, run.work)
-        chosen = np.flatnonzero(rows[run.complete])
-        flags, told = run.flags.chosen(chosen), (*plan.warnings, *result.warnings)
-        ties = tuple(run.ties[i] for i in chosen)
-        result = with_clustered_errors(dataclasses.replace(result, flags=flags, warnings=told, ties=ties), flags)
-        result = result._with_union_warnings()
-        if not whole.all() or interrupts.requested:
-            raise Interrupted(f"interrupted: {whole.sum()} of {len(whole)} walls are complete", result)
+        result, complete, number = typology_of(
+            people, request.im, request.levels, states, run, request.share, plan.histories, plan.warnings
+        )
+        if complete < number or interrupts.requested:
+            raise Interrupted(f"interrupted: {complete} of {number} walls are complete", result)
     warn(result.warnings)
     return result
+
+
+def typology_of(
+    people: Population,
+    im: str,
+    levels: FloatArray,
+    states: FloatArray,
+    run: Contents,
+    share: FloatArray,
+    histories: IntArray,
+    warnings: Iterable[DondoloWarning] = (),
+) -> tuple[Typology, int, int]:
+    """The typology of the walls that are complete, how many these are, and of how many.
+
+    Parameters
+    ----------
+    people, im, levels, states
+        What was run.
+    run : Contents
+        The rows that are complete.
+    share : ndarray, shape (levels,)
+        Share of the records that run at each level.
+    histories : ndarray of int, shape (rows,)
+        Histories of each row in a stripe in which every record runs.
+    warnings : iterable of DondoloWarning
+        What was warned of before anything was run.
+
+    Raises
+    ------
+    Interrupted
+        No wall is complete.
+    """
+    # A wall is complete with all its mechanisms.
+    first = people.first_rows
+    whole = np.logical_and.reduceat(run.complete, first)
+    rows = np.repeat(whole, np.diff(np.append(first, len(people))))
+    if not whole.any():
+        raise Interrupted("interrupted: no wall is complete")
+    runs = np.rint(share[:, None] * histories).astype(np.int32)
+    result = combine(people, im, levels, states, run.exceedances, runs, rows, run.work)
+    chosen = np.flatnonzero(rows[run.complete])
+    flags, told = run.flags.chosen(chosen), (*warnings, *result.warnings)
+    ties = tuple(run.ties[i] for i in chosen)
+    result = with_clustered_errors(dataclasses.replace(result, flags=flags, warnings=told, ties=ties), flags)
+    return result._with_union_warnings(), int(whole.sum()), len(whole)

@@ -246,7 +246,7 @@ class Typology(Shown, Saved):
             if self.flags is not None:
                 flags = self.flags.at(int(place[0]))
                 state = with_clustered_errors(dataclasses.replace(state, flags=flags), flags)
-            elif self.kept_errors is not None:
+            if self.kept_errors is not None:
                 state = self.kept_errors.put_into(state, int(place[0]))
                 kept = {
                     name: None if several is None else (several[int(place[0])],)
@@ -545,7 +545,7 @@ class Typology(Shown, Saved):
         combined = curves_of_walls(people, own, unpacked_walls(walls, levels, **origin))
         stored = cls(curves=own, combined=combined, **more)
         if stored.flags is not None:
-            return with_clustered_errors(stored, stored.flags)
+            stored = with_clustered_errors(stored, stored.flags)
         return stored if stored.kept_errors is None else stored.kept_errors.put_into(stored, -1)
 
     def write_results(self, prefix: str | os.PathLike[str], *, spreadsheet_safe: bool = False) -> None:

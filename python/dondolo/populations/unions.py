@@ -29,7 +29,7 @@ def unions_of(typology: Typology) -> dict[str, Fragility]:
     flags = _flags_of(typology)
     people = typology.population
     return {
-        people.wholes[first]: _union(typology, flags, np.arange(first, end))
+        people.wholes[first]: union_of(typology, flags, np.arange(first, end))
         for first, end in _walls(typology)
         if end - first > 1
     }
@@ -38,7 +38,7 @@ def unions_of(typology: Typology) -> dict[str, Fragility]:
 def group_unions_of(typology: Typology) -> dict[str, Fragility]:
     """Weighted mean over the population ('') and over each group with a wall of several mechanisms, fitted."""
     flags = _flags_of(typology)
-    return {group.group: _mean(typology, flags, group) for group in grouped(typology)}
+    return {group.group: mean_union_of(typology, flags, group) for group in grouped(typology)}
 
 
 def grouped(typology: Typology) -> list[Group]:
@@ -101,6 +101,7 @@ def _block(state: Typology, name: str, group: str, union: Fragility, product: Fr
         **dict.fromkeys(errors_table([union]), nothing),
         "independent_theta": [product.theta] * number,
         "independent_beta": [product.beta] * number,
+        **{f"independent_{name}": values * number for name, values in errors_table([product]).items()},
     }
 
 
@@ -139,7 +140,7 @@ def _by_cluster(survival: FloatArray, flags: Flags, member: FloatArray) -> Float
     return reached
 
 
-def _union(typology: Typology, flags: Flags, rows: np.ndarray[Any, np.dtype[np.int64]]) -> Fragility:
+def union_of(typology: Typology, flags: Flags, rows: np.ndarray[Any, np.dtype[np.int64]]) -> Fragility:
     """Curve of the union of some rows."""
     survival = _survival(typology, flags, rows)
     labels, member = _members(flags)
@@ -158,7 +159,7 @@ def _union(typology: Typology, flags: Flags, rows: np.ndarray[Any, np.dtype[np.i
     return with_errors(curve, errors_of_counts("records", labels, typology.levels, reached, histories, at))
 
 
-def _mean(typology: Typology, flags: Flags, group: Group) -> Fragility:
+def mean_union_of(typology: Typology, flags: Flags, group: Group) -> Fragility:
     """The weighted mean of the unions of the walls of a group, fitted; its errors are over records and walls."""
     people = typology.population
     labels, member = _members(flags)

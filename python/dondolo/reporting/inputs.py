@@ -98,8 +98,8 @@ def _files_table(file: RunFile) -> Table:
 
 
 def _levels(run: Run) -> Facts:
-    """The levels of results that come without a case."""
-    if (run.settings and run.settings[0][0] == "task") or isinstance(run.results, Response):
+    """The levels of stripes and populations."""
+    if isinstance(run.results, Response):
         return []
     return [(f"levels of {run.results.im}", ", ".join(f"{level:g}" for level in run.results.levels))]
 

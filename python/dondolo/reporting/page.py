@@ -19,8 +19,7 @@ from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import Stripes
 from dondolo.checks.ntc import CodeCheck
 from dondolo.errors import InputError, silent
-from dondolo.exchange.cases import Results
-from dondolo.exchange.results import StoredResults
+from dondolo.exchange.results import Results
 from dondolo.figures import style
 from dondolo.figures.style import mechanism_name
 from dondolo.hazard.hazard import HazardCurve
@@ -50,7 +49,7 @@ class Chapter:
 
 
 def report(
-    results: StoredResults | Results | Typology | UncertainWall | Stripes | Response,
+    results: Results | Typology | UncertainWall | Stripes | Response,
     path: str | os.PathLike[str],
     *,
     hazard: HazardCurve | None = None,
@@ -61,9 +60,9 @@ def report(
 
     Parameters
     ----------
-    results : StoredResults, Results, Typology, UncertainWall, Stripes or Response
+    results : Results, Typology, UncertainWall, Stripes or Response
         What `read_results`, `run_case`, `typology`, `uncertain_wall`, `multiple_stripe` or `simulate`
-        gave. Files know most of a run.
+        gave. The results of a case know most of a run.
     path : path
         The file, ``*.html``, ``*.htm`` or ``*.pdf``; its folder must exist. PDF is printed by Chromium or WeasyPrint.
         An earlier report is replaced, any other file is not.

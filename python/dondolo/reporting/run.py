@@ -16,8 +16,7 @@ from dondolo.analysis.stripes import States, Stripes
 from dondolo.checks.ntc import CodeCheck
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloWarning, InputError
-from dondolo.exchange.cases import Results
-from dondolo.exchange.results import StoredResults
+from dondolo.exchange.results import Results
 from dondolo.populations.typology import Typology
 from dondolo.populations.uncertain_wall import UncertainWall
 from dondolo.records.record import Record
@@ -82,7 +81,7 @@ class Run:
     settings : list
         Names of what was asked for, and values.
     file : RunFile or None
-        The file of the run, if the results were read.
+        What ran, of the results of a case.
     warnings : list of DondoloWarning
     scales : LargeScales or None
         None if there are none.
@@ -128,10 +127,8 @@ class Run:
 
 def run_of(results: Any) -> Run:
     """Gather what the objects hold."""
-    if isinstance(results, StoredResults):
-        return _of_files(results)
     if isinstance(results, Results):
-        return _of_case(results)
+        return _of_results(results)
     if isinstance(results, UncertainWall):
         run = run_of(results.typology)
         run.uncertain, run.title = (
@@ -152,40 +149,20 @@ def run_of(results: Any) -> Run:
     raise InputError(f"results: {type(results).__name__} is nothing that a report can be made of")
 
 
-def _of_files(stored: StoredResults) -> Run:
-    """Result files: the file of the run knows its warnings, more of the scale factors than a fit repeated."""
-    run = run_of(stored.typology or stored.stripes or stored.response)
-    run.file, run.population, run.check = stored.run, stored.population, stored.check
-    run.uncertain, run.designs, run.checks = stored.uncertain, stored.designs, stored.checks
-    run.title = stored.run.setting("job", "title", "") or run.title
-    known = {one.code for one in stored.run.warnings} & {_LARGE_SCALES}
-    more = [one for one in run.warnings if one.code not in known]
-    run.warnings = list(dict.fromkeys([*stored.run.warnings, *more]))
-    if stored.stripes is not None and stored.edp_thresholds:
-        _set_states(run, stored.stripes, stored.edp_thresholds, stored.states)
-    return run
-
-
-def _of_case(results: Results) -> Run:
-    """A case run in Python."""
-    case = results.case
+def _of_results(results: Results) -> Run:
+    """Results of a case: the run knows its warnings, more of the scale factors than a fit repeated."""
     run = run_of(results.typology or results.stripes or results.response)
-    run.title, run.population, run.check = case.title or run.title, case.population, results.check
-    run.designs, run.checks = results.designs, results.checks
-    run.records = case.records if case.task != "history" else (case.records[case.record_index],)
-    run.settings = [
-        ("task", case.task),
-        ("intensity measure", case.im),
-        *([("polarity", case.polarity)] if case.task != "history" else []),
-        ("levels", ", ".join(f"{level:g}" for level in case.levels) or "none"),
-        ("damage states (EDP)", ", ".join(f"{edp:g}" for edp in case.edp_thresholds)),
-        ("engine", case.engine),
-        ("rtol, atol", f"{case.rtol:g}, {case.atol:g}"),
-        ("edp_limit", f"{case.edp_limit:g}"),
-    ]
-    if case.task == "stripes" and len(case.edp_thresholds) > 1:
-        assert results.stripes is not None
-        _set_states(run, results.stripes, case.edp_thresholds, case.states)
+    run.file, run.population, run.check = results.run, results.population, results.check
+    run.uncertain, run.designs, run.checks = results.uncertain, results.designs, results.checks
+    run.title = results.run.setting("job", "title", "") or run.title
+    if results.case is not None:
+        case = results.case
+        run.records = case.records if case.task != "history" else (case.records[case.record_index],)
+    known = {one.code for one in results.run.warnings} & {_LARGE_SCALES}
+    more = [one for one in run.warnings if one.code not in known]
+    run.warnings = list(dict.fromkeys([*results.run.warnings, *more]))
+    if results.stripes is not None and results.edp_thresholds:
+        _set_states(run, results.stripes, results.edp_thresholds, results.states)
     return run
 
 

@@ -8,6 +8,7 @@
 module dondolo_population_errors
    use dondolo_clustered, only : cluster_errors, fewest_clusters, leave_out_type
    use dondolo_error, only : error_type
+   use dondolo_fragility, only : fragility_type
    use dondolo_kinds, only : wp
    use dondolo_memory, only : check_room
    use dondolo_population, only : part_type, population_type
@@ -93,8 +94,8 @@ contains
    !> Take a wall
    pure subroutine add(self, population, number, counts)
       class(population_errors_type), intent(inout) :: self
-      !> The population
-      type(population_type), intent(in) :: population
+      !> The population: of a wall with several mechanisms the standard errors of the curve of all of them are set
+      type(population_type), intent(inout) :: population
       !> Number of the wall
       integer, intent(in) :: number
       !> Histories of each cluster that reach each state, over all records (levels, clusters, states, mechanisms)
@@ -119,6 +120,8 @@ contains
                deviation(:, g, last) = deviation(:, g, last) + slope(:, m)*deviation(:, g, m)
             end do
          end do
+         if (last > 2) call set_errors_of_wall(population%curve(k, columns(last)), self, population%occurrence(columns(last)), &
+            & fraction(:, last), deviation(:, :, last))
          do i = 1, size(self%curve, 1)
             do m = 1, last
                weight = population%weight_in(self%curve(i, k)%part, columns(m))
@@ -128,6 +131,28 @@ contains
          end do
       end do
    end subroutine add
+
+   !> Set the standard errors of the curve of a wall whose mechanisms are in series
+   pure subroutine set_errors_of_wall(curve, sums, occurrence, fraction, deviation)
+      type(fragility_type), intent(inout) :: curve
+      type(population_errors_type), intent(in) :: sums
+      !> Probability that the wall can collapse
+      real(wp), intent(in) :: occurrence
+      !> Its fractions at each level
+      real(wp), intent(in) :: fraction(:)
+      !> Deviations of the clusters from them (levels, clusters)
+      real(wp), intent(in) :: deviation(:, :)
+
+      real(wp), dimension(size(deviation, 1), size(deviation, 2)) :: counts
+      real(wp) :: changes(2, size(deviation, 2))
+      integer :: g
+
+      if (.not. occurrence > 0.0_wp) return
+      do g = 1, size(counts, 2)
+         counts(:, g) = (sums%share(:, g)*fraction + deviation(:, g))/occurrence
+      end do
+      call cluster_errors(curve, sums%levels, counts, sums%share, changes)
+   end subroutine set_errors_of_wall
 
    !> Take a wall, or one of its mechanisms, into a curve
    pure subroutine take(curve, weight, occurrence, fraction, deviation, run)

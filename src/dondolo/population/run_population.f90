@@ -57,7 +57,9 @@ contains
          call check_interrupt(error)
          if (allocated(error)) then
             error%message = error%message//': '//to_text(store%done)//' of '// &
-               & to_text(store%identity%last - store%identity%first + 1)//' rows are kept in '//store%path// &
+               & to_text(store%identity%last - store%identity%first + 1)//' rows are '
+            if (len(store%path) == 0) error%message = error%message//'complete'
+            if (len(store%path) > 0) error%message = error%message//'kept in '//store%path// &
                & '; the same command goes on from there'
             exit
          end if

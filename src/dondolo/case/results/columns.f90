@@ -2,6 +2,7 @@
 module dondolo_columns
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use dondolo_kinds, only : wp
+   use dondolo_memory, only : check_room
    use dondolo_table, only : table_type
    implicit none
    private
@@ -40,17 +41,17 @@ module dondolo_columns
 contains
 
    !> Take a text
-   subroutine take_text(self, text, is_quoted)
+   subroutine take_text(self, text)
       class(columns_type), intent(inout) :: self
       character(len=*), intent(in) :: text
-      !> Quotes are no part of it
-      logical, intent(in) :: is_quoted
 
       character(len=:), allocatable :: more
 
       if (.not. self%has_column(text_column)) return
       associate (column => self%columns(self%column))
          if (column%length + len(text) + 1 > len(column%text)) then
+            call check_room(2.0_wp*real(column%length + len(text) + 1, wp), self%error)
+            if (allocated(self%error)) return
             allocate (character(len=2*(column%length + len(text) + 1)) :: more)
             more(:column%length) = column%text(:column%length)
             call move_alloc(more, column%text)
@@ -61,11 +62,11 @@ contains
    end subroutine take_text
 
    !> Take a real number
-   subroutine take_real(self, value, given, is_whole)
+   subroutine take_real(self, value, given)
       class(columns_type), intent(inout) :: self
       real(wp), intent(in) :: value
-      !> Is there one? Does it stand for a whole number, which is a number like others here?
-      logical, intent(in) :: given, is_whole
+      !> Is there one?
+      logical, intent(in) :: given
 
       if (.not. self%has_column(real_column)) return
       self%columns(self%column)%number(self%rows + 1) = value
@@ -88,13 +89,17 @@ contains
    subroutine take_row(self)
       class(columns_type), intent(inout) :: self
 
+      real(wp), parameter :: bytes_of_number = real(storage_size(1.0_wp)/8, wp)
       real(wp), allocatable :: more(:)
       integer :: i
 
+      if (allocated(self%error)) return
       do i = 1, size(self%columns)
          associate (column => self%columns(i))
             if (.not. allocated(column%number)) cycle
             if (self%rows + 1 < size(column%number)) cycle
+            call check_room(bytes_of_number*2.0_wp*real(size(column%number), wp), self%error)
+            if (allocated(self%error)) return
             allocate (more(2*size(column%number)))
             more(:size(column%number)) = column%number
             call move_alloc(more, column%number)
@@ -108,6 +113,8 @@ contains
       !> Kind of the value
       integer, intent(in) :: kind
 
+      has_column = .false.
+      if (allocated(self%error)) return
       if (self%rows == 0) call add_column(self%columns, kind)
       has_column = self%column <= size(self%columns)
       if (has_column) has_column = self%columns(self%column)%kind == kind

@@ -30,13 +30,11 @@ module dondolo_csv_table
 contains
 
    !> Take a text
-   subroutine take_text(self, text, is_quoted)
+   subroutine take_text(self, text)
       class(csv_table_type), intent(inout) :: self
       character(len=*), intent(in) :: text
-      !> Does it stand in quotes in any case?
-      logical, intent(in) :: is_quoted
 
-      if (is_quoted) then
+      if (self%is_quoted) then
          call self%append('"'//text//'"')
       else
          call self%append(text_cell(text, self%is_safe))
@@ -44,15 +42,15 @@ contains
    end subroutine take_text
 
    !> Take a real number
-   subroutine take_real(self, value, given, is_whole)
+   subroutine take_real(self, value, given)
       class(csv_table_type), intent(inout) :: self
       real(wp), intent(in) :: value
-      !> Is there one? Does it stand for a whole number?
-      logical, intent(in) :: given, is_whole
+      !> Is there one?
+      logical, intent(in) :: given
 
       if (.not. given) then
          call self%append('')
-      else if (is_whole) then
+      else if (self%is_whole) then
          call self%append(to_text(nint(value)))
       else
          call self%append(to_table(value))

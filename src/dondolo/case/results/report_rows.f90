@@ -156,7 +156,7 @@ contains
       call put_bound(table, 'theta_high', bounds(2, 1))
       call put_bound(table, 'beta_low', bounds(1, 2))
       call put_bound(table, 'beta_high', bounds(2, 2))
-      call put_kind_of_errors(table, curve, has_fit)
+      call put_kind_of_errors(table, '', curve, has_fit)
       call table%put('naive_se_ln_theta', sqrt(curve%naive(1, 1)), has_fit)
       call table%put('naive_se_beta', sqrt(curve%naive(2, 2)), has_fit)
       call table%put('cov_ln_theta_beta', curve%covariance(1, 2), has_errors)
@@ -173,8 +173,10 @@ contains
    end subroutine put_bound
 
    !> What the standard errors of a curve are; degrees of freedom of records alone are whole numbers
-   subroutine put_kind_of_errors(table, curve, given)
+   subroutine put_kind_of_errors(table, prefix, curve, given)
       class(table_type), intent(inout) :: table
+      !> What the names of the columns begin with
+      character(len=*), intent(in) :: prefix
       type(fragility_type), intent(in) :: curve
       !> Is there anything to say?
       logical, intent(in) :: given
@@ -183,14 +185,16 @@ contains
 
       degrees = curve%degrees_of_freedom
       if (curve%errors /= 'clustered') degrees = real(max(curve%clusters - 1, 0), wp)
-      call table%put('errors', trim(curve%errors), given)
-      call table%put('clusters', curve%clusters, given)
-      call table%put_degrees('degrees_of_freedom', degrees, given)
+      call table%put(prefix//'errors', trim(curve%errors), given)
+      call table%put(prefix//'clusters', curve%clusters, given)
+      call table%put_degrees(prefix//'degrees_of_freedom', degrees, given)
    end subroutine put_kind_of_errors
 
    !> Standard errors of a curve
-   subroutine put_errors(table, curve, given)
+   subroutine put_errors(table, prefix, curve, given)
       class(table_type), intent(inout) :: table
+      !> What the names of the columns begin with
+      character(len=*), intent(in) :: prefix
       type(fragility_type), intent(in) :: curve
       !> Are they known?
       logical, intent(in) :: given
@@ -199,10 +203,10 @@ contains
 
       has_fit = given .and. curve%has_fit()
       has_errors = has_fit .and. curve%has_errors()
-      call table%put('se_ln_theta', curve%se_ln_theta(), has_errors)
-      call table%put('se_beta', curve%se_beta(), has_errors)
-      call table%put('cov_ln_theta_beta', curve%covariance(1, 2), has_errors)
-      call put_kind_of_errors(table, curve, has_fit)
+      call table%put(prefix//'se_ln_theta', curve%se_ln_theta(), has_errors)
+      call table%put(prefix//'se_beta', curve%se_beta(), has_errors)
+      call table%put(prefix//'cov_ln_theta_beta', curve%covariance(1, 2), has_errors)
+      call put_kind_of_errors(table, prefix, curve, has_fit)
    end subroutine put_errors
 
    !> A curve of the population at a level
@@ -234,7 +238,7 @@ contains
          call table%put('beta_records', typology%beta_records, typology%fitted > 0.0_wp)
          call table%put('saturation', typology%saturation)
          call table%put('edp_threshold', threshold)
-         call put_errors(table, fit, given=.true.)
+         call put_errors(table, '', fit, given=.true.)
       end associate
    end subroutine put_typology
 
@@ -269,9 +273,10 @@ contains
          call table%put('theta', curve%theta, curve%has_fit())
          call table%put('beta', curve%beta, curve%has_fit())
          call table%put('status', trim(curve%status))
-         call put_errors(table, curve, is_wall)
+         call put_errors(table, '', curve, is_wall)
          call table%put('independent_theta', other%theta, other%has_fit())
          call table%put('independent_beta', other%beta, other%has_fit())
+         call put_errors(table, 'independent_', other, given=.true.)
       end associate
    end subroutine put_union
 

@@ -122,10 +122,11 @@ contains
       type(case_type), intent(in), target :: case
       type(results_type), intent(inout) :: results
       class(table_type), intent(inout) :: table
-      !> A file that is read again has changed; or its rows differ in their columns, an error of the program
+      !> A file that is read again has changed; lack of memory; or its rows differ in their columns, an error of the program
       type(error_type), allocatable, intent(out) :: error
 
       call self%put(case, results, table, error)
+      if (.not. allocated(error) .and. allocated(table%error)) call move_alloc(table%error, error)
       if (.not. allocated(error) .and. .not. table%is_regular) call raise_failure(error, trim(self%suffix)// &
          & ': its rows differ in their columns')
    end subroutine fill

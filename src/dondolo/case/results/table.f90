@@ -1,6 +1,7 @@
 !> A table in the making: values are put under the names of their columns, row after row, so that head and cells cannot
 !> disagree. What becomes of them is the matter of its extensions: lines of a file, or columns in memory.
 module dondolo_table
+   use dondolo_error, only : error_type
    use dondolo_kinds, only : wp
    use dondolo_lines, only : lines_type
    implicit none
@@ -16,8 +17,12 @@ module dondolo_table
       integer :: rows = 0
       !> Has every row had the columns of the first, in their order?
       logical :: is_regular = .true.
+      !> Lack of memory; what is put from then on is lost
+      type(error_type), allocatable :: error
       !> Column of the last value that was put
       integer :: column = 0
+      !> Where it is written, does the text stand in quotes in any case, or the real number for a whole one?
+      logical :: is_quoted = .false., is_whole = .false.
    contains
       !> Put the value of the next column of a row; where it is not `given` its cell is empty
       generic :: put => put_text, put_real, put_integer, put_logical
@@ -37,21 +42,19 @@ module dondolo_table
    abstract interface
 
       !> Take a text
-      subroutine take_text(self, text, is_quoted)
+      subroutine take_text(self, text)
          import :: table_type
          class(table_type), intent(inout) :: self
          character(len=*), intent(in) :: text
-         !> Does it stand in quotes in any case?
-         logical, intent(in) :: is_quoted
       end subroutine take_text
 
       !> Take a real number
-      subroutine take_real(self, value, given, is_whole)
+      subroutine take_real(self, value, given)
          import :: table_type, wp
          class(table_type), intent(inout) :: self
          real(wp), intent(in) :: value
-         !> Is there one? Does it stand for a whole number?
-         logical, intent(in) :: given, is_whole
+         !> Is there one?
+         logical, intent(in) :: given
       end subroutine take_real
 
       !> Take a whole number
@@ -84,15 +87,13 @@ contains
       !> Does it stand in quotes in any case?
       logical, intent(in), optional :: is_quoted
 
-      logical :: quoted
-
-      quoted = .false.
-      if (present(is_quoted)) quoted = is_quoted
       call self%next_column(name)
+      self%is_quoted = .false.
       if (is_given(given)) then
-         call self%take_text(text, quoted)
+         if (present(is_quoted)) self%is_quoted = is_quoted
+         call self%take_text(text)
       else
-         call self%take_text('', .false.)
+         call self%take_text('')
       end if
    end subroutine put_text
 
@@ -106,7 +107,8 @@ contains
       logical, intent(in), optional :: given
 
       call self%next_column(name)
-      call self%take_real(value, is_given(given), is_whole=.false.)
+      self%is_whole = .false.
+      call self%take_real(value, is_given(given))
    end subroutine put_real
 
    !> Put a number, as a whole one where it is one
@@ -119,7 +121,8 @@ contains
       logical, intent(in), optional :: given
 
       call self%next_column(name)
-      call self%take_real(value, is_given(given), is_whole=value == anint(value))
+      self%is_whole = value == anint(value)
+      call self%take_real(value, is_given(given))
    end subroutine put_degrees
 
    !> Put a whole number

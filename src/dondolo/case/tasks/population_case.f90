@@ -24,13 +24,15 @@ module dondolo_population_case
 contains
 
    !> Run the rows of a population that the case asks for, or those that an earlier run has left
-   subroutine run_population_case(case, results, error, team, progress)
+   subroutine run_population_case(case, results, error, team, in_memory, progress)
       type(case_type), intent(in), target :: case
       type(results_type), intent(inout) :: results
       !> What cannot be run
       type(error_type), allocatable, intent(out) :: error
       !> Number of threads; 0: all
       integer, intent(in) :: team
+      !> Does the store stay in memory?
+      logical, intent(in) :: in_memory
       !> Hears how far the work is
       procedure(progress_interface), optional :: progress
 
@@ -40,10 +42,11 @@ contains
       allocate (results%stores(1))
       associate (store => results%stores(1))
          call check_size(case%population_path(), case%survey%histories, error)
-         if (.not. allocated(error)) call find_start(case, store, error)
+         if (.not. allocated(error) .and. in_memory) call begin_in_memory(case, store, error)
+         if (.not. allocated(error) .and. .not. in_memory) call find_start(case, store, error)
          if (allocated(error)) return
          results%resumed = store%done
-         call begin(case, store, error)
+         if (.not. in_memory) call begin(case, store, error)
          if (allocated(error)) return
          call case%make_study(study, team)
          study%floors => floors
@@ -178,6 +181,21 @@ contains
       call open_store(store, trim(store_path(case)), identity, error)
       if (allocated(error)) error%message = error%message//'; remove it to begin anew, unless another run is writing it'
    end subroutine find_start
+
+   !> Begin to put rows into a store in memory
+   subroutine begin_in_memory(case, store, error)
+      type(case_type), intent(in) :: case
+      !> The store, empty
+      type(store_type), intent(out) :: store
+      !> Lack of memory
+      type(error_type), allocatable, intent(out) :: error
+
+      type(identity_type) :: identity
+
+      call make_identity(case, identity)
+      call open_store(store, '', identity, error)
+      if (.not. allocated(error)) call store%claim(error)
+   end subroutine begin_in_memory
 
    !> Begin to put rows into a store
    subroutine begin(case, store, error)

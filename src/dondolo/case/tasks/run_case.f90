@@ -33,7 +33,7 @@ module dondolo_run_case
 contains
 
    !> Run a case
-   subroutine run_case(case, results, error, threads, progress)
+   subroutine run_case(case, results, error, threads, progress, in_memory)
       type(case_type), intent(in) :: case
       type(results_type), intent(out) :: results
       !> What cannot be run
@@ -42,13 +42,18 @@ contains
       integer, intent(in), optional :: threads
       !> Hears how far the work is, in histories
       procedure(progress_interface), optional :: progress
+      !> Does the store of a population stay in memory, and not in a file from which a killed run goes on?
+      logical, intent(in), optional :: in_memory
 
       type(wall_warning_type) :: oddities
       type(record_type) :: floor
       integer :: team
+      logical :: stays
 
       team = case%job%threads
       if (present(threads)) team = threads
+      stays = .false.
+      if (present(in_memory)) stays = in_memory
       if (case%job%task /= 'typology') then
          call oddities%look(case%wall)
          call oddities%warn(results%warnings)
@@ -75,7 +80,7 @@ contains
       case ('stripes')
          call run_stripes(case, results, error, team, progress)
       case ('typology')
-         call run_population_case(case, results, error, team, progress)
+         call run_population_case(case, results, error, team, stays, progress)
       end select
    end subroutine run_case
 

@@ -1,0 +1,99 @@
+!> What a store holds of a population, on its way to Python.
+module dondolo_store_parcel
+   use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use dondolo_boundary, only : check_room
+   use dondolo_error, only : error_type
+   use dondolo_parcel, only : parcel_type
+   use dondolo_row_result, only : bytes_of_flags, pack_flags, row_result_type
+   use dondolo_store, only : store_type
+   use dondolo_tie_tallies, only : tie_tally_type
+   implicit none
+   private
+
+   public :: pack_store
+
+contains
+
+   !> What a store has of its rows. Integers: histories of a stripe of each row, how many of them reach each state (levels,
+   !> states, rows), and ties of each row, 0 for rows that are not there; then of the rows that are there how many histories
+   !> make each tie yield and how many break it (ties, levels, 2), and the flags, eight a byte, each row from a byte of its own
+   !> on, and the number of these bytes last. Reals: of the rows that are there mean and largest plastic elongation (ties,
+   !> levels, 2) [m]
+   subroutine pack_store(store, parcel, error)
+      type(store_type), intent(inout) :: store
+      !> Its integers and reals are set
+      type(parcel_type), intent(inout) :: parcel
+      !> Lack of memory, or the store cannot be read
+      type(error_type), allocatable, intent(out) :: error
+
+      type(row_result_type) :: row
+      integer(c_int), allocatable :: histories(:), reached(:, :, :), ties(:), counts(:)
+      real(c_double), allocatable :: elongations(:)
+      character(len=:), allocatable :: flags, more
+      integer :: i, at, bytes, number
+
+      at = 0
+      number = 0
+      associate (rows => store%identity%last, shape => store%identity%shape)
+         call check_room(error, reals=8.0_c_double*rows*(shape%levels*shape%states + 16.0_c_double))
+         if (allocated(error)) return
+         allocate (histories(rows), reached(shape%levels, shape%states, rows), ties(rows), source=0)
+         allocate (character(len=1024) :: flags)
+         allocate (counts(1024), elongations(1024))
+         do i = 1, rows
+            if (.not. store%has(i)) cycle
+            call store%read(i, row, error)
+            if (allocated(error)) return
+            histories(i) = row%histories
+            reached(:, :, i) = count(row%flags, dim=1)
+            ties(i) = row%ties
+            call add_tallies(counts, elongations, number, row%tallies)
+            ! Room for the bytes that fill up the last integer, too
+            bytes = int(bytes_of_flags(shape, row%histories))
+            if (at + bytes + 3 > len(flags)) then
+               allocate (character(len=2*(at + bytes + 3)) :: more)
+               more(:at) = flags(:at)
+               call move_alloc(more, flags)
+            end if
+            call pack_flags(row%flags, flags(at + 1:at + bytes))
+            at = at + bytes
+         end do
+      end associate
+      flags(at + 1:at + 3) = repeat(achar(0), 3)
+      parcel%integers = [histories, reached, ties, counts(:number), transfer(flags(:(at + 3)/4*4), [0_c_int]), at]
+      parcel%reals = elongations(:number)
+   end subroutine pack_store
+
+   !> Add what the histories of a row do to its ties behind that of others, as many numbers of each kind; there is room for as
+   !> many again
+   subroutine add_tallies(counts, elongations, number, more)
+      integer(c_int), allocatable, intent(inout) :: counts(:)
+      real(c_double), allocatable, intent(inout) :: elongations(:)
+      !> How many there are of each
+      integer, intent(inout) :: number
+      !> Those of the row (ties, levels)
+      type(tie_tally_type), intent(in) :: more(:, :)
+
+      integer(c_int), allocatable :: wider(:)
+      real(c_double), allocatable :: longer(:)
+      integer :: i, j, k
+
+      k = size(more)
+      if (number + 2*k > size(counts)) then
+         allocate (wider(2*(number + 2*k)), longer(2*(number + 2*k)))
+         wider(:number) = counts(:number)
+         longer(:number) = elongations(:number)
+         call move_alloc(wider, counts)
+         call move_alloc(longer, elongations)
+      end if
+      do j = 1, size(more, 2)
+         do i = 1, size(more, 1)
+            number = number + 1
+            counts([number, number + k]) = [more(i, j)%yielded, more(i, j)%broken]
+            elongations([number, number + k]) = [more(i, j)%mean, more(i, j)%largest]
+         end do
+      end do
+      number = number + k
+   end subroutine add_tallies
+
+end module dondolo_store_parcel

@@ -1,0 +1,183 @@
+"""The executable's job from Python: a case file in, its results out, and no file written."""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dondolo._base.arguments import FloatArray, as_flag, as_path
+from dondolo._base.interrupts import deferred
+from dondolo._fortran import _core
+from dondolo._fortran.library import Parcel, Stoppable, receive, warn
+from dondolo._storage.columns import ColumnsInMemory
+from dondolo._storage.run_file import parse_run_file
+from dondolo.analysis.request import progress_bar
+from dondolo.analysis.work import Work
+from dondolo.errors import DondoloError, Interrupted, silent
+from dondolo.exchange.cases import Case, case_of
+from dondolo.exchange.results import Results, Source, results_of
+from dondolo.populations.store import Contents, contents_of
+from dondolo.populations.study import typology_of
+
+# Kinds of columns, as src/dondolo/case/results/columns.f90 has them
+_TEXT = 0
+# Seconds between two looks at how far a run is
+_PAUSE = 0.1
+
+
+def run_case(path: str | os.PathLike[str], *, progress: bool = True) -> Results:
+    """Run a case file as the executable does, with its results in memory and no files written.
+
+    Parameters
+    ----------
+    path : path
+        A namelist file; paths in it are relative to it.
+    progress : bool
+        Show a progress bar in a terminal or notebook.
+
+    Returns
+    -------
+    Results
+        What `read_results` gives of the files of the executable, to the bit, and what those do not tell: which record
+        brings which wall of a population down, and the records.
+
+    Raises
+    ------
+    InputError
+        The case is wrong, with the sentence of the executable.
+    DondoloError
+        It cannot be run to its end.
+    Interrupted
+        Ctrl-C; its `partial` is the typology of the walls that are complete, None for one wall.
+
+    Warns
+    -----
+    DondoloWarning
+        What the executable warns of.
+    """
+    name = as_path(path)
+    with deferred() as interrupts:
+        with Stoppable(), _shown(as_flag("progress", progress)) as heard:
+            *sent, answer = _core.cases.run_case(name, heard.ctypes.data)
+        case, rows = map(receive, sent)
+        known = case_of(case) if case.address else None
+        contents = None if known is None or not rows.address else _contents(known, rows)
+        try:
+            tables = receive(answer)
+        except DondoloError:
+            if not interrupts.requested:
+                raise
+        if interrupts.requested:
+            interrupts.answered = True
+            raise Interrupted(*_interrupted(known, contents))
+        assert known is not None
+        with silent():
+            results = _results(os.fspath(path), known, contents, tables)
+    warn(results.run.warnings)
+    return results
+
+
+def _results(path: str, case: Case, contents: Contents | None, parcel: Parcel) -> Results:
+    """Results out of the tables that Fortran has sent."""
+    tables, text = _tables(parcel)
+    run = parse_run_file(text, path)
+    flags = None if contents is None else contents.flags
+    return results_of(run, Source(tables.__getitem__, frozenset(tables)), case, flags)
+
+
+def _tables(parcel: Parcel) -> tuple[dict[str, ColumnsInMemory], str]:
+    """The tables of a parcel by what their names end with, and the text of the file of the run."""
+    tables: dict[str, ColumnsInMemory] = {}
+    at, line = 1, 0
+    for _ in range(int(parcel.integers[0])):
+        number, rows = parcel.integers[at : at + 2].tolist()
+        kinds = parcel.integers[at + 2 : at + 2 + number].tolist()
+        name, *heads = parcel.lines[line : line + 1 + number]
+        at, line = at + 2 + number, line + 1 + number
+        columns: dict[str, list[str] | FloatArray] = {}
+        for head, kind in zip(heads, kinds, strict=True):
+            if kind == _TEXT:
+                columns[head] = parcel.lines[line : line + rows]
+                line += rows
+            else:
+                values = parcel.series(rows)
+                values.flags.writeable = False
+                columns[head] = values
+        tables[name] = ColumnsInMemory(name, columns)
+    return tables, "\n".join(parcel.lines[line:])
+
+
+def _contents(case: Case, parcel: Parcel) -> Contents:
+    """What the store of a population has; which records run at which level and counts of the work stand at its end."""
+    records, levels = len(case.records), len(case.levels)
+    numbers, runs = np.split(parcel.integers, [-records * levels])
+    lengths, work = np.split(parcel.reals, [-len(Work._fields)])
+    return contents_of(
+        numbers,
+        lengths,
+        (len(case.population), len(case.edp_thresholds)),
+        case.records,
+        runs.reshape(levels, records).T.astype(np.float64),
+        Work(*work.astype(int).tolist()),
+    )
+
+
+def _interrupted(case: Case | None, contents: Contents | None) -> tuple[str, Any]:
+    """What is said of a run that Ctrl-C has stopped, and what is complete."""
+    if case is None or contents is None:
+        return "interrupted", None
+    histories = np.zeros(len(case.population), dtype=np.int32)
+    histories[contents.complete] = contents.flags.histories
+    try:
+        with silent():
+            found, complete, number = typology_of(
+                case.population,
+                case.im,
+                case.levels,
+                case.edp_thresholds,
+                contents,
+                np.asarray(contents.flags.runs.mean(axis=0)),
+                histories,
+            )
+    except Interrupted as nothing:
+        return str(nothing), None
+    return f"interrupted: {complete} of {number} walls are complete", found
+
+
+@contextmanager
+def _shown(wanted: bool) -> Iterator[NDArray[np.int32]]:
+    """Show how far a run is: gives where it tells how many histories are done, and how many there are."""
+    heard, over = np.zeros(2, dtype=np.int32), threading.Event()
+
+    def show() -> None:
+        bar, shown = None, 0
+        while not over.wait(_PAUSE):
+            done, total = heard.tolist()
+            if total == 0:
+                continue
+            # Certificates are a work of their own.
+            if bar is None or bar.total != total:
+                if bar is not None:
+                    bar.close()
+                bar, shown = progress_bar(total, True, "case", "history", done), done
+            bar.update(done - shown)
+            shown = done
+        if bar is not None:
+            bar.close()
+
+    if not wanted:
+        yield heard
+        return
+    watcher = threading.Thread(target=show, daemon=True)
+    watcher.start()
+    try:
+        yield heard
+    finally:
+        over.set()
+        watcher.join()

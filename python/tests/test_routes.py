@@ -1,0 +1,188 @@
+"""One content whatever the route: the executable's files, `run_case`, and files that Python writes of its results.
+
+What is compared follows from the list of tables and from the fields of results: a new part is covered by being there.
+"""
+
+import csv
+import dataclasses
+import io
+import subprocess
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pytest
+from dondolo._storage.transactions import TABLES
+from dondolo.exchange import running
+
+import dondolo as dd
+
+ROOT = Path(__file__).resolve().parents[2]
+READY = sorted(path.stem for path in (ROOT / "data/cases").glob("*.nml"))
+LONG = {"historic_centre", "uncertain_strip"}
+# Cases of tables and columns that no ready case has, out of one that is ready
+MORE = {
+    "certified": ("parapet", {"&stripes": "&solver certify = .true. /\n&stripes edp_thresholds = 0.3, 1.0,"}),
+    "checked": ("tied_facade", {"&stripes": "&check ag = 0.2, f0 = 2.5, tc_star = 0.35 /\n&stripes"}),
+    "ordinal": ("two_block", {"&stripes": "&stripes edp_thresholds = 0.2, 0.5, states = 'ordinal',"}),
+    "tied_history": (
+        "tied_facade",
+        {
+            "'stripes'": "'history'",
+            "&stripes": "&history im_level = 1.5 /\n&solver estimate_error = .true. /\n&stripes",
+        },
+    ),
+    "states": (
+        "facades",
+        {"&stripes": "&stripes edp_thresholds = 0.2, 0.6, 1.0,", "'typology'": "'typology', histories = .true."},
+    ),
+    "designs_in_states": ("designs", {"&stripes": "&stripes edp_thresholds = 0.4,"}),
+    "few_variants": (
+        "uncertain_strip",
+        {"samples = 200": "samples = 40", "count = 15": "count = 5, edp_thresholds = 0.3, 1.0"},
+    ),
+}
+CASES = [pytest.param(name, marks=pytest.mark.slow if name in LONG else ()) for name in (*READY, *MORE)]
+# What files do not tell: which history is which, and the record of a motion; what only files have: where they are
+NOT_IN_FILES = {"Typology.flags", "Fragility.parts", "Results.case", "Response.record"} | {
+    f"RunFile.{name}" for name in ("run", "path", "written", "files")
+}
+# Nor the standard errors of means of unions
+ERRORS = {f"Fragility.{name}" for name in ("covariance", "errors", "clusters", "degrees_of_freedom")}
+
+
+def case_of(name, folder):
+    """A case in a folder, its results to be put there."""
+    stem, changes = MORE.get(name, (name, {}))
+    text = (ROOT / f"data/cases/{stem}.nml").read_text().replace("'../", f"'{ROOT}/data/")
+    for old, new in changes.items():
+        assert old in text
+        text = text.replace(old, new)
+    path = folder / f"{name}.nml"
+    path.write_text(text.replace(f"'out/{stem}'", f"'{folder}/{name}'"))
+    return path
+
+
+@pytest.fixture(scope="module")
+def ran(executable, tmp_path_factory):
+    """Run a case once, by the executable and from Python: the prefix of the files, the results, and their tables."""
+    known = {}
+
+    def run(name):
+        if name not in known:
+            folder = tmp_path_factory.mktemp(name)
+            case = case_of(name, folder)
+            subprocess.run([executable, "--quiet", case], cwd=folder, capture_output=True, check=True)
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", dd.DondoloWarning)
+                results = dd.run_case(case, progress=False)
+            known[name] = folder / name, results, sent.pop()
+        return known[name]
+
+    sent = []
+
+    def listen(parcel):
+        tables, text = take(parcel)
+        sent.append(tables)
+        return tables, text
+
+    take = running._tables
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(running, "_tables", listen)
+        yield run
+    if set(READY) <= set(known):
+        written = {path.name.removeprefix(name) for name in known for path in known[name][0].parent.glob("*.csv")}
+        assert written == set(TABLES), "a table that no case has is compared by none"
+
+
+def differences(mine, theirs, place, ignored):
+    """Where two results differ: in the type, the shape or a bit of anything that they are made of."""
+    if type(mine) is not type(theirs):
+        yield f"{place}: {type(mine).__name__}, {type(theirs).__name__}"
+    elif isinstance(mine, np.ndarray):
+        if mine.dtype != theirs.dtype or mine.shape != theirs.shape or mine.tobytes() != theirs.tobytes():
+            yield f"{place}: {mine}, {theirs}"
+    elif isinstance(mine, dict):
+        if list(mine) != list(theirs):
+            yield f"{place}: {list(mine)}, {list(theirs)}"
+        for key in mine.keys() & theirs.keys():
+            yield from differences(mine[key], theirs[key], f"{place}[{key!r}]", ignored)
+    elif isinstance(mine, (list, tuple)):
+        if len(mine) != len(theirs):
+            yield f"{place}: {len(mine)}, {len(theirs)}"
+        for i, (one, two) in enumerate(zip(mine, theirs, strict=False)):
+            yield from differences(one, two, f"{place}[{i}]", ignored)
+    elif dataclasses.is_dataclass(mine):
+        for name in parts_of(type(mine)):
+            if f"{type(mine).__name__}.{name}" not in ignored:
+                more = ERRORS if name in ("group_unions", "kept_group_unions") else set()
+                yield from differences(getattr(mine, name), getattr(theirs, name), f"{place}.{name}", ignored | more)
+    elif isinstance(mine, float):
+        if np.float64(mine).tobytes() != np.float64(theirs).tobytes():
+            yield f"{place}: {mine!r}, {theirs!r}"
+    elif isinstance(mine, dd.Wall):
+        if repr(mine) != repr(theirs) or mine != theirs:
+            yield f"{place}: {mine!r}, {theirs!r}"
+    elif isinstance(mine, (dd.DondoloWarning, bool, int, str, type(None))):
+        if mine != theirs:
+            yield f"{place}: {mine!r}, {theirs!r}"
+    else:
+        yield from differences(vars(mine), vars(theirs), place, ignored)
+
+
+def parts_of(kind):
+    """What an object is made of: its fields, and of results what follows from them."""
+    names = [field.name for field in dataclasses.fields(kind) if not field.name.startswith("_")]
+    return [*names, *{dd.Results: ("checks",), dd.Typology: ("unions", "group_unions")}.get(kind, ())]
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_tables(name, ran):
+    """Columns in memory are those of the files: names, rows, texts, and numbers to the bit."""
+    prefix, _, tables = ran(name)
+    there = {end: prefix.with_name(prefix.name + end) for end in TABLES}
+    assert set(tables) == {end for end, path in there.items() if path.is_file()}
+    for end, table in tables.items():
+        lines = [line for line in there[end].read_text().splitlines(keepends=True) if not line.startswith("#")]
+        names, *rows = csv.reader(io.StringIO("".join(lines)))
+        assert list(table) == names
+        assert len(table) == len(rows) > 0
+        for column, cells in zip(names, zip(*rows, strict=True), strict=True):
+            given = [table.given(column, i) for i in range(len(rows))]
+            assert given == [bool(cell) for cell in cells], f"{end}: {column}"
+            own = table._columns[column]
+            if isinstance(own, list):
+                assert own == list(cells), f"{end}: {column}"
+            else:
+                numbers = np.array([float(cell) if cell else np.nan for cell in cells])
+                assert np.array_equal(own, numbers, equal_nan=True), f"{end}: {column}"
+
+
+@pytest.mark.parametrize("name", CASES)
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+def test_results(name, ran):
+    """`run_case` has what `read_results` has of the executable's files."""
+    prefix, mine, _ = ran(name)
+    assert [*differences(mine, dd.read_results(prefix), name, NOT_IN_FILES)] == []
+
+
+@pytest.mark.parametrize("name", ["facades", "states", "designs_in_states"])
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+def test_damage_states(name, ran):
+    """The same of every damage state."""
+    prefix, mine, _ = ran(name)
+    theirs = dd.read_results(prefix).typology
+    for edp in mine.typology.edp_thresholds:
+        assert [*differences(mine.typology.at(edp), theirs.at(edp), name, NOT_IN_FILES)] == []
+
+
+@pytest.mark.parametrize("name", ["population", "designs", "facade_hinges", "states", "designs_in_states"])
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+def test_written_by_python(name, ran, tmp_path):
+    """Files that Python writes of results hold the same typology."""
+    prefix, mine, _ = ran(name)
+    theirs = dd.read_results(prefix).typology
+    for number, typology in enumerate((mine.typology, theirs)):
+        typology.write_results(tmp_path / str(number))
+        back = dd.read_results(tmp_path / str(number)).typology
+        assert [*differences(theirs, back, name, NOT_IN_FILES)] == []
