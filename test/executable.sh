@@ -393,7 +393,7 @@ check "template without a task" diff ../stdout stripes.nml
 cat ./*.nml >all
 for variable in task title output threads name mechanism height thickness density hinge restitution \
    restitution_value restitution_factor overburden overburden_inertia bearing bearing_distance eccentricity file catalogue polarity im levels first last count \
-   engine rtol atol edp_limit estimate_error gravity record scale im_level code ag f0 tc_star soil topography confidence behaviour; do
+   engine rtol atol edp_limit estimate_error gravity record scale im_level code ag f0 tc_star soil topography knowledge_factor behaviour; do
    check "template: $variable" grep -qE "(^|[ ,])$variable = " all
 done
 # Every default that a template shows is the one in force: a case that leaves it out has the same echo
@@ -721,7 +721,7 @@ s/task = 'stripes'/task = 'history'/;s/'both'/'reversed'/;$s/$/\n\&history scale
 s/^(&stripes)/\&check ag = 0.2, f0 = 2.5, tc_star = 0.35, soil = 'F' \/\n\1/|bad.nml: &check: soil = 'f': must be one of 'A', 'B', 'C', 'D', 'E'
 s/^(&stripes)/\&check ag = 2, f0 = 2.5, tc_star = 0.35 \/\n\1/|bad.nml: &check: ag = 2: must lie between 0.001 and 1 g
 s/^(&stripes)/\&check ag = 0.2, f0 = 2.5 \/\n\1/|bad.nml: &check: tc_star: must be given
-s/^(&stripes)/\&check ag = 0.2, f0 = 2.5, tc_star = 0.35, confidence = 1.5 \/\n\1/|bad.nml: &check: confidence = 1.5: must lie between 1 and 1.35
+s/^(&stripes)/\&check ag = 0.2, f0 = 2.5, tc_star = 0.35, knowledge_factor = 1.5 \/\n\1/|bad.nml: &check: knowledge_factor = 1.5: must lie between 1 and 1.35
 s/task = 'stripes'/task = 'history'/;s/'both'/'reversed'/;s/^(&stripes)/\&check ag = 0.2, f0 = 2.5, tc_star = 0.35 \/\n\1/|bad.nml: &check (line 18): not for task = 'history'
 TABLE
 

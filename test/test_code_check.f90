@@ -191,7 +191,7 @@ contains
       call refuse([0.1_wp, 0.2_wp], 'B', 1.35_wp, 'ag: has 2 values, must have one, or three: SLD, SLV, SLC')
       call refuse([0.3_wp, 0.2_wp, 0.4_wp], 'B', 1.35_wp, 'ag: must not decrease from SLD to SLC')
       call refuse([0.2_wp], 'F', 1.35_wp, 'soil = ''f'': must be one of ''A'', ''B'', ''C'', ''D'', ''E''')
-      call refuse([0.2_wp], 'B', 1.5_wp, 'confidence = 1.5: must lie between 1 and 1.35')
+      call refuse([0.2_wp], 'B', 1.5_wp, 'knowledge_factor = 1.5: must lie between 1 and 1.35')
       input = a_wall(3.0_wp, 0.25_wp)
       call input%set('mechanism', 'two_block')
       call new_wall(wall, input, error)
@@ -200,8 +200,8 @@ contains
    end subroutine test_wrong_input
 
    !> A site that is wrong in one way
-   subroutine refuse(ag, soil, confidence, message)
-      real(wp), intent(in) :: ag(:), confidence
+   subroutine refuse(ag, soil, factor, message)
+      real(wp), intent(in) :: ag(:), factor
       character(len=*), intent(in) :: soil, message
 
       type(group_settings_type) :: settings
@@ -213,7 +213,7 @@ contains
       call settings%set('f0', [2.5_wp])
       call settings%set('tc_star', [0.35_wp])
       call settings%set('soil', soil)
-      call settings%set('confidence', confidence)
+      call settings%set('knowledge_factor', factor)
       call take_check(input, settings, problems)
       call check(problems%count == 1, 'one thing is wrong')
       if (problems%count > 0) call check_text(problems%text, message, 'message')

@@ -13,7 +13,7 @@ out.mkdir(parents=True, exist_ok=True)
 floors = [dd.Load(load, depth=0.4, height=height, inertia="both") for load, height in ((8e3, 3), (8e3, 6), (5e3, 9))]
 wall = dd.OneSidedWall(9.0, 0.5, loads=floors)
 site = dd.Site(ag=0.2, f0=2.5, tc_star=0.35, soil="B")
-check = dd.check_ntc(wall, site, confidence=1.35)
+check = dd.check_ntc(wall, site, knowledge_factor=1.35)
 records = dd.read_catalogue(data / "records" / "synthetic44.csv")
 stripes = dd.multiple_stripe(wall, records, levels=[0.1, 0.2, check.pga, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0])
 check = check.dynamic(stripes)

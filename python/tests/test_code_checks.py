@@ -158,7 +158,7 @@ def test_lines_on_the_curve(stripes, tmp_path):
         (lambda: dd.Site(2.0, 2.5, 0.35), r"ag = 2: must lie between 0\.001 and 1 g"),
         (lambda: dd.Site((0.1, 0.2), 2.5, 0.35), "ag: has 2 values, must have one, or three"),
         (lambda: dd.Site(0.2, 2.5, 0.35, soil="F"), "soil = 'f': must be one of 'A', 'B', 'C', 'D', 'E'"),
-        (lambda: dd.check_ntc(WALL, SITE, confidence=1.5), r"confidence = 1\.5: must lie between 1 and 1\.35"),
+        (lambda: dd.check_ntc(WALL, SITE, knowledge_factor=1.5), r"knowledge_factor = 1\.5: must lie between 1 and 1\.35"),
         (lambda: dd.check_ntc(dd.TwoBlockWall(3.0, 0.25), SITE), "mechanism = 'two_block': the kinematic check"),
         (lambda: dd.check_ntc(WALL, 0.2), "site: float is no site"),
     ],
@@ -253,7 +253,7 @@ def test_population(root, executable, tmp_path):
     (tmp_path / "case.nml").write_text(
         "&job task = 'typology', output = 'out' /\n&population file = 'walls.csv' /\n"
         f"&records catalogue = '{root}/data/records/synthetic44.csv' /\n&stripes levels = 0.2, 0.4, 0.8 /\n"
-        "&check ag = 0.08, 0.2, 0.26, f0 = 2.5, tc_star = 0.35, soil = 'B', confidence = 1.2 /\n"
+        "&check ag = 0.08, 0.2, 0.26, f0 = 2.5, tc_star = 0.35, soil = 'B', knowledge_factor = 1.2 /\n"
     )
     subprocess.run([executable, "--quiet", "case.nml"], cwd=tmp_path, check=True)
     lines = [line for line in (tmp_path / "out_checks.csv").read_text().splitlines() if not line.startswith("#")]
@@ -266,7 +266,7 @@ def test_population(root, executable, tmp_path):
     for row, wall, curve in zip(rows, stored.population, stored.typology.curves, strict=True):
         if row["note"]:
             continue
-        check = dd.check_ntc(wall, site, confidence=1.2)
+        check = dd.check_ntc(wall, site, knowledge_factor=1.2)
         for method, state in check.capacities:
             for quantity, unit in (("capacity_pga", "g"), ("ratio", "ratio")):
                 value = check.value(method, state, quantity)

@@ -180,7 +180,7 @@ contains
       end if
       associate (check => case%check)
          parcel%integers(7:9) = [size(check%ag), size(check%f0), size(check%tc_star)]
-         call parcel%add(real([check%ag, check%f0, check%tc_star, check%confidence, check%behaviour], c_double))
+         call parcel%add(real([check%ag, check%f0, check%tc_star, check%knowledge_factor, check%behaviour], c_double))
          call parcel%lines%add(check%soil)
          call parcel%lines%add(check%topography)
       end associate

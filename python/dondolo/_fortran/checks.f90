@@ -50,7 +50,7 @@ contains
          call settings%set(trim(lists(i)), numbers(next + 1:next + given(i)))
          next = next + given(i)
       end do
-      call settings%set('confidence', numbers(next + 1))
+      call settings%set('knowledge_factor', numbers(next + 1))
       call settings%set('behaviour', numbers(next + 2))
       call take_check(input, settings, problems)
       call problems%raise(error)

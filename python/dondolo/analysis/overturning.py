@@ -244,12 +244,12 @@ def overturning_spectrum(
     wall : Wall
         The wall.
     pulse : callable
-        A record for an amplitude [m/s2] and a frequency [Hz], such as `pulses.ricker` or `pulses.one_sine`; the
+        A record for an amplitude [g] and a frequency [Hz], such as `pulses.ricker` or `pulses.one_sine`; the
         record of amplitude 1 is scaled to the peak ground accelerations of the scan.
     frequencies : array_like, shape (frequencies,)
         Frequencies of the pulse [Hz], positive and increasing.
     amplitudes : array_like, shape (amplitudes,)
-        Peak ground accelerations in g, not in m/s2 as the amplitude of a pulse is; positive and increasing: the scan.
+        Peak ground accelerations [g], positive and increasing: the scan.
     polarity : {'as_recorded', 'reversed'}
         Which way round a one-sided wall feels the pulse.
     tolerance : float

@@ -238,7 +238,7 @@ class CodeCheck(Shown, Saved):
         return facts
 
 
-def check_ntc(wall: Wall, site: Site, *, confidence: float = 1.35, behaviour: float = 2.0) -> CodeCheck:
+def check_ntc(wall: Wall, site: Site, *, knowledge_factor: float = 1.35, behaviour: float = 2.0) -> CodeCheck:
     """Kinematic check of a wall by NTC 2018 and Circolare 7/2019, C8.7.1.2.1.
 
     Parameters
@@ -247,7 +247,7 @@ def check_ntc(wall: Wall, site: Site, *, confidence: float = 1.35, behaviour: fl
         Of one block; on a `Building` the check is that at its floor.
     site : Site
         The hazard.
-    confidence : float
+    knowledge_factor : float
         Confidence factor FC, 1 to 1.35; 1.35 where no compressive strength moves the hinge.
     behaviour : float
         Behaviour factor q of the linear check, 1 to 2.
@@ -276,5 +276,5 @@ def check_ntc(wall: Wall, site: Site, *, confidence: float = 1.35, behaviour: fl
     0.08206169897
     """
     handle = upload((instance_of("wall", wall, Wall, "no wall"),))
-    given = instance_of("site", site, Site, "no site")._input(confidence, behaviour)
+    given = instance_of("site", site, Site, "no site")._input(knowledge_factor, behaviour)
     return CodeCheck(wall=wall, site=site, rows=kinematic_sheet(handle, given))

@@ -26,7 +26,7 @@ def checks_of_run(walls: Iterable[Wall], run: RunFile) -> tuple[CodeCheck | None
     if "check" not in run.settings:
         return ()
     given = run.settings["check"]
-    factors = {name: float(given[name]) for name in ("confidence", "behaviour") if name in given}
+    factors = {name: float(given[name]) for name in ("knowledge_factor", "behaviour") if name in given}
     return kinematic_checks(walls, site_of(run), **factors)
 
 

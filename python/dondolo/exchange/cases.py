@@ -49,7 +49,7 @@ class Case(Shown):
         Factor on it, with the sign of its polarity.
     site : Site or None
         Hazard of a check by NTC 2018.
-    confidence, behaviour : float
+    knowledge_factor, behaviour : float
         Factors of that check.
     designs : bool
         Whether the walls are designs of one wall, each to be compared with the first.
@@ -75,7 +75,7 @@ class Case(Shown):
     record_index: int
     scale: float
     site: Site | None = None
-    confidence: float = 1.35
+    knowledge_factor: float = 1.35
     behaviour: float = 2.0
     designs: bool = False
 
@@ -122,9 +122,9 @@ def case_of(parcel: Parcel) -> Case:
     places = [hazard + (int(counts.sum()) + 2 if counts.any() else 0), 10, 9]
     check: dict[str, Any] = {}
     if counts.any():
-        *values, (confidence, behaviour) = np.split(parcel.reals[hazard : places[0]], np.cumsum(counts))
+        *values, (knowledge_factor, behaviour) = np.split(parcel.reals[hazard : places[0]], np.cumsum(counts))
         site = Site(*(one.tolist() if len(one) > 1 else one[0] for one in values), soil=soil, topography=topography)  # type: ignore[arg-type]
-        check = {"site": site, "confidence": float(confidence), "behaviour": float(behaviour)}
+        check = {"site": site, "knowledge_factor": float(knowledge_factor), "behaviour": float(behaviour)}
     people = [wall_from(data) for data in unpack_walls(parcel, walls, *places)]
     reals, integers, lines = walls_end(parcel, walls, *places)
     weight, p_occ = parcel.reals[reals : reals + 2 * walls].reshape(2, walls)

@@ -105,11 +105,11 @@ class Site(Shown):
             object.__setattr__(self, name, several)
         self._parameters("SLV")
 
-    def _input(self, confidence: float = 1.35, behaviour: float = 2.0) -> SiteInput:
+    def _input(self, knowledge_factor: float = 1.35, behaviour: float = 2.0) -> SiteInput:
         """The site as Fortran takes it, with what a check needs besides."""
         words = b"\n".join(as_text(name, getattr(self, name)) for name in ("soil", "topography"))
         lists = [np.atleast_1d(values) for values in (self.ag, self.f0, self.tc_star)]
-        factors = as_number("confidence", confidence), as_number("behaviour", behaviour)
+        factors = as_number("knowledge_factor", knowledge_factor), as_number("behaviour", behaviour)
         a, b, c = map(len, lists)
         return SiteInput(words, np.concatenate([*lists, factors]), (a, b, c))
 

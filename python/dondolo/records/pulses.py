@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from dondolo._base.arguments import as_number
+from dondolo._fortran.library import constants
 from dondolo.errors import InputError
 from dondolo.records.record import Record
 
@@ -29,7 +30,7 @@ def one_sine(amplitude: float, frequency: float, *, error: float = 1e-5) -> Reco
     Parameters
     ----------
     amplitude : float
-        Peak acceleration in m/s2, not in g.
+        Peak acceleration [g].
     frequency : float
         Frequency of the pulse [Hz].
     error : float
@@ -59,7 +60,7 @@ def one_cosine(amplitude: float, frequency: float, *, error: float = 1e-5) -> Re
     Parameters
     ----------
     amplitude, frequency, error
-        As those of `one_sine`, the amplitude in m/s2.
+        As those of `one_sine`.
 
     Returns
     -------
@@ -84,7 +85,7 @@ def ricker(amplitude: float, frequency: float, *, error: float = 1e-5) -> Record
     Parameters
     ----------
     amplitude, frequency, error
-        As those of `one_sine`, the amplitude in m/s2; the frequency is that of the largest Fourier amplitude.
+        As those of `one_sine`; the frequency is that of the largest Fourier amplitude.
 
     Returns
     -------
@@ -108,19 +109,19 @@ def ricker(amplitude: float, frequency: float, *, error: float = 1e-5) -> Record
     end = np.sqrt(max(4.0, 0.5 - lambertw(-0.5 * np.exp(0.5) * error, -1).real))
     count = int(np.ceil(end / np.sqrt(8.0 * error / 6.0)))
     x = end * np.arange(-count, count + 1) / count
-    values = amplitude * (1.0 - 2.0 * x**2) * np.exp(-(x**2))
+    values = _in_si(amplitude) * (1.0 - 2.0 * x**2) * np.exp(-(x**2))
     return Record(values, end / count / (np.pi * frequency), _name("ricker", frequency))
 
 
 def mavroeidis_papageorgiou(
-    amplitude: float, frequency: float, *, phase: float = 0.0, gamma: float = 2.0, error: float = 1e-5
+    velocity: float, frequency: float, *, phase: float = 0.0, gamma: float = 2.0, error: float = 1e-5
 ) -> Record:
     """The velocity pulse of Mavroeidis and Papageorgiou (2003).
 
     Parameters
     ----------
-    amplitude : float
-        Amplitude A of the velocity's envelope in m/s: a velocity, unlike the amplitudes of the other pulses.
+    velocity : float
+        Amplitude A of the envelope of the velocity [m/s].
     frequency : float
         Prevailing frequency f_p [Hz].
     phase : float
@@ -128,7 +129,7 @@ def mavroeidis_papageorgiou(
     gamma : float
         Oscillatory character, greater than 1: the length of the pulse in periods.
     error : float
-        Largest distance between the samples' chords and the acceleration, as a part of 2 pi frequency amplitude.
+        Largest distance between the samples' chords and the acceleration, as a part of 2 pi frequency velocity.
 
     Returns
     -------
@@ -146,7 +147,7 @@ def mavroeidis_papageorgiou(
     Papageorgiou (2003), A mathematical representation of near-fault ground motions, BSSA 93(3):1099-1131. As a sum of
     three cosines its third derivative is at most A (2 pi f_p)^3 (1 + 3/(2 gamma^2)).
     """
-    amplitude, frequency, error = _numbers(amplitude=amplitude, frequency=frequency, error=error)
+    velocity, frequency, error = _numbers(velocity=velocity, frequency=frequency, error=error)
     nu, gamma = np.radians(as_number("phase", phase)), as_number("gamma", gamma)
     if not np.isfinite(nu):
         raise InputError(f"phase = {phase}: must be a number")
@@ -158,7 +159,7 @@ def mavroeidis_papageorgiou(
     values = (
         -np.pi
         * frequency
-        * amplitude
+        * velocity
         * (np.sin(slow) * np.cos(angle + nu) / gamma + (1.0 + np.cos(slow)) * np.sin(angle + nu))
     )
     return Record(values, 0.5 * gamma / frequency / count, _name("mavroeidis_papageorgiou", frequency))
@@ -168,8 +169,13 @@ def _harmonic(shape: Any, name: str, amplitude: float, frequency: float, error: 
     """One period of a sine or cosine, in a multiple of four steps."""
     amplitude, frequency, error = _numbers(amplitude=amplitude, frequency=frequency, error=error)
     count = 4 * int(np.ceil(0.5 * np.pi / np.sqrt(8.0 * error)))
-    values = amplitude * shape(2.0 * np.pi * np.arange(count + 1) / count)
+    values = _in_si(amplitude) * shape(2.0 * np.pi * np.arange(count + 1) / count)
     return Record(values, 1.0 / (frequency * count), _name(name, frequency))
+
+
+def _in_si(amplitude: float) -> float:
+    """A peak acceleration in g as records have it [m/s2]."""
+    return amplitude * constants().gravity
 
 
 def _name(kind: str, frequency: float) -> str:

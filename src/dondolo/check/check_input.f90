@@ -33,7 +33,7 @@ module dondolo_check_input
       &   choices=reshape([character(len=choices_length) :: soil_names], [most_choices], pad=blank)), &
       & property_type('topography', is_text, word='T1', meaning='class of topography', &
       &   choices=reshape([character(len=choices_length) :: topography_names], [most_choices], pad=blank)), &
-      & property_type('confidence', default=1.35_wp, smallest=1.0_wp, largest=1.35_wp, &
+      & property_type('knowledge_factor', default=1.35_wp, smallest=1.0_wp, largest=1.35_wp, &
       &   meaning='confidence factor FC; the code has 1, 1.2 and 1.35, the last of them where no compressive strength '// &
       &   'moves the hinge'), &
       & property_type('behaviour', default=2.0_wp, smallest=1.0_wp, largest=2.0_wp, &
@@ -48,7 +48,7 @@ module dondolo_check_input
       character(len=1) :: soil = 'A'
       character(len=2) :: topography = 'T1'
       !> Confidence factor FC
-      real(wp) :: confidence = 1.35_wp
+      real(wp) :: knowledge_factor = 1.35_wp
       !> Behaviour factor q
       real(wp) :: behaviour = 2.0_wp
    contains
@@ -76,7 +76,7 @@ contains
       call take_list('tc_star', input%tc_star)
       input%soil = settings%word('soil')
       input%topography = settings%word('topography')
-      input%confidence = settings%number('confidence')
+      input%knowledge_factor = settings%number('knowledge_factor')
       input%behaviour = settings%number('behaviour')
 
    contains
@@ -109,7 +109,7 @@ contains
       call settings%set('tc_star', input%tc_star)
       call settings%set('soil', input%soil)
       call settings%set('topography', input%topography)
-      call settings%set('confidence', input%confidence)
+      call settings%set('knowledge_factor', input%knowledge_factor)
       call settings%set('behaviour', input%behaviour)
    end subroutine put_check
 

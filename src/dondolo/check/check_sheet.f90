@@ -30,7 +30,7 @@ module dondolo_check_sheet
       & quantity_type('tc', 'T_C', 's', 'period at which the constant velocity begins at the site'), &
       & quantity_type('pga', 'a_g S', 'g', 'peak acceleration at the site'), &
       & quantity_type('floor_pga', 'a_Z', 'g', 'peak acceleration at the level of the wall'), &
-      & quantity_type('confidence', 'FC', '', 'confidence factor'), &
+      & quantity_type('knowledge_factor', 'FC', '', 'confidence factor'), &
       & quantity_type('behaviour', 'q', '', 'behaviour factor'), &
       & quantity_type('alpha_0', 'alpha_0', '', 'multiplier that starts the mechanism'), &
       & quantity_type('mass', 'M*', 'kg/m', 'mass that takes part'), &

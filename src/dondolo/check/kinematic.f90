@@ -214,14 +214,14 @@ contains
    end function rotation
 
    !> Spectral acceleration of capacity a = alpha g/(e* FC) at a displacement [m/s2]
-   real(wp) function capacity(self, d, confidence) result(a)
+   real(wp) function capacity(self, d, knowledge_factor) result(a)
       class(kinematic_type), intent(in) :: self
       !> Displacement [m]
       real(wp), intent(in) :: d
       !> Confidence factor FC
-      real(wp), intent(in) :: confidence
+      real(wp), intent(in) :: knowledge_factor
 
-      a = self%multiplier_at(self%rotation(d))*self%gravity/(self%mass_ratio*confidence)
+      a = self%multiplier_at(self%rotation(d))*self%gravity/(self%mass_ratio*knowledge_factor)
    end function capacity
 
 end module dondolo_kinematic

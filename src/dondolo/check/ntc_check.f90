@@ -117,11 +117,11 @@ contains
       type(kinematic_type), intent(in) :: kinematic
       type(check_input_type), intent(in) :: input
 
-      call sheet%add('mechanism', '', 'confidence', input%confidence)
+      call sheet%add('mechanism', '', 'knowledge_factor', input%knowledge_factor)
       call sheet%add('mechanism', '', 'alpha_0', kinematic%multiplier, 'C8.7.1.1')
       call sheet%add('mechanism', '', 'mass', kinematic%mass, 'C8.7.1.5')
       call sheet%add('mechanism', '', 'mass_ratio', kinematic%mass_ratio, 'C8.7.1.5')
-      call sheet%add('mechanism', '', 'a_0', kinematic%capacity(0.0_wp, input%confidence), 'C8.7.1.3')
+      call sheet%add('mechanism', '', 'a_0', kinematic%capacity(0.0_wp, input%knowledge_factor), 'C8.7.1.3')
       call sheet%add('mechanism', '', 'd_0', kinematic%end_displacement, 'C8.7.1.4')
       if (kinematic%tie_fracture < huge(1.0_wp)) call sheet%add('mechanism', '', 'tie_fracture', kinematic%tie_fracture, &
          & 'C8.7.1.4')
@@ -156,7 +156,7 @@ contains
       type(check_input_type), intent(in) :: input
       type(floor_spectrum_type), intent(in) :: spectrum
 
-      factor = kinematic%capacity(0.0_wp, input%confidence)/(kinematic%gravity*spectrum%peak_acceleration())
+      factor = kinematic%capacity(0.0_wp, input%knowledge_factor)/(kinematic%gravity*spectrum%peak_acceleration())
    end function activation
 
    !> Displacement that the nonlinear check allows in a limit state [m]
@@ -185,7 +185,7 @@ contains
 
       name = state_names(state)
       d = capacity_displacement(kinematic, state)
-      a = kinematic%capacity(d, input%confidence)
+      a = kinematic%capacity(d, input%knowledge_factor)
       period = period_factors(state)*pi*sqrt(d/a)
       demand = spectrum%displacement(period, dampings(state), kinematic%gravity)
       call sheet%add('nonlinear', name, 'displacement', d)
