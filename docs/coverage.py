@@ -276,7 +276,7 @@ def chosen() -> list[str]:
         for number in STRIPES:
             known = np.linspace(2.0 * dense.theta / number, 2.0 * dense.theta, number)
             best = dense.theta * np.exp(dense.beta * np.linspace(-1.645, 1.645, number))
-            curves = [dd.multiple_stripe(wall, records, "auto", budget=44 * number, progress=False).fit()]
+            curves = [dd.adaptive_stripes(wall, records, budget=44 * number, progress=False).fit()]
             curves += [dd.multiple_stripe(wall, records, levels, progress=False).fit() for levels in (known, best)]
             found = [widths(curve) for curve in (*curves, dense)]
             every.append((number, found))
@@ -442,7 +442,7 @@ an interval of its own.
 **Damage states with one dispersion** (`states = 'ordinal'`). The covariance is that of all θ and β together, from the
 scores and the information of the cumulative probit model, with the same correction.
 
-**Levels that tell most.** `multiple_stripe(wall, records, 'auto', budget=...)` spends a budget of histories stripe by
+**Levels that tell most.** `adaptive_stripes(wall, records, budget)` spends a budget of histories stripe by
 stripe. A record counts as one capacity, lognormal as the curve so far; stripes tell between which of their levels it
 lies. The next level maximises the determinant of the Fisher information on (ln θ, ln β) of such grouped data, which is
 the same for any other pair of parameters of the curve (D-optimal design); a level that was run already adds nothing.

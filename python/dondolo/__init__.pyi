@@ -18,6 +18,8 @@ from dondolo.analysis.overturning import overturning_spectrum as overturning_spe
 from dondolo.analysis.response import Response as Response
 from dondolo.analysis.response import simulate as simulate
 from dondolo.analysis.solver import Solver as Solver
+from dondolo.analysis.stripe_runs import Study as Study
+from dondolo.analysis.stripe_runs import adaptive_stripes as adaptive_stripes
 from dondolo.analysis.stripe_runs import multiple_stripe as multiple_stripe
 from dondolo.analysis.stripes import Stripes as Stripes
 from dondolo.analysis.work import Work as Work

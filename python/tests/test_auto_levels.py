@@ -60,7 +60,7 @@ def test_the_best_levels_of_a_known_curve():
 
 
 def test_stripes(wall, few):
-    chosen = dd.multiple_stripe(wall, few, "auto", budget=6 * len(few) + 3, progress=False, threads=1)
+    chosen = dd.adaptive_stripes(wall, few, budget=6 * len(few) + 3, progress=False, threads=1)
     assert len(chosen.levels) == 6
     assert np.all(np.diff(chosen.levels) > 0.0)
     assert chosen.work.histories == 6 * len(few)
@@ -69,14 +69,14 @@ def test_stripes(wall, few):
     for name in ("edp", "impacts", "scale", "ran", "polarity"):
         assert np.array_equal(getattr(chosen, name), getattr(again, name))
     assert (chosen.record_names, chosen.events, chosen.work) == (again.record_names, again.events, again.work)
-    other = dd.multiple_stripe(wall, few, "auto", budget=6 * len(few), progress=False, threads=2)
+    other = dd.adaptive_stripes(wall, few, budget=6 * len(few), progress=False, threads=2)
     assert np.array_equal(other.edp, chosen.edp)
 
 
 def test_other_measures(wall, few):
     """The first level follows from the records, also where scales go with its root."""
     for im in ("arias", "sa(0.5)", "p*pgv/a0"):
-        chosen = dd.multiple_stripe(wall, few, "auto", budget=4 * len(few), im=im, progress=False)
+        chosen = dd.adaptive_stripes(wall, few, budget=4 * len(few), im=im, progress=False)
         assert len(chosen.levels) == 4
         assert chosen.collapses.any()
 
@@ -85,30 +85,30 @@ def test_it_ends(few, wall):
     """Where nothing ever collapses, the levels double until the budget is spent or no record bears it."""
     firm = dd.OneSidedWall(1.0, 50.0, name="firm")
     with pytest.warns(dd.DondoloWarning):
-        still = dd.multiple_stripe(firm, few[:2], "auto", budget=200, progress=False)
+        still = dd.adaptive_stripes(firm, few[:2], budget=200, progress=False)
     assert not still.collapses.any()
     assert 3 <= len(still.levels) < 20
     assert still.levels[1:] == pytest.approx(2.0 * still.levels[:-1], rel=1e-2)
 
 
 @pytest.mark.parametrize(
-    ("levels", "budget", "message"),
+    ("budget", "message"),
     [
-        ("auto", None, "budget: must be given with levels = 'auto'"),
-        ("auto", 10, "budget = 10: must be at least 24, 3 stripes of 8 histories"),
-        ("auto", 0.5, "budget = 0.5: must be an integer, at least 1"),
-        ("best", 100, "levels = 'best': must be one of 'auto'"),
-        ([0.2, 0.4], 100, "budget = 100: only with levels = 'auto'"),
+        (10, "budget = 10: must be at least 24, 3 stripes of 8 histories"),
+        (0.5, "budget = 0.5: must be an integer, at least 1"),
+        (None, "budget = None: must be an integer, at least 1"),
     ],
 )
-def test_wrong_arguments(wall, few, levels, budget, message):
+def test_wrong_budgets(wall, few, budget, message):
     with pytest.raises(dd.InputError, match=re.escape(message)):
-        dd.multiple_stripe(wall, few, levels, budget=budget, progress=False)
+        dd.adaptive_stripes(wall, few, budget, progress=False)
 
 
 def test_records_with_levels(wall, few):
-    with pytest.raises(dd.InputError, match="levels = 'auto': the records have levels of their own"):
-        dd.multiple_stripe(wall, {0.4: few}, "auto", budget=100, progress=False)
+    with pytest.raises(dd.InputError, match="records: have levels of their own"):
+        dd.adaptive_stripes(wall, {0.4: few}, budget=100, progress=False)
+    with pytest.raises(dd.InputError, match="levels: must be numbers"):
+        dd.multiple_stripe(wall, few, "auto", progress=False)
 
 
 def test_interruption(wall, few, replace_procedure):
@@ -124,7 +124,7 @@ def test_interruption(wall, few, replace_procedure):
 
     replace_procedure("stripes.run_block", stopped)
     with pytest.raises(dd.Interrupted, match="interrupted: 2 of 5 stripes are complete") as caught:
-        dd.multiple_stripe(wall, few, "auto", budget=5 * len(few), progress=False)
+        dd.adaptive_stripes(wall, few, budget=5 * len(few), progress=False)
     assert len(caught.value.partial.levels) == 2
 
 
@@ -132,4 +132,4 @@ def test_interruption(wall, few, replace_procedure):
 def test_a_record_without_motion(im, wall, records):
     still = dd.Record(np.zeros(10), 0.01, "flat")
     with pytest.raises(dd.InputError, match="record 'flat': has no motion"):
-        dd.multiple_stripe(wall, [*records[:4], still], "auto", budget=100, im=im, progress=False)
+        dd.adaptive_stripes(wall, [*records[:4], still], budget=100, im=im, progress=False)

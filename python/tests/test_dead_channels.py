@@ -64,7 +64,7 @@ def test_every_analysis_refuses(dead, wall):
         lambda: dd.multiple_stripe(wall, several, levels, polarity="both", progress=False),
         lambda: dd.multiple_stripe(wall, {0.2: LIVE, 0.8: several}, progress=False),
         lambda: dd.multiple_stripe(wall, dd.RecordSet(several, level=0.4, factor=2.0), progress=False),
-        lambda: dd.multiple_stripe(wall, several, "auto", budget=200, progress=False),
+        lambda: dd.adaptive_stripes(wall, several, budget=200, progress=False),
         lambda: dd.typology([wall, upstairs], several, levels, progress=False),
         lambda: dd.compare_designs(designs, several, levels, progress=False),
         lambda: dd.uncertain_wall(wall, several, levels, sources=sources, count=8, progress=False),

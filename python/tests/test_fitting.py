@@ -535,3 +535,53 @@ def test_inverse():
         dd.Fragility.of_parameters(0.5, 0.4).ppf_interval(0.5)
     with pytest.raises(dd.DondoloError, match="no curve was fitted"):
         dd.fit_fragility([0.2, 0.4], [0, 0], 20).ppf(0.5)
+
+
+@pytest.mark.parametrize("polarity", ["as_recorded", "both"])
+def test_outcomes_of_any_program(wall, records, polarity):
+    """The flags of stripes, as another program would give them, make the curve of the stripes: errors and draws too."""
+    stripes = dd.multiple_stripe(wall, records, [0.4, 0.6, 0.8, 1.0, 1.3], polarity=polarity, progress=False)
+    curve = stripes.fit()
+    own = [records[i] for i in stripes.record_index]
+    for whose, events in ((own, None), ([one.name for one in own], [one.event for one in own])):
+        told = dd.fit_fragility(stripes.levels, stripes.collapsed.T, im="pga", records=whose, events=events)
+        assert (told.theta, told.beta, told.errors, told.clusters) == (curve.theta, curve.beta, "clustered", 22)
+        assert np.array_equal(told.covariance, curve.covariance)
+        drawn, expected = (one.bootstrap(n_resamples=50, seed=3) for one in (told, curve))
+        assert np.array_equal(drawn.theta, expected.theta, equal_nan=True)
+    again = dd.fit_fragility(stripes.levels, stripes.collapsed.T, im="pga", records=own)
+    assert again.compare(curve).pairing == "paired"
+    assert again.compare(curve).ratio_interval == (1.0, 1.0)
+
+
+def test_outcomes_that_were_not_run():
+    """A history that is missing at some levels counts at the others; without records each stands for itself."""
+    gap = np.nan
+    outcomes = np.array([[0, 0, 1, 1], [0, gap, 0, 1], [0, 1, 1, gap], [0, 0, 1, 1], [1, 0, 0, 1], [0, 0, 0, 1.0]])
+    curve = dd.fit_fragility([0.2, 0.4, 0.6, 0.9], outcomes)
+    counts = dd.fit_fragility([0.2, 0.4, 0.6, 0.9], [1, 1, 3, 5], [6, 5, 6, 5])
+    assert (curve.theta, curve.beta) == (counts.theta, counts.beta)
+    assert (curve.errors, curve.clusters, counts.errors) == ("clustered", 6, "naive")
+    pairs = dd.fit_fragility([0.2, 0.4, 0.6, 0.9], outcomes, events=[1, 1, 2, 2, 3, 3])
+    assert pairs.clusters == 3
+    # One of three left out, refitted: what a sandwich of three clusters estimates
+    assert pairs.se_ln_theta != curve.se_ln_theta
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"collapses": [[0, 1], [0, 2]]}, "collapses = 2: the outcome of a history must be 0, 1 or NaN"),
+        ({"collapses": [[0, 1, 1]]}, "collapses: 3 columns for 2 levels: must be as many"),
+        ({"histories": 3}, "histories: only with counts of collapses"),
+        ({"records": ["a"]}, "records: 1 for 2 histories: must be as many"),
+        ({"records": ["a", 3]}, "records: 3: must be a Record or a name"),
+        ({"events": ["a"]}, "events: 1 labels for 2 histories: must be as many"),
+        ({"records": ["a", "a"], "events": [1, 2]}, "events: 'event 2' and 'event 1' for one record, 'a'"),
+        ({"collapses": [1, 2]}, "histories: must be given with counts of collapses"),
+        ({"collapses": [1, 2], "histories": 3, "records": ["a"]}, r"records: only with the outcomes of histories"),
+    ],
+)
+def test_wrong_outcomes(given, message):
+    with pytest.raises(dd.InputError, match=message):
+        dd.fit_fragility(**{"levels": [0.2, 0.4], "collapses": [[0, 1], [0, 1]]} | given)

@@ -67,31 +67,25 @@ def test_walls_that_are_tried_alike_share_a_study(few, replace_procedure):
     plans, plan = [], _core.stripes.plan
     replace_procedure("stripes.plan", lambda *given: plans.append(given) or plan(*given))
     one, two = dd.OneSidedWall(3.0, 0.25), dd.TwoBlockWall(3.0, 0.25)
-    first = dd.multiple_stripe(one, few, LEVELS, progress=False)
-    second = dd.multiple_stripe(dd.OneSidedWall(4.0, 0.25), few, LEVELS, progress=False)
+    study = dd.Study(few, LEVELS)
+    first = study.run(one, progress=False)
+    second = study.run(dd.OneSidedWall(4.0, 0.25), progress=False)
     assert len(calls) == len(plans) == 1
     assert second.scale.base is first.scale.base
     assert not any(stripes.scale.base.flags.writeable for stripes in (first, second))
-    other = dd.multiple_stripe(two, few, LEVELS, progress=False)
+    other = study.run(two, progress=False)
     assert len(calls) == 1
-    # Whatever else is asked for, results are those of records that were never used before.
-    ways = (
-        {"levels": [0.2, 0.7]},
-        {"im": "sa(0.5)"},
-        {"polarity": "both"},
-        {"solver": dd.Solver(engine="rk45")},
-        {"solver": dd.Solver(rtol=1e-9)},
-        {"estimate_error": True},
-        {"threads": 1},
+    # Whatever else is asked for in between, results are those of an analysis alone.
+    for way in ({"im": "sa(0.5)"}, {"polarity": "both"}, {"solver": dd.Solver(rtol=1e-9)}, {"threads": 1}):
+        alone = dd.multiple_stripe(one, few, LEVELS, **way, progress=False)
+        assert np.array_equal(dd.Study(few, LEVELS, **way).run(one, progress=False).edp, alone.edp)
+    for wall, before in ((one, first), (two, other)):
+        for again in (study.run(wall, progress=False), dd.multiple_stripe(wall, few, LEVELS, progress=False)):
+            for name in ("edp", "collapsed", "impacts", "time_of_peak", "scale"):
+                assert np.array_equal(getattr(again, name), getattr(before, name))
+    assert (
+        repr(study) == f"<Study: records {len(few)}, levels {len(LEVELS)} of pga, 0.2 to 0.6 g, polarity as_recorded>"
     )
-    for number, way in enumerate(ways, 2):
-        asked = {"levels": LEVELS, "progress": False} | way
-        fresh = [dd.Record(record.acceleration, record.dt, record.name) for record in few]
-        expected = dd.multiple_stripe(one, fresh, **asked)
-        assert np.array_equal(dd.multiple_stripe(one, few, **asked).edp, expected.edp)
-        assert len(calls) == 2 * number - 1
-    assert np.array_equal(dd.multiple_stripe(one, few, LEVELS, progress=False).edp, first.edp)
-    assert np.array_equal(dd.multiple_stripe(two, few, LEVELS, progress=False).edp, other.edp)
 
 
 def test_walls_that_share_a_plan_have_warnings_of_their_own(few, replace_procedure):
@@ -104,20 +98,20 @@ def test_walls_that_share_a_plan_have_warnings_of_their_own(few, replace_procedu
         "on the moon": dd.OneSidedWall(3.0, 0.25, name="on the moon", gravity=1.62),
         "two blocks": dd.TwoBlockWall(3.0, 0.25, name="two blocks"),
     }
-    found = {}
+    found, study = {}, dd.Study(few, levels)
     for again in (False, True):
         for name, wall in walls.items():
-            records = few if again else [one.processed(one.acceleration, "copied") for one in few]
             with pytest.warns(dd.DondoloWarning) as caught:
-                stripes = dd.multiple_stripe(wall, records, levels, progress=False)
+                stripes = (study if again else dd.Study(few, levels)).run(wall, progress=False)
             told = [str(one.message) for one in caught], stripes.scale.tolist(), stripes.collapsed.tolist()
             assert found.setdefault(name, told) == told
     # The first of them is planned for the second too, the others differ in gravity or sides.
     assert len(plans) == len(walls) + len(walls) - 1
     # Factors of this measure depend on the wall.
     del plans[:]
+    dimensionless = dd.Study(few, [1.0, 1.5], im="pga/a0")
     for wall in (walls["usual"], dd.OneSidedWall(3.0, 0.5), walls["usual"]):
-        scaled = dd.multiple_stripe(wall, few, [1.0, 1.5], im="pga/a0", progress=False)
+        scaled = dimensionless.run(wall, progress=False)
         expected = wall.trigger_acceleration / np.array([record.peak_acceleration for record in few])
         np.testing.assert_allclose(scaled.scale[0], expected, rtol=1e-12)
     assert len(plans) == 3
@@ -126,37 +120,39 @@ def test_walls_that_share_a_plan_have_warnings_of_their_own(few, replace_procedu
         warnings.simplefilter("error")
         for _ in range(2):
             with pytest.raises(dd.DondoloWarning) as raised:
-                dd.multiple_stripe(walls["usual"], few, levels, progress=False)
+                study.run(walls["usual"], progress=False)
             assert len(raised.traceback) < 10
 
 
-def test_studies_that_are_not_kept(few, replace_procedure):
+def test_motions_of_floors_are_not_kept(few, replace_procedure):
+    """They take much memory: a wall on a building has a study of its own each time."""
     calls = []
     new_study = _core.stripes.new_study
     replace_procedure("stripes.new_study", lambda *given: calls.append(given) or new_study(*given))
     wall, building = dd.OneSidedWall(3.0, 0.25), dd.Building(period=0.3, participation=1.3)
     upstairs = dd.OneSidedWall(3.0, 0.25, building=building)
+    study, by_level = dd.Study(few, LEVELS), dd.Study({0.2: few[:1], 0.6: few})
     for _ in range(2):
-        # Records of each level, and motions of floors, which take much memory
-        dd.multiple_stripe(wall, {0.2: few[:1], 0.6: few}, progress=False)
-        dd.multiple_stripe(upstairs, few, LEVELS, progress=False)
+        study.run(upstairs, progress=False)
+        study.run(wall, progress=False)
+        by_level.run(wall, progress=False)
     assert len(calls) == 4
+    alone = dd.multiple_stripe(wall, {0.2: few[:1], 0.6: few}, progress=False)
+    assert np.array_equal(by_level.run(wall, progress=False).edp, alone.edp, equal_nan=True)
 
 
-def test_a_kept_study_is_freed_with_its_records(few):
-    records = [dd.Record(record.acceleration, record.dt, record.name) for record in few]
-    dd.multiple_stripe(dd.OneSidedWall(3.0, 0.25), records, LEVELS, progress=False)
-    suite = upload(tuple(records))
-    number, (_, study) = suite.number, suite.last_study
-    study = study.number
+def test_a_study_frees_what_it_keeps(few):
+    study = dd.Study(few, LEVELS)
+    study.run(dd.OneSidedWall(3.0, 0.25), progress=False)
+    number = study._request._study.number
+    walls = upload_walls((dd.OneSidedWall(3.0, 0.25),))
+    _core.stripes.plan(number, walls.number, 1)
     gc.disable()
     try:
-        del records, suite, _
-        assert "is not valid" in refusal(_core.records.measure_suite, number, b"pga", 1)
+        del study
+        assert "is not valid" in refusal(_core.stripes.plan, number, walls.number, 1)
     finally:
         gc.enable()
-    walls = upload_walls((dd.OneSidedWall(3.0, 0.25),))
-    assert "is not valid" in refusal(_core.stripes.plan, study, walls.number, 1)
 
 
 def test_use_after_free(few):

@@ -141,7 +141,7 @@ def test_between_levels_that_are_chosen(name, after, wall, few, interrupt_at):
     """Three stripes are complete, and come out whole."""
     interrupt_at(stripe_runs, name, 3, after)
     with pytest.raises(dd.Interrupted, match=r"interrupted: 3 of 6 stripes are complete") as caught:
-        dd.multiple_stripe(wall, few, "auto", budget=6 * len(few), progress=False)
+        dd.adaptive_stripes(wall, few, budget=6 * len(few), progress=False)
     partial = caught.value.partial
     again = dd.multiple_stripe(wall, few, partial.levels, progress=False)
     assert np.array_equal(partial.edp, again.edp)
@@ -151,7 +151,7 @@ def test_between_levels_that_are_chosen(name, after, wall, few, interrupt_at):
 def test_while_the_first_level_is_chosen(wall, few, interrupt_at):
     interrupt_at(stripe_runs, "rounded", 1)
     with pytest.raises(dd.Interrupted, match=r"interrupted: 0 of 6 stripes are complete") as caught:
-        dd.multiple_stripe(wall, few, "auto", budget=6 * len(few), progress=False)
+        dd.adaptive_stripes(wall, few, budget=6 * len(few), progress=False)
     assert caught.value.partial is None
 
 
@@ -164,19 +164,19 @@ def test_a_handler_of_the_users_may_raise_anywhere(name, wall, few, interrupt_at
     try:
         interrupt_at(stripe_runs, name, 3)
         with pytest.raises(dd.Interrupted, match=r"interrupted: 3 of 6 stripes") as caught:
-            dd.multiple_stripe(wall, few, "auto", budget=6 * len(few), progress=False)
+            dd.adaptive_stripes(wall, few, budget=6 * len(few), progress=False)
         assert signal.getsignal(signal.SIGINT) is mine
     finally:
         signal.signal(signal.SIGINT, before)
     assert len(caught.value.partial.levels) == 3
 
 
-@pytest.mark.parametrize(("levels", "more"), [([0.3, 0.6, 0.9], {}), ("auto", {"budget": 24})])
+@pytest.mark.parametrize(("run", "how"), [(dd.multiple_stripe, [0.3, 0.6, 0.9]), (dd.adaptive_stripes, 24)])
 @pytest.mark.parametrize("name", ["_stripes", "_warnings"])
-def test_when_all_stripes_are_complete(name, levels, more, wall, few, interrupt_at):
-    interrupt_at(stripe_runs, name, 3 if levels == "auto" and name == "_stripes" else 1)
+def test_when_all_stripes_are_complete(name, run, how, wall, few, interrupt_at):
+    interrupt_at(stripe_runs, name, 3 if run is dd.adaptive_stripes and name == "_stripes" else 1)
     with pytest.raises(dd.Interrupted, match=r"interrupted: 3 of 3 stripes are complete") as caught:
-        dd.multiple_stripe(wall, few, levels, **more, progress=False)
+        run(wall, few, how, progress=False)
     assert len(caught.value.partial.levels) == 3
 
 

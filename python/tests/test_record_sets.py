@@ -260,7 +260,7 @@ def test_a_set_with_factors_is_heeded_or_refused(records, parapet):
             with pytest.raises(dd.InputError, match=f"records: have {what}s of their own"):
                 run(one)
     with pytest.raises(dd.InputError, match="have factors and no levels"):
-        dd.multiple_stripe(parapet, scaled, levels="auto", budget=200, progress=False)
+        dd.adaptive_stripes(parapet, scaled, budget=200, progress=False)
 
 
 def test_a_record_of_several_rows(records, parapet):

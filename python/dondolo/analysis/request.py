@@ -45,7 +45,7 @@ _FIRST_SAMPLES = 20_000_000
 SMALL_LEVEL = 1e-6
 
 # What a request has in Fortran
-_UPLOADED = ("_suite", "_study", "_people")
+_UPLOADED = ("_suite", "_study", "_people", "kept")
 
 #: Polarities of the records in an analysis
 Polarity = Literal["as_recorded", "reversed", "both"]
@@ -101,7 +101,7 @@ def _all_run(levels: int, histories: int) -> np.ndarray[Any, np.dtype[np.bool_]]
     return ran
 
 
-class Study(Handle):
+class StudyHandle(Handle):
     """Records, levels and settings in Fortran.
 
     Attributes
@@ -115,6 +115,15 @@ class Study(Handle):
     def __init__(self, number: int, needs: Handle | None = None) -> None:
         super().__init__(number, needs)
         self.shared: tuple[tuple[float, bool], Plan] | None = None
+
+
+class Kept:
+    """Where requests that differ in their walls alone keep what they share in Fortran."""
+
+    __slots__ = ("study",)
+
+    def __init__(self) -> None:
+        self.study: StudyHandle | None = None
 
 
 @dataclass(frozen=True)
@@ -133,6 +142,7 @@ class Request:
     settings: FloatArray
     threads: int
     rows: LevelRows | None = None
+    kept: Kept | None = None
 
     @functools.cached_property
     def _suite(self) -> Suite:
@@ -140,28 +150,25 @@ class Request:
         return upload_records(self.records, self.threads)
 
     @functools.cached_property
-    def _study(self) -> Study:
+    def _study(self) -> StudyHandle:
         """Records, levels and settings in Fortran."""
+        # Motions of floors belong to a study, and would stay with it.
+        kept = self.kept if all(wall.building is None for wall in self.walls) else None
+        if kept is not None and kept.study is not None:
+            return kept.study
         suite = self._suite
         im, polarity, engine = (as_text(what, getattr(self, what)) for what in ("im", "polarity", "engine"))
-        # Walls one after the other are tried alike. Motions of floors belong to a study, and would stay with it.
-        is_kept = self.rows is None and len(self.walls) == 1 and self.walls[0].building is None
-        key = (im, polarity, engine, self.threads, self.levels.tobytes(), self.settings.tobytes())
-        last = suite.last_study
-        if is_kept and last is not None and last[0] == key:
-            return last[1]  # type: ignore[no-any-return]
         if self.im:
             suite.measure(self.im, self.threads)
         number, failure = _core.stripes.new_study(
             suite.number, im, self.levels, polarity, engine, self.settings, self.threads
         )
         check(failure)
-        # A suite keeps a study, which must not keep the suite: a ring would be freed late.
-        study = Study(number, None if is_kept else suite)
-        if is_kept:
-            suite.last_study = key, study
+        study = StudyHandle(number, suite)
         if self.rows is not None:
             check(_core.stripes.choose_records(number, *self.rows))
+        if kept is not None:
+            kept.study = study
         return study
 
     @functools.cached_property

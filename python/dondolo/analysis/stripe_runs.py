@@ -1,21 +1,22 @@
-"""Multiple stripe analysis of one wall, at levels that are given or chosen one after the other."""
+"""Multiple stripe analysis of walls, at levels that are given or chosen one after the other."""
 
 from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterable, Mapping
-from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import as_count, as_flag, instance_of, one_of
+from dondolo._base.arguments import FloatArray, as_count, as_flag, instance_of
 from dondolo._base.interrupts import Interrupts, deferred
+from dondolo._base.shown import Shown
 from dondolo._fortran.histories import warnings_of_errors
 from dondolo._fortran.library import warn
+from dondolo._fortran.records import levels_in_words
 from dondolo.analysis.auto_levels import FEWEST, next_level, rounded
 from dondolo.analysis.certificate import run_again
-from dondolo.analysis.request import Outcome, Pace, Plan, Polarity, Request, new_request, progress_bar
+from dondolo.analysis.request import Kept, Outcome, Pace, Plan, Polarity, Request, new_request, progress_bar
 from dondolo.analysis.solver import Solver
 from dondolo.analysis.stripe_sets import in_matrix, stack
 from dondolo.analysis.stripes import Stripes
@@ -27,12 +28,128 @@ from dondolo.walls.wall import Wall
 _TRIAL = 1e-3
 
 
+class Study(Shown):
+    """Records, levels and how motions are integrated, prepared once for walls that are tried one after the other.
+
+    Parameters
+    ----------
+    records : Record, iterable of Record, RecordSet, or mapping of float to these
+        The accelerograms, as for `multiple_stripe`.
+    levels : array_like, shape (levels,), optional
+        Levels of intensity, as for `multiple_stripe`.
+    im, polarity, solver, estimate_error, certify, threads
+        As for `multiple_stripe`.
+
+    Attributes
+    ----------
+    records : tuple of Record
+    levels : ndarray, shape (levels,)
+    im : str
+
+    Raises
+    ------
+    InputError
+        What cannot be run with any wall.
+
+    Notes
+    -----
+    The results of `run` are those of `multiple_stripe`, to the bit. What all walls have in common stays in the library
+    as long as the study does; the motions of walls on buildings do not.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", count=10)
+    >>> study = dd.Study(records, [0.6, 0.8, 1.0])
+    >>> [study.run(dd.OneSidedWall(1.5, t), progress=False).fit().status for t in (0.24, 0.26)]
+    ['ok', 'ok']
+    """
+
+    def __init__(
+        self,
+        records: Record | Iterable[Record] | Mapping[float, Record | Iterable[Record]],
+        levels: ArrayLike | None = None,
+        *,
+        im: str = "pga",
+        polarity: Polarity = "as_recorded",
+        solver: Solver | None = None,
+        estimate_error: bool = False,
+        certify: bool = False,
+        threads: int = 0,
+    ) -> None:
+        estimate_error, self._certify = as_flag("estimate_error", estimate_error), as_flag("certify", certify)
+        request = new_request((), records, levels, im, polarity, solver, threads, estimate_error or self._certify)
+        self._request = dataclasses.replace(request, kept=Kept())
+
+    @property
+    def records(self) -> tuple[Record, ...]:
+        """The accelerograms."""
+        return self._request.records
+
+    @property
+    def levels(self) -> FloatArray:
+        """Levels of intensity, shape (levels,)."""
+        return self._request.levels
+
+    @property
+    def im(self) -> str:
+        """Intensity measure."""
+        return self._request.im
+
+    def run(self, wall: Wall, *, progress: bool = True) -> Stripes:
+        """Run the records at the levels with a wall.
+
+        Parameters
+        ----------
+        wall : Wall
+            The wall.
+        progress : bool
+            Show a progress bar in a terminal or notebook.
+
+        Returns
+        -------
+        Stripes
+
+        Raises
+        ------
+        InputError, Interrupted
+            As `multiple_stripe`.
+
+        Warns
+        -----
+        DondoloWarning
+            As `multiple_stripe`.
+        """
+        instance_of("wall", wall, Wall, "no wall")
+        as_flag("progress", progress)
+        request = dataclasses.replace(self._request, walls=(wall,))
+        with deferred() as interrupts:
+            try:
+                plan = request.plan()
+            except KeyboardInterrupt:
+                raise _stopped(0, len(request.levels), None) from None
+            warn(plan.warnings)
+            outcome, interrupted = request.run(plan.histories, progress, wall.name)
+            if not interrupted:
+                whole = _stripes(request, plan, outcome, len(request.levels))
+                return _finished(whole, request, self._certify, progress, interrupts)
+            complete = int(np.searchsorted(np.cumsum(plan.ran.sum(axis=1)), outcome.done, side="right"))
+            partial = _stripes(request, plan, outcome, complete) if complete else None
+            raise _stopped(complete, len(request.levels), partial)
+
+    def _facts(self) -> list[tuple[str, str]]:
+        return [
+            ("records", str(len(self.records))),
+            ("levels", levels_in_words(self.levels, self.im)),
+            ("polarity", self._request.polarity),
+        ]
+
+
 def multiple_stripe(
     wall: Wall,
     records: Record | Iterable[Record] | Mapping[float, Record | Iterable[Record]],
-    levels: ArrayLike | Literal["auto"] | None = None,
+    levels: ArrayLike | None = None,
     *,
-    budget: int | None = None,
     im: str = "pga",
     polarity: Polarity = "as_recorded",
     solver: Solver | None = None,
@@ -50,14 +167,10 @@ def multiple_stripe(
     records : Record, iterable of Record, RecordSet, or mapping of float to these
         The accelerograms. With a mapping of levels to records, or a `RecordSet` with levels, a record runs at its
         levels only, with the factor of the set where it has one.
-    levels : array_like, shape (levels,), or 'auto'
+    levels : array_like, shape (levels,), optional
         Levels of intensity, positive and increasing, in the unit of the measure; may be left out where the records have
         levels. Levels that are equally spaced but for rounding, as from `numpy.linspace`, are those of first, last and
-        count of a case, rounded to 14 digits. 'auto': stripe by stripe, each level is chosen where the histories so far
-        leave most to learn of the curve of collapse, rounded to three digits, until the budget is spent (see Notes).
-    budget : int, optional
-        With levels = 'auto': how many histories to run at most, enough for three stripes of all records. What does not
-        suffice for a stripe is not spent.
+        count of a case, rounded to 14 digits.
     im : str
         Intensity measure: 'pga', 'sa(T)' or 'saavg(T1:T2)' with periods in s [g], 'pgv', 'arias' or 'cav' [m/s],
         'pgd' or 'hi' [m], or of record and wall 'pga/a0' or 'p*pgv/a0', numbers without a unit, where a0 is the wall's
@@ -98,39 +211,90 @@ def multiple_stripe(
     -----
     Section 3.3 of Nale et al.
 
-    With levels = 'auto' the first level scales the median record to a PGA of twice the wall's trigger acceleration.
-    While nothing or everything collapses, the next level is twice or half the last. Then a level maximises the
-    determinant of the information on (ln theta, ln beta): a record counts as one capacity, of which stripes tell
-    between which levels it lies (docs/uncertainty.md). The same levels result for any number of threads, and the
-    stripes are those of a run at these levels.
-    It ends early where the next level would scale a record beyond all measure.
+    A `Study` runs several walls alike, `adaptive_stripes` chooses the levels itself.
+    """
+    instance_of("wall", wall, Wall, "no wall")
+    study = Study(
+        records,
+        levels,
+        im=im,
+        polarity=polarity,
+        solver=solver,
+        estimate_error=estimate_error,
+        certify=certify,
+        threads=threads,
+    )
+    return study.run(wall, progress=progress)
+
+
+def adaptive_stripes(
+    wall: Wall,
+    records: Record | Iterable[Record],
+    budget: int,
+    *,
+    im: str = "pga",
+    polarity: Polarity = "as_recorded",
+    solver: Solver | None = None,
+    estimate_error: bool = False,
+    certify: bool = False,
+    threads: int = 0,
+    progress: bool = True,
+) -> Stripes:
+    """Run records at levels that are chosen one after the other, each where it tells most of the curve of collapse.
+
+    Parameters
+    ----------
+    wall : Wall
+        The wall.
+    records : Record or iterable of Record
+        The accelerograms, without levels or factors of their own.
+    budget : int
+        How many histories to run at most, enough for three stripes of all records. What does not suffice for a stripe
+        is not spent.
+    im, polarity, solver, estimate_error, certify, threads, progress
+        As for `multiple_stripe`.
+
+    Returns
+    -------
+    Stripes
+        Those of `multiple_stripe` at these levels, which have three digits.
+
+    Raises
+    ------
+    InputError
+        What cannot be run; records with levels of their own; a budget that is too small.
+    Interrupted
+        Ctrl-C; its `partial` has the stripes that are complete.
+
+    Warns
+    -----
+    DondoloWarning
+        As `multiple_stripe`.
+
+    Notes
+    -----
+    The first level scales the median record to a PGA of twice the wall's trigger acceleration. While nothing or
+    everything collapses, the next level is twice or half the last. Then a level maximises the determinant of the
+    information on (ln theta, ln beta): a record counts as one capacity, of which stripes tell between which levels it
+    lies (docs/uncertainty.md). The same levels result for any number of threads. It ends early where the next level
+    would scale a record beyond all measure.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", count=10)
+    >>> stripes = dd.adaptive_stripes(dd.OneSidedWall(1.5, 0.25), records, budget=60, progress=False)
+    >>> len(stripes.levels)
+    6
     """
     instance_of("wall", wall, Wall, "no wall")
     estimate_error, certify = as_flag("estimate_error", estimate_error), as_flag("certify", certify)
     as_flag("progress", progress)
-    if isinstance(levels, str):
-        one_of("levels", levels, ("auto",))
-        if isinstance(records, Mapping) or getattr(records, "level", None) is not None:
-            raise InputError("levels = 'auto': the records have levels of their own")
-        request = new_request((wall,), records, [1.0], im, polarity, solver, threads, estimate_error or certify)
-        with deferred() as interrupts:
-            return _finished(_auto(request, budget, progress, interrupts), request, certify, progress, interrupts)
-    if budget is not None:
-        raise InputError(f"budget = {budget!r}: only with levels = 'auto'")
-    request = new_request((wall,), records, levels, im, polarity, solver, threads, estimate_error or certify)
+    if isinstance(records, Mapping) or getattr(records, "level", None) is not None:
+        raise InputError("records: have levels of their own, and adaptive_stripes chooses them")
+    request = new_request((wall,), records, [1.0], im, polarity, solver, threads, estimate_error or certify)
     with deferred() as interrupts:
-        try:
-            plan = request.plan()
-        except KeyboardInterrupt:
-            raise _stopped(0, len(request.levels), None) from None
-        warn(plan.warnings)
-        outcome, interrupted = request.run(plan.histories, progress, wall.name)
-        if not interrupted:
-            whole = _stripes(request, plan, outcome, len(request.levels))
-            return _finished(whole, request, certify, progress, interrupts)
-        complete = int(np.searchsorted(np.cumsum(plan.ran.sum(axis=1)), outcome.done, side="right"))
-        partial = _stripes(request, plan, outcome, complete) if complete else None
-        raise _stopped(complete, len(request.levels), partial)
+        return _finished(_adaptive(request, budget, progress, interrupts), request, certify, progress, interrupts)
 
 
 def _stopped(complete: int, stripes: int, partial: Stripes | None) -> Interrupted:
@@ -138,7 +302,7 @@ def _stopped(complete: int, stripes: int, partial: Stripes | None) -> Interrupte
     return Interrupted(f"interrupted: {complete} of {stripes} stripes are complete", partial)
 
 
-def _auto(request: Request, budget: int | None, progress: bool, interrupts: Interrupts) -> Stripes:
+def _adaptive(request: Request, budget: int, progress: bool, interrupts: Interrupts) -> Stripes:
     """Stripes at levels that are chosen one after the other."""
     wall = request.walls[0]
 
@@ -149,8 +313,6 @@ def _auto(request: Request, budget: int | None, progress: bool, interrupts: Inte
 
     trials = [at(level).plan() for level in (_TRIAL, 2.0 * _TRIAL)]
     size = len(trials[0].record)
-    if budget is None:
-        raise InputError("budget: must be given with levels = 'auto'")
     budget = as_count("budget", budget, 1)
     if budget < FEWEST * size:
         raise InputError(f"budget = {budget}: must be at least {FEWEST * size}, {FEWEST} stripes of {size} histories")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+from collections.abc import Sequence
 from typing import Any, TypeVar
 
 import numpy as np
@@ -14,34 +15,53 @@ from dondolo._fortran.library import constants, warn
 from dondolo._fortran.records import name_of_measure
 from dondolo.curves.clusters import Errors, errors_of_sample
 from dondolo.curves.fragility import Fragility
+from dondolo.curves.sample import sample_of_outcomes
 from dondolo.errors import DondoloWarning, InputError
+from dondolo.records.record import Record
 
 _Curve = TypeVar("_Curve", bound=Fragility)
 
 
-def fit_fragility(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike, *, im: str = "") -> Fragility:
-    """Fit a lognormal fragility curve by maximum likelihood (Baker 2015).
+def fit_fragility(
+    levels: ArrayLike,
+    collapses: ArrayLike,
+    histories: ArrayLike | None = None,
+    *,
+    im: str = "",
+    records: Sequence[Record | str] | None = None,
+    events: Sequence[Any] | None = None,
+) -> Fragility:
+    """Fit a lognormal fragility curve by maximum likelihood (Baker 2015), to counts or to the outcome of each history.
 
     Parameters
     ----------
     levels : array_like, shape (levels,)
         Levels of intensity, positive.
-    collapses : array_like, shape (levels,)
-        Collapses at each level; need not be whole numbers (weighted counts).
-    histories : array_like, shape (levels,) or scalar
-        Histories at each level.
+    collapses : array_like, shape (levels,) or (histories, levels)
+        Collapses at each level, which need not be whole numbers (weighted counts); or whether each history collapses at
+        each level, 1 or 0, or NaN where it was not run: of any program, or of a shaking table.
+    histories : array_like, shape (levels,) or scalar, optional
+        Histories at each level, with counts.
     im : str, optional
         Intensity measure of the levels, such as 'pga': the name on axes, and what may be compared.
+    records : sequence of Record or str, shape (histories,), optional
+        The record of each history, with outcomes, as such or by a name; each is of a record of its own if left out.
+        Histories of one record depend on each other, and curves of the same records are compared as such.
+    events : sequence, shape (histories,), optional
+        A label for each history, with outcomes, in place of the events that the records have: histories of one event
+        depend on each other.
 
     Returns
     -------
     Fragility
-        Its status says whether there is a curve.
+        Its status says whether there is a curve. That of counts has naive standard errors; that of outcomes clustered
+        ones, and a bootstrap.
 
     Raises
     ------
     InputError
-        Counts that cannot be, a measure that is no text.
+        Counts or outcomes that cannot be, a measure that is no text, as many records or labels as histories are not
+        there.
 
     Warns
     -----
@@ -54,8 +74,28 @@ def fit_fragility(levels: ArrayLike, collapses: ArrayLike, histories: ArrayLike,
     >>> curve = dd.fit_fragility([0.2, 0.4], [11, 33], 44)
     >>> round(curve.theta, 9), round(curve.beta, 9)
     (0.282842712, 0.513830774)
+
+    Outcomes of five histories of three records, one of which was not run at the highest level:
+
+    >>> outcomes = [[0, 0, 1], [0, 1, 1], [0, 1, float("nan")], [0, 0, 0], [0, 0, 1]]
+    >>> curve = dd.fit_fragility([0.2, 0.4, 0.8], outcomes, records=["a", "a", "b", "b", "c"])
+    >>> curve.errors, curve.clusters
+    ('clustered', 3)
     """
-    curve = fit(*_counts(levels, collapses, histories), im=name_of_measure(im))
+    measure = name_of_measure(im)
+    if np.ndim(collapses) == 2:
+        if histories is not None:
+            raise InputError("histories: only with counts of collapses")
+        sample = sample_of_outcomes(levels, collapses, records, events)
+        counts = (sample.collapsed & sample.ran).sum(axis=1, dtype=np.float64), sample.ran.sum(axis=1, dtype=np.float64)
+        curve = fit(sample.levels, *counts, im=measure, sample=sample)
+    else:
+        for what, value in (("records", records), ("events", events)):
+            if value is not None:
+                raise InputError(f"{what}: only with the outcomes of histories, shape (histories, levels)")
+        if histories is None:
+            raise InputError("histories: must be given with counts of collapses")
+        curve = fit(*_counts(levels, collapses, histories), im=measure)
     if curve.has_fit:
         warn(warnings_of_fit(curve))
     return curve

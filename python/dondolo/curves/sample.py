@@ -7,10 +7,12 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray
+from dondolo._base.arguments import FloatArray, as_array
 from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
+from dondolo.records.record import Record
 
 
 @part_of_results
@@ -76,14 +78,76 @@ def cluster_labels(records: int, events: Sequence[str] = (), checksums: Sequence
     return tuple(f"event {event}" if event else label for event, label in zip(named, own, strict=True))
 
 
-def given_labels(records: int, events: Sequence[Any]) -> tuple[str, ...]:
-    """Labels that a user gives, one for each record; none may be missing, for all that are would be one event."""
+def given_labels(number: int, events: Sequence[Any], one: str = "record", several: str = "records") -> tuple[str, ...]:
+    """Labels that a user gives, one for each record, say; none may be missing, for all that are would be one event."""
     if isinstance(events, str) or not isinstance(events, Iterable):
-        raise InputError(f"events = {events!r}: must be labels, one for each record")
+        raise InputError(f"events = {events!r}: must be labels, one for each {one}")
     labels = list(events)
-    if len(labels) != records:
-        raise InputError(f"events: {len(labels)} labels for {records} records: must be as many")
+    if len(labels) != number:
+        raise InputError(f"events: {len(labels)} labels for {number} {several}: must be as many")
     for i, label in enumerate(labels):
         if label is None or label == "" or label != label or not isinstance(label, Hashable):
             raise InputError(f"events: label {i + 1} = {label!r}: must be a name or a number")
     return tuple(f"event {label}" for label in labels)
+
+
+def sample_of_outcomes(
+    levels: ArrayLike,
+    outcomes: ArrayLike,
+    records: Sequence[Record | str] | None,
+    events: Sequence[Any] | None,
+) -> Sample:
+    """Histories of any program as a sample, see `fit_fragility`."""
+    x = as_array("levels", levels).copy()
+    try:
+        flags = np.asarray(outcomes, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise InputError("collapses: must be numbers") from None
+    if flags.shape[1] != len(x):
+        raise InputError(f"collapses: {flags.shape[1]} columns for {len(x)} levels: must be as many")
+    ran = ~np.isnan(flags)
+    wrong = ran & (flags != 0.0) & (flags != 1.0)
+    if wrong.any():
+        raise InputError(f"collapses = {flags[wrong][0]:g}: the outcome of a history must be 0, 1 or NaN")
+    if not ran.any():
+        raise InputError("collapses: no history was run")
+    several = [f"history {i + 1}" for i in range(len(flags))] if records is None else _as_records(records, len(flags))
+    # Name, key and label of each, as stripes label theirs
+    told = [_told(one) for one in several]
+    names, known, labels = (list(column) for column in zip(*told, strict=True))
+    if events is not None:
+        labels = list(given_labels(len(flags), events, "history", "histories"))
+    first = {key: i for i, key in reversed(list(enumerate(known)))}
+    place = {key: number for number, key in enumerate(dict.fromkeys(known))}
+    for i, key in enumerate(known):
+        if labels[i] != labels[first[key]]:
+            raise InputError(f"events: '{labels[i]}' and '{labels[first[key]]}' for one record, '{names[i]}'")
+    return Sample(
+        levels=x,
+        collapsed=(flags == 1.0).T,
+        ran=ran.T,
+        record_index=np.array([place[key] for key in known], dtype=np.int64),
+        record_names=tuple(names[first[key]] for key in place),
+        clusters=tuple(labels[first[key]] for key in place),
+    )
+
+
+def _told(record: Record | str) -> tuple[str, str, str]:
+    """Name of a record, what is the same for the same record, and the label of its cluster."""
+    if isinstance(record, str):
+        return record, f"record {record}", f"record {record}"
+    key = f"record {record.checksum}"
+    return record.name, key, f"event {record.event}" if record.event else key
+
+
+def _as_records(records: Any, histories: int) -> list[Record | str]:
+    """The record of each history, or its name."""
+    if isinstance(records, (str, Record)) or not isinstance(records, Iterable):
+        raise InputError(f"records = {records!r}: must be one for each history")
+    several = list(records)
+    if len(several) != histories:
+        raise InputError(f"records: {len(several)} for {histories} histories: must be as many")
+    for one in several:
+        if not isinstance(one, Record) and (not isinstance(one, str) or not one):
+            raise InputError(f"records: {one!r}: must be a Record or a name")
+    return several

@@ -81,7 +81,7 @@ class RecordSet(Shown, Saved):
     `typology`, `compare_designs` ...) run each row at its level, with its factor; factors without levels they refuse.
     What has no levels (`cloud`, `intensity_table`, `Building.plot`) takes each record times its factor, and refuses a
     row whose factor would follow from its level. What chooses levels or factors by itself (`compare_intensities`,
-    `select_records`, levels = 'auto') refuses both. The attribute `records` has the records as they stand.
+    `select_records`, `adaptive_stripes`) refuses both. The attribute `records` has the records as they stand.
 
     Examples
     --------

@@ -5,7 +5,7 @@ from __future__ import annotations
 import weakref
 from collections.abc import Mapping
 from operator import is_
-from typing import Any, NamedTuple, Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -106,21 +106,15 @@ class Suite(Handle):
         The handle of Fortran.
     records : tuple of Record
         The records.
-
-    Attributes
-    ----------
-    last_study : tuple of tuple and Handle, or None
-        What the last study that is kept with it was made of, and the study.
     """
 
-    __slots__ = ("_facts", "_measured", "_members", "last_study")
+    __slots__ = ("_facts", "_measured", "_members")
 
     def __init__(self, number: int, records: tuple[Motion, ...]) -> None:
         super().__init__(number)
         self._members = tuple(map(weakref.ref, records))
         self._facts: Facts | None = None
         self._measured: set[str] = set()
-        self.last_study: tuple[tuple[Any, ...], Any] | None = None
 
     def holds(self, records: tuple[Motion, ...]) -> bool:
         """Whether these are its records, in their order."""

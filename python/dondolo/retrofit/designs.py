@@ -15,7 +15,7 @@ from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.request import Polarity
 from dondolo.analysis.solver import Solver
-from dondolo.analysis.stripe_runs import multiple_stripe
+from dondolo.analysis.stripe_runs import Study
 from dondolo.analysis.stripes import Stripes
 from dondolo.checks.ntc import CodeCheck, check_ntc
 from dondolo.curves.comparison import Comparison
@@ -230,12 +230,9 @@ def compare_designs(
     with silent():
         checks = () if site is None else tuple(check_ntc(wall, site) for wall in walls)
     grids = [levels[name] if isinstance(levels, Mapping) else levels for name in _known(designs, levels, "levels")]
-    stripes = tuple(
-        multiple_stripe(
-            wall, several, grid, im=im, polarity=polarity, solver=solver, threads=threads, progress=progress
-        )
-        for wall, grid in zip(walls, grids, strict=True)
-    )
+    given = {"im": im, "polarity": polarity, "solver": solver, "threads": threads}
+    alike = {id(grid): Study(several, grid, **given) for grid in grids}  # type: ignore[arg-type]
+    stripes = tuple(alike[id(grid)].run(wall, progress=progress) for wall, grid in zip(walls, grids, strict=True))
     curves = tuple(one.fit() for one in stripes)
     return DesignComparison(
         names=names,
