@@ -86,7 +86,7 @@ def population(count: int, seed: int) -> list[dd.Record]:
     for i in range(count):
         scenario = rng.uniform(5.2, 6.9), rng.uniform(4.0, 40.0), str(rng.choice(["rock", "shallow", "deep"]))
         deviations = float(np.clip(rng.normal(), -2.0, 2.0))
-        records += dd.synthetic_records(*scenario, count=1, seed=1000 + i, deviations=deviations)
+        records += dd.synthetic_records(*scenario, n_records=1, seed=1000 + i, deviations=deviations)
     return records
 
 

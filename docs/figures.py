@@ -270,9 +270,9 @@ def processing():
 def pulses():
     """Draw acceleration and velocity of the four pulses."""
     shown = [
-        (dd.pulses.one_sine(1.0, 1.0), "one_sine"),
-        (dd.pulses.one_cosine(1.0, 1.0), "one_cosine"),
-        (dd.pulses.ricker(1.0, 1.0), "ricker"),
+        (dd.pulses.one_sine(1.0 / 9.81, 1.0), "one_sine"),
+        (dd.pulses.one_cosine(1.0 / 9.81, 1.0), "one_cosine"),
+        (dd.pulses.ricker(1.0 / 9.81, 1.0), "ricker"),
         (dd.pulses.mavroeidis_papageorgiou(1.0 / (2.0 * np.pi), 1.0, phase=90.0, gamma=2.5), "mavroeidis_papageorgiou"),
     ]
     figure, axes = new_axes(2, 4, (9.6, 3.8), sharey="row", sharex="col")
@@ -328,7 +328,7 @@ def overturning():
 def statistics():
     """Draw the statistics of 200 realisations against the model."""
     scenario = (6.0, 10.0, "rock")
-    made, model = dd.synthetic_records(*scenario, count=200, seed=2024), Model(*scenario)
+    made, model = dd.synthetic_records(*scenario, n_records=200, seed=2024), Model(*scenario)
     time, step = made[0].time, made[0].dt
     squares = np.array([record.acceleration**2 for record in made])
     figure, axes = new_axes(1, 3, (10.4, 3.6))

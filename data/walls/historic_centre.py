@@ -88,7 +88,7 @@ def facades(group, n, seed, weight, storeys, storey, thickness, held, roof):
                 "restitution_factor": restitution_factor,
             },
         },
-        count=n,
+        n_walls=n,
         seed=seed,
         variables={
             "storeys": storeys,
@@ -111,7 +111,7 @@ def free_parts(group, n, seed, weight, free, thickness):
     """What stands free above the roof: it overturns."""
     return dd.sample_population(
         "one_sided",
-        count=n,
+        n_walls=n,
         seed=seed,
         variables={"free": free, "brickwork": dd.Normal(1800.0, 80.0, low=1600.0, high=2000.0)},
         correlation={("free", "thickness"): 0.5},

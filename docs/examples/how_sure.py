@@ -24,7 +24,7 @@ sources = {
     "hinge_depth": dd.Lognormal(0.01, 0.4, high=0.05),
     "density": dd.Normal(1800.0, 90.0),
 }
-found = dd.uncertain_wall(strip, records, np.linspace(0.2, 3.0, 15), sources=sources, count=400)
+found = dd.uncertain_wall(strip, records, np.linspace(0.2, 3.0, 15), sources=sources, n_variants=400)
 print(found)
 found.to_csv(out / "how_sure.csv")
 found.plot()[0].figure.savefig(out / "how_sure.png", dpi=110)

@@ -10,9 +10,9 @@ import dondolo as dd
 out = Path("out/examples")
 out.mkdir(parents=True, exist_ok=True)
 
-# %% A pulse is a record: 1 Hz, 4 m/s2, chords within 1e-5 of the amplitude
+# %% A pulse is a record: 1 Hz, 0.4 g, chords within 1e-5 of the amplitude
 pinnacle = dd.FreeStandingWall(height=1.8, thickness=0.45, name="pinnacle")
-print(dd.simulate(pinnacle, dd.pulses.ricker(4.0, 1.0), solver=dd.Solver(edp_limit=5.0)))
+print(dd.simulate(pinnacle, dd.pulses.ricker(0.4, 1.0), solver=dd.Solver(edp_limit=5.0)))
 
 # %% Scan of all amplitudes, since a stronger pulse may be safer
 spectrum = dd.overturning_spectrum(

@@ -25,7 +25,7 @@ facades = dd.sample_population(
             "restitution_factor": dd.Uniform(0.84, 0.90),
         },
     },
-    count=30,
+    n_walls=30,
     seed=1,
     variables={
         "storeys": dd.Choice((2, 3), (0.6, 0.4)),
@@ -38,7 +38,7 @@ facades = dd.sample_population(
 )
 parapets = dd.sample_population(
     "one_sided",
-    count=10,
+    n_walls=10,
     seed=2,
     height=dd.Triangular(0.6, 0.9, 1.5),
     thickness=dd.Choice((0.12, 0.25)),

@@ -11,7 +11,7 @@ out = Path("out/examples")
 out.mkdir(parents=True, exist_ok=True)
 
 # %% Magnitude 6 at 10 km on rock; the same seed gives the same records on every machine
-records = dd.synthetic_records(magnitude=6.0, distance=10.0, site="rock", count=40, seed=1)
+records = dd.synthetic_records(magnitude=6.0, distance=10.0, site="rock", n_records=40, seed=1)
 print(records[0])
 pga = np.array([record.peak_acceleration for record in records]) / 9.81
 print(f"PGA: median {np.median(pga):.3f} g, standard deviation of its logarithm {np.log(pga).std(ddof=1):.3f}")

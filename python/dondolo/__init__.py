@@ -2,7 +2,7 @@
 
 >>> import dondolo as dd
 >>> wall = dd.OneSidedWall(height=1.5, thickness=0.25)
->>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", count=10)
+>>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", n_records=10)
 >>> stripes = dd.multiple_stripe(wall, records, levels=[0.6, 0.8, 1.0], progress=False)
 >>> curve = stripes.fit()
 >>> curve.status

@@ -158,7 +158,10 @@ def test_lines_on_the_curve(stripes, tmp_path):
         (lambda: dd.Site(2.0, 2.5, 0.35), r"ag = 2: must lie between 0\.001 and 1 g"),
         (lambda: dd.Site((0.1, 0.2), 2.5, 0.35), "ag: has 2 values, must have one, or three"),
         (lambda: dd.Site(0.2, 2.5, 0.35, soil="F"), "soil = 'f': must be one of 'A', 'B', 'C', 'D', 'E'"),
-        (lambda: dd.check_ntc(WALL, SITE, knowledge_factor=1.5), r"knowledge_factor = 1\.5: must lie between 1 and 1\.35"),
+        (
+            lambda: dd.check_ntc(WALL, SITE, knowledge_factor=1.5),
+            r"knowledge_factor = 1\.5: must lie between 1 and 1\.35",
+        ),
         (lambda: dd.check_ntc(dd.TwoBlockWall(3.0, 0.25), SITE), "mechanism = 'two_block': the kinematic check"),
         (lambda: dd.check_ntc(WALL, 0.2), "site: float is no site"),
     ],
@@ -278,7 +281,7 @@ def test_population(root, executable, tmp_path):
 def test_a_wall_in_another_unit_is_warned_of():
     """As stripes warn of it, and once where both are run."""
     wall = dd.OneSidedWall(300.0, 25.0, name="in cm")
-    records = dd.synthetic_records(6.5, 10.0, "shallow", count=2)
+    records = dd.synthetic_records(6.5, 10.0, "shallow", n_records=2)
     with pytest.warns(dd.DondoloWarning) as caught:
         dd.check_ntc(wall, SITE)
     with pytest.warns(dd.DondoloWarning) as said:

@@ -67,7 +67,7 @@ def test_every_analysis_refuses(dead, wall):
         lambda: dd.adaptive_stripes(wall, several, budget=200, progress=False),
         lambda: dd.typology([wall, upstairs], several, levels, progress=False),
         lambda: dd.compare_designs(designs, several, levels, progress=False),
-        lambda: dd.uncertain_wall(wall, several, levels, sources=sources, count=8, progress=False),
+        lambda: dd.uncertain_wall(wall, several, levels, sources=sources, n_variants=8, progress=False),
         lambda: dd.compare_intensities(wall, several, ["pga", "pgv"], progress=False),
         lambda: dd.cloud(wall, several, progress=False),
         lambda: dd.cloud(wall, dd.RecordSet(several, factor=0.5), progress=False),

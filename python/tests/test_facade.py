@@ -388,7 +388,7 @@ def test_ties_above_a_hinge():
     above = dd.OneSidedWall(9.0, 0.5, ties=ties, hinge_level=4.0)
     alone = dd.OneSidedWall(5.0, 0.5, ties=[dd.Tie(4.5, area=5e-05, length=6.0, depth=0.0, strain=0.05)])
     assert above.trigger_acceleration == pytest.approx(alone.trigger_acceleration, rel=1e-12)
-    pulse = dd.pulses.ricker(4.0, 0.8)
+    pulse = dd.pulses.ricker(4.0 / 9.81, 0.8)
     motions = [dd.simulate(wall, pulse, scale=1.0) for wall in (above, alone)]
     assert motions[0].edp == pytest.approx(motions[1].edp, rel=1e-9)
     assert 0.0 < motions[0].edp < 1.0

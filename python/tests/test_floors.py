@@ -13,7 +13,7 @@ HOUSE = {"storeys": 3, "level": 9.0, "building_height": 9.0}
 
 @pytest.fixture(scope="module")
 def records():
-    return dd.synthetic_records(magnitude=6.0, distance=15.0, site="rock", count=3, seed=7)
+    return dd.synthetic_records(magnitude=6.0, distance=15.0, site="rock", n_records=3, seed=7)
 
 
 def by_scipy(record, period, damping, participation, parts):

@@ -58,7 +58,7 @@ def test_progress_and_a_report_leave_pictures_alone(tmp_path):
 # Draws each result in a cell of its own; the last line of a cell is what it shows.
 STUDY = """
 parapet = dd.OneSidedWall(height=1.5, thickness=0.25, name="parapet")
-records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", count=12)
+records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", n_records=12)
 levels = [0.3, 0.5, 0.7, 0.9, 1.1, 1.4]
 stripes = dd.multiple_stripe(parapet, records, levels, progress=False)
 curve = stripes.fit()

@@ -408,6 +408,7 @@ BY_PLACE = {
     "edp_threshold",
     "edp_thresholds",
     "height",
+    "histories",
     "ims",
     "kind",
     "levels",

@@ -17,7 +17,7 @@ PERIODS = [0.1, 0.3, 0.6, 1.0, 2.0, 3.0]
 
 @pytest.fixture(scope="module")
 def records():
-    return dd.RecordSet(dd.synthetic_records(6.5, 10.0, "shallow", count=12))
+    return dd.RecordSet(dd.synthetic_records(6.5, 10.0, "shallow", n_records=12))
 
 
 @pytest.fixture(scope="module")
@@ -295,7 +295,12 @@ def test_designs_and_variants_run_the_records_of_a_set(sets, parapet):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", dd.DondoloWarning)
         unsure = dd.uncertain_wall(
-            parapet, joined, [0.6, 0.8, 1.0], sources={"density": dd.Uniform(1700.0, 1900.0)}, count=10, progress=False
+            parapet,
+            joined,
+            [0.6, 0.8, 1.0],
+            sources={"density": dd.Uniform(1700.0, 1900.0)},
+            n_variants=10,
+            progress=False,
         )
     assert unsure.typology.curves[0].histories.tolist() == alone.ran.sum(axis=1).tolist()
 

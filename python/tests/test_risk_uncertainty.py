@@ -144,7 +144,7 @@ def test_the_level_that_contributes_most(hazard):
     # Where Phi(z) exp(-k beta z) is largest, k beta = 1
     z = optimize.brentq(lambda z: stats.norm.pdf(z) - stats.norm.cdf(z), -3.0, 3.0)
     assert endless.dominant_level == pytest.approx(0.6 * np.exp(0.4 * z), rel=0.02)
-    ax = risk.plot_deaggregation(bins=12)
+    ax = risk.plot_deaggregation(n_bins=12)
     assert len(ax.patches) == 12
     heights = sum(patch.get_height() for patch in ax.patches)
     assert heights == pytest.approx(100.0, abs=0.2)

@@ -32,7 +32,7 @@ def sample(n=200, seed=1, **changes):
         "density": dd.Normal(1800.0, 100.0),
         "group": "facades",
     }
-    return dd.sample_population(count=n, seed=seed, **{**arguments, **changes})
+    return dd.sample_population(n_walls=n, seed=seed, **{**arguments, **changes})
 
 
 def column(population, what, mechanism="one_sided"):
@@ -320,8 +320,8 @@ def test_origin(tmp_path):
         ({"mechanisms": [["one_sided"]]}, "mechanism = ['one_sided']: must be one of 'one_sided', "),
         ({"mechanisms": ["one_sided", "one_sided"]}, "mechanisms: 'one_sided' is given twice"),
         ({"mechanisms": {"one_sided": None}}, "one_sided = None: must be a mapping, properties by their names"),
-        ({"n": 0}, "count = 0: must be an integer, at least 1"),
-        ({"n": 1.5}, "count = 1.5: must be an integer, at least 1"),
+        ({"n": 0}, "n_walls = 0: must be an integer, at least 1"),
+        ({"n": 1.5}, "n_walls = 1.5: must be an integer, at least 1"),
         ({"seed": -1}, "seed = -1: must be an integer, at least 0"),
         ({"hinge": 0.6}, "hinge: one_sided walls have none; give it to the mechanism that has it"),
         ({"mechanisms": {"one_sided": {"weight": 2.0}}}, "weight: belongs to the wall, not to one of its mechanisms"),
@@ -367,7 +367,8 @@ def test_origin(tmp_path):
         *(
             (
                 {"n": n, "correlation": {("height", "density"): 0.5}},
-                f"count = {n}: must be at least 6 for correlations, more than are sampled: height, thickness, density, "
+                f"n_walls = {n}: must be at least 6 for correlations, more than are sampled: height, thickness, "
+                f"density, "
                 "two_block.hinge, two_block.overburden",
             )
             for n in (1, 2, 5)

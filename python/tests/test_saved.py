@@ -45,7 +45,7 @@ def results(stripes, few, wall):
     people = dd.typology(population, few, edp_thresholds=[0.1, 0.4], polarity="both", **two)
     one = dd.typology(walls[:1] + walls[-1:], few, **two)
     strip, wide = dd.TwoBlockWall(3.0, 0.25), [0.4, 0.6, 0.8, 1.0, 1.2, 1.5, 2.0]
-    shaking = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", count=20)
+    shaking = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", n_records=20)
     return {
         "fragility": curve,
         "no fit": gone.fit(),
@@ -71,7 +71,7 @@ def results(stripes, few, wall):
             progress=False,
         ),
         "uncertain wall": dd.uncertain_wall(
-            strip, shaking, wide, sources={"hinge": dd.Uniform(0.5, 0.7)}, count=10, progress=False
+            strip, shaking, wide, sources={"hinge": dd.Uniform(0.5, 0.7)}, n_variants=10, progress=False
         ),
         "hinges": dd.weakest_hinge(strip, shaking, wide, hinges=[0.5, 0.6, 0.7], progress=False),
         "bootstrap": curve.bootstrap(n_resamples=20),

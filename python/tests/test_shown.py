@@ -72,9 +72,9 @@ def things(wall, stripes, few, records, root, tmp_path_factory):
         dd.compare_intensities(wall, records, ["pga", "pgv"], n_levels=6, n_resamples=20, **quiet),
         dd.overturning_spectrum(wall, dd.pulses.one_sine, **pulses, **quiet),
         dd.weakest_hinge(two_block, few, levels, hinges=[0.5, 0.7], **quiet),
-        dd.uncertain_wall(two_block, few, levels, sources={"hinge": dd.Uniform(0.5, 0.7)}, count=10, **quiet),
+        dd.uncertain_wall(two_block, few, levels, sources={"hinge": dd.Uniform(0.5, 0.7)}, n_variants=10, **quiet),
         dd.read_nrml(nrml), dd.cloud(wall, records, scale=3.0).fit(), dd.FunctionFragility(curve),
-        dd.DiscreteFragility([0.1, 0.2], [0.0, 0.25]),
+        dd.Study(few, levels), dd.DiscreteFragility([0.1, 0.2], [0.0, 0.25]),
         dd.read_results(prefix),
     ]  # fmt: skip
     return {type(one).__name__: one for one in found}

@@ -12,12 +12,12 @@ SCENARIOS = [(5.8, 8.0, "rock"), (5.0, 15.0, "deep"), (6.5, 20.0, "shallow")]
 @pytest.fixture(scope="module", params=SCENARIOS, ids=lambda scenario: "{}-{}-{}".format(*scenario))
 def many(request):
     """200 realisations, and their model."""
-    return dd.synthetic_records(*request.param, count=200, seed=2024), Model(*request.param)
+    return dd.synthetic_records(*request.param, n_records=200, seed=2024), Model(*request.param)
 
 
 def test_the_same_stream_as_the_suite(records):
     # Scenario 4 of the suite is Friuli, 15 September 1976: streams 6 and 7 of its seed; files have 10 decimals.
-    made = dd.synthetic_records(6.0, 8.0, "shallow", count=2, seed=19722016, first=6)
+    made = dd.synthetic_records(6.0, 8.0, "shallow", n_records=2, seed=19722016, first=6)
     for record, stored in zip(made, records[6:8], strict=True):
         assert "friuli_1976_sep_15" in stored.name
         assert record.dt == stored.dt
@@ -25,8 +25,8 @@ def test_the_same_stream_as_the_suite(records):
 
 
 def test_seeds():
-    five = dd.synthetic_records(6.0, 10.0, "rock", count=5, seed=7)
-    rest = dd.synthetic_records(6.0, 10.0, "rock", count=3, seed=7, first=2)
+    five = dd.synthetic_records(6.0, 10.0, "rock", n_records=5, seed=7)
+    rest = dd.synthetic_records(6.0, 10.0, "rock", n_records=3, seed=7, first=2)
     for record, again in zip(five[2:], rest, strict=True):
         assert np.array_equal(record.acceleration, again.acceleration)
         assert record.name == again.name
@@ -37,7 +37,7 @@ def test_seeds():
 
 
 def test_metadata():
-    record = dd.synthetic_records(6.5, 12.25, "deep", count=2, seed=7, first=3, deviations=-0.5)[1]
+    record = dd.synthetic_records(6.5, 12.25, "deep", n_records=2, seed=7, first=3, deviations=-0.5)[1]
     assert dict(record.metadata) == {
         "event": record.name,
         "magnitude": "6.5",
@@ -97,10 +97,10 @@ def test_the_end_is_still(many):
         ((6.0, 200.0, "rock"), "distance = 200 km: must be between 0 and 150"),
         ((6.0, 10.0, "clay"), "site = 'clay': must be one of"),
         ((6.0, 10.0, 3), "site = 3: must be a text"),
-        ((6.0, 10.0, "rock", {"count": 0}), "count = 0: must be an integer, between 1 and"),
+        ((6.0, 10.0, "rock", {"n_records": 0}), "n_records = 0: must be an integer, between 1 and"),
         ((6.0, 10.0, "rock", {"seed": 0}), "seed = 0: must be an integer, between 1 and"),
         ((6.0, 10.0, "rock", {"first": -1}), "first = -1: must be an integer, between 0 and"),
-        ((6.0, 10.0, "rock", {"count": 3, "first": 2**31 - 2}), "realisations must have numbers below 2147483648"),
+        ((6.0, 10.0, "rock", {"n_records": 3, "first": 2**31 - 2}), "realisations must have numbers below 2147483648"),
         ((6.0, 10.0, "rock", {"deviations": 4.0}), "deviations = 4: must be between -3 and 3"),
     ],
 )
@@ -111,7 +111,7 @@ def test_errors(arguments, words):
 
 
 def test_deviations_raise_the_energy():
-    median, above = (dd.synthetic_records(6.0, 10.0, "rock", count=100, deviations=k) for k in (0.0, 1.0))
+    median, above = (dd.synthetic_records(6.0, 10.0, "rock", n_records=100, deviations=k) for k in (0.0, 1.0))
     energy, more = (np.mean([record.acceleration @ record.acceleration for record in some]) for some in (median, above))
     # 0.397 is the standard deviation of the model's decimal logarithm; each mean is known to about 1 %.
     assert more / energy == pytest.approx(10.0**0.397, rel=0.06)

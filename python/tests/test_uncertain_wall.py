@@ -25,7 +25,7 @@ SOFT = {"density": dd.Uniform(1600.0, 2000.0)}
 
 @pytest.fixture(scope="module")
 def motions():
-    return dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", count=20)
+    return dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", n_records=20)
 
 
 @pytest.fixture(scope="module")
@@ -35,7 +35,7 @@ def wall():
 
 @pytest.fixture(scope="module")
 def found(wall, motions):
-    return dd.uncertain_wall(wall, motions, LEVELS, sources=SOURCES, count=80, progress=False)
+    return dd.uncertain_wall(wall, motions, LEVELS, sources=SOURCES, n_variants=80, progress=False)
 
 
 def test_sample(found):
@@ -70,7 +70,7 @@ def test_dispersions(found):
     assert found.beta_records == pytest.approx(np.sqrt((betas**2).mean()), rel=1e-12)
     assert found.beta_total == pytest.approx(np.hypot(found.beta_model, found.beta_records), rel=1e-15)
     grid = np.array([0.5, 1.0])
-    assert found.curve.mean(grid) == pytest.approx([stats.norm.cdf(np.log(x / thetas) / betas).mean() for x in grid])
+    assert found.curve(grid) == pytest.approx([stats.norm.cdf(np.log(x / thetas) / betas).mean() for x in grid])
 
 
 def test_ends(found, wall, motions):
@@ -199,7 +199,7 @@ def test_one_sided_with_sections(motions):
         gravity=9.8,
         name="front",
     )
-    found = dd.uncertain_wall(whole, motions, LEVELS, sources=SOFT, count=20, progress=False)
+    found = dd.uncertain_wall(whole, motions, LEVELS, sources=SOFT, n_variants=20, progress=False)
     one = found.sample[7]
     assert (one.sections, one.loads, one.gravity) == (whole.sections, whole.loads, 9.8)
     assert found.at_medians.theta == found.as_given.theta
@@ -211,7 +211,7 @@ def test_variants_without_a_fit(wall, motions, found):
     sources = {"thickness": dd.Uniform(0.15, 0.45)}
     levels = [0.3, 0.5, 0.7, 0.9]
     with pytest.warns(dd.DondoloWarning, match="variants that have a fit") as caught:
-        few = dd.uncertain_wall(wall, motions, levels, sources=sources, count=40, progress=False)
+        few = dd.uncertain_wall(wall, motions, levels, sources=sources, n_variants=40, progress=False)
     (told,) = (one.message for one in caught if one.message.code == "variants_without_fit")
     fitted = int(np.isfinite(few.thetas).sum())
     assert 8 <= fitted < 40
@@ -260,13 +260,13 @@ def test_plot(found):
         ({"hinge": dd.Uniform(0.5, 1.5)}, "wall 'strip 00.*: hinge = .*: must lie between 0.01 and 0.99"),
         (
             {"hinge": dd.Uniform(0.5, 0.6), "density": dd.Uniform(1.6e3, 2e3)},
-            "count = 12: must be an integer, between 16",
+            "n_variants = 12: must be an integer, between 16",
         ),
     ],
 )
 def test_refused(wall, motions, sources, message):
     with pytest.raises(dd.DondoloError, match=message):
-        dd.uncertain_wall(wall, motions, LEVELS, sources=sources, count=12, progress=False)
+        dd.uncertain_wall(wall, motions, LEVELS, sources=sources, n_variants=12, progress=False)
 
 
 @pytest.mark.parametrize(
@@ -314,7 +314,7 @@ def test_texts_of_cases_are_refused_with_what_to_write(given, told):
 )
 def test_a_published_range_is_of_its_model(wall, name, message):
     with pytest.raises(dd.InputError, match=message):
-        dd.uncertain_wall(wall, [], [0.5], sources={"restitution_factor": name}, count=8)
+        dd.uncertain_wall(wall, [], [0.5], sources={"restitution_factor": name}, n_variants=8)
 
 
 def test_an_uncertain_load_changes_the_model():
@@ -322,14 +322,14 @@ def test_an_uncertain_load_changes_the_model():
     wall = dd.TwoBlockWall(2.7, 0.24, overburden_inertia=1.0)
     sources = {"restitution_factor": "graziotti_2016", "overburden": dd.Uniform(4e3, 8e3)}
     with pytest.raises(dd.InputError, match="for 'impulse', the model of a wall that lifts"):
-        dd.uncertain_wall(wall, [], [0.5], sources=sources, count=16)
+        dd.uncertain_wall(wall, [], [0.5], sources=sources, n_variants=16)
 
 
 def test_the_rescaled_range_gives_the_same_speeds():
     """Of the range that is named in place of the refused one."""
     wall = dd.TwoBlockWall(2.7, 0.24, hinge=0.62, restitution="impulse")
     with pytest.raises(dd.InputError) as caught:
-        dd.uncertain_wall(wall, [], [0.5], sources={"restitution_factor": "graziotti_2016"}, count=8)
+        dd.uncertain_wall(wall, [], [0.5], sources={"restitution_factor": "graziotti_2016"}, n_variants=8)
     low, high = map(float, re.search(r"uniform\((\S+), (\S+)\)", str(caught.value)).groups())
     for factor, measured in ((low, 0.84), (high, 0.90)):
         speeds = [
@@ -344,7 +344,7 @@ def test_the_rescaled_range_gives_the_same_speeds():
 def test_free_standing_blocks_have_a_range(motions):
     wall = dd.FreeStandingWall(2.0, 0.3)
     sources = {"restitution_factor": "elgawady_2010"}
-    found = dd.uncertain_wall(wall, motions, [0.2, 0.4, 0.8, 1.6], sources=sources, count=8, progress=False)
+    found = dd.uncertain_wall(wall, motions, [0.2, 0.4, 0.8, 1.6], sources=sources, n_variants=8, progress=False)
     assert found.values[0, 1] == pytest.approx(0.95)
 
 
@@ -363,8 +363,8 @@ def test_stripes_name_the_range_of_their_model(motions):
 def test_too_small_a_sample_is_refused_before_it_runs():
     wall = dd.TwoBlockWall(3.0, 0.25)
     sources = {"hinge": dd.Uniform(0.5, 0.6), "density": dd.Normal(1800.0, 90.0)}
-    with pytest.raises(dd.InputError, match="count = 15: must be an integer, between 16 and 10000"):
-        dd.uncertain_wall(wall, [], [0.5], sources=sources, count=15)
+    with pytest.raises(dd.InputError, match="n_variants = 15: must be an integer, between 16 and 10000"):
+        dd.uncertain_wall(wall, [], [0.5], sources=sources, n_variants=15)
 
 
 def test_ends_must_be_named():

@@ -17,8 +17,8 @@ LEVELS = [0.2, 0.5, 0.8, 1.1]
 
 @pytest.fixture(scope="module")
 def records():
-    horizontal = dd.synthetic_records(magnitude=6.0, distance=15.0, site="rock", count=4, seed=7)
-    vertical = dd.synthetic_records(magnitude=6.0, distance=15.0, site="rock", count=4, seed=8)
+    horizontal = dd.synthetic_records(magnitude=6.0, distance=15.0, site="rock", n_records=4, seed=7)
+    vertical = dd.synthetic_records(magnitude=6.0, distance=15.0, site="rock", n_records=4, seed=8)
     length = min(len(record) for record in (*horizontal, *vertical))
     return [
         dd.Record(one.acceleration[:length], one.dt, one.name, vertical=0.8 * two.acceleration[:length])

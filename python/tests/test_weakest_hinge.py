@@ -14,7 +14,7 @@ HINGES = [0.45, 0.55, 0.65, 0.75, 0.85]
 
 @pytest.fixture(scope="module")
 def records():
-    return dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", count=20)
+    return dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", n_records=20)
 
 
 @pytest.fixture(scope="module")

@@ -59,7 +59,7 @@ class Study(Shown):
     Examples
     --------
     >>> import dondolo as dd
-    >>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", count=10)
+    >>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", n_records=10)
     >>> study = dd.Study(records, [0.6, 0.8, 1.0])
     >>> [study.run(dd.OneSidedWall(1.5, t), progress=False).fit().status for t in (0.24, 0.26)]
     ['ok', 'ok']
@@ -282,7 +282,7 @@ def adaptive_stripes(
     Examples
     --------
     >>> import dondolo as dd
-    >>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", count=10)
+    >>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", n_records=10)
     >>> stripes = dd.adaptive_stripes(dd.OneSidedWall(1.5, 0.25), records, budget=60, progress=False)
     >>> len(stripes.levels)
     6

@@ -482,7 +482,7 @@ class Stripes(Shown, Saved):
         Examples
         --------
         >>> import dondolo as dd
-        >>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", count=4)
+        >>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", n_records=4)
         >>> stripes = dd.multiple_stripe(dd.OneSidedWall(1.5, 0.25), records, [0.3, 0.9], progress=False)
         >>> demand = stripes.friction_demand(records, progress=False)
         >>> sliding = (demand > 0.6).sum(axis=1)

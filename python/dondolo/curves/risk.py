@@ -304,14 +304,14 @@ class Risk(Shown, Saved):
             parts = np.add.reduceat(of_fine, np.searchsorted(fine, np.log(cuts[:-1])))
         return np.diff(np.append(0.0, np.cumsum(parts))[np.searchsorted(cuts, x)])
 
-    def plot_deaggregation(self, ax: Axes | None = None, *, bins: int = 20) -> Axes:
+    def plot_deaggregation(self, ax: Axes | None = None, *, n_bins: int = 20) -> Axes:
         """Draw what intensities contribute to the frequency, in bins, and the one that contributes most.
 
         Parameters
         ----------
         ax : Axes, optional
             Where to draw; a new figure if left out.
-        bins : int
+        n_bins : int
             Number of bins, equal on a logarithmic axis.
 
         Returns
@@ -321,7 +321,7 @@ class Risk(Shown, Saved):
         """
         from dondolo.curves.plots_risk import draw_deaggregation
 
-        return draw_deaggregation(self, ax, as_count("bins", bins, 1))
+        return draw_deaggregation(self, ax, as_count("n_bins", n_bins, 1))
 
     def uncertainty(self, *, n_draws: int = 10_000, seed: int | np.random.Generator | None = 0) -> RiskUncertainty:
         """Distribution of the annual frequency: that of the fragility, for the mean hazard and each of its fractiles.

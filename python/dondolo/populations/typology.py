@@ -333,7 +333,7 @@ class Typology(Shown, Saved):
         --------
         >>> import dondolo as dd
         >>> walls = [dd.OneSidedWall(1.5, 0.25, name="a"), dd.OneSidedWall(1.8, 0.25, name="b")]
-        >>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", count=10)
+        >>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", n_records=10)
         >>> typology = dd.typology(walls, records, levels=[0.6, 0.8, 1.0], progress=False)
         >>> functions, sentences = typology.nrml_functions()
         >>> list(functions)

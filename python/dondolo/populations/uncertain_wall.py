@@ -214,7 +214,7 @@ def uncertain_wall(
     levels: ArrayLike,
     *,
     sources: Mapping[str, Distribution | str],
-    count: int = 200,
+    n_variants: int = 200,
     seed: int = 1,
     im: str = "pga",
     polarity: Polarity = "as_recorded",
@@ -240,7 +240,7 @@ def uncertain_wall(
         'graziotti_2016', 0.84 to 0.90 times equation (4) for walls of two blocks with the model 'sorrentino', or
         'elgawady_2010', 0.90 to 1.0 times Housner's value for free-standing blocks on a base of concrete or stone;
         both are uniform distributions, and refused for other models.
-    count : int
+    n_variants : int
         Walls of the sample, at most 10 000, and at least 2 + 6 k + k (k - 1) for k sources.
     seed : int
         Seed of the random numbers; the same seed gives the same walls.
@@ -273,9 +273,10 @@ def uncertain_wall(
     --------
     >>> import dondolo as dd
     >>> wall = dd.TwoBlockWall(3.0, 0.25, hinge=0.6)
-    >>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", count=10)
+    >>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", n_records=10)
     >>> sources = {"restitution_factor": "graziotti_2016", "hinge": dd.Triangular(0.5, 0.6, 0.75)}
-    >>> found = dd.uncertain_wall(wall, records, [0.5, 1.0, 1.5, 2.0, 3.0], sources=sources, count=40, progress=False)
+    >>> levels = [0.5, 1.0, 1.5, 2.0, 3.0]
+    >>> found = dd.uncertain_wall(wall, records, levels, sources=sources, n_variants=40, progress=False)
     >>> found.sources
     ('restitution_factor', 'hinge')
     >>> bool(found.beta_total > found.beta_records)
@@ -283,7 +284,7 @@ def uncertain_wall(
     """
     instance_of("wall", wall, Wall, "no wall")
     known = _distributions(wall, sources)
-    n, seed = as_count("count", count, smallest_sample(len(known)), _MOST), as_count("seed", seed, 0)
+    n, seed = as_count("n_variants", n_variants, smallest_sample(len(known)), _MOST), as_count("seed", seed, 0)
     values = np.array(
         [[float(known[what].ppf(np.array([q]))[0]) for q in (_ENDS[0], _MIDDLE, _ENDS[1])] for what in known]
     )

@@ -168,7 +168,7 @@ def weakest_hinge(
     Examples
     --------
     >>> import dondolo as dd
-    >>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", count=10)
+    >>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", n_records=10)
     >>> wall = dd.TwoBlockWall(3.0, 0.25, restitution_factor=0.87)
     >>> found = dd.weakest_hinge(wall, records, [0.5, 1.0, 1.5, 2.0], hinges=[0.5, 0.6, 0.7, 0.8], progress=False)
     >>> found.hinge in (0.5, 0.6, 0.7, 0.8)

@@ -86,7 +86,7 @@ class RecordSet(Shown, Saved):
     Examples
     --------
     >>> import dondolo as dd
-    >>> records = dd.RecordSet(dd.synthetic_records(6.5, 10.0, "shallow", count=3))
+    >>> records = dd.RecordSet(dd.synthetic_records(6.5, 10.0, "shallow", n_records=3))
     >>> len(records.filter("magnitude > 6 and pga > 0.01"))
     3
     """

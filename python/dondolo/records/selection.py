@@ -125,7 +125,7 @@ class _Candidates(NamedTuple):
 def select_records(
     records: Iterable[Record],
     target: TargetSpectrum,
-    count: int,
+    n_records: int,
     *,
     max_factor: float = 4.0,
     weight: float | None = None,
@@ -140,7 +140,7 @@ def select_records(
     target : TargetSpectrum
         Of a code (`ntc_spectrum`, `ec8_spectrum`), of a ground motion model with its dispersion, or conditional on an
         ordinate (`TargetSpectrum.conditional`).
-    count : int
+    n_records : int
         Number of records to select, each at most once.
     max_factor : float
         Records are scaled by factors between 1/max_factor and max_factor; 1: not at all.
@@ -168,14 +168,14 @@ def select_records(
     --------
     >>> import dondolo as dd
     >>> target = dd.ec8_spectrum(0.25, soil="C", periods=[0.1, 0.2, 0.5, 1.0, 2.0])
-    >>> found = dd.select_records(dd.synthetic_records(6.5, 10.0, "shallow", count=20), target, 7)
+    >>> found = dd.select_records(dd.synthetic_records(6.5, 10.0, "shallow", n_records=20), target, 7)
     >>> len(found.records)
     7
     """
     if not isinstance(target, TargetSpectrum):
         raise InputError(f"target: {type(target).__name__} is no TargetSpectrum")
     several = tuple(dict.fromkeys(RecordSet(plain_records(records)).records))
-    places = as_count("count", count, 1, len(several))
+    places = as_count("n_records", n_records, 1, len(several))
     if weight is None:
         weight = 1.0 if target.covariance.any() else 0.1
     largest, share = as_number("max_factor", max_factor), as_number("weight", weight)
@@ -232,7 +232,7 @@ def _nearest(candidates: _Candidates, drawn: FloatArray, most: float) -> NDArray
         chosen[i] = np.argmin(distance)
         if distance[chosen[i]] == np.inf:
             raise InputError(
-                f"count = {len(drawn)}: only {i} records can be scaled to the target by factors up to {most:g};"
+                f"n_records = {len(drawn)}: only {i} records can be scaled to the target by factors up to {most:g};"
                 " a larger max_factor, more records, or fewer to select"
             )
         free[chosen[i]] = False

@@ -17,7 +17,7 @@ def synthetic_records(
     distance: float,
     site: Literal["rock", "shallow", "deep"],
     *,
-    count: int = 1,
+    n_records: int = 1,
     seed: int = 1,
     first: int = 0,
     deviations: float = 0.0,
@@ -32,13 +32,13 @@ def synthetic_records(
         Epicentral distance [km], 0 to 150 (calibrated up to 100).
     site : {'rock', 'shallow', 'deep'}
         Rock, shallow alluvium or deep alluvium.
-    count : int
+    n_records : int
         Number of records.
     seed : int
         Seed of the random phases, positive. The same seed makes the same records on every machine.
     first : int
-        Number of the first realisation, from 0: the records of (count=5, first=0) and (count=5, first=5) are those of
-        count=10.
+        Number of the first realisation, from 0: the records of (n_records=5, first=0) and (n_records=5, first=5) are
+        those of n_records=10.
     deviations : float
         Standard deviations by which duration and energy exceed their medians, -3 to 3.
 
@@ -64,12 +64,12 @@ def synthetic_records(
         as_number(what, value)
         for what, value in (("magnitude", magnitude), ("distance", distance), ("deviations", deviations))
     ]
-    for what, value, least in (("count", count, 1), ("seed", seed, 1), ("first", first, 0)):
+    for what, value, least in (("n_records", n_records, 1), ("seed", seed, 1), ("first", first, 0)):
         as_count(what, value, least, 2**31 - 1)
-    if int(first) + int(count) > 2**31:
-        raise InputError(f"first = {first}, count = {count}: realisations must have numbers below 2147483648")
+    if int(first) + int(n_records) > 2**31:
+        raise InputError(f"first = {first}, n_records = {n_records}: realisations must have numbers below 2147483648")
     place = as_text("site", site)
-    return [_realisation(*numbers[:2], place, int(seed), int(first) + i, numbers[2]) for i in range(count)]
+    return [_realisation(*numbers[:2], place, int(seed), int(first) + i, numbers[2]) for i in range(n_records)]
 
 
 def _realisation(*arguments: Any) -> Record:

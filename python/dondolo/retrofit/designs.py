@@ -213,7 +213,7 @@ def compare_designs(
     Examples
     --------
     >>> import dondolo as dd
-    >>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", count=20)
+    >>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", n_records=20)
     >>> designs = {"as it stands": dd.OneSidedWall(3.0, 0.30), "thicker": dd.OneSidedWall(3.0, 0.45)}
     >>> found = dd.compare_designs(designs, records, levels=[0.2, 0.4, 0.6, 0.8, 1.0, 1.2], progress=False)
     >>> bool(found.ratio[1] > 1.0)

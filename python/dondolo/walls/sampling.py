@@ -35,7 +35,7 @@ _PASSES = 5
 
 def sample_population(
     mechanisms: str | Iterable[str] | Mapping[str, Mapping[str, Property]],
-    count: int,
+    n_walls: int,
     seed: int,
     *,
     variables: Mapping[str, Distribution] | None = None,
@@ -48,7 +48,7 @@ def sample_population(
     """A population of walls with sampled properties.
 
     A property is a number (or a text, for `restitution` and `bearing`), a distribution, or a function of what was
-    sampled, which gets the samples by name, one array of `count` numbers each, and returns such an array or a number.
+    sampled, which gets the samples by name, one array of `n_walls` numbers each, and returns such an array or a number.
     A distribution is anything with a method `ppf`, such as `Lognormal` or a frozen distribution of `scipy.stats`.
 
     Parameters
@@ -57,7 +57,7 @@ def sample_population(
         'one_sided', 'free_standing' or 'two_block', or several of them: each wall then has all of them. A mapping gives
         each mechanism properties of its own, besides or instead of the common ones:
         ``{"one_sided": {"p_occ": 0.4}, "two_block": {"p_occ": 0.6, "hinge": Uniform(0.5, 0.7)}}``.
-    count : int
+    n_walls : int
         Number of walls.
     seed : int
         Seed of the random numbers; the same seed gives the same walls.
@@ -111,7 +111,7 @@ def sample_population(
     >>> import dondolo as dd
     >>> facades = dd.sample_population(
     ...     {"one_sided": {"p_occ": 0.6}, "two_block": {"p_occ": 0.4, "hinge": dd.Triangular(0.5, 0.6, 0.75)}},
-    ...     count=100,
+    ...     n_walls=100,
     ...     seed=1,
     ...     height=dd.Lognormal(3.2, 0.15, low=2.4, high=4.5),
     ...     thickness=dd.Choice((0.25, 0.38, 0.51), (0.2, 0.5, 0.3)),
@@ -124,7 +124,7 @@ def sample_population(
     'facades 0001'
     """
     own = _as_mechanisms(mechanisms)
-    n, seed = as_count("count", count, 1), as_count("seed", seed, 0)
+    n, seed = as_count("n_walls", n_walls, 1), as_count("seed", seed, 0)
     as_text("group", group)
     as_text("name", name)
     variables = {} if variables is None else _as_mapping("variables", variables, "distributions by their names")
@@ -233,7 +233,7 @@ def draw(
         probabilities = _reorder(probabilities, matrix)
     elif correlation:
         raise InputError(
-            f"count = {n}: must be at least {len(names) + 1} for correlations,"
+            f"n_walls = {n}: must be at least {len(names) + 1} for correlations,"
             f" more than are sampled: {', '.join(names)}"
         )
     return {what: _quantiles(what, distributions[what], probabilities[:, i]) for i, what in enumerate(names)}
