@@ -206,7 +206,7 @@ def occurrence(study):
         frequency = typology["all"].risk(HAZARD).annual_frequency
         print(
             f"p_occ {what}: {text(typology['all'].fit)}, saturation {typology['all'].saturation:.3f}; mean {means};"
-            f" {frequency:.3g} per year; the mean is 0.5 at {level_of(typology['all'].mean, 0.5):.3f} g"
+            f" {frequency:.3g} per year; the mean is 0.5 at {typology['all'].ppf(0.5):.3f} g"
         )
 
 
@@ -234,12 +234,6 @@ def fitted(fraction, histories, saturation=1.0, top=None):
     """Fit a lognormal to a mean fraction divided by its saturation, at the lowest `top` levels."""
     n = float(histories)
     return dd.fit_fragility(LEVELS[:top], np.clip(fraction[:top] / saturation * n, 0.0, n), n)
-
-
-def level_of(curve, probability):
-    """Level at which a curve reaches a probability, to 0.001 g."""
-    x = np.arange(0.001, 5.0, 0.001)
-    return float(x[np.argmax(curve(x) >= probability)])
 
 
 def restitution(study):
@@ -410,7 +404,7 @@ def risk(study):
         state = study.typology.at(edp)
         for mechanism in (*MECHANISMS, "all"):
             curve = state[mechanism]
-            mean, fit = (one.risk(HAZARD).annual_frequency for one in (curve.mean, curve.fit))
+            mean, fit = (one.risk(HAZARD).annual_frequency for one in (curve, curve.fit))
             print(f"EDP >= {edp:g}, {mechanism}: mean curve {mean:.4g} per year, saturation x lognormal {fit:.4g}")
     alone = replace(study.typology["all"].fit, saturation=1.0).risk(HAZARD).annual_frequency
     print(f"   the lognormal of all without the saturation: {alone:.4g}")

@@ -16,7 +16,7 @@ def parapet(period: float | None, refine: int | None = None) -> dd.OneSidedWall:
     return dd.OneSidedWall(1.5, 0.25, building=house)
 
 
-def run(wall: dd.OneSidedWall, levels: Sequence[float]) -> dd.Stripes:
+def run(wall: dd.OneSidedWall, levels: Sequence[float]) -> dd.results.Stripes:
     """Its stripes in both polarities."""
     return dd.multiple_stripe(wall, records, levels, polarity="both", progress=False)
 

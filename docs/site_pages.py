@@ -74,14 +74,16 @@ def _printed(command: list[str | Path]) -> list[str]:
 def _api() -> str:
     """Every public name, by its room."""
     rooms: dict[str, list[str]] = {room: [] for room in ROOMS}
-    for name in dd.__all__:
-        of = getattr(dd, name)
-        if inspect.isclass(of) or inspect.isfunction(of):
-            rooms[of.__module__.split(".")[1]].append(name)
+    for place in (dd, dd.results):
+        for name in place.__all__:
+            of = getattr(place, name)
+            if inspect.isclass(of) or inspect.isfunction(of):
+                rooms[of.__module__.split(".")[1]].append(f"{place.__name__}.{name}".removeprefix("dondolo."))
     lines = [
         "# Python interface",
         "",
-        "`import dondolo as dd` gives all of these names. Angles are in radians, accelerations in g where they scale",
+        "`import dondolo as dd` gives all of these names; what begins with `results` are the types of what analyses",
+        "and readers return. Angles are in radians, accelerations in g where they scale",
         "records and in m/s2 where they are those of a motion; each page states its units. `dd.pulses` is described in",
         "[its module](#pulses).",
         "",

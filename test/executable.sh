@@ -397,7 +397,7 @@ for variable in task title output threads name mechanism height thickness densit
    check "template: $variable" grep -qE "(^|[ ,])$variable = " all
 done
 # Every default that a template shows is the one in force: a case that leaves it out has the same echo
-sed -E '/^ *(title|threads|name|density|restitution|restitution_factor|polarity|im|engine|rtol|atol|edp_limit|estimate_error|gravity|code|soil|topography|confidence|behaviour) = /d' \
+sed -E '/^ *(title|threads|name|density|restitution|restitution_factor|polarity|im|engine|rtol|atol|edp_limit|estimate_error|gravity|code|soil|topography|knowledge_factor|behaviour) = /d' \
    stripes.nml >short.nml
 run --quiet stripes.nml
 cp out/stripes_fragility.csv long.csv

@@ -119,7 +119,7 @@ def row(wall, record, stripes):
         *("" if value is None else value for value in values),
         record.name,
         *(repr(float(each[0, 0])) for each in numbers),
-        dd.Certified(certified.status[0, 0]).name.lower(),
+        dd.results.Certified(certified.status[0, 0]).name.lower(),
     ]
 
 

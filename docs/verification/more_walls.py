@@ -72,7 +72,7 @@ def main():
                             told.edp_highest,
                         )
                     )
-                    status = dd.Certified(told.status[0, 0]).name.lower()
+                    status = dd.results.Certified(told.status[0, 0]).name.lower()
                     numbers = [repr(scale), repr(edp), f"{change:.1e}"]
                     writer.writerow([wall.name, record.name, *numbers, *map(repr, bounds), status])
                 file.flush()

@@ -35,7 +35,7 @@ def rows(level, records):
     numbers = (exact.edp, exact.edp_error, exact.edp_lowest, exact.edp_highest)
     for k, record in enumerate(records):
         edp, change, lowest, highest = (float(each[0, k]) for each in numbers)
-        status = dd.Certified(exact.status[0, k]).name.lower()
+        status = dd.results.Certified(exact.status[0, k]).name.lower()
         scale = float(exact.scale[0, k])
         yield [record.name, level, repr(scale), repr(edp), f"{change:.1e}", repr(lowest), repr(highest), status]
 

@@ -12,36 +12,25 @@
 """
 
 import importlib
-import re
 from pathlib import Path
 from typing import Any
 
+from dondolo._base.names import homes_of, load_name
 from dondolo._fortran.library import constants
 
 __version__ = constants().version
 
-# Names of the stub and their modules: nothing is imported before it is used.
-_HOMES = {
-    name: module
-    for module, name in re.findall(
-        r"(?m)^from (\S+) import (\w+) as \2$", Path(__file__).with_suffix(".pyi").read_text(encoding="utf-8")
-    )
-}
+_HOMES = homes_of(Path(__file__))
 
 __all__ = sorted([*_HOMES, "__version__"])
 
 
 def __getattr__(name: str) -> Any:
-    if name not in _HOMES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     if name == "load":
         # A saved result is of any class, and a class is known once its module has been imported.
-        for module in _HOMES.values():
+        for module in {*_HOMES.values(), *homes_of(Path(__file__).with_name("results.py")).values()}:
             importlib.import_module(module)
-    home = importlib.import_module(_HOMES[name])
-    # A name without a value in its home is a module there.
-    thing = getattr(home, name) if hasattr(home, name) else importlib.import_module(f"{_HOMES[name]}.{name}")
-    globals()[name] = thing
+    globals()[name] = thing = load_name(name, __name__, _HOMES)
     return thing
 
 

@@ -255,7 +255,7 @@ def _plot_run(prefix: str, kind: str, animate: bool) -> None:
 
 
 def _plot_designs(
-    designs: dd.DesignComparison, walls: dd.Population, save: Callable[[str, Callable[[], Any]], None]
+    designs: dd.results.DesignComparison, walls: dd.Population, save: Callable[[str, Callable[[], Any]], None]
 ) -> None:
     """Draw designs beside each other, and each of them: they are alternatives, and have no curve in common."""
     save("designs", lambda: designs.plot()[0])
@@ -263,7 +263,9 @@ def _plot_designs(
         save(f"design_{number}", wall.plot)
 
 
-def _plot_walls(results: dd.Results, people: dd.Typology, save: Callable[[str, Callable[[], Any]], None]) -> None:
+def _plot_walls(
+    results: dd.results.Results, people: dd.results.Typology, save: Callable[[str, Callable[[], Any]], None]
+) -> None:
     """Draw the curves of a population, or of one facade."""
     save("typology", people.plot)
     if (uncertain := results.uncertain) is not None:
@@ -280,7 +282,7 @@ def _plot_walls(results: dd.Results, people: dd.Typology, save: Callable[[str, C
         save("damage_states", people.plot_damage_states)
 
 
-def _film(path: str, motion: dd.Response, run: str) -> None:
+def _film(path: str, motion: dd.results.Response, run: str) -> None:
     """Write an animation of a motion; one that is long is shown faster, so that the film does not take minutes."""
     from dondolo.analysis.film import film_span
 

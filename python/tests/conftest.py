@@ -59,7 +59,7 @@ def wall() -> dd.OneSidedWall:
 
 
 @pytest.fixture(scope="session")
-def stripes(wall: dd.OneSidedWall, records: list[dd.Record]) -> dd.Stripes:
+def stripes(wall: dd.OneSidedWall, records: list[dd.Record]) -> dd.results.Stripes:
     """Stripes with a good fit."""
     return dd.multiple_stripe(wall, records, levels=[0.2, 0.4, 0.6, 0.8, 1.0, 1.2], progress=False)
 

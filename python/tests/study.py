@@ -32,7 +32,7 @@ def arguments(**changes) -> dict:
     return given | changes
 
 
-def write(typology: dd.Typology, folder: Path) -> None:
+def write(typology: dd.results.Typology, folder: Path) -> None:
     """All tables and arrays."""
     folder.mkdir(parents=True, exist_ok=True)
     for table in ("typology", "fragility", "stripes", "walls"):

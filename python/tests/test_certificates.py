@@ -134,7 +134,7 @@ def test_certificates_are_those_of_the_table(synthetic):
     for wall, name, scale, edp, *_ in table[:3]:
         stripes = one_history(wall, synthetic[name], scale)
         certified = stripes.certify(synthetic[name], progress=False)
-        assert certified.status == dd.Certified.QUADRUPLE
+        assert certified.status == dd.results.Certified.QUADRUPLE
         assert certified.edp[0, 0] == pytest.approx(edp, abs=1e-6)
         assert certified.edp_lowest == certified.edp_highest == certified.edp
         assert certified.edp_error < 1e-7
@@ -160,7 +160,7 @@ def test_calm_histories_stay(wall, few):
     told = dd.multiple_stripe(wall, few, [0.2, 0.4, 0.8], certify=True, progress=False)
     assert plain.status is None
     assert "status" not in plain.to_frame()
-    assert (told.status == dd.Certified.DOUBLE).all()
+    assert (told.status == dd.results.Certified.DOUBLE).all()
     assert np.array_equal(told.edp, plain.edp)
     assert np.array_equal(told.time_of_peak, plain.time_of_peak)
     assert list(told.to_frame()["status"]) == ["double"] * told.edp.size
@@ -243,7 +243,7 @@ def test_executable(tmp_path, records):
     assert [state["fewest"], state["most"]] == [
         each.tolist() for each in mine.exceedance_bounds(state["edp_threshold"])
     ]
-    assert set(np.unique(theirs.status)) <= set(dd.Certified)
+    assert set(np.unique(theirs.status)) <= set(dd.results.Certified)
 
 
 @pytest.fixture(scope="module")
@@ -254,7 +254,7 @@ def undecided(wall, records):
     survivor, other = np.flatnonzero(~told.collapsed[1] & (told.edp[1] < 0.4))[:2]
     highest[1, survivor] = 1.0
     highest[1, other] = 0.5
-    status[1, [survivor, other]] = dd.Certified.NOT_COMPUTABLE
+    status[1, [survivor, other]] = dd.results.Certified.NOT_COMPUTABLE
     return replace(told, edp_lowest=lowest, edp_highest=highest, status=status)
 
 

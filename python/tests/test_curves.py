@@ -131,9 +131,9 @@ def test_the_end_of_a_mean_is_not_passed(few):
 
 def test_logistic_without_a_curve():
     common = {"b0": np.nan, "b1": np.nan, "histories": 4, "count": 2, "im": "pga"}
-    apart = dd.Logistic(**common, status="separated", bracket=(0.2, 0.3))
+    apart = dd.results.Logistic(**common, status="separated", bracket=(0.2, 0.3))
     assert np.isnan(apart.ppf(0.5))
     assert (apart.ppf(0.0), apart.ppf(1.0)) == (0.0, 0.3)
-    assert dd.Logistic(**common, status="none", bracket=(0.0, np.inf)).ppf(0.5) == np.inf
+    assert dd.results.Logistic(**common, status="none", bracket=(0.0, np.inf)).ppf(0.5) == np.inf
     with pytest.raises(dd.DondoloError, match="no curve was fitted"):
         apart.risk(dd.HazardCurve(*FREQUENCIES))

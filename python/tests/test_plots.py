@@ -19,6 +19,7 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.image import imread
 from PIL import Image
+from public import public_things
 from scipy import stats
 
 import dondolo as dd
@@ -145,7 +146,7 @@ def test_typology_shows_every_wall_and_the_mean(records):
     people = dd.typology(dd.Population(walls), records, levels=LEVELS, progress=False)
     ax = people.plot()
     mean = line(ax, "weighted mean")
-    np.testing.assert_allclose(mean.get_ydata(), people["all"].mean(mean.get_xdata()))
+    np.testing.assert_allclose(mean.get_ydata(), people["all"](mean.get_xdata()))
     grid = mean.get_xdata()
     smooth = [drawn for drawn in ax.get_lines() if len(drawn.get_xdata()) == len(grid)]
     # Edges of the band and median, mean, lognormal
@@ -367,10 +368,10 @@ def test_results_draw_themselves():
     """One way to draw: methods, of which the axes come first and the options are named."""
     assert [name for name in dd.__all__ if name.startswith(("plot", "draw", "animate"))] == []
     methods = {
-        (name, method): getattr(getattr(dd, name), method)
-        for name in dd.__all__
-        if isinstance(getattr(dd, name), type)
-        for method in dir(getattr(dd, name))
+        (name, method): getattr(thing, method)
+        for name, thing in public_things().items()
+        if isinstance(thing, type)
+        for method in dir(thing)
         if method.startswith("plot")
     }
     drawn = {name for name, _ in methods}

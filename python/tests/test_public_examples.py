@@ -16,6 +16,7 @@ matplotlib.use("agg")
 
 import matplotlib.pyplot as plt
 import pytest
+from public import public_things
 
 import dondolo as dd
 
@@ -42,9 +43,10 @@ def names_in(source):
 
 def public_names():
     """Names of the package, of its pulses, and of the methods of its classes, inherited ones too."""
-    for name in set(dd.__all__) - {"__version__"}:
+    for name, thing in public_things().items():
+        if name == "__version__":
+            continue
         yield name, name
-        thing = getattr(dd, name)
         if inspect.isclass(thing) and not issubclass(thing, BaseException):
             for method, one in inspect.getmembers(thing, lambda one: inspect.isfunction(one) or inspect.ismethod(one)):
                 if not method.startswith("_") and one.__module__.startswith("dondolo"):

@@ -138,10 +138,10 @@ def test_zhang_and_makris(alpha, expected, tolerance):
     found = [
         (0.5 * (b.lower + b.upper) / alpha, b.below, b.above)
         for b in spectrum.boundaries
-        if max(b.below, b.above) >= dd.State.OVERTURNED_AFTER_IMPACTS
+        if max(b.below, b.above) >= dd.results.State.OVERTURNED_AFTER_IMPACTS
     ]
     np.testing.assert_allclose([b[0] for b in found], expected, rtol=tolerance)
-    states = dd.State
+    states = dd.results.State
     assert found[0][2] == found[1][1] == states.OVERTURNED_AFTER_IMPACTS
     assert found[2][2] == states.OVERTURNED
     assert spectrum.frequency_ratio[0] == pytest.approx(5.0, rel=1e-12)
@@ -159,7 +159,7 @@ def test_makris_and_roussos():
         tolerance=1e-7,
         progress=False,
     )
-    (boundary,) = (b for b in spectrum.boundaries if b.above >= dd.State.OVERTURNED_AFTER_IMPACTS)
+    (boundary,) = (b for b in spectrum.boundaries if b.above >= dd.results.State.OVERTURNED_AFTER_IMPACTS)
     assert boundary.lower == pytest.approx(0.625845, abs=1e-6)
 
 
@@ -192,12 +192,12 @@ def test_every_point_is_the_motion_it_stands_for(spectrum):
             crossed &= motion.rotation[:-1] == 0.0
             crossed &= np.maximum.accumulate(np.abs(motion.rotation))[1:] > 0.0
             if motion.edp == 0.0:
-                expected = dd.State.AT_REST
+                expected = dd.results.State.AT_REST
             elif motion.collapsed:
-                expected = dd.State.OVERTURNED_AFTER_IMPACTS if crossed.any() else dd.State.OVERTURNED
+                expected = dd.results.State.OVERTURNED_AFTER_IMPACTS if crossed.any() else dd.results.State.OVERTURNED
                 late += crossed.any() and not crossed[pulse[1:]].any()
             else:
-                expected = dd.State.SAFE_AFTER_IMPACTS if crossed[pulse[1:]].any() else dd.State.SAFE
+                expected = dd.results.State.SAFE_AFTER_IMPACTS if crossed[pulse[1:]].any() else dd.results.State.SAFE
             assert spectrum.state[j, i] == expected, (frequency, amplitude)
     # Some overturn after an impact that comes later than the pulse.
     assert late > 0
@@ -213,7 +213,7 @@ def test_shapes_and_tables(spectrum, tmp_path):
     frame = spectrum.to_frame()
     assert len(frame) == 300
     chosen = frame[(frame.frequency_hz == spectrum.frequencies[3]) & (frame.amplitude_g == spectrum.amplitudes[20])]
-    assert chosen.state.item() == dd.State(spectrum.state[20, 3]).name.lower()
+    assert chosen.state.item() == dd.results.State(spectrum.state[20, 3]).name.lower()
     spectrum.to_csv(tmp_path / "boundaries.csv", "boundaries")
     rows = [line for line in (tmp_path / "boundaries.csv").read_text().splitlines() if not line.startswith("#")]
     assert len(rows) == len(spectrum.boundaries) + 1
@@ -327,7 +327,7 @@ def test_plot(spectrum):
     assert ax.get_ylim()[1] == spectrum.amplitude_ratio[-1]
     overturned = next(part for part in ax.collections if isinstance(part, PolyCollection))
     paths = overturned.get_paths()
-    windows = [w for i in range(10) for w in spectrum.windows(i) if w.state == dd.State.OVERTURNED]
+    windows = [w for i in range(10) for w in spectrum.windows(i) if w.state == dd.results.State.OVERTURNED]
     assert len(paths) == len(windows) > 5
     for path, window in zip(paths, windows, strict=True):
         assert path.get_extents().y0 == pytest.approx(window.lower / spectrum.amplitude_unit)

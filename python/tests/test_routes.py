@@ -133,7 +133,7 @@ def differences(mine, theirs, place, ignored):
 def parts_of(kind):
     """What an object is made of: its fields, and of results what follows from them."""
     names = [field.name for field in dataclasses.fields(kind) if not field.name.startswith("_")]
-    return [*names, *{dd.Results: ("checks",), dd.Typology: ("unions", "group_unions")}.get(kind, ())]
+    return [*names, *{dd.results.Results: ("checks",), dd.results.Typology: ("unions", "group_unions")}.get(kind, ())]
 
 
 @pytest.mark.parametrize("name", CASES)

@@ -84,7 +84,7 @@ def results(stripes, few, wall):
         "target": dd.TargetSpectrum([0.1, 0.5, 1.0], [0.5, 0.4, 0.2], dispersion=0.6).conditional(0.5, 0.8),
         "selection": dd.select_records(few, dd.ec8_spectrum(0.3, periods=[0.1, 0.5, 1.0]), 1, max_factor=100.0),
         "discrete": dd.DiscreteFragility([0.1, 0.2, 0.4], [0.0, 0.25, 0.75]),
-        "fragility model": dd.FragilityModel(
+        "fragility model": dd.results.FragilityModel(
             functions={"a": {"c": dd.Fragility.of_parameters(0.5, 0.4, im="pga")}},
             limits={"a": Limits(None, 0.1, 2.0)},
             id="m",
@@ -168,7 +168,7 @@ def test_every_table_can_be_written(results, tmp_path):
         lines = path.read_text().splitlines()
         assert lines[0].startswith("# dondolo "), name
         assert sum(not line.startswith("#") for line in lines) > 1, name
-        if isinstance(result, tables.Tabular | dd.RiskUncertainty):
+        if isinstance(result, tables.Tabular | dd.results.RiskUncertainty):
             head = sum(line.startswith("#") for line in lines)
             assert head > 1, name
             read, frame = pandas.read_csv(path, skiprows=head), result.to_frame()
@@ -281,7 +281,9 @@ def comparison(interval):
     """A result with any values."""
     names = ("ratio", "p_value", "beta_ratio", "beta_p_value", "curves_p_value", "degrees_of_freedom")
     numbers = dict.fromkeys(names, 0.5)
-    return dd.Comparison(pairing="paired", shared=3, ratio_interval=interval, beta_interval=(0.5, 2.0), **numbers)
+    return dd.results.Comparison(
+        pairing="paired", shared=3, ratio_interval=interval, beta_interval=(0.5, 2.0), **numbers
+    )
 
 
 def test_values_that_json_lacks(tmp_path):

@@ -63,7 +63,7 @@ def test_work(analysis, wall, few):
     for estimate_error, times in ((False, 1), (True, 3)):
         calm = dd.multiple_stripe(wall, few, [0.999 * trigger], estimate_error=estimate_error, progress=False).work
         samples = sum(len(record.acceleration) - 1 for record in few)
-        assert calm == dd.Work(histories=times * len(few), still=times * len(few), intervals=times * samples)
+        assert calm == dd.results.Work(histories=times * len(few), still=times * len(few), intervals=times * samples)
 
 
 def test_two_sided_walls_run_both_polarities_once(few):

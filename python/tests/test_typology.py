@@ -45,7 +45,7 @@ def test_every_wall_is_its_own_analysis(typology, population, few):
         if curve.has_fit:
             assert (typology.curves[i].theta, typology.curves[i].beta) == (curve.theta, curve.beta)
     # Who asks for collapses alone pays less.
-    total = dd.Work.total(works)
+    total = dd.results.Work.total(works)
     for count in ("histories", "still", "intervals"):
         assert getattr(typology.work, count) == getattr(total, count)
     assert typology.work.steps < total.steps
@@ -259,7 +259,7 @@ def test_a_partial_population_keeps_its_weights_and_origin():
     sizes = np.full((3, 3), 10, dtype=np.int32)
     given = people, "pga", np.array([0.2, 0.4, 0.8]), np.array([1.0]), counts, sizes
     with pytest.raises(dd.Interrupted, match="no wall of any weight is complete"):
-        combine(*given, np.array([True, False, False]), dd.Work())
-    partial = combine(*given, np.array([True, True, False]), dd.Work())
+        combine(*given, np.array([True, False, False]), dd.results.Work())
+    partial = combine(*given, np.array([True, True, False]), dd.results.Work())
     assert partial["all"].weight == 2.0
     assert partial.population.origin == ("surveyed",)

@@ -50,7 +50,7 @@ def samples(folder: Path) -> None:
 def unsound(value: Any) -> str:
     """What cannot be in a result: arrays of Python objects, a repr that fails, flags that are none."""
     repr(value)
-    if isinstance(value, dd.FragilityModel):
+    if isinstance(value, dd.results.FragilityModel):
         for curves in value.functions.values():
             for state, curve in curves.items():
                 p = curve(GRID)
@@ -73,7 +73,7 @@ def unsound(value: Any) -> str:
     return ""
 
 
-def digest(stored: dd.Results) -> str:
+def digest(stored: dd.results.Results) -> str:
     """A digest of all that makes one study another: walls, settings, and what came of the histories."""
     parts = [(wall.name, wall.height, wall.thickness) for wall in stored.population.walls]
     settings = [stored.run.setting("job", "title", ""), stored.run.settings.get("stripes", {})]

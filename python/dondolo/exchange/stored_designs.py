@@ -8,7 +8,7 @@ import numpy as np
 
 from dondolo._storage.columns import Columns
 from dondolo._storage.run_file import RunFile
-from dondolo.curves.comparison import Comparison, compare
+from dondolo.curves.comparison import Comparison
 from dondolo.curves.fragility import Fragility
 from dondolo.exchange.case_checks import checks_of_run, complete_checks
 from dondolo.populations.typology import Typology
@@ -62,7 +62,7 @@ def _against(curve: Fragility, first: Fragility, table: Columns, row: int, confi
     ratio, low, high, p_value = (table.number(name, row) for name in ("ratio", "ratio_low", "ratio_high", "p_value"))
     if curve.parts and first.parts:
         return replace(
-            compare(curve, first, confidence=confidence), ratio=ratio, ratio_interval=(low, high), p_value=p_value
+            curve.compare(first, confidence=confidence), ratio=ratio, ratio_interval=(low, high), p_value=p_value
         )
     return Comparison(
         pairing="paired",

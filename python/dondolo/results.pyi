@@ -1,0 +1,36 @@
+"""Types of results, each with its home: for type checkers, and for the package, which loads a name on its first use."""
+
+from dondolo.analysis.certificate import Certified as Certified
+from dondolo.analysis.cloud import Cloud as Cloud
+from dondolo.analysis.cloud import CloudFragility as CloudFragility
+from dondolo.analysis.efficiency import IntensityComparison as IntensityComparison
+from dondolo.analysis.incremental import FirstCollapseFragility as FirstCollapseFragility
+from dondolo.analysis.incremental import Incremental as Incremental
+from dondolo.analysis.overturning import Boundary as Boundary
+from dondolo.analysis.overturning import OverturningSpectrum as OverturningSpectrum
+from dondolo.analysis.overturning import State as State
+from dondolo.analysis.overturning import Window as Window
+from dondolo.analysis.response import Response as Response
+from dondolo.analysis.stripes import Stripes as Stripes
+from dondolo.analysis.work import Work as Work
+from dondolo.checks.ntc import CodeCheck as CodeCheck
+from dondolo.curves.bootstrap import Bootstrap as Bootstrap
+from dondolo.curves.comparison import Comparison as Comparison
+from dondolo.curves.fragility_model import FragilityModel as FragilityModel
+from dondolo.curves.regression import Logistic as Logistic
+from dondolo.curves.regression import Regression as Regression
+from dondolo.curves.risk import Risk as Risk
+from dondolo.curves.risk_uncertainty import RiskUncertainty as RiskUncertainty
+from dondolo.exchange.cases import Case as Case
+from dondolo.exchange.results import Results as Results
+from dondolo.populations.bootstrap import TypologyBootstrap as TypologyBootstrap
+from dondolo.populations.curve import Group as Group
+from dondolo.populations.curve import PopulationCurve as PopulationCurve
+from dondolo.populations.typology import Typology as Typology
+from dondolo.populations.uncertain_wall import UncertainWall as UncertainWall
+from dondolo.populations.weakest_hinge import HingeSearch as HingeSearch
+from dondolo.records.rotation import RotD as RotD
+from dondolo.records.selection import Selection as Selection
+from dondolo.records.spectrum import Spectrum as Spectrum
+from dondolo.retrofit.designs import DesignComparison as DesignComparison
+from dondolo.walls.mechanisms import Terms as Terms
