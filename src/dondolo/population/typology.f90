@@ -9,7 +9,6 @@ module dondolo_typology
    use dondolo_fragility, only : fragility_type
    use dondolo_kinds, only : wp
    use dondolo_limits, only : most_groups
-   use dondolo_memory, only : check_room
    use dondolo_population, only : part_type, population_type
    use dondolo_series, only : fit_share
    use dondolo_text, only : to_text
@@ -71,22 +70,16 @@ contains
       !> Too many groups, no wall with a weight, fractions that cannot be fitted, or lack of memory
       type(error_type), allocatable, intent(out) :: error
 
-      real(wp), parameter :: bytes_of_number = real(storage_size(1.0_wp)/8, wp)
       type(part_type), allocatable :: parts(:)
-      real(wp), allocatable :: p(:, :), fraction(:, :)
+      real(wp), allocatable :: p(:, :)
       integer :: i
 
       call population%probabilities(state, population%levels, p, error)
       if (.not. allocated(error)) call list_parts(parts, population, error)
-      if (.not. allocated(error)) call check_room(bytes_of_number*real(size(p, 1), wp)*real(size(p, 2), wp), error)
       if (allocated(error)) return
-      allocate (fraction, mold=p)
-      do i = 1, size(p, 2)
-         fraction(:, i) = population%fraction(i, state)
-      end do
       allocate (typologies(size(parts)))
       do i = 1, size(parts)
-         call make_curve(typologies(i), population, parts(i), state, fraction, p, error)
+         call make_curve(typologies(i), population, parts(i), state, p, error)
          if (allocated(error)) return
       end do
    end subroutine combine_population
@@ -139,15 +132,15 @@ contains
    end subroutine list_parts
 
    !> Make the curve of a part
-   subroutine make_curve(curve, population, part, state, fraction, p, error)
+   subroutine make_curve(curve, population, part, state, p, error)
       type(typology_type), intent(out) :: curve
       !> The population, fitted
       type(population_type), intent(in) :: population
       type(part_type), intent(in) :: part
       !> Number of the damage state
       integer, intent(in) :: state
-      !> Fractions and probabilities of collapse (levels, columns)
-      real(wp), intent(in) :: fraction(:, :), p(:, :)
+      !> Probabilities of collapse (levels, columns)
+      real(wp), intent(in) :: p(:, :)
       !> Fractions that cannot be fitted
       type(error_type), allocatable, intent(out) :: error
 
@@ -162,15 +155,14 @@ contains
       curve%levels = population%levels
       curve%walls = size(weights%column)
       curve%weight = sum(weights%weight)
-      curve%mean_fraction = weights%mean(fraction)
       curve%mean_curve = weights%mean(p)
       curve%fractile = weights%fractiles(p, fractile_shares)
-      call set_dispersions(curve, population, weights, state)
+      call sum_columns(curve, population, weights, state)
       call fit_share(curve%fit, curve%levels, curve%mean_fraction, curve%saturation, curve%histories, error)
    end subroutine make_curve
 
-   !> Set what can occur in a part, what has a curve, how its curves scatter, and its histories
-   pure subroutine set_dispersions(curve, population, weights, state)
+   !> Set the fractions of a part, what can occur in it, what has a curve, how its curves scatter, and its histories
+   pure subroutine sum_columns(curve, population, weights, state)
       !> The curve: its weight and its number of walls are known
       type(typology_type), intent(inout) :: curve
       !> The population, fitted
@@ -188,9 +180,10 @@ contains
       centre = 0.0_wp
       squares = 0.0_wp
       beta_squares = 0.0_wp
-      allocate (curve%histories(size(population%levels)), source=0.0_wp)
+      allocate (curve%histories(size(population%levels)), curve%mean_fraction(size(population%levels)), source=0.0_wp)
       do i = 1, size(weights%column)
          associate (column => weights%column(i), weight => weights%weight(i), fit => population%curve(state, weights%column(i)))
+            curve%mean_fraction = curve%mean_fraction + weight*population%fraction(column, state)
             curve%histories = curve%histories + weight*real(population%histories_of(column), wp)
             share = weight*population%occurrence(column)
             occurring = occurring + share
@@ -203,6 +196,8 @@ contains
             beta_squares = beta_squares + share*fit%beta**2
          end associate
       end do
+      ! Rounding must not leave more collapses than histories.
+      curve%mean_fraction = min(curve%mean_fraction/curve%weight, 1.0_wp)
       curve%histories = real(curve%walls, wp)*(curve%histories/curve%weight)
       curve%saturation = occurring/curve%weight
       if (occurring > 0.0_wp) curve%fitted = fitted/occurring
@@ -210,7 +205,7 @@ contains
          curve%beta_walls = sqrt(max(squares/fitted, 0.0_wp))
          curve%beta_records = sqrt(beta_squares/fitted)
       end if
-   end subroutine set_dispersions
+   end subroutine sum_columns
 
    !> Which of the curves is that of the whole population, all mechanisms together
    pure integer function whole_population(typologies)
