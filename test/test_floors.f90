@@ -2,7 +2,7 @@
 program test_floors
    use, intrinsic :: omp_lib, only : omp_get_max_threads
    use checks, only : check, check_close, check_error, check_ok, finish, suite
-   use dondolo_building, only : building_type
+   use dondolo_building, only : building_type, diaphragm_type
    use dondolo_building_input, only : building_properties, new_building
    use dondolo_error, only : error_type, problems_type
    use dondolo_floor_motion, only : filter_record
@@ -163,7 +163,7 @@ contains
 
    !> Walls on equal buildings get the same motions, from any number of threads
    subroutine test_sharing()
-      integer, parameter :: walls = 60, kinds = 5
+      integer, parameter :: walls = 60, kinds = 6
       type(floors_type), target :: floors
       type(suite_type), target :: ground
       type(suite_type), pointer :: motions, here
@@ -180,7 +180,12 @@ contains
       call new_suite(ground, records)
       here => ground
       do i = 1, kinds
-         building(i) = building_of([0.1_wp*i], [0.05_wp], [1.0_wp], 0)
+         ! Three buildings, each felt by two kinds of walls; the last has a diaphragm
+         building(i) = building_of([0.1_wp*modulo(i, 3) + 0.1_wp], [0.05_wp], [1.0_wp], 0)
+         building(i)%participation_top = [1.3_wp]
+         building(i)%height = 3.0_wp
+         if (modulo(i, 3) == 2) building(i)%diaphragm = diaphragm_type(0.4_wp, 0.08_wp, 1.27_wp)
+         call building(i)%lean(1.5_wp + 0.1_wp*i, 9.81_wp - 0.5_wp*i)
       end do
       wrong = 0
       !$omp parallel do num_threads(max(4, omp_get_max_threads())) private(motions, floor, error, place) &
@@ -188,7 +193,7 @@ contains
       do i = 1, walls
          call floors%take(building(1 + modulo(i, kinds)), here, 1, place, motions)
          call filter_record(building(1 + modulo(i, kinds)), here%records(2), floor, error)
-         if (place > kinds .or. size(motions%records(2)%acceleration) /= size(floor%acceleration)) then
+         if (place > kinds + 3 .or. size(motions%records(2)%acceleration) /= size(floor%acceleration)) then
             wrong = wrong + 1
          else if (any(abs(motions%records(2)%acceleration - floor%acceleration) > 0.0_wp)) then
             wrong = wrong + 1
@@ -196,7 +201,7 @@ contains
          call floors%give_back(place)
       end do
       !$omp end parallel do
-      call check(wrong == 0, 'one place for each kind of building, and its motions there')
+      call check(wrong == 0, 'one place for each kind of wall and for each building, and the motions of each')
    end subroutine test_sharing
 
 end program test_floors

@@ -216,3 +216,67 @@ def test_medians_of_the_full_models(wall, level, more, theta):
     levels = np.r_[np.arange(0.05, 0.6, 0.05), np.arange(0.6, 2.01, 0.1)]
     stripes = dd.multiple_stripe(wall(house(level, **more)), records, levels, polarity="both", progress=False)
     assert stripes.fit().theta == pytest.approx(theta, rel=0.05)
+
+
+def test_the_building_may_be_uncertain():
+    """Period and damping of the building are sources: every variant moves with its own, to the bit."""
+    wall = facade(house(0.0))
+    records, levels = dd.example_records()[::4], np.arange(0.1, 1.01, 0.1)
+    sources = {"period": dd.Uniform(0.3, 0.45), "damping": dd.Uniform(0.05, 0.15), "level_top": dd.Uniform(6.0, 9.0)}
+    found = dd.uncertain_wall(wall, records, levels, sources=sources, count=30, progress=False)
+    variants = found.typology.walls
+    assert len({variant.building.period for variant in variants[:30]}) == 30
+    assert len({variant.support_share for variant in variants[:30]}) == 30
+    for number in (0, 17, 29):
+        house_of_variant = variants[number].building
+        alone = facade(
+            dd.Building(
+                house_of_variant.period,
+                damping=house_of_variant.damping,
+                storeys=3,
+                level=0.0,
+                building_height=9.0,
+                level_top=house_of_variant.level_top,
+            )
+        )
+        stripes = dd.multiple_stripe(alone, records, levels, progress=False)
+        assert np.array_equal(stripes.collapses, found.typology.exceedances[-1, :, number])
+    with pytest.raises(dd.InputError, match="'period': must be one of height"):
+        dd.uncertain_wall(facade(None), records, levels, sources={"period": dd.Uniform(0.3, 0.45)}, count=8)
+
+
+def test_a_cracked_building_pushes_less():
+    """The longer period and the heavier damping of the cracked state, under the embedded records."""
+    levels = np.arange(0.05, 1.46, 0.05)
+    thetas = {}
+    for name, building in {
+        "intact": house(0.0),
+        "cracked": dd.Building(0.45, damping=0.15, storeys=3, level=0.0, building_height=9.0),
+        "at rest": None,
+    }.items():
+        stripes = dd.multiple_stripe(facade(building), dd.example_records(), levels, polarity="both", progress=False)
+        thetas[name] = stripes.fit().theta
+    assert thetas == pytest.approx({"intact": 0.3348, "cracked": 0.4182, "at rest": 0.6677}, rel=2e-3)
+
+
+def test_an_uncertain_building_in_a_case(run, tmp_path):
+    """The executable and Python make the same of sources that are properties of the building."""
+    (tmp_path / "case.nml").write_text(
+        f"""&job task = 'typology', output = 'case' /
+&wall name = 'front', mechanism = 'one_sided', height = 9.0, thickness = 0.5 /
+&building period = 0.3, storeys = 3, level = 0.0, building_height = 9.0 /
+&uncertainty period = 'uniform(0.30, 0.45)', damping = 'uniform(0.05, 0.15)', samples = 24 /
+&records catalogue = '{Path(__file__).parents[2] / "data/records/synthetic44.csv"}' /
+&stripes first = 0.1, last = 1.0, count = 10 /
+"""
+    )
+    done = run("case.nml")
+    assert done.returncode == 0, done.stderr
+    found = dd.read_results(tmp_path / "case").typology
+    ends = {wall.name: wall for wall in found.walls}
+    for what, low, high in (("period", 0.3075, 0.4425), ("damping", 0.055, 0.145)):
+        values = [np.ravel(getattr(ends[f"front, {what} at {end}%"].building, what))[0] for end in (5, 95)]
+        assert values == pytest.approx([low, high], rel=1e-12)
+    row = next(i for i, wall in enumerate(found.walls) if wall.name == "front, period at 95%")
+    alone = dd.multiple_stripe(found.walls[row], dd.example_records(), found.levels, progress=False)
+    assert np.array_equal(alone.collapses, found.exceedances[-1, :, row])

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_count, instance_of
-from dondolo._fortran.buildings import BUILDING_NAMES
+from dondolo._fortran.buildings import BUILDING_NAMES, BUILDING_PROPERTIES
 from dondolo._fortran.library import warn
 from dondolo._fortran.records import blank_unit
 from dondolo._fortran.uncertainty import check_factor, published_factors, sensitivity, smallest_sample
@@ -28,12 +28,13 @@ from dondolo.errors import DondoloError, DondoloWarning, InputError, silent
 from dondolo.populations.curve import PopulationCurve
 from dondolo.populations.study import typology
 from dondolo.populations.typology import Typology
+from dondolo.records.building import Building
 from dondolo.records.record import Record
 from dondolo.records.record_set import lasting
 from dondolo.walls.distributions import Distribution, Uniform, no_distribution
 from dondolo.walls.population import Population
 from dondolo.walls.sampling import draw, in_words, make_walls
-from dondolo.walls.wall import Wall, upload
+from dondolo.walls.wall import Wall, property_of, upload
 
 if TYPE_CHECKING:
     from concurrent.futures import Executor
@@ -327,6 +328,8 @@ def _distributions(wall: Wall, sources: Any) -> dict[str, Distribution]:
         for what in WALL_NUMBERS
         if what in type(wall).__dataclass_fields__ and what not in WALL_LISTS and what not in BUILDING_NAMES
     ]
+    if wall.building is not None:
+        own += _of_building(wall.building)
     found: dict[str, Distribution] = {}
     for what, given in sources.items():
         if what not in own:
@@ -343,6 +346,12 @@ def _distributions(wall: Wall, sources: Any) -> dict[str, Distribution]:
         else:
             raise no_distribution(what, given)
     return found
+
+
+def _of_building(building: Building) -> list[str]:
+    """What may be uncertain of a building: real numbers, and what it has of each mode if it has one."""
+    kinds = ("real", "list") if len(building.participations) == 1 else ("real",)
+    return [row.name for row in BUILDING_PROPERTIES if row.kind in kinds]
 
 
 def _variants(
@@ -389,7 +398,7 @@ def _result(
     n = len(found.walls) - 2 - 2 * len(known)
     thetas = np.array([curve.theta for curve in found.curves[:n]])
     fitted = np.isfinite(thetas)
-    sampled = np.array([[getattr(wall, what) for what in known] for wall in found.walls[:n]])
+    sampled = np.array([[np.ravel(property_of(wall, what))[0] for what in known] for wall in found.walls[:n]])
     try:
         indices = sensitivity(sampled[fitted], np.log(thetas[fitted]))
     except InputError as error:

@@ -28,6 +28,7 @@ def draw_wall(wall: Wall, rotation: float, ax: Axes | None, note: str = "") -> A
         ax.fill(*block.T, facecolor=style.BRICK, edgecolor=style.BLACK, linewidth=1.1, alpha=0.9)
     ax.plot(*now.hinges.T, linestyle="none", marker="o", color=style.RED, markersize=6, label="hinge", zorder=4)
     frame(ax, wall)
+    _draw_supports(ax, wall)
     draw_loads(ax, wall, rotation, now)
     if lines:
         text = "\n".join(lines)
@@ -64,9 +65,56 @@ def draw_surroundings(ax: Axes, wall: Wall) -> None:
         ax.annotate("transverse wall", (-0.5 * reach, middle), rotation=90, ha="center", va="center", fontsize=7.5)
 
 
+def _draw_supports(ax: Axes, wall: Wall) -> None:
+    """The building as it leans, and arrows where it moves the wall: at its base, and at the top of what holds it."""
+    if wall.building is None:
+        return
+    reach, lean = _reach(wall), 0.05
+    arrow = {"arrowstyle": "-|>", "color": style.BLUE, "linewidth": 1.6}
+    end = -0.1 * reach
+    ax.annotate("", (end, 0.0), (end - 0.7 * reach, 0.0), arrowprops=arrow, zorder=5)
+    ax.annotate(
+        "base moves",
+        (end - 0.35 * reach, 0.0),
+        (0, 3),
+        textcoords="offset points",
+        fontsize=7.5,
+        ha="center",
+        color=style.BLUE,
+    )
+    top = _support_height(wall)
+    if top > 0.0:
+        ax.plot([0.0, lean * top], [0.0, top], color=style.BLUE, linewidth=1.4, linestyle="--", zorder=3)
+        end += lean * top
+        ax.annotate("", (end, top), (end - 0.7 * reach, top), arrowprops={**arrow, "arrowstyle": "->"}, zorder=5)
+        words = "top moves" if isinstance(wall, TwoBlockWall) else "building leans"
+        ax.annotate(
+            words,
+            (end - 0.35 * reach, top),
+            (0, 3),
+            textcoords="offset points",
+            fontsize=7.5,
+            ha="center",
+            color=style.BLUE,
+        )
+
+
+def _support_height(wall: Wall) -> float:
+    """Height above its base up to which a building moves a wall [m]; 0: the building moves its base alone."""
+    if not wall.support_share > 0.0:
+        return 0.0
+    if isinstance(wall, TwoBlockWall):
+        return wall.height
+    # k is J(0)/L(0) over the height of what the wall leans on (docs/theory.md, section 1)
+    at_rest = wall.terms(0.0)
+    return float(at_rest.inertia / at_rest.excitation_lever) / wall.support_share
+
+
 def _free_height(wall: Wall) -> float:
     """Height in the middle of the largest part behind the wall where no label of what holds it stands."""
     taken = [0.0, wall.height]
+    if 0.0 < _support_height(wall) < wall.height:
+        taken.append(_support_height(wall))
     taken += [part.height for of in ("ties", "thrusts", "springs") for part in parts_of(wall, of)]
     if parts_of(wall, "interlock"):
         taken.append(wall.height / 3.0)

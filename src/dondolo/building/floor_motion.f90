@@ -11,15 +11,19 @@ module dondolo_floor_motion
    use dondolo_error, only : error_type, raise_input
    use dondolo_kinds, only : pi, wp
    use dondolo_limits, only : most_samples
-   use dondolo_record, only : record_type
+   use dondolo_record, only : find_extremes, record_type
+   use dondolo_swing, only : swing_type
    use dondolo_text, only : to_text
    implicit none
    private
 
-   public :: filter_record, floor_samples
+   public :: filter_record, floor_samples, mix_swing, new_swing
 
    !> Terms of the power series of the exponential: 0.5**18/18! is below rounding
    integer, parameter :: terms = 18
+
+   !> Samples that are mixed at a time, so that they stay in the fastest cache
+   integer, parameter :: block_size = 512
 
 contains
 
@@ -39,7 +43,7 @@ contains
    !> Absolute acceleration that moves the wall: u_g'' + sum P d'' - tau sum (p' - p) d, with
    !> d'' + 2 xi omega d' + omega**2 d = -u_g'' and P = p + k (p' - p), which is p of the floor where no wall is known.
    !> After the record the ground is still and the building swings freely
-   subroutine filter_record(building, ground, floor, error, drift)
+   subroutine filter_record(building, ground, floor, error)
       type(building_type), intent(in) :: building
       !> Acceleration of the ground
       type(record_type), intent(in) :: ground
@@ -47,57 +51,123 @@ contains
       type(record_type), intent(out) :: floor
       !> It has too many samples
       type(error_type), allocatable, intent(out) :: error
-      !> Greatest |delta| over the height of the line through the supports [rad]
-      real(wp), intent(out), optional :: drift
 
-      real(wp), allocatable :: input(:), delta(:)
-      integer :: i, j, k, parts, refined
+      type(swing_type) :: swing
 
       if (floor_samples(building, ground) > real(most_samples, wp)) then
          call raise_input(error, 'building: the motion of its floor under record '''//ground%name//''' has more than '// &
             & to_text(most_samples)//' samples')
          return
       end if
+      call new_swing(swing, building, ground)
+      call mix_swing(swing, building, ground, floor)
+   end subroutine filter_record
+
+   !> Let a building swing; it and its walls swing alike where `swings_as` says so
+   subroutine new_swing(swing, building, ground)
+      type(swing_type), intent(out) :: swing
+      type(building_type), intent(in) :: building
+      !> Acceleration of the ground, of which there are not too many samples
+      type(record_type), intent(in) :: ground
+
+      integer :: i, j, k, parts, refined, channels
+
       parts = building%parts(ground%dt)
       refined = (size(ground%acceleration) - 1)*parts + 1
-      allocate (input(nint(floor_samples(building, ground))), source=0.0_wp)
-      input(1) = ground%acceleration(1)
+      swing%dt = ground%dt/real(parts, wp)
+      allocate (swing%ground(nint(floor_samples(building, ground))), source=0.0_wp)
+      swing%ground(1) = ground%acceleration(1)
       do i = 2, size(ground%acceleration)
          associate (before => ground%acceleration(i - 1), after => ground%acceleration(i), at => (i - 2)*parts + 1)
             do j = 1, parts - 1
-               input(at + j) = before + (after - before)*real(j, wp)/real(parts, wp)
+               swing%ground(at + j) = before + (after - before)*real(j, wp)/real(parts, wp)
             end do
-            input(at + parts) = after
+            swing%ground(at + parts) = after
          end associate
       end do
+      if (allocated(ground%vertical)) call carry_vertical(swing, ground%vertical, parts)
+      channels = size(building%period)
+      if (building%has_diaphragm()) channels = channels + 1
+      allocate (swing%acceleration(size(swing%ground), channels), swing%displacement(size(swing%ground), channels))
+      if (building%has_diaphragm()) then
+         call swing_in_series(swing, refined, building)
+      else
+         do k = 1, channels
+            call swing_mode(swing, k, refined, building%period(k), building%damping(k))
+         end do
+      end if
+      swing%largest = maxval(abs(swing%displacement), dim=1)
+   end subroutine new_swing
+
+   !> The motion that a wall feels of a building that swings
+   subroutine mix_swing(swing, building, ground, floor, drift)
+      type(swing_type), intent(in) :: swing
+      !> The building as the wall sees it
+      type(building_type), intent(in) :: building
+      !> The record that it swings under
+      type(record_type), intent(in) :: ground
+      !> What the wall feels, of the same name
+      type(record_type), intent(out) :: floor
+      !> Greatest |delta| over the height of the line through the supports [rad]
+      real(wp), intent(out), optional :: drift
+
+      real(wp), dimension(size(swing%acceleration, 2)) :: felt, drifts
+      real(wp) :: delta(block_size), lowest, highest, largest
+      integer :: i, j, k, modes
+      logical :: drifts_alone
+
       floor%name = ground%name
       if (allocated(ground%file)) floor%file = ground%file
       floor%metadata = ground%metadata
-      floor%dt = ground%dt/real(parts, wp)
-      floor%acceleration = input
-      if (allocated(ground%vertical)) call carry_vertical(floor, ground%vertical, parts)
-      allocate (delta(size(input)), source=0.0_wp)
-      associate (felt => building%felt(), drifts => building%drifts())
-         if (building%has_diaphragm()) then
-            call add_series(floor%acceleration, delta, input, refined, floor%dt, building)
-         else
-            do k = 1, size(building%period)
-               if (abs(felt(k)) + abs(drifts(k)) > 0.0_wp) call add_mode(floor, delta, input, refined, building%period(k), &
-                  & building%damping(k), felt(k), drifts(k))
+      floor%dt = swing%dt
+      if (allocated(swing%vertical)) floor%vertical = swing%vertical
+      modes = size(building%period)
+      felt(:modes) = building%felt()
+      drifts(:modes) = building%drifts()
+      felt(modes + 1:) = building%share*building%diaphragm%participation
+      drifts(modes + 1:) = building%diaphragm%participation
+      drifts = drifts*swing%dt**2
+      ! One mode that drifts, the usual case, is followed to its greatest displacement once for all walls
+      drifts_alone = count(abs(drifts) > 0.0_wp) <= 1
+      largest = 0.0_wp
+      if (drifts_alone) largest = maxval(abs(drifts)*swing%largest)
+      allocate (floor%acceleration(size(swing%ground)))
+      do i = 1, size(swing%ground), block_size
+         j = min(i + block_size - 1, size(swing%ground))
+         associate (acceleration => floor%acceleration(i:j), relative => delta(:j - i + 1))
+            acceleration = swing%ground(i:j)
+            relative = 0.0_wp
+            do k = 1, size(felt)
+               if (abs(felt(k)) > 0.0_wp) call add(acceleration, felt(k), swing%acceleration(i:j, k))
+               if (abs(drifts(k)) > 0.0_wp) call add(relative, drifts(k), swing%displacement(i:j, k))
             end do
-         end if
-      end associate
-      ! Equal supports move the wall as its floor does, to the bit
-      if (abs(building%tilt) > 0.0_wp) floor%acceleration = floor%acceleration - building%tilt*delta
+            ! Equal supports move the wall as its floor does, to the bit
+            if (abs(building%tilt) > 0.0_wp) call add(acceleration, -building%tilt, relative)
+            if (.not. drifts_alone) then
+               call find_extremes(relative, lowest, highest)
+               largest = max(largest, -lowest, highest)
+            end if
+         end associate
+      end do
       if (.not. present(drift)) return
       drift = 0.0_wp
-      if (building%height > 0.0_wp) drift = maxval(abs(delta))/building%height
-   end subroutine filter_record
+      if (building%height > 0.0_wp) drift = largest/building%height
+   end subroutine mix_swing
+
+   !> Add a motion times a factor to another
+   pure subroutine add(sum, factor, motion)
+      real(wp), contiguous, intent(inout) :: sum(:)
+      real(wp), intent(in) :: factor
+      !> As many samples
+      real(wp), contiguous, intent(in) :: motion(:)
+
+      sum = sum + factor*motion
+   end subroutine add
 
    !> Carry the vertical component up, at the samples of the floor: a building is rigid vertically
-   pure subroutine carry_vertical(floor, vertical, parts)
-      !> The motion of the floor
-      type(record_type), intent(inout) :: floor
+   pure subroutine carry_vertical(swing, vertical, parts)
+      !> Its refined samples are set
+      type(swing_type), intent(inout) :: swing
       !> Vertical acceleration of the ground [m/s2]
       real(wp), intent(in) :: vertical(:)
       !> Samples of the floor in one of the ground
@@ -105,49 +175,45 @@ contains
 
       integer :: i, j
 
-      allocate (floor%vertical(size(floor%acceleration)), source=0.0_wp)
-      floor%vertical(1) = vertical(1)
+      allocate (swing%vertical(size(swing%ground)), source=0.0_wp)
+      swing%vertical(1) = vertical(1)
       do i = 2, size(vertical)
          do j = 1, parts
-            floor%vertical((i - 2)*parts + 1 + j) = vertical(i - 1) &
+            swing%vertical((i - 2)*parts + 1 + j) = vertical(i - 1) &
                & + (vertical(i) - vertical(i - 1))*(real(j, wp)/real(parts, wp))
          end do
       end do
    end subroutine carry_vertical
 
-   !> Add the motion of a mode
-   pure subroutine add_mode(floor, delta, input, refined, period, damping, participation, drift)
-      !> Its acceleration is added to
-      type(record_type), intent(inout) :: floor
-      !> Relative displacement of the supports [m], added to as well
-      real(wp), intent(inout) :: delta(:)
-      !> Acceleration of the ground at its samples [m/s2]
-      real(wp), intent(in) :: input(:)
+   !> Let a mode swing
+   pure subroutine swing_mode(swing, mode, refined, period, damping)
+      !> Its ground is known; acceleration and displacement of the mode are set
+      type(swing_type), intent(inout) :: swing
+      !> Number of the mode
+      integer, intent(in) :: mode
       !> Samples of the record; behind the last of them the ground is still at once
       integer, intent(in) :: refined
       !> Period [s]
       real(wp), intent(in) :: period
       !> Damping ratio
       real(wp), intent(in) :: damping
-      !> Participation factor times shape as the wall feels it, and of the top less that of the base
-      real(wp), intent(in) :: participation, drift
 
-      real(wp) :: rate(4, 4), step(4, 4), u, w, next, damper, spring, start, rise, share
+      real(wp) :: rate(4, 4), step(4, 4), u, w, next, damper, spring, start, rise
       integer :: i
 
       ! In units of time of one step and of d h**-2: displacement u, velocity w, acceleration -(a + damper w + spring u)
       rate = 0.0_wp
       rate(3, 4) = 1.0_wp
-      call set_oscillator(rate, 1, period, damping, floor%dt)
+      call set_oscillator(rate, 1, period, damping, swing%dt)
       spring = -rate(2, 1)
       damper = -rate(2, 2)
       step = exponential(rate)
-      share = drift*floor%dt**2
       u = 0.0_wp
       w = 0.0_wp
-      associate (a => floor%acceleration)
-         a(1) = a(1) - participation*input(1)
-         do i = 2, size(a)
+      associate (input => swing%ground)
+         swing%acceleration(1, mode) = -input(1)
+         swing%displacement(1, mode) = 0.0_wp
+         do i = 2, size(input)
             start = input(i - 1)
             if (i == refined + 1) start = 0.0_wp
             rise = input(i) - start
@@ -159,70 +225,61 @@ contains
                u = 0.0_wp
                w = 0.0_wp
             end if
-            a(i) = a(i) - participation*(input(i) + damper*w + spring*u)
-            delta(i) = delta(i) + share*u
+            swing%acceleration(i, mode) = -(input(i) + damper*w + spring*u)
+            swing%displacement(i, mode) = u
          end do
       end associate
-   end subroutine add_mode
+   end subroutine swing_mode
 
-   !> Add the motion of all modes and of the diaphragm that the top floor moves. One exponential of the whole state: a filter of
-   !> the filtered record would miss that the motion of the floor is not linear within a step
-   pure subroutine add_series(acceleration, delta, input, refined, dt, building)
-      !> Acceleration that moves the wall [m/s2] and relative displacement of its supports [m]: the motions are added to them
-      real(wp), intent(inout) :: acceleration(:), delta(:)
-      !> Acceleration of the ground at its samples [m/s2]
-      real(wp), intent(in) :: input(:)
+   !> Let all modes swing, and the diaphragm that the top floor moves. One exponential of the whole state: a filter of the
+   !> filtered record would miss that the motion of the floor is not linear within a step
+   pure subroutine swing_in_series(swing, refined, building)
+      !> Its ground is known; acceleration and displacement of the modes and of the diaphragm are set
+      type(swing_type), intent(inout) :: swing
       !> Samples of the record; behind the last of them the ground is still at once
       integer, intent(in) :: refined
-      !> Step [s]
-      real(wp), intent(in) :: dt
       !> The building, with a diaphragm
       type(building_type), intent(in) :: building
 
-      ! Displacement and velocity of each mode, and of the diaphragm, in the units of add_mode; ground acceleration and its rise
-      real(wp), dimension(2*size(building%period) + 4) :: state, moved, drifted
-      real(wp) :: rate(size(state), size(state)), step(size(state) - 2, size(state)), next(size(state) - 2)
-      integer :: i, k, ground
+      ! Displacement and velocity of each mode, and of the diaphragm, in the units of swing_mode; ground acceleration and its rise
+      real(wp) :: state(2*size(building%period) + 4), next(2*size(building%period) + 2)
+      real(wp) :: rate(size(state), size(state)), whole(size(state), size(state)), step(size(next), size(state))
+      integer :: i, k, ground, last
 
       ground = size(state) - 1
+      last = size(building%period) + 1
       rate = 0.0_wp
       rate(ground, ground + 1) = 1.0_wp
       do k = 1, size(building%period)
-         call set_oscillator(rate, k, building%period(k), building%damping(k), dt)
+         call set_oscillator(rate, k, building%period(k), building%damping(k), swing%dt)
       end do
-      associate (diaphragm => building%diaphragm, last => size(building%period) + 1, felt => building%felt(), &
-         & drifts => building%drifts())
-         call set_oscillator(rate, last, diaphragm%period, diaphragm%damping, dt)
-         moved = 0.0_wp
-         drifted = 0.0_wp
-         do k = 1, size(building%period)
-            associate (mode => rate(2*k, :))
-               ! The floor, not the ground, moves the diaphragm: by the ground's acceleration and p' d'' of each mode
-               rate(2*last, :) = rate(2*last, :) - building%participation_top(k)*mode
-               moved = moved + felt(k)*mode
-            end associate
-            drifted(2*k - 1) = drifts(k)*dt**2
-         end do
-         moved = moved + building%share*diaphragm%participation*rate(2*last, :)
-         drifted(2*last - 1) = diaphragm%participation*dt**2
-      end associate
-      rate = exponential(rate)
-      step = rate(:ground - 1, :)
+      call set_oscillator(rate, last, building%diaphragm%period, building%diaphragm%damping, swing%dt)
+      do k = 1, size(building%period)
+         ! The floor, not the ground, moves the diaphragm: by the ground's acceleration and p' d'' of each mode
+         rate(2*last, :) = rate(2*last, :) - building%participation_top(k)*rate(2*k, :)
+      end do
+      whole = exponential(rate)
+      step = whole(:size(next), :)
       state = 0.0_wp
-      state(ground) = input(1)
-      acceleration(1) = acceleration(1) + dot_product(moved, state)
-      do i = 2, size(input)
-         if (i == refined + 1) state(ground) = 0.0_wp
-         state(ground + 1) = input(i) - state(ground)
-         next = matmul(step, state)
-         ! A swing that has died out would be counted in denormal numbers, which are slow
-         if (sum(abs(next)) < tiny(dt)) next = 0.0_wp
-         state(:ground - 1) = next
-         state(ground) = input(i)
-         acceleration(i) = acceleration(i) + dot_product(moved, state)
-         delta(i) = dot_product(drifted, state)
-      end do
-   end subroutine add_series
+      associate (input => swing%ground)
+         state(ground) = input(1)
+         do i = 1, size(input)
+            if (i > 1) then
+               if (i == refined + 1) state(ground) = 0.0_wp
+               state(ground + 1) = input(i) - state(ground)
+               next = matmul(step, state)
+               ! A swing that has died out would be counted in denormal numbers, which are slow
+               if (sum(abs(next)) < tiny(swing%dt)) next = 0.0_wp
+               state(:ground - 1) = next
+               state(ground) = input(i)
+            end if
+            do k = 1, last
+               swing%acceleration(i, k) = dot_product(rate(2*k, :), state)
+               swing%displacement(i, k) = state(2*k - 1)
+            end do
+         end do
+      end associate
+   end subroutine swing_in_series
 
    !> Set the rates of an oscillator in those of the whole state
    pure subroutine set_oscillator(rate, k, period, damping, dt)

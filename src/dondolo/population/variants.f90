@@ -7,10 +7,10 @@
 module dondolo_variants
    use dondolo_distribution, only : distribution_type
    use dondolo_kinds, only : wp
-   use dondolo_property, only : name_length
+   use dondolo_property, only : is_list, name_length
    use dondolo_random, only : new_random, random_type
    use dondolo_text, only : to_text
-   use dondolo_wall_properties, only : wall_input_type
+   use dondolo_wall_properties, only : wall_input_type, wall_properties
    implicit none
    private
 
@@ -139,7 +139,11 @@ contains
       if (behind == 1) return
       name = trim(self%word('name'))
       do k = 1, size(self%sources)
-         call input%set(trim(self%sources(k)), self%values(k, row))
+         if (any(wall_properties%name == self%sources(k) .and. wall_properties%kind == is_list)) then
+            call input%set(trim(self%sources(k)), [self%values(k, row)])
+         else
+            call input%set(trim(self%sources(k)), self%values(k, row))
+         end if
       end do
       if (behind == 2) then
          name = name//', medians'

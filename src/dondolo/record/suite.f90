@@ -17,7 +17,7 @@ module dondolo_suite
    implicit none
    private
 
-   public :: suite_type, new_suite
+   public :: suite_type, new_suite, new_motions
 
    !> Measures whose values a suite keeps; those of others are computed whenever they are asked for
    integer, parameter :: most_measures = 32
@@ -80,12 +80,7 @@ contains
 
       team = 1
       if (present(threads)) team = threads
-      call move_alloc(records, suite%records)
-      do i = 1, size(suite%records)
-         suite%has_vertical = suite%has_vertical .or. allocated(suite%records(i)%vertical)
-      end do
-      call new_record_set(suite%set, suite%records, threads)
-      call find_order([(real(suite%set%strong_blocks(i), wp), i=1, size(suite%records))], suite%by_duration)
+      call new_motions(suite, records, threads)
       associate (records => size(suite%records))
          allocate (suite%peaks(records), suite%moves(records), suite%clusters(records), suite%has_event(records), &
             & suite%velocities(records))
@@ -105,6 +100,24 @@ contains
       !$omp end parallel do
       call cluster_records(suite%records, suite%clusters)
    end subroutine new_suite
+
+   !> Make no more of a suite than histories need
+   subroutine new_motions(suite, records, threads)
+      type(suite_type), intent(out) :: suite
+      !> Accelerograms, one at least; they are moved into the suite
+      type(record_type), allocatable, intent(inout) :: records(:)
+      !> Number of threads that join them, 0: all that OpenMP gives; one if absent
+      integer, intent(in), optional :: threads
+
+      integer :: i
+
+      call move_alloc(records, suite%records)
+      do i = 1, size(suite%records)
+         suite%has_vertical = suite%has_vertical .or. allocated(suite%records(i)%vertical)
+      end do
+      call new_record_set(suite%set, suite%records, threads)
+      call find_order([(real(suite%set%strong_blocks(i), wp), i=1, size(suite%records))], suite%by_duration)
+   end subroutine new_motions
 
    !> Compute the values of a measure and keep them
    subroutine measure(self, im, threads)

@@ -19,7 +19,7 @@ module dondolo_uncertainty_group
    public :: uncertainty_properties
 
    !> Variables of the group; behind the first two properties of walls, by their names
-   type(property_type), target, protected :: uncertainty_properties(11) = [ &
+   type(property_type), target, protected :: uncertainty_properties(17) = [ &
       & property_type('samples', is_integer, default=200.0_wp, smallest=8.0_wp, largest=10000.0_wp, &
       &   meaning='walls of the sample; of k properties at least 2 + 6 k + k (k - 1): 8 of one, 38 of four'), &
       & property_type('seed', is_integer, default=1.0_wp, smallest=1.0_wp, largest=1.0e6_wp, &
@@ -38,7 +38,19 @@ module dondolo_uncertainty_group
       & property_type('overburden', is_text, optional=.true., example='uniform(4.0e3, 8.0e3)', &
       &   meaning='distribution of it, N/m'), &
       & property_type('eccentricity', is_text, optional=.true., example='uniform(-0.05, 0.05)', &
-      &   meaning='distribution of it, m')]
+      &   meaning='distribution of it, m'), &
+      & property_type('period', is_text, optional=.true., example='uniform(0.30, 0.45)', &
+      &   meaning='distribution of the period of a building of one mode, s'), &
+      & property_type('damping', is_text, optional=.true., example='uniform(0.05, 0.15)', &
+      &   meaning='distribution of its damping ratio'), &
+      & property_type('participation', is_text, optional=.true., example='uniform(0.8, 1.0)', &
+      &   meaning='distribution of that of its mode at the base of the wall'), &
+      & property_type('participation_top', is_text, optional=.true., example='uniform(1.2, 1.4)', &
+      &   meaning='distribution of that of its mode at the top of the wall'), &
+      & property_type('level_top', is_text, optional=.true., example='uniform(6.0, 9.0)', &
+      &   meaning='distribution of the level up to which the building moves the wall, m'), &
+      & property_type('diaphragm_period', is_text, optional=.true., example='uniform(0.2, 0.8)', &
+      &   meaning='distribution of the period of a flexible floor at the top of the wall, s')]
 
 contains
 
