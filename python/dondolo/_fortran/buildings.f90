@@ -2,9 +2,9 @@
 module buildings
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use, intrinsic :: iso_fortran_env, only : int64
+   use dondolo_building_input, only : building_properties, new_building
    use dondolo_boundary, only : check_room
    use dondolo_building, only : building_type
-   use dondolo_building_input, only : building_properties, new_building
    use dondolo_drift_note, only : make_drift_note
    use dondolo_error, only : error_type, problems_type, raise_input
    use dondolo_floor_motion, only : filter_record, floor_samples
