@@ -14,7 +14,7 @@ results = dd.run_case(data / "cases" / "facade_hinges.nml")
 case, result = results.case, results.typology
 union = result.unions["facade"]
 for wall, curve in zip(case.population, result.curves, strict=True):
-    check = dd.check_ntc(wall, case.site, confidence=case.confidence)
+    check = dd.check_ntc(wall, case.site, knowledge_factor=case.knowledge_factor)
     print(f"{wall.name}: θ = {curve.theta:.3g} g, P at {check.pga:.3g} g = {curve(check.pga):.3g}")
     print(check)
 print(f"any of them: θ = {union.theta:.3g} g, P at {check.pga:.3g} g = {union(check.pga):.3g}")
