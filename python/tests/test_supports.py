@@ -223,7 +223,7 @@ def test_the_building_may_be_uncertain():
     wall = facade(house(0.0))
     records, levels = dd.example_records()[::4], np.arange(0.1, 1.01, 0.1)
     sources = {"period": dd.Uniform(0.3, 0.45), "damping": dd.Uniform(0.05, 0.15), "level_top": dd.Uniform(6.0, 9.0)}
-    found = dd.uncertain_wall(wall, records, levels, sources=sources, count=30, progress=False)
+    found = dd.uncertain_wall(wall, records, levels, sources=sources, n_variants=30, progress=False)
     variants = found.typology.walls
     assert len({variant.building.period for variant in variants[:30]}) == 30
     assert len({variant.support_share for variant in variants[:30]}) == 30
@@ -242,7 +242,7 @@ def test_the_building_may_be_uncertain():
         stripes = dd.multiple_stripe(alone, records, levels, progress=False)
         assert np.array_equal(stripes.collapses, found.typology.exceedances[-1, :, number])
     with pytest.raises(dd.InputError, match="'period': must be one of height"):
-        dd.uncertain_wall(facade(None), records, levels, sources={"period": dd.Uniform(0.3, 0.45)}, count=8)
+        dd.uncertain_wall(facade(None), records, levels, sources={"period": dd.Uniform(0.3, 0.45)}, n_variants=8)
 
 
 def test_a_cracked_building_pushes_less():

@@ -125,7 +125,7 @@ class Curve(ABC):
         >>> import dondolo as dd
         >>> one, other = (dd.fit_fragility([0.2, 0.4], counts, 44, im="pga") for counts in ([11, 33], [5, 25]))
         >>> round(one.compare(other).ratio, 3)
-        0.766
+        0.771
         """
         from dondolo.curves.comparison import compare
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -74,6 +74,8 @@ class Results(Shown):
         What ran: version, settings, inputs with checksums, counts of the work, warnings.
     case : Case or None
         What `run_case` was given, with its records; None for results that were read back.
+    edp_thresholds : list of float
+        Damage states that the case names [rotation / capacity], if there are several.
     """
 
     population: Population
@@ -86,6 +88,7 @@ class Results(Shown):
     designs: DesignComparison | None = None
     check: CodeCheck | None = None
     case: Case | None = None
+    edp_thresholds: Sequence[float] = ()
 
     @cached_property
     def checks(self) -> tuple[CodeCheck | None, ...]:
@@ -100,11 +103,6 @@ class Results(Shown):
         if self.run.run:
             facts.append(("run", f"{self.run.run} of dondolo {self.run.version}"))
         return [*facts, ("population", repr(self.population)), *made]
-
-    @property
-    def edp_thresholds(self) -> list[float]:
-        """Damage states that the case names [rotation / capacity], if there are several."""
-        return self.run.edp_thresholds
 
     @property
     def states(self) -> States:
@@ -176,7 +174,7 @@ def results_of(run: RunFile, source: Source, case: Case | None = None, flags: Fl
     walls = source["_walls.csv"]
     with walls.reading():
         population = _population(walls, run.setting("solver", "gravity", constants().gravity))
-    results = Results(population=population, run=run, case=case)
+    results = Results(population=population, run=run, case=case, edp_thresholds=run.edp_thresholds)
     if task == "history":
         results = _of_history(results, source["_history.csv"])
     elif task == "stripes":
@@ -209,8 +207,8 @@ def _of_stripes(results: Results, source: Source, work: Work) -> Results:
         if len(run.records) == stripes.n_records:
             events, checksums = (tuple(one[key] for one in run.records) for key in ("event", "checksum"))
             stripes = replace(stripes, events=events, checksums=checksums)
-        ordinal = results.states == "ordinal" and run.edp_thresholds
-        curves = stripes.fit_damage_states(run.edp_thresholds, states="ordinal") if ordinal else [stripes.fit()]
+        ordinal = results.states == "ordinal" and results.edp_thresholds
+        curves = stripes.fit_damage_states(results.edp_thresholds, states="ordinal") if ordinal else [stripes.fit()]
     results = replace(results, stripes=stripes, fragility=curves[-1])
     if "check" not in run.settings:
         return results
