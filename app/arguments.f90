@@ -1,15 +1,15 @@
 !> The command line: which case, and what to do with it.
 module dondolo_arguments
-   use dondolo_error, only : error_type, raise_input
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_numbers, only : parse_integer, parse_real
+   use dondolo_base_spelling, only : meant
+   use dondolo_base_text, only : join, replaced, to_text
+   use dondolo_base_threads, only : largest_threads
+   use dondolo_case_job_group, only : task_names
    use dondolo_example, only : example_names
    use dondolo_front_door, only : python_commands
-   use dondolo_job_group, only : task_names
-   use dondolo_threads, only : largest_threads
-   use dondolo_kinds, only : wp
-   use dondolo_lines, only : lines_type
-   use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_spelling, only : meant
-   use dondolo_text, only : join, replaced, to_text
    implicit none
    private
 

@@ -1,21 +1,21 @@
 !> What --benchmark prints: how fast this build is on this machine, and a fingerprint of what it computes.
 module dondolo_benchmark
    use, intrinsic :: iso_fortran_env, only : compiler_options, compiler_version, int64, output_unit
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : counted, rounded, to_text
+   use dondolo_base_version, only : dondolo_version_text
    use dondolo_benchmark_walls, only : make_work, operations_per_step, repeat_walls, walls_of_each
    use dondolo_case, only : case_type
-   use dondolo_ensemble, only : name_engines
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
+   use dondolo_fragility_stripes, only : multiple_stripe, stripes_type
+   use dondolo_fragility_study, only : study_type
    use dondolo_machine, only : arithmetic_rate, processor_name, seconds_since, surroundings
-   use dondolo_member, only : member_type
-   use dondolo_row_result, only : row_result_type
-   use dondolo_run_rows, only : run_rows
-   use dondolo_stripes, only : multiple_stripe, stripes_type
-   use dondolo_study, only : study_type
-   use dondolo_text, only : counted, rounded, to_text
-   use dondolo_version, only : dondolo_version_text
+   use dondolo_motion_ensemble, only : name_engines
+   use dondolo_motion_work, only : work_type
+   use dondolo_population_member, only : member_type
+   use dondolo_population_row_result, only : row_result_type
+   use dondolo_population_run_rows, only : run_rows
    use dondolo_wall, only : mechanism_names
-   use dondolo_work, only : work_type
    implicit none
    private
 

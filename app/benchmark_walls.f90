@@ -1,14 +1,14 @@
 !> What the benchmark computes: a fixed population under the synthetic suite, the same on every machine.
 module dondolo_benchmark_walls
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
    use dondolo_case, only : case_type
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_normal_form, only : new_normal_form, normal_form_type
-   use dondolo_member, only : member_type
+   use dondolo_fragility_scaling, only : new_scaling
+   use dondolo_motion_normal_form, only : new_normal_form, normal_form_type
+   use dondolo_population_member, only : member_type
    use dondolo_record, only : record_type
-   use dondolo_scaling, only : new_scaling
-   use dondolo_suite, only : new_suite
-   use dondolo_synthetic_suite, only : suite_record, synthetic44
+   use dondolo_record_suite, only : new_suite
+   use dondolo_record_synthetic_suite, only : suite_record, synthetic44
    use dondolo_wall, only : mechanism_names, new_wall, wall_input_type, wall_type
    implicit none
    private

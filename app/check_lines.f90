@@ -1,11 +1,11 @@
 !> What is printed of a check by a building code.
 module dondolo_check_lines
    use, intrinsic :: iso_fortran_env, only : output_unit
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : counted, right, rounded, to_text
+   use dondolo_case_check_rows, only : check_methods, check_states, verdicts_type
    use dondolo_check_input, only : check_input_type, state_names
-   use dondolo_check_rows, only : check_methods, check_states, verdicts_type
    use dondolo_check_sheet, only : sheet_type
-   use dondolo_kinds, only : wp
-   use dondolo_text, only : counted, right, rounded, to_text
    implicit none
    private
 

@@ -2,9 +2,9 @@
 module dondolo_completion
    use, intrinsic :: iso_fortran_env, only : output_unit
    use dondolo_arguments, only : option_names
+   use dondolo_case_job_group, only : task_names
    use dondolo_example, only : example_names
    use dondolo_front_door, only : python_commands
-   use dondolo_job_group, only : task_names
    implicit none
    private
 

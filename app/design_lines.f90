@@ -1,10 +1,10 @@
 !> Designs of one wall at the end of a run.
 module dondolo_design_lines
    use, intrinsic :: iso_fortran_env, only : output_unit
-   use dondolo_design_rows, only : make_design_sentence
-   use dondolo_designs, only : design_type
-   use dondolo_results, only : shown_rows
-   use dondolo_text, only : to_text
+   use dondolo_base_text, only : to_text
+   use dondolo_case_design_rows, only : make_design_sentence
+   use dondolo_case_results, only : shown_rows
+   use dondolo_population_designs, only : design_type
    implicit none
    private
 

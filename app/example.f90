@@ -1,9 +1,9 @@
 !> What --example prints: a ready case that finds its files wherever it is saved.
 module dondolo_example
    use, intrinsic :: iso_fortran_env, only : int64, output_unit
-   use dondolo_error, only : error_type, raise_missing
-   use dondolo_process, only : own_folder
-   use dondolo_text_file, only : read_text_file, text_file_type
+   use dondolo_base_error, only : error_type, raise_missing
+   use dondolo_base_process, only : own_folder
+   use dondolo_base_text_file, only : read_text_file, text_file_type
    implicit none
    private
 

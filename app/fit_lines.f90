@@ -1,12 +1,12 @@
 !> What is printed of a fitted curve.
 module dondolo_fit_lines
    use, intrinsic :: iso_fortran_env, only : output_unit
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : counted, right, rounded, to_text
    use dondolo_case, only : case_type
-   use dondolo_clustered, only : fewest_clusters, parameter_intervals
    use dondolo_fragility, only : fragility_type
-   use dondolo_kinds, only : wp
-   use dondolo_text, only : counted, right, rounded, to_text
-   use dondolo_typology, only : typology_type
+   use dondolo_fragility_clustered, only : fewest_clusters, parameter_intervals
+   use dondolo_population_typology, only : typology_type
    implicit none
    private
 

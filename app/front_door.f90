@@ -1,9 +1,9 @@
 !> Commands that the Python package carries out: the executable becomes Python.
 module dondolo_front_door
    use, intrinsic :: iso_fortran_env, only : output_unit
-   use dondolo_error, only : error_type, raise_failure
-   use dondolo_lines, only : lines_type
-   use dondolo_process, only : become, own_folder
+   use dondolo_base_error, only : error_type, raise_failure
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_process, only : become, own_folder
    implicit none
    private
 

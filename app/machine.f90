@@ -2,7 +2,7 @@
 module dondolo_machine
    use, intrinsic :: iso_fortran_env, only : int64
    use, intrinsic :: omp_lib, only : omp_get_max_threads, omp_get_num_procs
-   use dondolo_kinds, only : wp
+   use dondolo_base_kinds, only : wp
    implicit none
    private
 

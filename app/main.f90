@@ -2,35 +2,35 @@
 program dondolo_main
    use, intrinsic :: iso_fortran_env, only : error_unit, int64, output_unit
    use dondolo_arguments, only : arguments_type, read_arguments
+   use dondolo_base_error, only : error_type, raise_failure, status_failure, status_input, status_missing
+   use dondolo_base_interrupt, only : die_of_signal, end_in_order
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_plain, only : visible
+   use dondolo_base_system, only : outlive_file_limit, output_arrives, stderr_is_terminal
+   use dondolo_base_threads, only : available_threads, given_threads
+   use dondolo_base_version, only : dondolo_version_text
    use dondolo_benchmark, only : run_benchmark
    use dondolo_case, only : case_type
+   use dondolo_case_population_case, only : merge_population
+   use dondolo_case_read_case, only : read_case
+   use dondolo_case_replaced, only : describe_replaced, list_outdated
+   use dondolo_case_reports, only : check_reports, write_reports
+   use dondolo_case_result_files, only : result_files_type
+   use dondolo_case_result_tables, only : table_suffixes
+   use dondolo_case_results, only : results_type
+   use dondolo_case_run_case, only : run_case
+   use dondolo_case_warning_sentence, only : warning_sentences
    use dondolo_completion, only : print_completion
    use dondolo_example, only : print_example
    use dondolo_front_door, only : hand_over
-   use dondolo_read_case, only : read_case
-   use dondolo_error, only : error_type, raise_failure, status_failure, status_input, status_missing
    use dondolo_help, only : print_help
-   use dondolo_interrupt, only : die_of_signal, end_in_order
-   use dondolo_kinds, only : wp
-   use dondolo_lane_variants, only : build_variant, check_variant
-   use dondolo_lines, only : lines_type
-   use dondolo_plain, only : visible
+   use dondolo_motion_lane_variants, only : build_variant, check_variant
    use dondolo_plan, only : print_plan
    use dondolo_progress_bar, only : erase_progress, show_progress, start_progress
-   use dondolo_reports, only : check_reports, write_reports
-   use dondolo_replaced, only : describe_replaced, list_outdated
-   use dondolo_result_files, only : result_files_type
-   use dondolo_result_tables, only : table_suffixes
-   use dondolo_results, only : results_type
-   use dondolo_run_case, only : run_case
-   use dondolo_population_case, only : merge_population
-   use dondolo_threads, only : available_threads, given_threads
    use dondolo_status, only : print_status
    use dondolo_summary, only : print_summary
-   use dondolo_system, only : outlive_file_limit, output_arrives, stderr_is_terminal
    use dondolo_template, only : print_template
-   use dondolo_version, only : dondolo_version_text
-   use dondolo_warning_sentence, only : warning_sentences
    implicit none
 
    type(arguments_type) :: arguments

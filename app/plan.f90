@@ -1,33 +1,33 @@
 !> What --check prints: what would run.
 module dondolo_plan
    use, intrinsic :: iso_fortran_env, only : output_unit
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_plain, only : visible
+   use dondolo_base_text, only : counted, rounded, to_text
    use dondolo_case, only : case_type
+   use dondolo_case_check_rows, only : check_wall
+   use dondolo_case_plan_warnings, only : warn_of_plan
+   use dondolo_case_plausibility, only : wall_warning_type
+   use dondolo_case_population_case, only : find_start
+   use dondolo_case_results, only : shown_rows
+   use dondolo_case_run_case, only : plan_case
+   use dondolo_case_warning, only : warnings_type
+   use dondolo_case_warning_sentence, only : warning_sentences
+   use dondolo_case_warnings, only : scale_warning_type, warn_of_events, warn_of_records
    use dondolo_check_lines, only : print_check
-   use dondolo_check_rows, only : check_wall
    use dondolo_check_sheet, only : sheet_type
-   use dondolo_clusters, only : cluster_label
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_lines, only : lines_type
+   use dondolo_motion_work, only : work_type
    use dondolo_name_column, only : name_width
-   use dondolo_plain, only : visible
    use dondolo_plan_building, only : print_building
-   use dondolo_plan_warnings, only : warn_of_plan
    use dondolo_plan_wall, only : print_body, print_head, print_row, print_wall
-   use dondolo_plausibility, only : wall_warning_type
-   use dondolo_member, only : member_type
+   use dondolo_population_member, only : member_type
    use dondolo_population_reader, only : population_reader_type
-   use dondolo_population_case, only : find_start
+   use dondolo_population_store, only : store_type
    use dondolo_record, only : record_type
+   use dondolo_record_clusters, only : cluster_label
    use dondolo_record_table, only : record_table
-   use dondolo_results, only : shown_rows
-   use dondolo_run_case, only : plan_case
-   use dondolo_store, only : store_type
-   use dondolo_text, only : counted, rounded, to_text
-   use dondolo_warning, only : warnings_type
-   use dondolo_warning_sentence, only : warning_sentences
-   use dondolo_warnings, only : scale_warning_type, warn_of_events, warn_of_records
-   use dondolo_work, only : work_type
    implicit none
    private
 

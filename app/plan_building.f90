@@ -1,10 +1,10 @@
 !> What --check prints of the building that a wall stands on.
 module dondolo_plan_building
    use, intrinsic :: iso_fortran_env, only : output_unit
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : rounded, to_text
    use dondolo_building, only : building_type
-   use dondolo_kinds, only : wp
    use dondolo_record, only : record_type
-   use dondolo_text, only : rounded, to_text
    implicit none
    private
 

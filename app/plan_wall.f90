@@ -1,14 +1,14 @@
 !> What --check prints of walls: their static quantities, and for one wall what holds it and what ends its motion.
 module dondolo_plan_wall
    use, intrinsic :: iso_fortran_env, only : output_unit
-   use dondolo_error, only : error_type, problems_type
-   use dondolo_kinds, only : wp
+   use dondolo_base_error, only : error_type, problems_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : left, rounded
    use dondolo_plan_building, only : building_summary
-   use dondolo_text, only : left, rounded
-   use dondolo_tie_statics, only : greatest_acceleration, plastic_acceleration
    use dondolo_wall, only : new_wall, wall_type
    use dondolo_wall_body, only : read_wall_body, wall_body_type
    use dondolo_wall_properties, only : wall_input_type
+   use dondolo_wall_tie_statics, only : greatest_acceleration, plastic_acceleration
    implicit none
    private
 

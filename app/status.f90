@@ -1,14 +1,14 @@
 !> What --status prints: how far the work on an output is, from its lock, its checkpoint and its results. Nothing is written.
 module dondolo_status
    use, intrinsic :: iso_fortran_env, only : output_unit
-   use dondolo_error, only : error_type, raise_missing
-   use dondolo_lock, only : holder_type, look_at_lock
-   use dondolo_lines, only : lines_type
+   use dondolo_base_error, only : error_type, raise_missing
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_lock, only : holder_type, look_at_lock
+   use dondolo_base_text, only : to_text
+   use dondolo_case_replaced, only : list_outdated
+   use dondolo_case_result_files, only : published_run
+   use dondolo_population_store, only : look_into_store, store_type
    use dondolo_progress_bar, only : duration
-   use dondolo_replaced, only : list_outdated
-   use dondolo_result_files, only : published_run
-   use dondolo_store, only : look_into_store, store_type
-   use dondolo_text, only : to_text
    implicit none
    private
 

@@ -1,26 +1,26 @@
 !> What a run prints at its end: the results at a glance.
 module dondolo_summary
    use, intrinsic :: iso_fortran_env, only : int64, output_unit
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_plain, only : visible
+   use dondolo_base_text, only : counted, left, right, rounded, to_text
    use dondolo_case, only : case_type
-   use dondolo_certificate, only : in_double, in_quadruple, not_computable
+   use dondolo_case_results, only : results_type, row_counts_type
+   use dondolo_case_source_rows, only : make_model_sentence, make_source_sentence
+   use dondolo_case_tie_rows, only : make_tie_sentence
    use dondolo_check_lines, only : print_check, print_verdicts
    use dondolo_design_lines, only : print_designs
-   use dondolo_drift_note, only : make_drift_note, share_of
-   use dondolo_error_estimate, only : runs_of_estimate
    use dondolo_fit_lines, only : bar, fractiles, make_head, print_fit, print_population_errors
-   use dondolo_kinds, only : wp
-   use dondolo_lines, only : lines_type
-   use dondolo_plain, only : visible
-   use dondolo_plan_wall, only : print_wall
+   use dondolo_fragility_drift_note, only : make_drift_note, share_of
+   use dondolo_motion_certificate, only : in_double, in_quadruple, not_computable
+   use dondolo_motion_error_estimate, only : runs_of_estimate
    use dondolo_name_column, only : name_width
-   use dondolo_results, only : results_type, row_counts_type
-   use dondolo_source_rows, only : make_model_sentence, make_source_sentence
-   use dondolo_support_notes, only : supports_type
-   use dondolo_tested_restitution, only : make_restitution_sentence
-   use dondolo_text, only : counted, left, right, rounded, to_text
-   use dondolo_tie_rows, only : make_tie_sentence
-   use dondolo_typology, only : whole_population
+   use dondolo_plan_wall, only : print_wall
+   use dondolo_population_typology, only : whole_population
    use dondolo_union_lines, only : print_facade, print_unions, print_verdict_rows
+   use dondolo_wall_support_notes, only : supports_type
+   use dondolo_wall_tested_restitution, only : make_restitution_sentence
    implicit none
    private
 

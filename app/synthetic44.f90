@@ -2,11 +2,11 @@
 !> data/records unless given; the folder synthetic44 must exist.
 program synthetic44_program
    use, intrinsic :: iso_fortran_env, only : error_unit
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
    use dondolo_record, only : record_type
-   use dondolo_synthetic_suite, only : scenario_type, suite_record, synthetic44
-   use dondolo_text, only : to_text
+   use dondolo_record_synthetic_suite, only : scenario_type, suite_record, synthetic44
    implicit none
 
    !> Decimals of the files [m/s2]: half a unit of the last is below 1e-9 of any peak above 0.05 m/s2

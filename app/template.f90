@@ -2,10 +2,10 @@
 !> It follows from the tables of properties.
 module dondolo_template
    use, intrinsic :: iso_fortran_env, only : output_unit
-   use dondolo_job_group, only : task_names
-   use dondolo_property, only : default_text, has_owner, is_many, is_text, item_name, number_of_choices, property_type
-   use dondolo_property_tables, only : property_table
-   use dondolo_text, only : join
+   use dondolo_base_property, only : default_text, has_owner, is_many, is_text, item_name, number_of_choices, property_type
+   use dondolo_base_text, only : join
+   use dondolo_case_job_group, only : task_names
+   use dondolo_case_property_tables, only : property_table
    use dondolo_wall_properties, only : mechanism_names
    implicit none
    private

@@ -1,16 +1,16 @@
 !> What is printed of facades and walls with several mechanisms, and of the checks of their rows.
 module dondolo_union_lines
    use, intrinsic :: iso_fortran_env, only : output_unit
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : counted, left, right, rounded, to_text
    use dondolo_case, only : case_type
+   use dondolo_case_check_rows, only : check_methods, check_states, shown_verdicts
+   use dondolo_case_results, only : results_type, shown_rows
    use dondolo_check_lines, only : chance
-   use dondolo_check_rows, only : check_methods, check_states, shown_verdicts
    use dondolo_fit_lines, only : bar, fractiles, make_head, print_fit
    use dondolo_fragility, only : fragility_type
-   use dondolo_kinds, only : wp
    use dondolo_name_column, only : name_width
-   use dondolo_results, only : results_type, shown_rows
-   use dondolo_text, only : counted, left, right, rounded, to_text
-   use dondolo_unions, only : union_type
+   use dondolo_population_unions, only : union_type
    implicit none
    private
 

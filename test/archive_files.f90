@@ -1,7 +1,7 @@
 !> Small accelerogram files of the formats of archives: COSMOS, CSMIP volume 2, GeoNet V2A, SMC.
 module archive_files
-   use dondolo_kinds, only : wp
-   use dondolo_text, only : to_text
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
    implicit none
    private
 

@@ -34,7 +34,7 @@ program() {
 
 # link_readers EXECUTABLE: build test/test_readers.f90 with the library of an executable that fpm has built last, and print its
 # path. fpm itself would compile every test, and leaves out of the library what the executable does not use. Sanitizers paint
-# the reserve that dondolo_memory tries for each file, 96 MB, again and again: here it is 64 kB.
+# the reserve that dondolo_base_memory tries for each file, 96 MB, again and again: here it is 64 kB.
 link_readers() {
    local library modules
    library=$(find build -name libdondolo.a -exec grep -q __asan_init {} \; -printf '%T@ %p\n' | sort -n | awk 'END { print $2 }')

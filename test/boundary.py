@@ -47,7 +47,8 @@ def main():
     with tempfile.TemporaryDirectory() as folder:
         Path(folder, "case.nml").write_text(CASE.format(catalogue=catalogue))
         executable = Path(sys.executable).with_name("dondolo")
-        fortran = count(folder, [executable, "case.nml"], "--toggle-collect=__dondolo_stripes_MOD_multiple_stripe")
+        counted = "--toggle-collect=__dondolo_fragility_stripes_MOD_multiple_stripe"
+        fortran = count(folder, [executable, "case.nml"], counted)
         few, many = (count(folder, [sys.executable, "-c", CALL, catalogue, str(calls)]) for calls in CALLS)
     python = (many - few) / (CALLS[1] - CALLS[0])
     print(f"Fortran {fortran / 1e6:.1f}e6, Python {python / 1e6:.1f}e6 instructions: ratio {python / fortran:.4f}")

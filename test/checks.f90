@@ -1,8 +1,8 @@
 !> The project's test helper: count what holds, say what does not, fail at the end.
 module checks
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_text, only : to_text
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
    implicit none
    private
 

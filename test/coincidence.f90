@@ -4,13 +4,13 @@
 !> A history is made from its number alone.
 module coincidence
    use checks, only : check_ok
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_random, only : new_random, random_type
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_response, only : response_type
+   use dondolo_motion_rk45, only : simulate_rk45
+   use dondolo_motion_solver, only : check_limit
    use dondolo_record, only : new_record, record_type
-   use dondolo_response, only : response_type
-   use dondolo_rk45, only : simulate_rk45
-   use dondolo_solver, only : check_limit
+   use dondolo_record_random, only : new_random, random_type
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    use random_history, only : across, choice, history_type
    implicit none

@@ -1,8 +1,8 @@
 !> A mechanism that counts how often its terms are evaluated: the work of a history, the same on every machine.
 module counting_mechanism
    use, intrinsic :: iso_c_binding, only : c_long
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_wall_mechanism, only : mechanism_type
    implicit none
    private
 

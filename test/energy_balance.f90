@@ -1,12 +1,12 @@
 !> The energy of a time history: E = 1/2 J q'^2 + V changes only by the work of the ground, dE/dt = -s L u_g'' q',
 !> and at impacts, where the speed is multiplied by e. Coming to rest may lose some, nothing may create any.
 module energy_balance
-   use dondolo_dormand_prince, only : angular_acceleration, dense_rotation, excitation_type, state_type
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_dormand_prince, only : angular_acceleration, dense_rotation, excitation_type, state_type
+   use dondolo_motion_response, only : trace_type
+   use dondolo_motion_solver, only : solver_type
    use dondolo_record, only : record_type
-   use dondolo_response, only : trace_type
-   use dondolo_solver, only : solver_type
+   use dondolo_wall_mechanism, only : mechanism_type
    implicit none
    private
 

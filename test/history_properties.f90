@@ -3,16 +3,16 @@ module history_properties
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use checks, only : check
    use counting_mechanism, only : counting_type, evaluations, new_counting
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
+   use dondolo_motion_response, only : response_type, trace_type
+   use dondolo_motion_rk45, only : simulate_rk45
+   use dondolo_motion_solver, only : check_limit, check_solver, solver_type
+   use dondolo_motion_work, only : work_type
    use dondolo_record, only : record_type
-   use dondolo_response, only : response_type, trace_type
-   use dondolo_rk45, only : simulate_rk45
-   use dondolo_solver, only : check_limit, check_solver, solver_type
-   use dondolo_text, only : to_text
-   use dondolo_work, only : work_type
    use energy_balance, only : balance_type, energy_balance_of
-   use dondolo_simulate, only : simulate
+   use dondolo_motion_simulate, only : simulate
    use lane_runs, only : run_alone, runs_in_lanes
    use random_history, only : history_type
    use same_response, only : is_same

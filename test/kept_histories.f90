@@ -1,8 +1,8 @@
 !> Histories that broke something once, and hostile ones that might: each with a line that says what.
 module kept_histories
    use checks, only : check_ok
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
    use dondolo_record, only : largest_acceleration, new_record
    use dondolo_wall, only : new_wall, wall_input_type
    use random_history, only : history_type, new_history

@@ -1,15 +1,15 @@
 !> Histories through the engine lanes, as an ensemble runs them.
 module lane_runs
-   use dondolo_ensemble, only : ensemble_type, run_ensemble
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_normal_form, only : new_normal_form, normal_form_type
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_ensemble, only : ensemble_type, run_ensemble
+   use dondolo_motion_normal_form, only : new_normal_form, normal_form_type
+   use dondolo_motion_response, only : response_type
+   use dondolo_motion_solver, only : solver_type
+   use dondolo_motion_work, only : work_type
    use dondolo_record, only : record_type
-   use dondolo_response, only : response_type
-   use dondolo_solver, only : solver_type
-   use dondolo_suite, only : new_suite, suite_type
-   use dondolo_work, only : work_type
+   use dondolo_record_suite, only : new_suite, suite_type
+   use dondolo_wall_mechanism, only : mechanism_type
    implicit none
    private
 

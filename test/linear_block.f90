@@ -1,8 +1,8 @@
 !> The linearised rocking block of the classic papers (sin(alpha - q) -> alpha - q, cos -> 1), for tests only:
 !> q'' = -p^2 (alpha - q) - s p^2 u_g''/g.
 module linear_block
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_wall_mechanism, only : mechanism_type
    implicit none
    private
 

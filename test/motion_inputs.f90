@@ -1,10 +1,10 @@
 !> What the tests of the motion start from: walls, accelerograms and tight tolerances.
 module motion_inputs
    use checks, only : check_ok
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_solver, only : solver_type
    use dondolo_record, only : new_record, record_type
-   use dondolo_solver, only : solver_type
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    implicit none
    private

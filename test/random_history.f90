@@ -2,11 +2,11 @@
 !> A history is made from its number alone, so one that fails can be run again by itself.
 module random_history
    use checks, only : check_ok
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_random, only : new_random, random_type
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_solver, only : check_limit, check_solver, solver_type
    use dondolo_record, only : largest_acceleration, new_record, record_type
-   use dondolo_solver, only : check_limit, check_solver, solver_type
+   use dondolo_record_random, only : new_random, random_type
    use dondolo_wall, only : mechanism_names, new_wall, wall_input_type, wall_type
    implicit none
    private

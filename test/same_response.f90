@@ -1,6 +1,6 @@
 !> Equality of responses: what must not depend on threads, grouping, polarity or a time history.
 module same_response
-   use dondolo_response, only : response_type
+   use dondolo_motion_response, only : response_type
    implicit none
    private
 

@@ -1,7 +1,7 @@
 !> Small accelerogram files of every format for the tests: the layout of the real ones, other numbers.
 module small_files
-   use dondolo_kinds, only : wp
-   use dondolo_text, only : to_text
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
    implicit none
    private
 

@@ -1,14 +1,14 @@
 !> Multiple stripe analyses for tests: of records, levels and settings as they come.
 module stripe_runs
    use checks, only : check_ok
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_fragility_scaling, only : new_scaling, scaling_type
+   use dondolo_fragility_stripes, only : multiple_stripe, stripes_type
+   use dondolo_fragility_study, only : new_study, study_type
+   use dondolo_motion_solver, only : solver_type
    use dondolo_record, only : record_type
-   use dondolo_scaling, only : new_scaling, scaling_type
-   use dondolo_solver, only : solver_type
-   use dondolo_stripes, only : multiple_stripe, stripes_type
-   use dondolo_study, only : new_study, study_type
-   use dondolo_suite, only : new_suite, suite_type
+   use dondolo_record_suite, only : new_suite, suite_type
    use dondolo_wall, only : wall_type
    implicit none
    private

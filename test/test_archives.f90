@@ -4,13 +4,13 @@
 program test_archives
    use archive_files, only : cosmos, cosmos_type, csmip, geonet, motion, smc, with_crlf
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, skip, suite
-   use dondolo_csv_reader, only : csv_row_type, csv_table_type
-   use dondolo_error, only : error_type
-   use dondolo_header_text, only : after, before, leading_number, parse_format, squeezed
-   use dondolo_kinds, only : wp
+   use dondolo_base_csv_reader, only : csv_row_type, csv_table_type
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
    use dondolo_record, only : record_type
+   use dondolo_record_header_text, only : after, before, leading_number, parse_format, squeezed
    use dondolo_record_reader, only : read_record, read_records
-   use dondolo_text, only : to_text
    implicit none
 
    character(len=*), parameter :: scratch = 'build/test_archives', lf = achar(10)

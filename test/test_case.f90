@@ -1,28 +1,28 @@
 !> Tests of the room case: the namelist reader, the groups, the echo, and what a run gives.
 program test_case
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, suite
+   use dondolo_base_error, only : error_type, status_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_system, only : is_folder, remove_folder, same_file
+   use dondolo_base_text, only : to_text
    use dondolo_case, only : case_type
-   use dondolo_columns, only : columns_type, integer_column, real_column, text_column
-   use dondolo_read_case, only : read_case
-   use dondolo_error, only : error_type, status_input
-   use dondolo_error_estimate, only : runs_of_estimate
-   use dondolo_kinds, only : wp
-   use dondolo_lines, only : lines_type
-   use dondolo_namelist, only : namelist_type, read_namelist
-   use dondolo_namelist_group, only : group_type
-   use dondolo_member, only : member_type
+   use dondolo_case_columns, only : columns_type, integer_column, real_column, text_column
+   use dondolo_case_echo, only : echo_type
+   use dondolo_case_namelist, only : namelist_type, read_namelist
+   use dondolo_case_namelist_group, only : group_type
+   use dondolo_case_read_case, only : read_case
+   use dondolo_case_reports, only : check_reports, write_reports
+   use dondolo_case_result_files, only : published_run, result_files_type
+   use dondolo_case_result_tables, only : list_tables, table_kind_type, table_suffixes
+   use dondolo_case_results, only : results_type
+   use dondolo_case_run_case, only : plan_case, run_case
+   use dondolo_case_warnings, only : scale_warning_type
+   use dondolo_fragility_study, only : study_type
+   use dondolo_motion_error_estimate, only : runs_of_estimate
+   use dondolo_motion_work, only : work_type
+   use dondolo_population_member, only : member_type
    use dondolo_population_reader, only : read_population
-   use dondolo_reports, only : check_reports, write_reports
-   use dondolo_result_files, only : published_run, result_files_type
-   use dondolo_result_tables, only : list_tables, table_kind_type, table_suffixes
-   use dondolo_results, only : results_type
-   use dondolo_run_case, only : plan_case, run_case
-   use dondolo_system, only : is_folder, remove_folder, same_file
-   use dondolo_echo, only : echo_type
-   use dondolo_study, only : study_type
-   use dondolo_text, only : to_text
-   use dondolo_warnings, only : scale_warning_type
-   use dondolo_work, only : work_type
    implicit none
 
    character(len=*), parameter :: scratch = 'build/test_case', lf = new_line('a')

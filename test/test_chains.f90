@@ -2,19 +2,19 @@
 !> that are integrated one by one.
 program test_chains
    use checks, only : check, check_close, finish, suite
-   use dondolo_adaptive_step, only : advance, motion_type
-   use dondolo_dormand_prince, only : angular_acceleration, excitation_type
-   use dondolo_events, only : impact
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_one_sided, only : one_sided_restitution
-   use dondolo_random, only : new_random, random_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_adaptive_step, only : advance, motion_type
+   use dondolo_motion_dormand_prince, only : angular_acceleration, excitation_type
+   use dondolo_motion_events, only : impact
+   use dondolo_motion_response, only : response_type, trace_type
+   use dondolo_motion_rest, only : bounce_type, new_rest, rest_type
+   use dondolo_motion_rk45, only : simulate_rk45
+   use dondolo_motion_wall_constants, only : new_wall_constants, wall_constants_type
    use dondolo_record, only : record_type
-   use dondolo_response, only : response_type, trace_type
-   use dondolo_rest, only : bounce_type, new_rest, rest_type
-   use dondolo_rk45, only : simulate_rk45
+   use dondolo_record_random, only : new_random, random_type
    use dondolo_wall, only : wall_type
-   use dondolo_wall_constants, only : new_wall_constants, wall_constants_type
+   use dondolo_wall_mechanism, only : mechanism_type
+   use dondolo_wall_one_sided, only : one_sided_restitution
    use linear_block, only : new_linear_block
    use motion_inputs, only : a_wall, accelerogram, made, stillness, tight
    implicit none

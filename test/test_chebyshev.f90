@@ -1,9 +1,9 @@
 !> Chebyshev series against functions whose series, integral and powers are known.
 program test_chebyshev
    use checks, only : check, check_close, finish, suite
-   use dondolo_chebyshev, only : as_powers, chebyshev_integral, chebyshev_nodes, chebyshev_series, chebyshev_value
-   use dondolo_kinds, only : wp
-   use dondolo_text, only : to_text
+   use dondolo_base_chebyshev, only : as_powers, chebyshev_integral, chebyshev_nodes, chebyshev_series, chebyshev_value
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
    implicit none
 
    real(wp), parameter :: eps = epsilon(1.0_wp)

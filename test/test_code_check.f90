@@ -2,15 +2,15 @@
 !> T_C* 0.35 s, soil B, FC 1.35; buildings of one mode, 0.3 s, 5 %, participation times shape 9/7.
 program test_code_check
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, suite
+   use dondolo_base_error, only : error_type, problems_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_settings, only : group_settings_type, new_settings
+   use dondolo_check_code_spectrum, only : elastic_spectrum_type, ntc_spectrum
+   use dondolo_check_floor_spectrum, only : floor_spectrum_type, new_floor_spectrum
    use dondolo_check_input, only : check_input_type, check_properties, take_check
+   use dondolo_check_kinematic, only : kinematic_type, new_kinematic
+   use dondolo_check_ntc_check, only : check_histories, check_ntc
    use dondolo_check_sheet, only : sheet_type
-   use dondolo_code_spectrum, only : elastic_spectrum_type, ntc_spectrum
-   use dondolo_error, only : error_type, problems_type
-   use dondolo_floor_spectrum, only : floor_spectrum_type, new_floor_spectrum
-   use dondolo_kinds, only : wp
-   use dondolo_kinematic, only : kinematic_type, new_kinematic
-   use dondolo_ntc_check, only : check_histories, check_ntc
-   use dondolo_settings, only : group_settings_type, new_settings
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    implicit none
 

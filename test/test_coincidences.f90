@@ -6,11 +6,11 @@ program test_coincidences
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use checks, only : check, finish, suite
    use coincidence, only : kind_names, new_coincidence
-   use dondolo_kinds, only : wp
-   use dondolo_normal_form, only : new_normal_form, normal_form_type
-   use dondolo_response, only : response_type
-   use dondolo_rk45, only : simulate_rk45
-   use dondolo_text, only : to_text
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
+   use dondolo_motion_normal_form, only : new_normal_form, normal_form_type
+   use dondolo_motion_response, only : response_type
+   use dondolo_motion_rk45, only : simulate_rk45
    use lane_runs, only : run_alone
    use random_history, only : argument, history_type
    implicit none

@@ -4,15 +4,15 @@
 !> from halved steps, where the error is far above rounding.
 program test_convergence
    use checks, only : check, finish, suite
-   use dondolo_dormand_prince, only : angular_acceleration, dense_rotation, dormand_prince_step, excitation_type, &
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
+   use dondolo_motion_dormand_prince, only : angular_acceleration, dense_rotation, dormand_prince_step, excitation_type, &
       & state_type
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
+   use dondolo_motion_response, only : response_type, trace_type
+   use dondolo_motion_rk45, only : simulate_rk45
    use dondolo_record, only : record_type
-   use dondolo_response, only : response_type, trace_type
-   use dondolo_rk45, only : simulate_rk45
-   use dondolo_text, only : to_text
    use dondolo_wall, only : wall_type
+   use dondolo_wall_mechanism, only : mechanism_type
    use linear_block, only : new_linear_block
    use motion_inputs, only : accelerogram, loose, made
    implicit none

@@ -1,11 +1,11 @@
 !> Which format takes which file, and damaged files of every format.
 program test_damaged_files
    use checks, only : check, check_error, check_ok, check_text, finish, suite
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
    use dondolo_record, only : largest_acceleration, record_type
    use dondolo_record_reader, only : read_records
-   use dondolo_text, only : to_text
    use small_files, only : list_contents, sample_type, smtk_content, write_file
    implicit none
 

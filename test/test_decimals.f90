@@ -3,9 +3,9 @@
 program test_decimals
    use, intrinsic :: iso_fortran_env, only : int64
    use checks, only : check, check_text, finish, skip, suite
-   use dondolo_decimals, only : find_figures
-   use dondolo_kinds, only : wp
-   use dondolo_text, only : brief, rounded, to_table, to_text
+   use dondolo_base_decimals, only : find_figures
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : brief, rounded, to_table, to_text
    implicit none
 
    integer, parameter :: kinds = 8

@@ -2,12 +2,12 @@
 !> its kinetic part multiplied by e^2 at an impact, changed by the work of the ground and by nothing else.
 program test_energy
    use checks, only : check, check_close, finish, suite
-   use dondolo_dormand_prince, only : angular_acceleration, dormand_prince_step, excitation_type, state_type
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_response, only : response_type, trace_type
-   use dondolo_rk45, only : simulate_rk45
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_dormand_prince, only : angular_acceleration, dormand_prince_step, excitation_type, state_type
+   use dondolo_motion_response, only : response_type, trace_type
+   use dondolo_motion_rk45, only : simulate_rk45
    use dondolo_wall, only : wall_type
+   use dondolo_wall_mechanism, only : mechanism_type
    use motion_inputs, only : a_wall, accelerogram, stillness, tight
    implicit none
 

@@ -3,15 +3,15 @@
 !> All is compared to the closed forms of the linear block, under an outward push x = -s u_g''/(alpha g).
 program test_events
    use checks, only : check, check_close, finish, suite
-   use dondolo_adaptive_step, only : advance, motion_type
-   use dondolo_dormand_prince, only : angular_acceleration
-   use dondolo_events, only : impact
-   use dondolo_kinds, only : wp
-   use dondolo_response, only : response_type, trace_type
-   use dondolo_rk45, only : simulate_rk45
-   use dondolo_solver, only : solver_type
-   use dondolo_text, only : to_text
-   use dondolo_wall_constants, only : new_wall_constants
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
+   use dondolo_motion_adaptive_step, only : advance, motion_type
+   use dondolo_motion_dormand_prince, only : angular_acceleration
+   use dondolo_motion_events, only : impact
+   use dondolo_motion_response, only : response_type, trace_type
+   use dondolo_motion_rk45, only : simulate_rk45
+   use dondolo_motion_solver, only : solver_type
+   use dondolo_motion_wall_constants, only : new_wall_constants
    use linear_block, only : linear_block_type, new_linear_block
    use motion_inputs, only : accelerogram, loose, tight
    implicit none

@@ -3,12 +3,12 @@
 !> The facade: storeys of 4, 3.5 and 3 m of 0.60, 0.45 and 0.30 m, floors of 12, 12 and 6 kN/m at their tops.
 program test_facade
    use checks, only : check, check_close, check_error, check_ok, finish, suite
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_member, only : member_type
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_population_member, only : member_type
    use dondolo_population_reader, only : population_reader_type, read_population
    use dondolo_population_table, only : population_table_type
-   use dondolo_variants, only : stated_wall_type
+   use dondolo_population_variants, only : stated_wall_type
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    implicit none
 

@@ -2,16 +2,16 @@
 program test_floors
    use, intrinsic :: omp_lib, only : omp_get_max_threads
    use checks, only : check, check_close, check_error, check_ok, finish, suite
+   use dondolo_base_error, only : error_type, problems_type
+   use dondolo_base_kinds, only : pi, wp
+   use dondolo_base_settings, only : group_settings_type, new_settings
+   use dondolo_base_settings_check, only : check_settings
    use dondolo_building, only : building_type, diaphragm_type
+   use dondolo_building_floor_motion, only : filter_record
+   use dondolo_building_floors, only : check_floor, floors_type
    use dondolo_building_input, only : building_properties, new_building
-   use dondolo_error, only : error_type, problems_type
-   use dondolo_floor_motion, only : filter_record
-   use dondolo_floors, only : check_floor, floors_type
-   use dondolo_kinds, only : pi, wp
    use dondolo_record, only : new_record, record_type
-   use dondolo_settings, only : group_settings_type, new_settings
-   use dondolo_settings_check, only : check_settings
-   use dondolo_suite, only : new_suite, suite_type
+   use dondolo_record_suite, only : new_suite, suite_type
    implicit none
 
    real(wp), parameter :: exact = 1.0e-12_wp

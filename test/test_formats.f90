@@ -1,22 +1,22 @@
 !> Formats of accelerogram files: channels, metadata, what is refused.
 program test_formats
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, skip, suite
-   use dondolo_catalogue, only : read_catalogue
-   use dondolo_csv_reader, only : csv_row_type, csv_table_type
-   use dondolo_dates, only : find_moment, make_stamp
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : pi, wp
-   use dondolo_lines, only : lines_type
-   use dondolo_limits, only : longest_case
-   use dondolo_metadata, only : metadata_type
-   use dondolo_numbers, only : parse_printed
-   use dondolo_reading_notes, only : list_reading_notes
+   use dondolo_base_csv_reader, only : csv_row_type, csv_table_type
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : pi, wp
+   use dondolo_base_limits, only : longest_case
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_numbers, only : parse_printed
+   use dondolo_base_text, only : to_text
+   use dondolo_base_text_file, only : read_text_file, text_file_type
    use dondolo_record, only : new_record, record_type
+   use dondolo_record_catalogue, only : read_catalogue
+   use dondolo_record_dates, only : find_moment, make_stamp
    use dondolo_record_format, only : read_fixed
+   use dondolo_record_metadata, only : metadata_type
    use dondolo_record_reader, only : read_record, read_records
+   use dondolo_record_reading_notes, only : list_reading_notes
    use dondolo_record_table, only : find_problems, record_table
-   use dondolo_text, only : to_text
-   use dondolo_text_file, only : read_text_file, text_file_type
    use small_files, only : afad_content, asa_content, columns_content, cwa_content, dyna_content, eqsig_content, knet_content, &
       & nied_content, peer_content, small, smtk_content, write_file
    implicit none

@@ -2,19 +2,19 @@
 program test_fragility
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, suite
-   use dondolo_clustered, only : cluster_errors, parameter_intervals
-   use dondolo_error, only : error_type
-   use dondolo_even_levels, only : even_levels, settle_levels
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_student, only : student_cdf, student_quantile
+   use dondolo_case_warning, only : warnings_type
+   use dondolo_case_warning_sentence, only : warning_sentences
+   use dondolo_case_warnings, only : warn_of_fit
    use dondolo_fragility, only : fit_fragility, fragility_type, normal_cdf
-   use dondolo_kinds, only : wp
-   use dondolo_lines, only : lines_type
-   use dondolo_ordinal, only : fit_ordinal, ordinal_errors
-   use dondolo_stripes, only : stripes_type
-   use dondolo_student, only : student_cdf, student_quantile
+   use dondolo_fragility_clustered, only : cluster_errors, parameter_intervals
+   use dondolo_fragility_even_levels, only : even_levels, settle_levels
+   use dondolo_fragility_ordinal, only : fit_ordinal, ordinal_errors
+   use dondolo_fragility_stripes, only : stripes_type
    use dondolo_wall, only : wall_type
-   use dondolo_warning, only : warnings_type
-   use dondolo_warning_sentence, only : warning_sentences
-   use dondolo_warnings, only : warn_of_fit
    implicit none
 
    call test_two_stripes()

@@ -3,18 +3,18 @@
 !> Arguments: number of random walls, and number of the first
 program test_grouping
    use checks, only : check, check_ok, finish, suite
-   use dondolo_dead_channel, only : check_motion
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_lane_variants, only : build_variant
-   use dondolo_random, only : new_random, random_type
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
+   use dondolo_fragility_scaling, only : new_scaling, scaling_type
+   use dondolo_fragility_stripes, only : plan_stripes, run_histories, stripes_type
+   use dondolo_fragility_study, only : new_study, study_type
+   use dondolo_motion_lane_variants, only : build_variant
+   use dondolo_motion_solver, only : solver_type
    use dondolo_record, only : record_type
-   use dondolo_scaling, only : new_scaling, scaling_type
-   use dondolo_solver, only : solver_type
-   use dondolo_stripes, only : plan_stripes, run_histories, stripes_type
-   use dondolo_study, only : new_study, study_type
-   use dondolo_suite, only : suite_type
-   use dondolo_text, only : to_text
+   use dondolo_record_dead_channel, only : check_motion
+   use dondolo_record_random, only : new_random, random_type
+   use dondolo_record_suite, only : suite_type
    use dondolo_wall, only : wall_type
    use random_history, only : across, argument, between, choice, random_record, random_solver, random_wall
    use same_response, only : is_same

@@ -1,20 +1,20 @@
 !> Intensity measures: closed forms, what must not change them, their names, and the El Centro accelerogram of 1940.
 program test_intensity
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, skip, suite
-   use dondolo_energy_measures, only : significant_times
-   use dondolo_error, only : error_type
-   use dondolo_ground_motion, only : ground_displacement, ground_velocity
-   use dondolo_intensity, only : im_names, measure_type, new_measure
-   use dondolo_kinds, only : wp
-   use dondolo_random, only : new_random, random_type
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
+   use dondolo_fragility_scaling, only : new_scaling, scaling_names, scaling_type
+   use dondolo_fragility_stripes, only : stripes_type
+   use dondolo_motion_solver, only : solver_type
    use dondolo_record, only : new_record, record_type
+   use dondolo_record_energy_measures, only : significant_times
+   use dondolo_record_ground_motion, only : ground_displacement, ground_velocity
+   use dondolo_record_intensity, only : im_names, measure_type, new_measure
+   use dondolo_record_random, only : new_random, random_type
    use dondolo_record_reader, only : read_record
-   use dondolo_response_spectrum, only : pseudo_acceleration, spectral_displacement
-   use dondolo_scaling, only : new_scaling, scaling_names, scaling_type
-   use dondolo_solver, only : solver_type
-   use dondolo_stripes, only : stripes_type
-   use dondolo_suite, only : suite_type
-   use dondolo_text, only : to_text
+   use dondolo_record_response_spectrum, only : pseudo_acceleration, spectral_displacement
+   use dondolo_record_suite, only : suite_type
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    use stripe_runs, only : run_stripes, suite_of
    implicit none

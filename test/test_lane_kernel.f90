@@ -1,12 +1,12 @@
 !> One step of the lanes: its series against the recurrence for polynomials, and what a step that is taken promises.
 program test_lane_kernel
    use checks, only : check, finish, suite
-   use dondolo_kinds, only : wp
-   use dondolo_lane_kernel, only : step_lanes
-   use dondolo_lane_state, only : event_possible, lane_width, lanes_type, step_too_long
-   use dondolo_normal_form, only : degrees, harmonic_degrees, new_normal_form, normal_form_type, y_limit
-   use dondolo_random, only : new_random, random_type
-   use dondolo_text, only : to_text
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
+   use dondolo_motion_lane_kernel, only : step_lanes
+   use dondolo_motion_lane_state, only : event_possible, lane_width, lanes_type, step_too_long
+   use dondolo_motion_normal_form, only : degrees, harmonic_degrees, new_normal_form, normal_form_type, y_limit
+   use dondolo_record_random, only : new_random, random_type
    use dondolo_wall, only : wall_type
    use motion_inputs, only : a_wall, made
    use random_history, only : across, between, choice

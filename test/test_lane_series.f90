@@ -2,12 +2,12 @@
 program test_lane_series
    use, intrinsic :: iso_fortran_env, only : int64
    use checks, only : check, finish, suite
-   use dondolo_events, only : impact, limit_reached, no_event, turning
-   use dondolo_kinds, only : wp
-   use dondolo_lane_series, only : find_first, find_simple, rate, undecided, value
-   use dondolo_lane_state, only : lane_width
-   use dondolo_normal_form, only : y_limit
-   use dondolo_random, only : new_random, random_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_events, only : impact, limit_reached, no_event, turning
+   use dondolo_motion_lane_series, only : find_first, find_simple, rate, undecided, value
+   use dondolo_motion_lane_state, only : lane_width
+   use dondolo_motion_normal_form, only : y_limit
+   use dondolo_record_random, only : new_random, random_type
    use random_history, only : across, argument, between, choice
    implicit none
 

@@ -1,14 +1,14 @@
 !> Walls with ties in the engine lanes: against independently computed values, and against the engine rk45 at tight tolerances.
 program test_lane_ties
    use checks, only : check, check_close, check_error, check_ok, finish, suite
-   use dondolo_ensemble, only : check_engine
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
+   use dondolo_motion_ensemble, only : check_engine
+   use dondolo_motion_response, only : response_type
+   use dondolo_motion_rk45, only : simulate_rk45
+   use dondolo_motion_solver, only : solver_type
    use dondolo_record, only : record_type
-   use dondolo_response, only : response_type
-   use dondolo_rk45, only : simulate_rk45
-   use dondolo_solver, only : solver_type
-   use dondolo_text, only : to_text
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    use lane_runs, only : run_alone, run_lanes, runs_in_lanes
    use motion_inputs, only : accelerogram, tight

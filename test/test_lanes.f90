@@ -2,19 +2,19 @@
 !> neighbours, order, threads.
 program test_lanes
    use checks, only : check, check_close, check_ok, finish, suite
-   use dondolo_error, only : error_type
-   use dondolo_error_estimate, only : estimated_error, other_run, runs_of_estimate
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_random, only : new_random, random_type
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
+   use dondolo_motion_error_estimate, only : estimated_error, other_run, runs_of_estimate
+   use dondolo_motion_response, only : response_type
+   use dondolo_motion_rk45, only : simulate_rk45
+   use dondolo_motion_simulate, only : simulate
+   use dondolo_motion_solver, only : solver_type
+   use dondolo_motion_work, only : work_type
    use dondolo_record, only : record_type
-   use dondolo_response, only : response_type
-   use dondolo_rk45, only : simulate_rk45
-   use dondolo_simulate, only : simulate
-   use dondolo_solver, only : solver_type
-   use dondolo_text, only : to_text
+   use dondolo_record_random, only : new_random, random_type
    use dondolo_wall, only : wall_type
-   use dondolo_work, only : work_type
+   use dondolo_wall_mechanism, only : mechanism_type
    use lane_runs, only : run_alone, run_lanes, runs_in_lanes
    use linear_block, only : linear_block_type, new_linear_block
    use motion_inputs, only : a_wall, accelerogram, loose, made, tight

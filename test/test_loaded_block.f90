@@ -3,13 +3,13 @@
 !> The wall, unless said otherwise: H = 3 m, t = 0.25 m, 1800 kg/m3; its load: 10 kN/m at depth 0.175 m on the top.
 program test_loaded_block
    use checks, only : check, check_close, check_error, check_ok, finish, suite
-   use dondolo_error, only : error_type, problems_type
-   use dondolo_kinds, only : wp
-   use dondolo_normal_form, only : new_normal_form, normal_form_type
+   use dondolo_base_error, only : error_type, problems_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_normal_form, only : new_normal_form, normal_form_type
+   use dondolo_motion_response, only : response_type
+   use dondolo_motion_rest, only : new_rest, rest_type
+   use dondolo_motion_rk45, only : simulate_rk45
    use dondolo_record, only : record_type
-   use dondolo_response, only : response_type
-   use dondolo_rest, only : new_rest, rest_type
-   use dondolo_rk45, only : simulate_rk45
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    use dondolo_wall_body, only : read_wall_body, wall_body_type
    use lane_runs, only : run_alone

@@ -4,13 +4,13 @@
 !> The wall, unless said otherwise: H = 3 m, t = 0.25 m, hinge at 0.6, 1800 kg/m3; its load 0.02 m off the centreline.
 program test_loaded_two_block
    use checks, only : check, check_close, check_error, check_ok, finish, suite
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_normal_form, only : new_normal_form, normal_form_type
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_normal_form, only : new_normal_form, normal_form_type
+   use dondolo_motion_response, only : response_type
+   use dondolo_motion_rest, only : new_rest, rest_type
+   use dondolo_motion_rk45, only : simulate_rk45
    use dondolo_record, only : record_type
-   use dondolo_response, only : response_type
-   use dondolo_rest, only : new_rest, rest_type
-   use dondolo_rk45, only : simulate_rk45
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    use lane_runs, only : run_alone
    use motion_inputs, only : accelerogram, tight

@@ -6,16 +6,16 @@
 program test_motion
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use checks, only : check, check_close, check_error, finish, suite
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_one_sided, only : one_sided_restitution
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_response, only : response_type, trace_type
+   use dondolo_motion_rk45, only : simulate_rk45
+   use dondolo_motion_simulate, only : simulate
+   use dondolo_motion_solver, only : solver_type
    use dondolo_record, only : record_type
-   use dondolo_response, only : response_type, trace_type
-   use dondolo_rk45, only : simulate_rk45
-   use dondolo_simulate, only : simulate
-   use dondolo_solver, only : solver_type
    use dondolo_wall, only : wall_type
+   use dondolo_wall_mechanism, only : mechanism_type
+   use dondolo_wall_one_sided, only : one_sided_restitution
    use linear_block, only : new_linear_block
    use motion_inputs, only : a_wall, accelerogram, made, stillness, tight
    implicit none

@@ -1,14 +1,14 @@
 !> The normal form against the terms of the mechanism: y'' by the chain rule from q'', the energy, the rotation.
 program test_normal_form
    use checks, only : check, check_close, finish, suite
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_normal_form, only : degrees, harmonic_degrees, new_normal_form, normal_form_type, y_limit
-   use dondolo_random, only : new_random, random_type
-   use dondolo_solver, only : check_limit, solver_type
-   use dondolo_text, only : to_text
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
+   use dondolo_motion_normal_form, only : degrees, harmonic_degrees, new_normal_form, normal_form_type, y_limit
+   use dondolo_motion_solver, only : check_limit, solver_type
+   use dondolo_record_random, only : new_random, random_type
    use dondolo_wall, only : wall_type
+   use dondolo_wall_mechanism, only : mechanism_type
    use motion_inputs, only : a_wall, made
    use random_history, only : across, between, random_wall
    implicit none

@@ -1,29 +1,29 @@
 !> Every row of every table of properties: has all that a reader of messages and templates needs, keeps its value from a
 !> namelist to what is computed and back, and is refused in one line where it is out of range.
 program test_properties
-   use dondolo_check_group, only : read_check_group
+   use dondolo_case_check_group, only : read_check_group
    use dondolo_check_input, only : check_input_type, check_properties, put_check
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, suite
-   use dondolo_echo, only : echo_type
-   use dondolo_error, only : error_type
-   use dondolo_history_group, only : history_input_type, read_history_group
-   use dondolo_job_group, only : job_type, read_job, task_names
-   use dondolo_kinds, only : wp
-   use dondolo_lines, only : lines_type
-   use dondolo_namelist, only : namelist_type, read_namelist
-   use dondolo_namelist_group, only : group_type
-   use dondolo_population_group, only : put_population, read_population_group
-   use dondolo_property, only : check_number, check_word, find_property, has_owner, hint_of, is_integer, is_list, &
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_property, only : check_number, check_word, find_property, has_owner, hint_of, is_integer, is_list, &
       & is_logical, is_many, is_number_or_name, is_text, is_words, no_limit, number_of_choices, property_type
-   use dondolo_property_tables, only : property_table, table_names
-   use dondolo_records_group, only : read_records_group, records_input_type
-   use dondolo_settings, only : group_settings_type, new_settings
-   use dondolo_settings_group, only : echo_settings, read_settings, read_values
-   use dondolo_solver_group, only : read_solver_group, solver_input_type
-   use dondolo_stripes_group, only : check_states, read_stripes_group, stripes_input_type
-   use dondolo_text, only : to_text
-   use dondolo_uncertainty_group, only : read_uncertainty_group
-   use dondolo_variants, only : stated_wall_type
+   use dondolo_base_settings, only : group_settings_type, new_settings
+   use dondolo_base_text, only : to_text
+   use dondolo_case_echo, only : echo_type
+   use dondolo_case_history_group, only : history_input_type, read_history_group
+   use dondolo_case_job_group, only : job_type, read_job, task_names
+   use dondolo_case_namelist, only : namelist_type, read_namelist
+   use dondolo_case_namelist_group, only : group_type
+   use dondolo_case_population_group, only : put_population, read_population_group
+   use dondolo_case_property_tables, only : property_table, table_names
+   use dondolo_case_records_group, only : read_records_group, records_input_type
+   use dondolo_case_settings_group, only : echo_settings, read_settings, read_values
+   use dondolo_case_solver_group, only : read_solver_group, solver_input_type
+   use dondolo_case_stripes_group, only : check_states, read_stripes_group, stripes_input_type
+   use dondolo_case_uncertainty_group, only : read_uncertainty_group
+   use dondolo_population_variants, only : stated_wall_type
    use dondolo_wall, only : mechanism_names, new_wall, wall_type
    use dondolo_wall_properties, only : is_beyond_bare, wall_input_type
    implicit none

@@ -5,12 +5,12 @@
 !> quadrature or by an eighth-order method with tolerance 1e-11.
 program test_pulses
    use checks, only : check, check_close, finish, suite
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_response, only : response_type
+   use dondolo_motion_rk45, only : simulate_rk45
    use dondolo_record, only : record_type
-   use dondolo_response, only : response_type
-   use dondolo_rk45, only : simulate_rk45
    use dondolo_wall, only : wall_type
+   use dondolo_wall_mechanism, only : mechanism_type
    use linear_block, only : linear_block_type, new_linear_block
    use motion_inputs, only : accelerogram, made, tight
    implicit none

@@ -1,9 +1,9 @@
 !> The order in which histories are taken from their queue.
 program test_queue
    use checks, only : check, finish, suite
-   use dondolo_kinds, only : wp
-   use dondolo_queue, only : queue_type
-   use dondolo_response, only : response_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_queue, only : queue_type
+   use dondolo_motion_response, only : response_type
    implicit none
 
    type(queue_type) :: queue

@@ -8,21 +8,21 @@ program test_readers
    use, intrinsic :: iso_fortran_env, only : input_unit, output_unit
    use archive_files, only : cosmos, cosmos_type, csmip, geonet, smc, with_crlf
    use checks, only : check, finish, suite
+   use dondolo_base_csv_row, only : cell_type
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_number_table, only : read_number_table
+   use dondolo_base_text, only : to_text
    use dondolo_case, only : case_type
-   use dondolo_read_case, only : read_case
-   use dondolo_catalogue, only : read_catalogue
-   use dondolo_csv_row, only : cell_type
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_lines, only : lines_type
-   use dondolo_number_table, only : read_number_table
-   use dondolo_member, only : member_type
+   use dondolo_case_read_case, only : read_case
+   use dondolo_population_member, only : member_type
    use dondolo_population_reader, only : read_population
+   use dondolo_population_row_result, only : row_result_type
+   use dondolo_population_store, only : look_into_store, store_type
    use dondolo_record, only : largest_acceleration, record_type
+   use dondolo_record_catalogue, only : read_catalogue
    use dondolo_record_reader, only : read_records
-   use dondolo_row_result, only : row_result_type
-   use dondolo_store, only : look_into_store, store_type
-   use dondolo_text, only : to_text
    use small_files, only : asa_content, columns_content, cwa_content, dyna_content, eqsig_content, knet_content, &
       & peer_content, smtk_content, write_file
    implicit none

@@ -1,20 +1,20 @@
 !> Numbers, tables, units, and the readers of accelerogram files.
 program test_record
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, skip, suite
-   use dondolo_catalogue, only : read_catalogue, record_rows_type
-   use dondolo_clusters, only : cluster_records
-   use dondolo_csv_reader, only : csv_row_type, csv_table_type
-   use dondolo_csv_row, only : cell_type, split_row, text_cell
-   use dondolo_encoding, only : from_utf16, is_ascii, is_utf8
-   use dondolo_error, only : error_type, status_missing
-   use dondolo_kinds, only : wp
-   use dondolo_limits, only : longest_case
-   use dondolo_numbers, only : parse_integer, parse_real, take_column, take_real
+   use dondolo_base_csv_reader, only : csv_row_type, csv_table_type
+   use dondolo_base_csv_row, only : cell_type, split_row, text_cell
+   use dondolo_base_encoding, only : from_utf16, is_ascii, is_utf8
+   use dondolo_base_error, only : error_type, status_missing
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_limits, only : longest_case
+   use dondolo_base_numbers, only : parse_integer, parse_real, take_column, take_real
+   use dondolo_base_text, only : to_text
+   use dondolo_base_text_file, only : read_text_file, text_file_type
    use dondolo_record, only : record_type
+   use dondolo_record_catalogue, only : read_catalogue, record_rows_type
+   use dondolo_record_clusters, only : cluster_records
    use dondolo_record_reader, only : read_record
-   use dondolo_text, only : to_text
-   use dondolo_text_file, only : read_text_file, text_file_type
-   use dondolo_units, only : unit_factor
+   use dondolo_record_units, only : unit_factor
    implicit none
 
    character(len=*), parameter :: scratch = 'build/test_record'

@@ -1,11 +1,11 @@
 !> Joined records, and the search for the next sample outside a range against a plain loop over all samples.
 program test_record_set
    use checks, only : check, finish, suite
-   use dondolo_kinds, only : wp
-   use dondolo_random, only : new_random, random_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
    use dondolo_record, only : record_type
+   use dondolo_record_random, only : new_random, random_type
    use dondolo_record_set, only : new_record_set, record_set_type
-   use dondolo_text, only : to_text
    use motion_inputs, only : accelerogram
    use random_history, only : between, choice
    implicit none

@@ -3,13 +3,13 @@ program test_run_file
    use, intrinsic :: ieee_arithmetic, only : ieee_positive_inf, ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_fortran_env, only : int64
    use checks, only : check, check_text, finish, suite
-   use dondolo_checksum, only : crc32_length, crc32_of_file
-   use dondolo_json, only : json_type
-   use dondolo_kinds, only : wp
-   use dondolo_lines, only : lines_type
-   use dondolo_echo, only : echo_type
-   use dondolo_warning, only : warning_type, warnings_type
-   use dondolo_warning_sentence, only : warning_objects, warning_sentences
+   use dondolo_base_checksum, only : crc32_length, crc32_of_file
+   use dondolo_base_json, only : json_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : lines_type
+   use dondolo_case_echo, only : echo_type
+   use dondolo_case_warning, only : warning_type, warnings_type
+   use dondolo_case_warning_sentence, only : warning_objects, warning_sentences
    implicit none
 
    character(len=*), parameter :: lf = new_line('a'), scratch = 'build/test_run_file'

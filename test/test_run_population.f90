@@ -3,30 +3,30 @@
 program test_run_population
    use, intrinsic :: iso_fortran_env, only : int64
    use checks, only : check, check_error, check_ok, check_text, finish, suite
+   use dondolo_base_checksum, only : crc32_of_text
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_system, only : remove_file
+   use dondolo_base_text, only : to_text
    use dondolo_case, only : case_type
-   use dondolo_checksum, only : crc32_of_text
-   use dondolo_read_case, only : read_case
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_lines, only : lines_type
-   use dondolo_member, only : member_type
+   use dondolo_case_population_case, only : find_start, merge_population, store_path
+   use dondolo_case_read_case, only : read_case
+   use dondolo_case_reports, only : write_reports
+   use dondolo_case_result_files, only : result_files_type
+   use dondolo_case_result_tables, only : table_suffixes
+   use dondolo_case_results, only : results_type
+   use dondolo_case_run_case, only : plan_case, run_case
+   use dondolo_case_warning_sentence, only : make_sentence
+   use dondolo_case_warnings, only : scale_warning_type
+   use dondolo_fragility_study, only : study_type
+   use dondolo_motion_work, only : work_type
+   use dondolo_population_member, only : member_type
    use dondolo_population_reader, only : read_population
-   use dondolo_reports, only : write_reports
-   use dondolo_result_files, only : result_files_type
-   use dondolo_result_tables, only : table_suffixes
-   use dondolo_results, only : results_type
-   use dondolo_run_case, only : plan_case, run_case
-   use dondolo_population_case, only : find_start, merge_population, store_path
-   use dondolo_row_result, only : row_result_type
-   use dondolo_run_rows, only : run_rows
-   use dondolo_store, only : look_into_store, open_store, store_type
-   use dondolo_store_format, only : make_head
-   use dondolo_study, only : study_type
-   use dondolo_system, only : remove_file
-   use dondolo_text, only : to_text
-   use dondolo_warning_sentence, only : make_sentence
-   use dondolo_warnings, only : scale_warning_type
-   use dondolo_work, only : work_type
+   use dondolo_population_row_result, only : row_result_type
+   use dondolo_population_run_rows, only : run_rows
+   use dondolo_population_store, only : look_into_store, open_store, store_type
+   use dondolo_population_store_format, only : make_head
    implicit none
 
    character(len=*), parameter :: scratch = 'build/test_run_population', lf = new_line('a')

@@ -4,21 +4,21 @@
 !> races that happen not to spoil a text.
 program test_sentences
    use checks, only : check, finish, suite
-   use dondolo_error, only : error_type
-   use dondolo_formats, only : find_format, format_type
-   use dondolo_dates, only : find_moment
-   use dondolo_header_text, only : after, before, leading_number, squeezed
-   use dondolo_intensity, only : measure_type, new_measure
-   use dondolo_kinds, only : wp
-   use dondolo_lines, only : lines_type
-   use dondolo_metadata, only : metadata_type
-   use dondolo_numbers, only : parse_integer
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_numbers, only : parse_integer
+   use dondolo_base_plain, only : shown
+   use dondolo_base_text, only : counted, first_word, join, rounded, stripped, to_table, to_text
+   use dondolo_base_text_file, only : text_file_type
+   use dondolo_fragility_scaling, only : new_scaling, scaling_type
    use dondolo_record, only : new_record, record_type
-   use dondolo_plain, only : shown
-   use dondolo_scaling, only : new_scaling, scaling_type
-   use dondolo_text, only : counted, first_word, join, rounded, stripped, to_table, to_text
-   use dondolo_text_file, only : text_file_type
-   use dondolo_units, only : unit_factor
+   use dondolo_record_dates, only : find_moment
+   use dondolo_record_formats, only : find_format, format_type
+   use dondolo_record_header_text, only : after, before, leading_number, squeezed
+   use dondolo_record_intensity, only : measure_type, new_measure
+   use dondolo_record_metadata, only : metadata_type
+   use dondolo_record_units, only : unit_factor
    implicit none
 
    integer, parameter :: threads = 8, kinds = 10, sizes = 12

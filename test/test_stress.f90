@@ -5,14 +5,14 @@
 !> is one with a record of up to a million samples
 program test_stress
    use checks, only : check, check_ok, finish, suite
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_random, only : new_random, random_type
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
+   use dondolo_motion_response, only : response_type
+   use dondolo_motion_rk45, only : simulate_rk45
+   use dondolo_motion_solver, only : solver_type
    use dondolo_record, only : new_record, record_type
-   use dondolo_response, only : response_type
-   use dondolo_rk45, only : simulate_rk45
-   use dondolo_solver, only : solver_type
-   use dondolo_text, only : to_text
+   use dondolo_record_random, only : new_random, random_type
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    use history_properties, only : check_properties, print_extremes
    use kept_histories, only : kept_count, kept_history

@@ -5,14 +5,14 @@
 program test_supports
    use, intrinsic :: iso_fortran_env, only : real128
    use checks, only : check, check_close, check_error, check_ok, finish, suite
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
    use dondolo_building, only : building_type, diaphragm_type
-   use dondolo_error, only : error_type
-   use dondolo_floor_motion, only : filter_record
-   use dondolo_kinds, only : wp
+   use dondolo_building_floor_motion, only : filter_record
+   use dondolo_motion_response, only : response_type
+   use dondolo_motion_simulate, only : simulate
+   use dondolo_motion_solver, only : solver_type
    use dondolo_record, only : new_record, record_type
-   use dondolo_response, only : response_type
-   use dondolo_simulate, only : simulate
-   use dondolo_solver, only : solver_type
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    implicit none
 

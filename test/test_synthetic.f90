@@ -1,13 +1,13 @@
 !> Random numbers, the model of synthetic motion, and the stored suite.
 program test_synthetic
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, suite
-   use dondolo_catalogue, only : read_catalogue
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_random, only : new_random, random_type
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
    use dondolo_record, only : record_type
-   use dondolo_synthetic, only : motion_model_type, new_motion_model, synthetic_dt, synthetic_record
-   use dondolo_synthetic_suite, only : suite_record, synthetic44
+   use dondolo_record_catalogue, only : read_catalogue
+   use dondolo_record_random, only : new_random, random_type
+   use dondolo_record_synthetic, only : motion_model_type, new_motion_model, synthetic_dt, synthetic_record
+   use dondolo_record_synthetic_suite, only : suite_record, synthetic44
    implicit none
 
    real(wp), parameter :: pi = acos(-1.0_wp)

@@ -1,19 +1,19 @@
 !> After the record: the closed form of free motion against stepping on (docs/theory.md, section 4).
 program test_tail
    use checks, only : check, check_close, check_ok, finish, suite
-   use dondolo_adaptive_step, only : advance, motion_type
-   use dondolo_dormand_prince, only : angular_acceleration, excitation_type
-   use dondolo_error, only : error_type
-   use dondolo_events, only : impact, limit_reached
-   use dondolo_grip, only : grip_type
-   use dondolo_held_tail, only : held_motion
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_response, only : response_type
-   use dondolo_rk45, only : simulate_rk45
-   use dondolo_tail, only : free_motion, tail_type
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_adaptive_step, only : advance, motion_type
+   use dondolo_motion_dormand_prince, only : angular_acceleration, excitation_type
+   use dondolo_motion_events, only : impact, limit_reached
+   use dondolo_motion_grip, only : grip_type
+   use dondolo_motion_held_tail, only : held_motion
+   use dondolo_motion_response, only : response_type
+   use dondolo_motion_rk45, only : simulate_rk45
+   use dondolo_motion_tail, only : free_motion, tail_type
+   use dondolo_motion_wall_constants, only : new_wall_constants, wall_constants_type
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
-   use dondolo_wall_constants, only : new_wall_constants, wall_constants_type
+   use dondolo_wall_mechanism, only : mechanism_type
    use motion_inputs, only : a_wall, accelerogram, tight
    implicit none
 

@@ -3,7 +3,7 @@
 !> Arguments: number of random histories, and number of the first, to run one again by itself
 program test_tied_histories
    use checks, only : finish, suite
-   use dondolo_text, only : to_text
+   use dondolo_base_text, only : to_text
    use random_history, only : argument
    use tied_history, only : check_tied_history, new_tied_history, print_ties
    implicit none

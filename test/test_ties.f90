@@ -4,20 +4,20 @@
 !> 5e-5 m2/m and 8 m, 1.8e8 Pa, stressed to 3e7 Pa.
 program test_ties
    use checks, only : check, check_close, check_error, check_ok, finish, suite
-   use dondolo_error, only : error_type
-   use dondolo_grip, only : grip_type
-   use dondolo_held_tail, only : held_motion
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_random, only : new_random, random_type
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_grip, only : grip_type
+   use dondolo_motion_held_tail, only : held_motion
+   use dondolo_motion_response, only : response_type, tie_response_type, trace_type
+   use dondolo_motion_rest, only : new_rest, rest_type
+   use dondolo_motion_rk45, only : simulate_rk45
+   use dondolo_motion_solver, only : solver_type
+   use dondolo_motion_tail, only : tail_type
    use dondolo_record, only : record_type
-   use dondolo_response, only : response_type, tie_response_type, trace_type
-   use dondolo_rest, only : new_rest, rest_type
-   use dondolo_rk45, only : simulate_rk45
-   use dondolo_solver, only : solver_type
-   use dondolo_tail, only : tail_type
-   use dondolo_tie_statics, only : greatest_acceleration, plastic_acceleration
+   use dondolo_record_random, only : new_random, random_type
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
+   use dondolo_wall_mechanism, only : mechanism_type
+   use dondolo_wall_tie_statics, only : greatest_acceleration, plastic_acceleration
    use motion_inputs, only : accelerogram, tight
    implicit none
 

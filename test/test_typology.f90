@@ -1,15 +1,15 @@
 !> Curves of populations: every formula by hand on small populations, fractiles against sorting
 program test_typology
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, suite
-   use dondolo_error, only : error_type
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
    use dondolo_fragility, only : fit_fragility, fragility_type
-   use dondolo_kinds, only : wp
+   use dondolo_fragility_stripes, only : stripes_type
+   use dondolo_fragility_study, only : check_thresholds
    use dondolo_population, only : part_type, population_type
-   use dondolo_stripes, only : stripes_type
-   use dondolo_study, only : check_thresholds
-   use dondolo_text, only : to_text
-   use dondolo_typology, only : combine_population, fractile_shares, typology_type, whole_population
-   use dondolo_weights, only : weighted_fractiles, weights_of, weights_type
+   use dondolo_population_typology, only : combine_population, fractile_shares, typology_type, whole_population
+   use dondolo_population_weights, only : weighted_fractiles, weights_of, weights_type
    implicit none
 
    !> Levels of all populations here

@@ -1,12 +1,12 @@
 !> A wall that is not known for certain: distributions, variants, indices
 program test_uncertainty
    use checks, only : check, check_close, check_error, check_ok, finish, suite
-   use dondolo_distribution, only : distribution_type, new_distribution
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_sensitivity, only : new_sensitivity, sensitivity_type, smallest_sample
-   use dondolo_spelling, only : meant
-   use dondolo_variants, only : sample_variants, stated_wall_type
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_spelling, only : meant
+   use dondolo_population_distribution, only : distribution_type, new_distribution
+   use dondolo_population_sensitivity, only : new_sensitivity, sensitivity_type, smallest_sample
+   use dondolo_population_variants, only : sample_variants, stated_wall_type
    use dondolo_wall_properties, only : wall_input_type
    implicit none
 

@@ -3,20 +3,20 @@
 !> The first swings of walls with loads under both components are in test_loaded_block.
 program test_vertical
    use checks, only : check, check_close, check_error, check_ok, finish, suite
+   use dondolo_base_error, only : error_type, problems_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_settings, only : group_settings_type, new_settings
+   use dondolo_base_settings_check, only : check_settings
    use dondolo_building, only : building_type
+   use dondolo_building_floor_motion, only : filter_record
    use dondolo_building_input, only : building_properties, new_building
-   use dondolo_catalogue, only : read_catalogue
-   use dondolo_error, only : error_type, problems_type
-   use dondolo_floor_motion, only : filter_record
-   use dondolo_kinds, only : wp
+   use dondolo_motion_response, only : response_type, trace_type
+   use dondolo_motion_rest, only : new_rest, rest_type
+   use dondolo_motion_rk45, only : simulate_rk45
+   use dondolo_motion_solver, only : solver_type
    use dondolo_record, only : record_type
+   use dondolo_record_catalogue, only : read_catalogue
    use dondolo_record_set, only : new_record_set, record_set_type
-   use dondolo_response, only : response_type, trace_type
-   use dondolo_rest, only : new_rest, rest_type
-   use dondolo_rk45, only : simulate_rk45
-   use dondolo_settings, only : group_settings_type, new_settings
-   use dondolo_settings_check, only : check_settings
-   use dondolo_solver, only : solver_type
    use dondolo_wall, only : new_wall, wall_type
    use lane_runs, only : run_alone
    use motion_inputs, only : a_wall, accelerogram, made, tight

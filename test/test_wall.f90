@@ -1,12 +1,12 @@
 !> Walls against independently computed values (15 digits; docs/theory.md, sections 2 and 3).
 program test_wall
    use checks, only : check, check_close, check_error, check_ok, finish, suite
-   use dondolo_error, only : error_type
-   use dondolo_free_standing, only : housner_restitution
-   use dondolo_kinds, only : wp
-   use dondolo_one_sided, only : one_sided_restitution
-   use dondolo_two_block, only : two_block_impulse, two_block_sorrentino, two_block_type
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
+   use dondolo_wall_free_standing, only : housner_restitution
+   use dondolo_wall_one_sided, only : one_sided_restitution
+   use dondolo_wall_two_block, only : two_block_impulse, two_block_sorrentino, two_block_type
    implicit none
 
    real(wp), parameter :: tight = 1.0e-12_wp, g = 9.81_wp

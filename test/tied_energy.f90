@@ -8,13 +8,13 @@
 !>
 !> in which only q(t) is interpolated, by the polynomial of degree five through both states.
 module tied_energy
-   use dondolo_dormand_prince, only : dense_rotation, state_type
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_dormand_prince, only : dense_rotation, state_type
+   use dondolo_motion_response, only : trace_type
    use dondolo_record, only : record_type
-   use dondolo_response, only : trace_type
-   use dondolo_tie, only : tie_type
-   use dondolo_travel, only : lever, travel
+   use dondolo_wall_mechanism, only : mechanism_type
+   use dondolo_wall_tie, only : tie_type
+   use dondolo_wall_travel, only : lever, travel
    implicit none
    private
 

@@ -3,16 +3,16 @@
 module tied_history
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use checks, only : check, check_ok
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_random, only : new_random, random_type
-   use dondolo_response, only : response_type, tie_response_type, trace_type
-   use dondolo_rk45, only : simulate_rk45
-   use dondolo_solver, only : solver_type
-   use dondolo_text, only : to_text
-   use dondolo_tie, only : tie_input_type
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
+   use dondolo_motion_response, only : response_type, tie_response_type, trace_type
+   use dondolo_motion_rk45, only : simulate_rk45
+   use dondolo_motion_solver, only : solver_type
+   use dondolo_record_random, only : new_random, random_type
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
+   use dondolo_wall_mechanism, only : mechanism_type
+   use dondolo_wall_tie, only : tie_input_type
    use random_history, only : across, between, choice, history_type, random_record, random_solver
    use same_response, only : is_same
    use tied_energy, only : tied_balance_of, tied_balance_type

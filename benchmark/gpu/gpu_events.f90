@@ -1,9 +1,9 @@
-!> The first event in the step of a thread on a graphics processor, as dondolo_lane_series finds it; without recursion, for
+!> The first event in the step of a thread on a graphics processor, as dondolo_motion_lane_series finds it; without recursion, for
 !> which such a thread has no stack.
 module dondolo_gpu_events
-   use dondolo_events, only : impact, limit_reached, no_event, turning
-   use dondolo_kinds, only : wp
-   use dondolo_normal_form, only : y_limit
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_events, only : impact, limit_reached, no_event, turning
+   use dondolo_motion_normal_form, only : y_limit
    implicit none
    private
 

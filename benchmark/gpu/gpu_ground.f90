@@ -1,10 +1,10 @@
-!> The ground under a thread of a graphics processor: what dondolo_lane_ground and dondolo_rest decide from the samples of a
-!> horizontal record.
+!> The ground under a thread of a graphics processor: what dondolo_motion_lane_ground and dondolo_motion_rest decide from the
+!> samples of a horizontal record.
 module dondolo_gpu_ground
+   use dondolo_base_kinds, only : wp
    use dondolo_gpu_state, only : lanes_type
-   use dondolo_kinds, only : wp
-   use dondolo_rest, only : rest_type
-   use dondolo_step_limits, only : shortest_motion
+   use dondolo_motion_rest, only : rest_type
+   use dondolo_motion_step_limits, only : shortest_motion
    implicit none
    private
 
@@ -135,7 +135,7 @@ contains
       end if
    end subroutine leave_edge
 
-   !> Does the chain of bounces after an impact end at rest (dondolo_rest)?
+   !> Does the chain of bounces after an impact end at rest (dondolo_motion_rest)?
    pure subroutine chain_ends(rest, ground, samples, interval, time, side, speed, peak, stopper, ends)
       !$acc routine seq
       type(rest_type), intent(in) :: rest

@@ -1,16 +1,16 @@
 !> Histories on a graphics processor, a thread each: the step of the engine lanes (lane_step.inc, of one lane) and the rules of
-!> dondolo_history and dondolo_rest for walls without ties under horizontal motion.
+!> dondolo_motion_history and dondolo_motion_rest for walls without ties under horizontal motion.
 !>
 !> Compiled for each kind of normal form by itself (LANE_KIND and LANE_DEGREE, whose step is GPU_STEP), under another name.
 module dondolo_gpu_kernel
    use, intrinsic :: iso_fortran_env, only : int64
+   use dondolo_base_kinds, only : wp
    use dondolo_gpu_events, only : allowed_part, find_first, impact, limit_reached, no_event, rate, turning, value
    use dondolo_gpu_ground, only : aim, begin_at, chain_ends, find_start, ground_type, leave_edge
    use dondolo_gpu_state, only : gpu_history_type, gpu_wall_type, lane_width, lanes_type, normal_form_type
-   use dondolo_kinds, only : wp
-   use dondolo_lane_state, only : event_possible, part_if_held, record_over, step_taken, step_too_long
-   use dondolo_normal_form, only : y_limit
-   use dondolo_step_limits, only : shortest_motion, smallest_step
+   use dondolo_motion_lane_state, only : event_possible, part_if_held, record_over, step_taken, step_too_long
+   use dondolo_motion_normal_form, only : y_limit
+   use dondolo_motion_step_limits, only : shortest_motion, smallest_step
    implicit none
    private
 

@@ -1,10 +1,10 @@
 !> Walls and histories as a graphics processor keeps them: types without pointers, of which a thread has one.
 module dondolo_gpu_state
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_kinds, only : wp
-   use dondolo_lane_constants, only : lane_constants_type
-   use dondolo_normal_form, only : highest_degree, highest_harmonic
-   use dondolo_rest, only : rest_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_lane_constants, only : lane_constants_type
+   use dondolo_motion_normal_form, only : highest_degree, highest_harmonic
+   use dondolo_motion_rest, only : rest_type
    implicit none
    private
 
@@ -13,7 +13,7 @@ module dondolo_gpu_state
    !> Lanes of a thread: its one history
    integer, parameter :: lane_width = 1
 
-   !> The lane of a thread, as in dondolo_lane_state
+   !> The lane of a thread, as in dondolo_motion_lane_state
    type :: lanes_type
       real(wp), dimension(lane_width) :: y, v, time, dt, rate, u, u_next, slope, factor, span, next_span, peak, step
       real(wp), dimension(lane_width) :: heavier, heavier_next, heavier_slope, vertical_factor
@@ -21,7 +21,7 @@ module dondolo_gpu_state
       integer(int64), dimension(lane_width) :: next, last, flag
    end type lanes_type
 
-   !> The wall in normal form, as in dondolo_normal_form
+   !> The wall in normal form, as in dondolo_motion_normal_form
    type :: normal_form_type
       real(wp) :: a(0:highest_degree), b(0:highest_degree), d(0:highest_degree)
       real(wp) :: fifth_a, fifth_b, fifth_d

@@ -1,21 +1,21 @@
 !> The walls, accelerograms and levels that dondolo-gpu computes, on the processor and on a graphics processor.
 module dondolo_gpu_walls
-   use dondolo_ensemble, only : ensemble_type, run_ensemble
-   use dondolo_error, only : error_type
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
    use dondolo_gpu_ground, only : block_size
    use dondolo_gpu_state, only : gpu_history_type, gpu_wall_type, new_gpu_wall
    use dondolo_gpu_step_13, only : run_13 => run_on_gpu
    use dondolo_gpu_step_15, only : run_15 => run_on_gpu
    use dondolo_gpu_step_harmonic_10, only : run_harmonic_10 => run_on_gpu
    use dondolo_gpu_step_harmonic_16, only : run_harmonic_16 => run_on_gpu
-   use dondolo_history, only : history_type
-   use dondolo_kinds, only : wp
-   use dondolo_lane_constants, only : lane_constants_type, new_lane_constants
+   use dondolo_motion_ensemble, only : ensemble_type, run_ensemble
+   use dondolo_motion_history, only : history_type
+   use dondolo_motion_lane_constants, only : lane_constants_type, new_lane_constants
+   use dondolo_motion_response, only : response_type
+   use dondolo_motion_solver, only : solver_type
    use dondolo_record, only : record_type
-   use dondolo_response, only : response_type
-   use dondolo_solver, only : solver_type
-   use dondolo_suite, only : new_suite, suite_type
-   use dondolo_synthetic_suite, only : suite_record, synthetic44
+   use dondolo_record_suite, only : new_suite, suite_type
+   use dondolo_record_synthetic_suite, only : suite_record, synthetic44
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    implicit none
    private

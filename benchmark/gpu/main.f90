@@ -5,11 +5,11 @@ program dondolo_gpu
    use, intrinsic :: iso_fortran_env, only : error_unit, int64, output_unit
    use, intrinsic :: omp_lib, only : omp_get_max_threads
    use, intrinsic :: openacc, only : acc_device_host, acc_get_device_type
-   use dondolo_error, only : error_type
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
    use dondolo_gpu_walls, only : gpu_study_type
-   use dondolo_kinds, only : wp
-   use dondolo_response, only : response_type
-   use dondolo_text, only : to_text
+   use dondolo_motion_response, only : response_type
    use dondolo_wall, only : mechanism_names
    implicit none
 

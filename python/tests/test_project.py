@@ -90,6 +90,15 @@ def test_rooms(root, folder, rooms):
             assert known is None or rooms.index(known) <= rooms.index(room), f"{path.name} uses {name}"
 
 
+def test_modules_are_named_after_their_rooms(root):
+    """As room and file, said once: base/text/error.f90 is dondolo_base_error."""
+    folder = root / "src/dondolo"
+    for path in folder.rglob("*.[fF]90"):
+        room = path.relative_to(folder).parts[0]
+        name = path.stem if re.match(rf"{room}(_|$)", path.stem) else f"{room}_{path.stem}"
+        assert re.findall(r"^module (\w+)", path.read_text(), re.M) == [f"dondolo_{name}"]
+
+
 def test_rooms_of_motion(root):
     """The engines share a common room and do not know each other."""
     folder = root / "src/dondolo/motion"
@@ -114,14 +123,17 @@ def test_quadruple_sources(root):
     """Every module that depends on the precision is compiled a second time if one that is uses it."""
     text = (root / "src/dondolo/motion/quadruple/meson.build").read_text()
     listed = re.search(r"files\((.*?)\)", text, re.S).group(1)
-    twice = {f"dondolo_{Path(name).stem}" for name in re.findall(r"'([^']+)'", listed)}
-    uses = {
-        f"dondolo_{path.stem}": set(re.findall(r"^\s+use (dondolo_\w+)", path.read_text(), re.M))
-        for path in root.glob("src/dondolo/**/*.[fF]90")
-    }
+    stems = {Path(name).stem for name in re.findall(r"'([^']+)'", listed)}
+    twice, uses = set(), {}
+    for path in root.glob("src/dondolo/**/*.[fF]90"):
+        text = path.read_text()
+        name = re.search(r"^module (\w+)", text, re.M).group(1)
+        uses[name] = set(re.findall(r"^\s+use (dondolo_\w+)", text, re.M))
+        if path.stem in stems:
+            twice.add(name)
     needed = set().union(*(uses[name] for name in twice))
     assert len(twice) > 40
-    assert {name for name in needed - twice if "dondolo_kinds" in uses[name]} == set()
+    assert {name for name in needed - twice if "dondolo_base_kinds" in uses[name]} == set()
 
 
 def boundary(root):

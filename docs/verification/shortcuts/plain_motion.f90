@@ -4,17 +4,17 @@
 !> rocking, the chain of bounces and the free motion after the record with the library, but neither the control of
 !> the steps nor the order of operations.
 module plain_motion
-   use dondolo_bernstein, only : first_descent, nowhere
-   use dondolo_dormand_prince, only : angular_acceleration, dense_rotation, dormand_prince_step, excitation_type, &
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_bernstein, only : first_descent, nowhere
+   use dondolo_motion_dormand_prince, only : angular_acceleration, dense_rotation, dormand_prince_step, excitation_type, &
       & state_type
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
+   use dondolo_motion_response, only : response_type
+   use dondolo_motion_rest, only : bounce_type, new_rest, rest_type
+   use dondolo_motion_solver, only : solver_type
+   use dondolo_motion_step_limits, only : shortest_motion
+   use dondolo_motion_tail, only : free_motion, tail_type
    use dondolo_record, only : record_type
-   use dondolo_response, only : response_type
-   use dondolo_rest, only : bounce_type, new_rest, rest_type
-   use dondolo_solver, only : solver_type
-   use dondolo_step_limits, only : shortest_motion
-   use dondolo_tail, only : free_motion, tail_type
+   use dondolo_wall_mechanism, only : mechanism_type
    use straddling_step, only : ground_acceleration, step_over_samples
    implicit none
    private

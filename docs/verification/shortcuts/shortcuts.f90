@@ -1,13 +1,13 @@
 !> Effect of each shortcut of plain_motion on the histories of a case: `dondolo-shortcuts CASE.nml` prints a table.
 program shortcuts
    use, intrinsic :: iso_fortran_env, only : error_unit, output_unit
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
    use dondolo_case, only : case_type
-   use dondolo_read_case, only : read_case
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_response, only : response_type
-   use dondolo_study, only : study_type
-   use dondolo_text, only : to_text
+   use dondolo_case_read_case, only : read_case
+   use dondolo_fragility_study, only : study_type
+   use dondolo_motion_response, only : response_type
    use plain_motion, only : shortcut_type, simulate_plain
    implicit none
 

@@ -2,10 +2,10 @@
 !>
 !> The library's step stays within one sample interval and therefore keeps its order; this one does not.
 module straddling_step
-   use dondolo_dormand_prince, only : angular_acceleration, excitation_type
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_dormand_prince, only : angular_acceleration, excitation_type
    use dondolo_record, only : record_type
+   use dondolo_wall_mechanism, only : mechanism_type
    implicit none
    private
 

@@ -1,11 +1,11 @@
 !> What the procedures that f2py reads share: checks of what crosses, lines of text, solver and responses.
 module dondolo_boundary
    use, intrinsic :: iso_c_binding, only : c_double, c_int
-   use dondolo_error, only : error_type
-   use dondolo_lines, only : lines_type
-   use dondolo_memory, only : check_memory => check_room
-   use dondolo_response, only : response_type
-   use dondolo_solver, only : solver_type
+   use dondolo_base_error, only : error_type
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_memory, only : check_memory => check_room
+   use dondolo_motion_response, only : response_type
+   use dondolo_motion_solver, only : solver_type
    implicit none
    private
 

@@ -2,22 +2,22 @@
 module buildings
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_building_input, only : building_properties, new_building
+   use dondolo_base_error, only : error_type, problems_type, raise_input
+   use dondolo_base_property, only : is_list
+   use dondolo_base_settings, only : group_settings_type, new_settings
+   use dondolo_base_settings_check, only : check_settings
+   use dondolo_base_text, only : to_text
    use dondolo_boundary, only : check_room
    use dondolo_building, only : building_type
-   use dondolo_drift_note, only : make_drift_note
-   use dondolo_error, only : error_type, problems_type, raise_input
-   use dondolo_floor_motion, only : filter_record, floor_samples
-   use dondolo_handles, only : find_walls
+   use dondolo_building_floor_motion, only : filter_record, floor_samples
+   use dondolo_building_input, only : building_properties, new_building
+   use dondolo_fragility_drift_note, only : make_drift_note
+   use dondolo_interface_handles, only : find_walls
+   use dondolo_motion_work, only : work_type
    use dondolo_parcel, only : parcel_type, send
-   use dondolo_property, only : is_list
    use dondolo_record, only : new_record, record_type
-   use dondolo_settings, only : group_settings_type, new_settings
-   use dondolo_settings_check, only : check_settings
-   use dondolo_support_notes, only : supports_type
-   use dondolo_text, only : to_text
    use dondolo_wall, only : wall_type
-   use dondolo_work, only : work_type
+   use dondolo_wall_support_notes, only : supports_type
    implicit none
    private
 

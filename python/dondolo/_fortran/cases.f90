@@ -1,20 +1,20 @@
 !> Case files.
 module cases
    use, intrinsic :: iso_c_binding, only : c_double, c_f_pointer, c_int, c_int64_t, c_intptr_t, c_ptr
+   use dondolo_base_error, only : error_type
    use dondolo_boundary, only : check_room
    use dondolo_case, only : case_type
-   use dondolo_read_case, only : load_case => read_case
-   use dondolo_error, only : error_type
+   use dondolo_case_read_case, only : load_case => read_case
+   use dondolo_case_result_tables, only : table_suffixes
+   use dondolo_case_results, only : results_type
+   use dondolo_case_run_case, only : run => run_case
+   use dondolo_fragility_study, only : runs_of, study_type
    use dondolo_parcel, only : parcel_type, send
-   use dondolo_member, only : member_type
+   use dondolo_population_member, only : member_type
    use dondolo_population_reader, only : read_rows
    use dondolo_record_parcel, only : pack_records
-   use dondolo_result_tables, only : table_suffixes
-   use dondolo_results, only : results_type
    use dondolo_results_parcel, only : pack_results
-   use dondolo_run_case, only : run => run_case
    use dondolo_store_parcel, only : pack_store
-   use dondolo_study, only : runs_of, study_type
    use dondolo_wall_parcel, only : pack_members
    implicit none
    private

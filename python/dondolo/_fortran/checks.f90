@@ -1,21 +1,21 @@
 !> Checks by building codes, and elastic spectra.
 module checks
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use dondolo_base_error, only : error_type, problems_type
+   use dondolo_base_settings, only : group_settings_type, new_settings
    use dondolo_boundary, only : next_line
+   use dondolo_case_plausibility, only : wall_warning_type
+   use dondolo_case_warning, only : warnings_type
+   use dondolo_case_warning_sentence, only : warning_objects
+   use dondolo_check_code_spectrum, only : elastic_spectrum_type
+   use dondolo_check_floor_spectrum, only : floor_spectrum_type, new_floor_spectrum
    use dondolo_check_input, only : check_input_type, check_properties, take_check
+   use dondolo_check_kinematic, only : kinematic_type, new_kinematic
+   use dondolo_check_ntc_check, only : check_by_ntc => check_ntc, check_peaks => check_histories
    use dondolo_check_sheet, only : sheet_type
-   use dondolo_code_spectrum, only : elastic_spectrum_type
-   use dondolo_error, only : error_type, problems_type
-   use dondolo_floor_spectrum, only : floor_spectrum_type, new_floor_spectrum
-   use dondolo_handles, only : find_walls
-   use dondolo_kinematic, only : kinematic_type, new_kinematic
-   use dondolo_ntc_check, only : check_by_ntc => check_ntc, check_peaks => check_histories
+   use dondolo_interface_handles, only : find_walls
    use dondolo_parcel, only : parcel_type, report, send
-   use dondolo_plausibility, only : wall_warning_type
-   use dondolo_settings, only : group_settings_type, new_settings
    use dondolo_wall, only : wall_type
-   use dondolo_warning, only : warnings_type
-   use dondolo_warning_sentence, only : warning_objects
    implicit none
    private
 

@@ -1,24 +1,24 @@
 !> Fragility curves of walls and populations.
 module curves
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use dondolo_base_error, only : error_type
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_student, only : quantile => student_quantile
    use dondolo_boundary, only : check_room, split_lines
-   use dondolo_clustered, only : cluster_errors
-   use dondolo_error, only : error_type
+   use dondolo_case_warning, only : warnings_type
+   use dondolo_case_warning_sentence, only : warning_objects
+   use dondolo_case_warnings, only : fit_warning_type, warn_of_fit, warn_of_the_union => warn_of_union
    use dondolo_fragility, only : error_names, fit_fragility, fragility_type, status_names
-   use dondolo_handles, only : find_walls
-   use dondolo_lines, only : lines_type
-   use dondolo_ordinal, only : ordinal_fit => fit_ordinal, ordinal_errors
+   use dondolo_fragility_clustered, only : cluster_errors
+   use dondolo_fragility_ordinal, only : ordinal_fit => fit_ordinal, ordinal_errors
+   use dondolo_fragility_stripes, only : stripes_type
+   use dondolo_interface_handles, only : find_walls
    use dondolo_parcel, only : parcel_type, report, send
    use dondolo_population, only : population_type
-   use dondolo_series, only : series => in_series
-   use dondolo_stripes, only : stripes_type
-   use dondolo_student, only : quantile => student_quantile
-   use dondolo_typology, only : combine_population, typology_type
+   use dondolo_population_series, only : series => in_series
+   use dondolo_population_typology, only : combine_population, typology_type
+   use dondolo_population_weights, only : weights_of, weights_type
    use dondolo_wall, only : wall_type
-   use dondolo_warning, only : warnings_type
-   use dondolo_warning_sentence, only : warning_objects
-   use dondolo_warnings, only : fit_warning_type, warn_of_fit, warn_of_the_union => warn_of_union
-   use dondolo_weights, only : weights_of, weights_type
    implicit none
    private
 

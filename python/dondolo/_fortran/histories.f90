@@ -1,29 +1,29 @@
 !> Time histories of one wall.
 module histories
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use dondolo_base_error, only : error_type
+   use dondolo_base_interrupt, only : check_interrupt
+   use dondolo_base_memory, only : check_memory => check_room
+   use dondolo_base_threads, only : check_threads
    use dondolo_boundary, only : as_solver, check_room, unpack_response
-   use dondolo_certificate, only : certificate_type, certify_histories
-   use dondolo_ensemble, only : check_engine, ensemble_type, run_ensemble
-   use dondolo_error, only : error_type
-   use dondolo_felt_motions, only : check_scale, find_motions
-   use dondolo_floors, only : floors_type
-   use dondolo_handles, only : find_suite, find_walls
-   use dondolo_interrupt, only : check_interrupt
-   use dondolo_memory, only : check_memory => check_room
-   use dondolo_parcel, only : parcel_type, report, send
-   use dondolo_plausibility, only : wall_warning_type
-   use dondolo_record, only : record_type
-   use dondolo_response, only : response_type, trace_type
-   use dondolo_simulate, only : simulate_wall => simulate
-   use dondolo_solver, only : check_limit, check_solver, solver_type
-   use dondolo_stripes, only : stripes_type
-   use dondolo_suite, only : suite_type
-   use dondolo_threads, only : check_threads
-   use dondolo_wall, only : wall_type
-   use dondolo_warning, only : warnings_type
-   use dondolo_warning_sentence, only : warning_objects
-   use dondolo_warnings, only : scale_warning_type, sentence => warn_of_error, sentences => warn_of_errors, warn_of_fall, &
+   use dondolo_building_floors, only : floors_type
+   use dondolo_case_plausibility, only : wall_warning_type
+   use dondolo_case_warning, only : warnings_type
+   use dondolo_case_warning_sentence, only : warning_objects
+   use dondolo_case_warnings, only : scale_warning_type, sentence => warn_of_error, sentences => warn_of_errors, warn_of_fall, &
       & warn_of_records
+   use dondolo_fragility_stripes, only : stripes_type
+   use dondolo_interface_felt_motions, only : check_scale, find_motions
+   use dondolo_interface_handles, only : find_suite, find_walls
+   use dondolo_motion_certificate, only : certificate_type, certify_histories
+   use dondolo_motion_ensemble, only : check_engine, ensemble_type, run_ensemble
+   use dondolo_motion_response, only : response_type, trace_type
+   use dondolo_motion_simulate, only : simulate_wall => simulate
+   use dondolo_motion_solver, only : check_limit, check_solver, solver_type
+   use dondolo_parcel, only : parcel_type, report, send
+   use dondolo_record, only : record_type
+   use dondolo_record_suite, only : suite_type
+   use dondolo_wall, only : wall_type
    implicit none
    private
 

@@ -2,29 +2,29 @@
 !>
 !> f2py reads this and its neighbours listed in meson.build, each a module of the extension. Their arguments are flat: c_double,
 !> c_int, c_int64_t and bytes only, since f2py turns any other kind into a C float without a word. Records and walls are
-!> uploaded once and stay; other procedures take their handles (dondolo_handles). Results whose size only the library knows are
-!> sent as parcels (dondolo_parcel), which come last; where nothing is sent but an error, it is `failure`. Procedures that
+!> uploaded once and stay; other procedures take their handles (dondolo_interface_handles). Results whose size only the library
+!> knows are sent as parcels (dondolo_parcel), which come last; where nothing is sent but an error, it is `failure`. Procedures that
 !> compute release Python's lock (threadsafe); those that fill or empty a handle hold it.
 module library
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t, c_intptr_t
    use, intrinsic :: omp_lib, only : omp_set_max_active_levels
-   use dondolo_clustered, only : fewest_clusters
-   use dondolo_distribution, only : least_share
-   use dondolo_error, only : error_type, raise_input
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_interrupt, only : begin => listen, finish => end_listening
+   use dondolo_base_limits, only : longest_name
+   use dondolo_base_plain, only : name_problem, shown
+   use dondolo_base_property, only : describe_property, property_type
+   use dondolo_base_text, only : join
+   use dondolo_base_threads, only : threads_here => available_threads
+   use dondolo_base_version, only : dondolo_version_text
+   use dondolo_case_property_tables, only : property_table, table_names
    use dondolo_fragility, only : error_names, least_ratio, status_names, statuses_with_curve
-   use dondolo_handles, only : release
-   use dondolo_interrupt, only : begin => listen, finish => end_listening
-   use dondolo_lane_variants, only : build_variant, check_variant
-   use dondolo_limits, only : longest_name
+   use dondolo_fragility_clustered, only : fewest_clusters
+   use dondolo_fragility_study, only : same_level
+   use dondolo_interface_handles, only : release
+   use dondolo_motion_lane_variants, only : build_variant, check_variant
+   use dondolo_motion_solver, only : solver_type
    use dondolo_parcel, only : parcel_type, report, send, take, take_next => take_series
-   use dondolo_plain, only : name_problem, shown
-   use dondolo_property, only : describe_property, property_type
-   use dondolo_property_tables, only : property_table, table_names
-   use dondolo_solver, only : solver_type
-   use dondolo_study, only : same_level
-   use dondolo_text, only : join
-   use dondolo_threads, only : threads_here => available_threads
-   use dondolo_version, only : dondolo_version_text
+   use dondolo_population_distribution, only : least_share
    use dondolo_wall, only : standard_gravity
    implicit none
    private

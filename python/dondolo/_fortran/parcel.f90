@@ -5,8 +5,8 @@
 !> them in the same order, after all else, and the parcel is freed with the last.
 module dondolo_parcel
    use, intrinsic :: iso_c_binding, only : c_double, c_f_pointer, c_int, c_int64_t, c_intptr_t, c_loc, c_ptr
-   use dondolo_error, only : error_type
-   use dondolo_lines, only : lines_type
+   use dondolo_base_error, only : error_type
+   use dondolo_base_lines, only : lines_type
    implicit none
    private
 

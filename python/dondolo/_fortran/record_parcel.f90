@@ -2,8 +2,8 @@
 !> samples of those vertical components that there are.
 module dondolo_record_parcel
    use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use dondolo_base_error, only : error_type
    use dondolo_boundary, only : check_room, next_line
-   use dondolo_error, only : error_type
    use dondolo_parcel, only : parcel_type
    use dondolo_record, only : record_type
    implicit none

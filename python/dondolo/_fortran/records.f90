@@ -1,33 +1,33 @@
 !> Records: uploading, measuring, reading and making them.
 module records
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use dondolo_base_csv_row, only : cell_type
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_number_table, only : read_table => read_number_table
+   use dondolo_base_text, only : to_text
+   use dondolo_base_threads, only : check_threads
    use dondolo_boundary, only : check_room, next_line
-   use dondolo_catalogue, only : read_catalogue, record_rows_type
-   use dondolo_clusters, only : cluster_label
-   use dondolo_csv_row, only : cell_type
-   use dondolo_dead_channel, only : check_motion, check_vertical_motion
-   use dondolo_earthquake, only : find_date, find_earthquake
-   use dondolo_energy_measures, only : times_of => significant_times
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_ground_motion, only : velocity_of => ground_velocity
-   use dondolo_handles, only : find_suite, hold, records_type
-   use dondolo_intensity, only : measure_type, new_measure
-   use dondolo_kinds, only : wp
-   use dondolo_lines, only : lines_type
-   use dondolo_metadata, only : metadata_type
-   use dondolo_number_table, only : read_table => read_number_table
+   use dondolo_fragility_scaling, only : new_scaling, scaling_type
+   use dondolo_interface_handles, only : find_suite, hold, records_type
    use dondolo_parcel, only : parcel_type, report, send
-   use dondolo_reading_notes, only : list_reading_notes
    use dondolo_record, only : new_record, record_type
+   use dondolo_record_catalogue, only : read_catalogue, record_rows_type
+   use dondolo_record_clusters, only : cluster_label
+   use dondolo_record_dead_channel, only : check_motion, check_vertical_motion
+   use dondolo_record_earthquake, only : find_date, find_earthquake
+   use dondolo_record_energy_measures, only : times_of => significant_times
+   use dondolo_record_ground_motion, only : velocity_of => ground_velocity
+   use dondolo_record_intensity, only : measure_type, new_measure
+   use dondolo_record_metadata, only : metadata_type
    use dondolo_record_parcel, only : pack_records, set_labels, set_records
    use dondolo_record_reader, only : read_all => read_records, read_record
+   use dondolo_record_reading_notes, only : list_reading_notes
+   use dondolo_record_response_spectrum, only : largest_period, smallest_period, spectral_displacement
+   use dondolo_record_suite, only : make_suite => new_suite, suite_type
+   use dondolo_record_synthetic, only : make_record => synthetic_record
    use dondolo_record_table, only : record_table
-   use dondolo_response_spectrum, only : largest_period, smallest_period, spectral_displacement
-   use dondolo_scaling, only : new_scaling, scaling_type
-   use dondolo_suite, only : make_suite => new_suite, suite_type
-   use dondolo_synthetic, only : make_record => synthetic_record
-   use dondolo_text, only : to_text
-   use dondolo_threads, only : check_threads
    implicit none
    private
 

@@ -1,16 +1,16 @@
 !> Results of a case, on their way to Python: the tables of its files as columns, and the text of the file of the run.
 module dondolo_results_parcel
    use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
    use dondolo_boundary, only : check_room
    use dondolo_case, only : case_type
-   use dondolo_columns, only : columns_type, text_column
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
+   use dondolo_case_columns, only : columns_type, text_column
+   use dondolo_case_result_files, only : written_type
+   use dondolo_case_result_tables, only : list_tables, table_kind_type
+   use dondolo_case_results, only : results_type
+   use dondolo_case_run_file, only : make_run
    use dondolo_parcel, only : parcel_type
-   use dondolo_result_files, only : written_type
-   use dondolo_result_tables, only : list_tables, table_kind_type
-   use dondolo_results, only : results_type
-   use dondolo_run_file, only : make_run
    implicit none
    private
 

@@ -1,12 +1,12 @@
 !> What a store holds of a population, on its way to Python.
 module dondolo_store_parcel
    use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use dondolo_base_error, only : error_type
    use dondolo_boundary, only : check_room
-   use dondolo_error, only : error_type
+   use dondolo_fragility_tie_tallies, only : tie_tally_type
    use dondolo_parcel, only : parcel_type
-   use dondolo_row_result, only : bytes_of_flags, pack_flags, row_result_type
-   use dondolo_store, only : store_type
-   use dondolo_tie_tallies, only : tie_tally_type
+   use dondolo_population_row_result, only : bytes_of_flags, pack_flags, row_result_type
+   use dondolo_population_store, only : store_type
    implicit none
    private
 

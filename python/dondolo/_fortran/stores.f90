@@ -2,20 +2,20 @@
 module stores
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use, intrinsic :: iso_fortran_env, only : int64
+   use dondolo_base_error, only : error_type, raise_failure
+   use dondolo_base_fingerprint, only : fingerprint_type
+   use dondolo_base_interrupt, only : check_interrupt
    use dondolo_boundary, only : check_room
-   use dondolo_error, only : error_type, raise_failure
-   use dondolo_fingerprint, only : fingerprint_type
-   use dondolo_handles, only : find_store, find_study, find_walls, hold, release
-   use dondolo_identity, only : add_wall, study_identity
-   use dondolo_interrupt, only : check_interrupt
+   use dondolo_fragility_study, only : study_type
+   use dondolo_interface_handles, only : find_store, find_study, find_walls, hold, release
    use dondolo_parcel, only : parcel_type, report, send
-   use dondolo_member, only : member_type
-   use dondolo_row_result, only : row_result_type, shape_type
-   use dondolo_run_rows, only : run_block => run_rows
-   use dondolo_store, only : open_file => open_store, store_type
+   use dondolo_population_identity, only : add_wall, study_identity
+   use dondolo_population_member, only : member_type
+   use dondolo_population_row_result, only : row_result_type, shape_type
+   use dondolo_population_run_rows, only : run_block => run_rows
+   use dondolo_population_store, only : open_file => open_store, store_type
+   use dondolo_population_store_format, only : bytes_of_entry, identity_type, pack_entry, unpack_entries
    use dondolo_store_parcel, only : pack_store
-   use dondolo_store_format, only : bytes_of_entry, identity_type, pack_entry, unpack_entries
-   use dondolo_study, only : study_type
    use dondolo_wall, only : wall_type
    implicit none
    private

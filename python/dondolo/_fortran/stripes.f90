@@ -1,27 +1,27 @@
 !> Studies, and the multiple stripes of walls under them.
 module stripes
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use dondolo_base_error, only : add_place, error_type
+   use dondolo_base_interrupt, only : check_interrupt, watch, watched
+   use dondolo_base_text, only : to_text
+   use dondolo_base_threads, only : check_threads, team_of
    use dondolo_boundary, only : as_solver, check_room, unpack_response
-   use dondolo_catalogue, only : record_rows_type
-   use dondolo_ensemble, only : ensemble_type
-   use dondolo_error, only : add_place, error_type
-   use dondolo_even_levels, only : settle_levels
-   use dondolo_handles, only : find_study, find_suite, find_walls, held_study_type, hold
-   use dondolo_interrupt, only : check_interrupt, watch, watched
+   use dondolo_case_plausibility, only : wall_warning_type
+   use dondolo_case_warning, only : warnings_type
+   use dondolo_case_warning_sentence, only : warning_objects
+   use dondolo_case_warnings, only : scale_warning_type, warn_of_events, warn_of_records
+   use dondolo_fragility_even_levels, only : settle_levels
+   use dondolo_fragility_scaling, only : new_scaling, scaling_type, unscaled
+   use dondolo_fragility_stripes, only : histories_of, plan_stripes, run_part, stripes_type
+   use dondolo_fragility_study, only : make_study => new_study, study_type
+   use dondolo_interface_handles, only : find_study, find_suite, find_walls, held_study_type, hold
+   use dondolo_motion_ensemble, only : ensemble_type
+   use dondolo_motion_solver, only : check_limit
+   use dondolo_motion_work, only : work_type
    use dondolo_parcel, only : parcel_type, report, send
-   use dondolo_plausibility, only : wall_warning_type
-   use dondolo_scaling, only : new_scaling, scaling_type, unscaled
-   use dondolo_solver, only : check_limit
-   use dondolo_stripes, only : histories_of, plan_stripes, run_part, stripes_type
-   use dondolo_study, only : make_study => new_study, study_type
-   use dondolo_suite, only : suite_type
-   use dondolo_text, only : to_text
-   use dondolo_threads, only : check_threads, team_of
+   use dondolo_record_catalogue, only : record_rows_type
+   use dondolo_record_suite, only : suite_type
    use dondolo_wall, only : wall_type
-   use dondolo_warning, only : warnings_type
-   use dondolo_warning_sentence, only : warning_objects
-   use dondolo_warnings, only : scale_warning_type, warn_of_events, warn_of_records
-   use dondolo_work, only : work_type
    implicit none
    private
 

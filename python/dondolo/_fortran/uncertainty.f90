@@ -1,14 +1,14 @@
 !> What the uncertainty of a model is made of.
 module uncertainty
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use dondolo_base_error, only : error_type
    use dondolo_boundary, only : check_room
-   use dondolo_error, only : error_type
-   use dondolo_handles, only : find_walls
+   use dondolo_interface_handles, only : find_walls
    use dondolo_parcel, only : parcel_type, report, send
-   use dondolo_restitution, only : published_factors
-   use dondolo_sensitivity, only : new_sensitivity, sensitivity_type, smallest => smallest_sample
-   use dondolo_tested_restitution, only : check_published, make_restitution_sentence
+   use dondolo_population_sensitivity, only : new_sensitivity, sensitivity_type, smallest => smallest_sample
    use dondolo_wall, only : wall_type
+   use dondolo_wall_restitution, only : published_factors
+   use dondolo_wall_tested_restitution, only : check_published, make_restitution_sentence
    implicit none
    private
 

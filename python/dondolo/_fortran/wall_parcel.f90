@@ -1,15 +1,15 @@
 !> Walls across the boundary: a line for each text and numbers with a mask of those given, in the order of their table.
 module dondolo_wall_parcel
    use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use dondolo_base_error, only : add_place, error_type, raise_input
+   use dondolo_base_property, only : is_list, is_text, is_words
+   use dondolo_base_text, only : to_text
    use dondolo_boundary, only : check_room, next_line
-   use dondolo_error, only : add_place, error_type, raise_input
+   use dondolo_interface_wall_statics, only : static_names, statics_of
    use dondolo_parcel, only : parcel_type
-   use dondolo_member, only : member_type
-   use dondolo_property, only : is_list, is_text, is_words
-   use dondolo_text, only : to_text
+   use dondolo_population_member, only : member_type
    use dondolo_wall, only : new_wall, wall_type
    use dondolo_wall_properties, only : wall_input_type, wall_numbers, wall_properties
-   use dondolo_wall_statics, only : static_names, statics_of
    implicit none
    private
 

@@ -1,17 +1,17 @@
 !> Walls: uploading, describing and reading them.
 module walls
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_text, only : to_text
    use dondolo_boundary, only : check_room
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_handles, only : find_walls, hold, walls_type
-   use dondolo_mechanism, only : mechanism_type
+   use dondolo_interface_handles, only : find_walls, hold, walls_type
    use dondolo_parcel, only : parcel_type, report, send
-   use dondolo_member, only : member_type
+   use dondolo_population_member, only : member_type
    use dondolo_population_reader, only : read_population
-   use dondolo_text, only : to_text
-   use dondolo_tie_statics, only : ties_after
    use dondolo_wall, only : wall_type
+   use dondolo_wall_mechanism, only : mechanism_type
    use dondolo_wall_parcel, only : pack_members, pack_walls, set_walls
+   use dondolo_wall_tie_statics, only : ties_after
    implicit none
    private
 

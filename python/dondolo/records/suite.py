@@ -191,7 +191,7 @@ def intensities(records: tuple[Motion, ...], im: str, gravity: float | None = No
 
 
 def labels_of(metadata: Mapping[str, str]) -> Labels:
-    """What metadata say of the earthquake of a record (dondolo_earthquake)."""
+    """What metadata say of the earthquake of a record (dondolo_record_earthquake)."""
     known = {key: _one_line(metadata[key]) for key in _LABELS if key in metadata}
     if not known:
         return Labels("", "", "")
@@ -210,7 +210,7 @@ def _one_line(text: str) -> str:
 
 
 def check_motions(records: tuple[Motion, ...]) -> None:
-    """Refuse records without motion, as analyses at levels do (dondolo_dead_channel)."""
+    """Refuse records without motion, as analyses at levels do (dondolo_record_dead_channel)."""
     suite = upload(records)
     check(_core.records.check_motions(suite.number))
 

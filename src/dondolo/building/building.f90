@@ -1,7 +1,7 @@
 !> A building that a wall stands on and leans on: linear, its modes by period, damping and participation at the base of the
 !> wall and at its top, where a flexible diaphragm may hold it (docs/theory.md, section 1).
 module dondolo_building
-   use dondolo_kinds, only : pi, wp
+   use dondolo_base_kinds, only : pi, wp
    implicit none
    private
 

@@ -1,11 +1,11 @@
 !> What a user says of a building: the rows of its properties, and the building that follows.
 module dondolo_building_input
+   use dondolo_base_error, only : problems_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_property, only : is_integer, is_list, property_type
+   use dondolo_base_settings, only : settings_type
+   use dondolo_base_text, only : to_text
    use dondolo_building, only : building_type, diaphragm_type, most_parts
-   use dondolo_error, only : problems_type
-   use dondolo_kinds, only : wp
-   use dondolo_property, only : is_integer, is_list, property_type
-   use dondolo_settings, only : settings_type
-   use dondolo_text, only : to_text
    implicit none
    private
 

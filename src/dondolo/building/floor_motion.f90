@@ -6,14 +6,14 @@
 !>
 !> With k and tau of the wall, a_base and a_top the accelerations of its supports and delta their relative displacement, it is
 !> a_base + k (a_top - a_base) - tau delta.
-module dondolo_floor_motion
+module dondolo_building_floor_motion
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : pi, wp
+   use dondolo_base_limits, only : most_samples
+   use dondolo_base_text, only : to_text
    use dondolo_building, only : building_type
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_kinds, only : pi, wp
-   use dondolo_limits, only : most_samples
+   use dondolo_building_swing, only : swing_type
    use dondolo_record, only : find_extremes, record_type
-   use dondolo_swing, only : swing_type
-   use dondolo_text, only : to_text
    implicit none
    private
 
@@ -321,4 +321,4 @@ contains
       end do
    end function exponential
 
-end module dondolo_floor_motion
+end module dondolo_building_floor_motion

@@ -2,20 +2,20 @@
 !> needed and kept while there is room. Walls that feel one building otherwise share how it swings.
 !>
 !> Any number of threads may take motions at once. Those that a thread has taken stay until it gives them back.
-module dondolo_floors
+module dondolo_building_floors
    use, intrinsic :: iso_fortran_env, only : int64
    use, intrinsic :: omp_lib, only : omp_init_lock, omp_lock_kind, omp_set_lock, omp_unset_lock
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_limits, only : most_samples
+   use dondolo_base_memory, only : check_room
+   use dondolo_base_text, only : to_text
+   use dondolo_base_threads, only : largest_threads, team_of
    use dondolo_building, only : building_type
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_floor_motion, only : floor_samples, mix_swing, new_swing
-   use dondolo_kinds, only : wp
-   use dondolo_limits, only : most_samples
-   use dondolo_memory, only : check_room
+   use dondolo_building_floor_motion, only : floor_samples, mix_swing, new_swing
+   use dondolo_building_swing, only : swing_type
    use dondolo_record, only : record_type
-   use dondolo_suite, only : new_motions, suite_type
-   use dondolo_swing, only : swing_type
-   use dondolo_text, only : to_text
-   use dondolo_threads, only : largest_threads, team_of
+   use dondolo_record_suite, only : new_motions, suite_type
    implicit none
    private
 
@@ -131,14 +131,14 @@ contains
       !> The place
       integer, intent(out) :: place
 
-      !$omp critical (dondolo_floors)
+      !$omp critical (dondolo_building_floors)
       if (.not. allocated(self%floor)) allocate (self%floor(4*largest_threads))
       place = find_floor(self, building, ground, is_swing)
       if (place == 0) call find_room(self, building, ground, is_swing, place)
       self%taken = self%taken + 1
       self%floor(place)%taken = self%taken
       self%floor(place)%users = self%floor(place)%users + 1
-      !$omp end critical (dondolo_floors)
+      !$omp end critical (dondolo_building_floors)
    end subroutine take_place
 
    !> Give motions back
@@ -147,9 +147,9 @@ contains
       !> As take gave it
       integer, intent(in) :: place
 
-      !$omp critical (dondolo_floors)
+      !$omp critical (dondolo_building_floors)
       self%floor(place)%users = self%floor(place)%users - 1
-      !$omp end critical (dondolo_floors)
+      !$omp end critical (dondolo_building_floors)
    end subroutine give_back
 
    !> Place of a floor, or of how a building swings; 0: it is not there
@@ -307,4 +307,4 @@ contains
       !$omp end parallel do
    end subroutine make_swing
 
-end module dondolo_floors
+end module dondolo_building_floors

@@ -1,6 +1,6 @@
 !> How a building swings under a record, before any wall feels it.
-module dondolo_swing
-   use dondolo_kinds, only : wp
+module dondolo_building_swing
+   use dondolo_base_kinds, only : wp
    implicit none
    private
 
@@ -19,4 +19,4 @@ module dondolo_swing
       real(wp), allocatable :: largest(:)
    end type swing_type
 
-end module dondolo_swing
+end module dondolo_building_swing

@@ -1,12 +1,12 @@
 !> What a user says of a check by a building code: the site's hazard, and what the code leaves to the engineer.
 module dondolo_check_input
-   use dondolo_code_spectrum, only : elastic_spectrum_type, ntc_spectrum, soil_names, topography_names
-   use dondolo_error, only : problems_type
-   use dondolo_kinds, only : wp
-   use dondolo_property, only : blank, choices_length, is_list, is_text, most_choices, property_type
-   use dondolo_settings, only : settings_type
-   use dondolo_settings_check, only : check_settings
-   use dondolo_text, only : to_text
+   use dondolo_base_error, only : problems_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_property, only : blank, choices_length, is_list, is_text, most_choices, property_type
+   use dondolo_base_settings, only : settings_type
+   use dondolo_base_settings_check, only : check_settings
+   use dondolo_base_text, only : to_text
+   use dondolo_check_code_spectrum, only : elastic_spectrum_type, ntc_spectrum, soil_names, topography_names
    implicit none
    private
 

@@ -1,6 +1,6 @@
 !> The sheet of a check: every number with its name, symbol, formula and unit, in the order of the calculation.
 module dondolo_check_sheet
-   use dondolo_kinds, only : wp
+   use dondolo_base_kinds, only : wp
    implicit none
    private
 

@@ -5,8 +5,8 @@
 !>     T_B <= T < T_C:    S_e = a_g S eta F_0
 !>     T_C <= T < T_D:    S_e = a_g S eta F_0 T_C/T
 !>     T_D <= T:          S_e = a_g S eta F_0 T_C T_D/T^2
-module dondolo_code_spectrum
-   use dondolo_kinds, only : wp
+module dondolo_check_code_spectrum
+   use dondolo_base_kinds, only : wp
    implicit none
    private
 
@@ -103,4 +103,4 @@ contains
       acceleration = self%pga*acceleration
    end function acceleration
 
-end module dondolo_code_spectrum
+end module dondolo_check_code_spectrum

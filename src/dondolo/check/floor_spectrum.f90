@@ -10,9 +10,9 @@
 !>
 !> The text gives xi_k in per cent. That is right in a_Zk; in amp it would make resonance smaller than the motion of the
 !> floor (amp = 0.43 at 5 %), so that xi_k is a fraction there (amp = 4.3).
-module dondolo_floor_spectrum
-   use dondolo_code_spectrum, only : damping_factor, elastic_spectrum_type
-   use dondolo_kinds, only : wp
+module dondolo_check_floor_spectrum
+   use dondolo_base_kinds, only : wp
+   use dondolo_check_code_spectrum, only : damping_factor, elastic_spectrum_type
    implicit none
    private
 
@@ -115,4 +115,4 @@ contains
          & self%acceleration(first, damping)*gravity*(upper*first/turn)**2)
    end function displacement
 
-end module dondolo_floor_spectrum
+end module dondolo_check_floor_spectrum

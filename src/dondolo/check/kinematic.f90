@@ -3,7 +3,7 @@
 !>
 !> P_k are weights carried by the wall, its own among them, Q_k those of masses that it only pushes. All of both stand in the
 !> denominator, whatever inertia the time histories give a load. X and Y are the horizontal and vertical levers of
-!> dondolo_loaded_block, H thrusts; springs, and thrusts that decay, enter through the restoring moment:
+!> dondolo_wall_loaded_block, H thrusts; springs, and thrusts that decay, enter through the restoring moment:
 !>
 !>     alpha(q) = [sum P Y - sum H X + sum T X ...]/sum (P + Q) X      alpha_0 = alpha(0)                 C8.7.1.1
 !>     M* = [sum (P + Q) z]^2/[g sum (P + Q) z^2]                 e* = g M*/sum (P + Q)                   C8.7.1.5
@@ -14,13 +14,13 @@
 !> of it; alpha vanishes at the capacity of the wall without them, since they do not act up to collapse.
 !>
 !> The masonry is one block: a point at its centroid C, as the Circolare has it.
-module dondolo_kinematic
-   use dondolo_error, only : error_type, problems_type, raise_input
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_tie_statics, only : hold_plastic
+module dondolo_check_kinematic
+   use dondolo_base_error, only : error_type, problems_type, raise_input
+   use dondolo_base_kinds, only : wp
    use dondolo_wall, only : wall_type
    use dondolo_wall_body, only : read_wall_body, wall_body_type
+   use dondolo_wall_mechanism, only : mechanism_type
+   use dondolo_wall_tie_statics, only : hold_plastic
    implicit none
    private
 
@@ -224,4 +224,4 @@ contains
       a = self%multiplier_at(self%rotation(d))*self%gravity/(self%mass_ratio*knowledge_factor)
    end function capacity
 
-end module dondolo_kinematic
+end module dondolo_check_kinematic

@@ -10,13 +10,13 @@
 !>
 !> The a_g that a wall withstands is the site's, scaled until capacity and demand are equal; shape and soil factor of the spectrum
 !> stay. That of the nonlinear check is not below the one that starts the mechanism.
-module dondolo_ntc_check
+module dondolo_check_ntc_check
+   use dondolo_base_kinds, only : wp
+   use dondolo_check_floor_spectrum, only : floor_spectrum_type, new_floor_spectrum
    use dondolo_check_input, only : check_input_type, state_names
+   use dondolo_check_kinematic, only : kinematic_type
    use dondolo_check_sheet, only : sheet_type
-   use dondolo_floor_spectrum, only : floor_spectrum_type, new_floor_spectrum
    use dondolo_fragility, only : fragility_type
-   use dondolo_kinds, only : wp
-   use dondolo_kinematic, only : kinematic_type
    implicit none
    private
 
@@ -244,4 +244,4 @@ contains
       call sheet%add('dynamic', name, 'verified', merge(1.0_wp, 0.0_wp, beyond == 0 .and. mean <= allowed), 'C8.7.1.2.1.9')
    end subroutine check_histories
 
-end module dondolo_ntc_check
+end module dondolo_check_ntc_check

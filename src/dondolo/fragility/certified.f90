@@ -1,18 +1,18 @@
 !> Certified stripes: every history whose estimated error leaves a doubt is run again in 33 digits, and counts with what it
 !> comes to there (docs/certification.md).
-module dondolo_certified
-   use dondolo_certificate, only : certificate_type, certified_type, certify_histories, in_double
-   use dondolo_ensemble, only : ensemble_type
-   use dondolo_error, only : error_type
-   use dondolo_floors, only : floors_type
+module dondolo_fragility_certified
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_memory, only : check_room
+   use dondolo_building_floors, only : floors_type
    use dondolo_fragility, only : fit_fragility, fragility_type
-   use dondolo_kinds, only : wp
-   use dondolo_memory, only : check_room
-   use dondolo_ordinal, only : fit_ordinal
-   use dondolo_queue, only : progress_interface
-   use dondolo_stripes, only : stripes_type, take_motions
-   use dondolo_study, only : study_type
-   use dondolo_suite, only : suite_type
+   use dondolo_fragility_ordinal, only : fit_ordinal
+   use dondolo_fragility_stripes, only : stripes_type, take_motions
+   use dondolo_fragility_study, only : study_type
+   use dondolo_motion_certificate, only : certificate_type, certified_type, certify_histories, in_double
+   use dondolo_motion_ensemble, only : ensemble_type
+   use dondolo_motion_queue, only : progress_interface
+   use dondolo_record_suite, only : suite_type
    use dondolo_wall, only : wall_type
    implicit none
    private
@@ -137,4 +137,4 @@ contains
 
    end subroutine bound_states
 
-end module dondolo_certified
+end module dondolo_fragility_certified

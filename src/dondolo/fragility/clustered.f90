@@ -10,11 +10,11 @@
 !> (Liang and Zeger 1986; Mancl and DeRouen 2001, Biometrics 57, 126-134), the sandwich estimator in which (I - I_g)^-1 s_g
 !> is the change of b if the cluster is left out, to first order. Intervals use Student's t with one degree of freedom
 !> less than there are clusters. docs/uncertainty.md compares it with others.
-module dondolo_clustered
+module dondolo_fragility_clustered
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lapack, only : solve_symmetric
+   use dondolo_base_student, only : student_quantile
    use dondolo_fragility, only : fragility_type, mills, normal_cdf
-   use dondolo_kinds, only : wp
-   use dondolo_lapack, only : solve_symmetric
-   use dondolo_student, only : student_quantile
    implicit none
    private
 
@@ -167,4 +167,4 @@ contains
       determinant = matrix(1, 1)*matrix(2, 2) - matrix(1, 2)**2
    end function determinant
 
-end module dondolo_clustered
+end module dondolo_fragility_clustered

@@ -1,9 +1,9 @@
 !> How far supports of a wall may drift apart, and what a run says of histories in which they drift further.
-module dondolo_drift_note
+module dondolo_fragility_drift_note
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_kinds, only : wp
-   use dondolo_text, only : rounded, to_text
-   use dondolo_work, only : work_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : rounded, to_text
+   use dondolo_motion_work, only : work_type
    implicit none
    private
 
@@ -42,4 +42,4 @@ contains
       text = trim(adjustl(percent))//' %, '//to_text(part)//' of '//to_text(whole)
    end function share_of
 
-end module dondolo_drift_note
+end module dondolo_fragility_drift_note

@@ -1,7 +1,7 @@
 !> Equally spaced levels: one rule for first, last and count of a case and for lists that are equally spaced but for rounding,
 !> such as numpy.linspace gives, so that both are the same numbers to the last bit.
-module dondolo_even_levels
-   use dondolo_kinds, only : wp
+module dondolo_fragility_even_levels
+   use dondolo_base_kinds, only : wp
    implicit none
    private
 
@@ -81,4 +81,4 @@ contains
       read (buffer, *) rounded
    end function decimal
 
-end module dondolo_even_levels
+end module dondolo_fragility_even_levels

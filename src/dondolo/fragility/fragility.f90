@@ -6,10 +6,10 @@
 !> survivals overlap and collapses become more frequent; otherwise there is a status and no number
 !> (docs/theory.md, section 6).
 module dondolo_fragility
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_kinds, only : wp
-   use dondolo_lapack, only : invert_symmetric, solve_symmetric
-   use dondolo_text, only : to_text
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lapack, only : invert_symmetric, solve_symmetric
+   use dondolo_base_text, only : to_text
    implicit none
    private
 
@@ -25,7 +25,7 @@ module dondolo_fragility
    !> degree of freedom
    real(wp), parameter :: least_ratio = 3.841458820694124_wp
 
-   !> What the standard errors of a curve are: those of independent histories, or of clusters of them (dondolo_clustered);
+   !> What the standard errors of a curve are: those of independent histories, or of clusters of them (dondolo_fragility_clustered);
    !> the others have none, for too few clusters of records, or walls of a population, or since one of them determines
    !> the curve
    character(len=12), parameter :: error_names(6) = [character(len=12) :: 'naive', 'clustered', 'few_clusters', &

@@ -6,13 +6,13 @@
 !> next, and concave in ln theta_k/beta and 1/beta (Pratt 1981, J. Am. Stat. Assoc. 76, 103-106). States that none or
 !> all of the histories reach have no curve, as in a fit of their own; states that the same histories reach share one. A
 !> state for which reaching and not reaching do not overlap has a curve if that of another makes the slope finite.
-module dondolo_ordinal
-   use dondolo_clustered, only : cluster_errors, fewest_clusters
-   use dondolo_error, only : error_type, raise_input
+module dondolo_fragility_ordinal
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lapack, only : invert_symmetric, solve_symmetric
+   use dondolo_base_text, only : to_text
    use dondolo_fragility, only : fit_fragility, fragility_type, is_flat, log_normal_cdf, mills
-   use dondolo_kinds, only : wp
-   use dondolo_lapack, only : invert_symmetric, solve_symmetric
-   use dondolo_text, only : to_text
+   use dondolo_fragility_clustered, only : cluster_errors, fewest_clusters
    implicit none
    private
 
@@ -425,4 +425,4 @@ contains
       call solve_symmetric(less, zeros, solution, is_definite)
    end function is_definite
 
-end module dondolo_ordinal
+end module dondolo_fragility_ordinal

@@ -2,11 +2,11 @@
 !>
 !> Of a rigid block, the PGA over the acceleration at which rocking starts, and p PGV over it, govern rocking and
 !> overturning (Giouvanidis and Dimitrakopoulos 2018; Dimitrakopoulos and Paraskeva 2015).
-module dondolo_scaling
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_intensity, only : im_help, measure_type, new_measure, refuse_measure
-   use dondolo_kinds, only : wp
-   use dondolo_text, only : join, lower
+module dondolo_fragility_scaling
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : join, lower
+   use dondolo_record_intensity, only : im_help, measure_type, new_measure, refuse_measure
    use dondolo_wall, only : wall_type
    implicit none
    private
@@ -166,4 +166,4 @@ contains
       title = words_of(self)
    end function title
 
-end module dondolo_scaling
+end module dondolo_fragility_scaling

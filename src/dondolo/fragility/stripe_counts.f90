@@ -1,11 +1,11 @@
 !> What stripes come to: how many histories reach each EDP threshold at each level, and the curves fitted to them.
-module dondolo_stripe_counts
-   use dondolo_clustered, only : cluster_errors
-   use dondolo_error, only : error_type
+module dondolo_fragility_stripe_counts
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
    use dondolo_fragility, only : fit_fragility, fragility_type
-   use dondolo_kinds, only : wp
-   use dondolo_ordinal, only : fit_ordinal, ordinal_errors
-   use dondolo_stripes, only : stripes_type
+   use dondolo_fragility_clustered, only : cluster_errors
+   use dondolo_fragility_ordinal, only : fit_ordinal, ordinal_errors
+   use dondolo_fragility_stripes, only : stripes_type
    implicit none
    private
 
@@ -75,4 +75,4 @@ contains
       end do
    end subroutine counts_of
 
-end module dondolo_stripe_counts
+end module dondolo_fragility_stripe_counts

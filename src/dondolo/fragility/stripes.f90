@@ -1,23 +1,23 @@
 !> Multiple stripe analysis: records at levels of intensity, and who collapses. Every record runs at every level, unless
 !> each level has records of its own.
 !>
-!> Section 3.3 of Nale et al. The histories of a wall run together, on several threads (dondolo_ensemble).
-module dondolo_stripes
+!> Section 3.3 of Nale et al. The histories of a wall run together, on several threads (dondolo_motion_ensemble).
+module dondolo_fragility_stripes
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_certificate, only : certified_type
-   use dondolo_drift_note, only : largest_drift
-   use dondolo_ensemble, only : ensemble_type, run_ensemble
-   use dondolo_error, only : error_type
-   use dondolo_floors, only : floors_type
-   use dondolo_kinds, only : wp
-   use dondolo_memory, only : check_room
-   use dondolo_queue, only : progress_interface
-   use dondolo_response, only : response_type
-   use dondolo_rest, only : new_rest, rest_type
-   use dondolo_study, only : study_type
-   use dondolo_suite, only : suite_type
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_memory, only : check_room
+   use dondolo_building_floors, only : floors_type
+   use dondolo_fragility_drift_note, only : largest_drift
+   use dondolo_fragility_study, only : study_type
+   use dondolo_motion_certificate, only : certified_type
+   use dondolo_motion_ensemble, only : ensemble_type, run_ensemble
+   use dondolo_motion_queue, only : progress_interface
+   use dondolo_motion_response, only : response_type
+   use dondolo_motion_rest, only : new_rest, rest_type
+   use dondolo_motion_work, only : work_type
+   use dondolo_record_suite, only : suite_type
    use dondolo_wall, only : wall_type
-   use dondolo_work, only : work_type
    implicit none
    private
 
@@ -340,4 +340,4 @@ contains
       end do
    end function exceedances
 
-end module dondolo_stripes
+end module dondolo_fragility_stripes

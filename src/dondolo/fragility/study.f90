@@ -1,20 +1,20 @@
 !> A study: the accelerograms, and how every wall is tried under them.
 !>
 !> It is the same for all walls of a population, and for one wall alone: who runs many walls makes it once.
-module dondolo_study
-   use dondolo_catalogue, only : record_rows_type
-   use dondolo_certificate, only : check_certificates
-   use dondolo_dead_channel, only : check_motion
-   use dondolo_ensemble, only : check_engine
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_floors, only : check_floor, floors_type
-   use dondolo_kinds, only : wp
-   use dondolo_memory, only : check_room
+module dondolo_fragility_study
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_memory, only : check_room
+   use dondolo_base_text, only : join, to_text
+   use dondolo_building_floors, only : check_floor, floors_type
+   use dondolo_fragility_scaling, only : scaling_type
+   use dondolo_motion_certificate, only : check_certificates
+   use dondolo_motion_ensemble, only : check_engine
+   use dondolo_motion_solver, only : check_limit, check_solver, solver_type
    use dondolo_record, only : largest_acceleration
-   use dondolo_scaling, only : scaling_type
-   use dondolo_solver, only : check_limit, check_solver, solver_type
-   use dondolo_suite, only : suite_type
-   use dondolo_text, only : join, to_text
+   use dondolo_record_catalogue, only : record_rows_type
+   use dondolo_record_dead_channel, only : check_motion
+   use dondolo_record_suite, only : suite_type
    use dondolo_wall, only : wall_type
    implicit none
    private
@@ -339,4 +339,4 @@ contains
       end do
    end subroutine check_thresholds
 
-end module dondolo_study
+end module dondolo_fragility_study

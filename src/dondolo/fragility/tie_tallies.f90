@@ -1,9 +1,9 @@
 !> What the histories of stripes do to the ties of a wall: how many make each yield and break, and how far they stretch it.
-module dondolo_tie_tallies
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_response, only : response_type
-   use dondolo_tie_statics, only : ties_after
+module dondolo_fragility_tie_tallies
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_response, only : response_type
+   use dondolo_wall_mechanism, only : mechanism_type
+   use dondolo_wall_tie_statics, only : ties_after
    implicit none
    private
 
@@ -51,4 +51,4 @@ contains
       end do
    end subroutine tally_ties
 
-end module dondolo_tie_tallies
+end module dondolo_fragility_tie_tallies

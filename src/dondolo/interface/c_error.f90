@@ -1,10 +1,10 @@
 !> Errors of the C interface: a handle that keeps the first one, its code and its text. With an error in it every other procedure
 !> does nothing, so that a C program may look once, at the end.
-module dondolo_c_error
+module dondolo_interface_c_error
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_int64_t, c_loc, c_null_char, c_ptr
-   use dondolo_c_text, only : as_handle, as_pointer
-   use dondolo_error, only : error_type, status_input
-   use dondolo_handles, only : content_of, hold, release
+   use dondolo_base_error, only : error_type, status_input
+   use dondolo_interface_c_text, only : as_handle, as_pointer
+   use dondolo_interface_handles, only : content_of, hold, release
    implicit none
    private
 
@@ -138,4 +138,4 @@ contains
       call release(as_handle(handle))
    end subroutine free_handle
 
-end module dondolo_c_error
+end module dondolo_interface_c_error

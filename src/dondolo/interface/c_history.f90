@@ -1,25 +1,25 @@
 !> Single motions of the C interface.
-module dondolo_c_history
+module dondolo_interface_c_history
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t, c_null_ptr, c_ptr
-   use dondolo_c_error, only : failure_type, is_ready
-   use dondolo_c_settings, only : solver_of
-   use dondolo_c_text, only : as_handle, as_pointer, check_finite
-   use dondolo_c_walls, only : find_wall
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_felt_motions, only : check_scale, find_motions
-   use dondolo_floors, only : floors_type
-   use dondolo_handles, only : find_suite, hold
-   use dondolo_lines, only : lines_type
-   use dondolo_plausibility, only : wall_warning_type
-   use dondolo_response, only : response_type, trace_type
-   use dondolo_simulate, only : simulate
-   use dondolo_solver, only : solver_type
-   use dondolo_suite, only : suite_type
-   use dondolo_text, only : to_text
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_text, only : to_text
+   use dondolo_building_floors, only : floors_type
+   use dondolo_case_plausibility, only : wall_warning_type
+   use dondolo_case_warning, only : warnings_type
+   use dondolo_case_warning_sentence, only : warning_sentences
+   use dondolo_case_warnings, only : warn_of_error, warn_of_fall, warn_of_records
+   use dondolo_interface_c_error, only : failure_type, is_ready
+   use dondolo_interface_c_settings, only : solver_of
+   use dondolo_interface_c_text, only : as_handle, as_pointer, check_finite
+   use dondolo_interface_c_walls, only : find_wall
+   use dondolo_interface_felt_motions, only : check_scale, find_motions
+   use dondolo_interface_handles, only : find_suite, hold
+   use dondolo_motion_response, only : response_type, trace_type
+   use dondolo_motion_simulate, only : simulate
+   use dondolo_motion_solver, only : solver_type
+   use dondolo_record_suite, only : suite_type
    use dondolo_wall, only : wall_type
-   use dondolo_warning, only : warnings_type
-   use dondolo_warning_sentence, only : warning_sentences
-   use dondolo_warnings, only : warn_of_error, warn_of_fall, warn_of_records
    implicit none
    private
 
@@ -106,4 +106,4 @@ contains
 
    end function c_run_history
 
-end module dondolo_c_history
+end module dondolo_interface_c_history

@@ -1,17 +1,17 @@
 !> Records of the C interface: a catalogue, a file or arrays.
-module dondolo_c_records
+module dondolo_interface_c_records
    use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_int64_t, c_null_ptr, c_ptr
-   use dondolo_c_error, only : failure_type, is_ready
-   use dondolo_c_text, only : as_pointer, check_finite, take_numbers, take_text
-   use dondolo_catalogue, only : read_catalogue
-   use dondolo_error, only : add_place, error_type, raise_input
-   use dondolo_handles, only : hold, records_type
-   use dondolo_memory, only : check_room
-   use dondolo_plain, only : shown
+   use dondolo_base_error, only : add_place, error_type, raise_input
+   use dondolo_base_memory, only : check_room
+   use dondolo_base_plain, only : shown
+   use dondolo_base_text, only : to_text
+   use dondolo_interface_c_error, only : failure_type, is_ready
+   use dondolo_interface_c_text, only : as_pointer, check_finite, take_numbers, take_text
+   use dondolo_interface_handles, only : hold, records_type
    use dondolo_record, only : new_record, record_type
+   use dondolo_record_catalogue, only : read_catalogue
    use dondolo_record_reader, only : read_record
-   use dondolo_suite, only : new_suite
-   use dondolo_text, only : to_text
+   use dondolo_record_suite, only : new_suite
    implicit none
    private
 
@@ -184,4 +184,4 @@ contains
       made = as_pointer(handle)
    end subroutine keep
 
-end module dondolo_c_records
+end module dondolo_interface_c_records

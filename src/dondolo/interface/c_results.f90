@@ -1,22 +1,22 @@
 !> What handles of the C interface stand for, by name: numbers and texts.
-module dondolo_c_results
+module dondolo_interface_c_results
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_c_binding, only : c_char, c_double, c_int, c_loc, c_null_char, c_ptr
-   use dondolo_c_error, only : failure_type, is_ready, status_without_handle
-   use dondolo_c_history, only : c_history_type
-   use dondolo_c_settings, only : c_settings_type
-   use dondolo_c_stripes, only : c_curve_type, c_stripes_type
-   use dondolo_c_text, only : as_handle, give_text, take_numbers, take_text
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_handles, only : content_of, records_type, refuse_handle, walls_type
-   use dondolo_kinds, only : wp
-   use dondolo_lines, only : lines_type
-   use dondolo_plain, only : shown
-   use dondolo_reading_notes, only : list_reading_notes
-   use dondolo_spelling, only : say_allowed
-   use dondolo_text, only : to_text
-   use dondolo_version, only : dondolo_version_text
-   use dondolo_wall_statics, only : static_names, statics_of
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_plain, only : shown
+   use dondolo_base_spelling, only : say_allowed
+   use dondolo_base_text, only : to_text
+   use dondolo_base_version, only : dondolo_version_text
+   use dondolo_interface_c_error, only : failure_type, is_ready, status_without_handle
+   use dondolo_interface_c_history, only : c_history_type
+   use dondolo_interface_c_settings, only : c_settings_type
+   use dondolo_interface_c_stripes, only : c_curve_type, c_stripes_type
+   use dondolo_interface_c_text, only : as_handle, give_text, take_numbers, take_text
+   use dondolo_interface_handles, only : content_of, records_type, refuse_handle, walls_type
+   use dondolo_interface_wall_statics, only : static_names, statics_of
+   use dondolo_record_reading_notes, only : list_reading_notes
    implicit none
    private
 
@@ -449,4 +449,4 @@ contains
 
    end subroutine find_text
 
-end module dondolo_c_results
+end module dondolo_interface_c_results

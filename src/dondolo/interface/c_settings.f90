@@ -1,19 +1,19 @@
 !> Settings of the C interface: values by the names that they have in cases.
-module dondolo_c_settings
+module dondolo_interface_c_settings
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t, c_null_ptr, c_ptr
-   use dondolo_c_error, only : failure_type, is_ready, status_without_handle
-   use dondolo_c_text, only : as_handle, as_pointer, check_finite, take_numbers, take_text
-   use dondolo_error, only : error_type, problems_type, raise_input
-   use dondolo_handles, only : content_of, hold, refuse_handle
-   use dondolo_plain, only : shown
-   use dondolo_property, only : find_property, is_integer, is_list, is_logical, is_text, is_words, name_length, property_type
-   use dondolo_records_group, only : records_properties
-   use dondolo_settings, only : group_settings_type, new_settings, settings_type
-   use dondolo_settings_check, only : check_settings
-   use dondolo_solver, only : solver_properties, solver_type, take_solver
-   use dondolo_spelling, only : say_allowed
-   use dondolo_stripes_group, only : stripes_properties
-   use dondolo_text, only : join, lower, to_text
+   use dondolo_base_error, only : error_type, problems_type, raise_input
+   use dondolo_base_plain, only : shown
+   use dondolo_base_property, only : find_property, is_integer, is_list, is_logical, is_text, is_words, name_length, property_type
+   use dondolo_base_settings, only : group_settings_type, new_settings, settings_type
+   use dondolo_base_settings_check, only : check_settings
+   use dondolo_base_spelling, only : say_allowed
+   use dondolo_base_text, only : join, lower, to_text
+   use dondolo_case_records_group, only : records_properties
+   use dondolo_case_stripes_group, only : stripes_properties
+   use dondolo_interface_c_error, only : failure_type, is_ready, status_without_handle
+   use dondolo_interface_c_text, only : as_handle, as_pointer, check_finite, take_numbers, take_text
+   use dondolo_interface_handles, only : content_of, hold, refuse_handle
+   use dondolo_motion_solver, only : solver_properties, solver_type, take_solver
    use dondolo_wall_properties, only : gravity_property, wall_properties
    implicit none
    private
@@ -292,4 +292,4 @@ contains
       if (.not. allocated(error)) call take_solver(solver, whole)
    end subroutine solver_of
 
-end module dondolo_c_settings
+end module dondolo_interface_c_settings

@@ -1,32 +1,32 @@
 !> Stripes and fragility curves of the C interface.
-module dondolo_c_stripes
+module dondolo_interface_c_stripes
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t, c_null_ptr, c_ptr
-   use dondolo_c_error, only : failure_type, is_ready
-   use dondolo_c_settings, only : c_settings_type, find_settings, solver_of
-   use dondolo_c_text, only : as_handle, as_pointer, take_numbers
-   use dondolo_c_walls, only : find_wall
-   use dondolo_error, only : error_type, problems_type
-   use dondolo_even_levels, only : settle_levels
+   use dondolo_base_error, only : error_type, problems_type
+   use dondolo_base_interrupt, only : check_interrupt
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_limits, only : most_levels
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_settings, only : group_settings_type
+   use dondolo_base_settings_check, only : check_settings
+   use dondolo_base_text, only : to_text
+   use dondolo_base_threads, only : check_threads
+   use dondolo_case_plausibility, only : wall_warning_type
+   use dondolo_case_warning, only : warnings_type
+   use dondolo_case_warning_sentence, only : warning_sentences
+   use dondolo_case_warnings, only : scale_warning_type, warn_of_errors, warn_of_events, warn_of_fit, warn_of_records
    use dondolo_fragility, only : fit_fragility, fragility_type
-   use dondolo_handles, only : content_of, find_records, hold, records_type, refuse_handle
-   use dondolo_interrupt, only : check_interrupt
-   use dondolo_kinds, only : wp
-   use dondolo_limits, only : most_levels
-   use dondolo_lines, only : lines_type
-   use dondolo_plausibility, only : wall_warning_type
-   use dondolo_scaling, only : new_scaling, scaling_type
-   use dondolo_settings, only : group_settings_type
-   use dondolo_settings_check, only : check_settings
-   use dondolo_solver, only : solver_type
-   use dondolo_stripe_counts, only : stripe_counts_type
-   use dondolo_stripes, only : multiple_stripe, stripes_type
-   use dondolo_study, only : check_levels, check_thresholds, new_study, study_type
-   use dondolo_text, only : to_text
-   use dondolo_threads, only : check_threads
+   use dondolo_fragility_even_levels, only : settle_levels
+   use dondolo_fragility_scaling, only : new_scaling, scaling_type
+   use dondolo_fragility_stripe_counts, only : stripe_counts_type
+   use dondolo_fragility_stripes, only : multiple_stripe, stripes_type
+   use dondolo_fragility_study, only : check_levels, check_thresholds, new_study, study_type
+   use dondolo_interface_c_error, only : failure_type, is_ready
+   use dondolo_interface_c_settings, only : c_settings_type, find_settings, solver_of
+   use dondolo_interface_c_text, only : as_handle, as_pointer, take_numbers
+   use dondolo_interface_c_walls, only : find_wall
+   use dondolo_interface_handles, only : content_of, find_records, hold, records_type, refuse_handle
+   use dondolo_motion_solver, only : solver_type
    use dondolo_wall, only : wall_type
-   use dondolo_warning, only : warnings_type
-   use dondolo_warning_sentence, only : warning_sentences
-   use dondolo_warnings, only : scale_warning_type, warn_of_errors, warn_of_events, warn_of_fit, warn_of_records
    implicit none
    private
 
@@ -243,4 +243,4 @@ contains
       made = as_pointer(handle)
    end subroutine keep_curve
 
-end module dondolo_c_stripes
+end module dondolo_interface_c_stripes

@@ -1,10 +1,10 @@
 !> What crosses between C and Fortran: handles, texts and arrays.
-module dondolo_c_text
+module dondolo_interface_c_text
    use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_double, c_f_pointer, c_int, c_int64_t, c_null_char, &
       & c_null_ptr, c_ptr, c_size_t
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_kinds, only : wp
-   use dondolo_text, only : to_text
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
    implicit none
    private
 
@@ -121,4 +121,4 @@ contains
       characters(length + 1) = c_null_char
    end subroutine give_text
 
-end module dondolo_c_text
+end module dondolo_interface_c_text

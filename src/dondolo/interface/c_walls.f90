@@ -1,12 +1,12 @@
 !> Walls of the C interface.
-module dondolo_c_walls
+module dondolo_interface_c_walls
    use, intrinsic :: iso_c_binding, only : c_int64_t, c_null_ptr, c_ptr
-   use dondolo_c_error, only : failure_type, is_ready
-   use dondolo_c_settings, only : c_settings_type, copy_settings, find_settings
-   use dondolo_c_text, only : as_handle, as_pointer
-   use dondolo_error, only : error_type
-   use dondolo_handles, only : find_walls, hold, walls_type
-   use dondolo_kinds, only : wp
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_interface_c_error, only : failure_type, is_ready
+   use dondolo_interface_c_settings, only : c_settings_type, copy_settings, find_settings
+   use dondolo_interface_c_text, only : as_handle, as_pointer
+   use dondolo_interface_handles, only : find_walls, hold, walls_type
    use dondolo_wall, only : new_wall, wall_type
    use dondolo_wall_properties, only : gravity_property, standard_gravity, wall_input_type
    implicit none
@@ -68,4 +68,4 @@ contains
       if (.not. allocated(error)) wall => walls(1)
    end subroutine find_wall
 
-end module dondolo_c_walls
+end module dondolo_interface_c_walls

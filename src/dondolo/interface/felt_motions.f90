@@ -1,11 +1,11 @@
 !> The motions that one wall feels, outside a study.
-module dondolo_felt_motions
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_floors, only : check_floor, floors_type
-   use dondolo_kinds, only : wp
+module dondolo_interface_felt_motions
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
+   use dondolo_building_floors, only : check_floor, floors_type
    use dondolo_record, only : largest_acceleration
-   use dondolo_suite, only : suite_type
-   use dondolo_text, only : to_text
+   use dondolo_record_suite, only : suite_type
    use dondolo_wall, only : wall_type
    implicit none
    private
@@ -51,4 +51,4 @@ contains
       if (.not. allocated(error)) call floors%take(wall%building, records, threads, place, motions)
    end subroutine find_motions
 
-end module dondolo_felt_motions
+end module dondolo_interface_felt_motions

@@ -4,14 +4,14 @@
 !> A handle is the number of a slot and, above it, how often the slot was used: no address, so that one that was freed is never
 !> valid again, and one of something else is told apart. One thread at a time fills or empties a slot; procedures that look one up
 !> need no lock, since slots never move. Python's lock is held meanwhile too, so that no fork comes in between.
-module dondolo_handles
+module dondolo_interface_handles
    use, intrinsic :: iso_c_binding, only : c_int64_t
-   use dondolo_catalogue, only : record_rows_type
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_floors, only : floors_type
-   use dondolo_store, only : store_type
-   use dondolo_study, only : study_type
-   use dondolo_suite, only : suite_type
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_building_floors, only : floors_type
+   use dondolo_fragility_study, only : study_type
+   use dondolo_population_store, only : store_type
+   use dondolo_record_catalogue, only : record_rows_type
+   use dondolo_record_suite, only : suite_type
    use dondolo_wall, only : wall_type
    implicit none
    private
@@ -313,4 +313,4 @@ contains
       end if
    end subroutine refuse_handle
 
-end module dondolo_handles
+end module dondolo_interface_handles

@@ -1,8 +1,8 @@
 !> Static quantities of a wall, by name.
-module dondolo_wall_statics
-   use dondolo_kinds, only : wp
-   use dondolo_tie_statics, only : greatest_acceleration, plastic_acceleration
+module dondolo_interface_wall_statics
+   use dondolo_base_kinds, only : wp
    use dondolo_wall, only : wall_type
+   use dondolo_wall_tie_statics, only : greatest_acceleration, plastic_acceleration
    implicit none
    private
 
@@ -35,4 +35,4 @@ contains
       end associate
    end function statics_of
 
-end module dondolo_wall_statics
+end module dondolo_interface_wall_statics

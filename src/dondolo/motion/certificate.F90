@@ -1,20 +1,20 @@
 !> Certificates: histories that double precision may not tell, run again in 33 digits until two tolerances agree, and with
 !> the record one unit in the last place stronger and weaker (docs/certification.md).
-module dondolo_certificate
+module dondolo_motion_certificate
    use, intrinsic :: iso_c_binding, only : c_int
-   use dondolo_ensemble, only : ensemble_type
-   use dondolo_error, only : error_type, raise_failure, raise_input
-   use dondolo_error_estimate, only : certain
-   use dondolo_interrupt, only : look_for_interrupt, watch, watched
-   use dondolo_kinds, only : wp
-   use dondolo_property, only : is_list, is_text, is_words
-   use dondolo_queue, only : progress_interface, queue_type
+   use dondolo_base_error, only : error_type, raise_failure, raise_input
+   use dondolo_base_interrupt, only : look_for_interrupt, watch, watched
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_property, only : is_list, is_text, is_words
+   use dondolo_motion_ensemble, only : ensemble_type
+   use dondolo_motion_error_estimate, only : certain
+   use dondolo_motion_queue, only : progress_interface, queue_type
 #ifdef DONDOLO_QUADRUPLE
-   use dondolo_quadruple_wall, only : quadruple_record_type, quadruple_response_type, quadruple_wall_type
+   use dondolo_motion_quadruple_wall, only : quadruple_record_type, quadruple_response_type, quadruple_wall_type
 #endif
+   use dondolo_base_threads, only : team_of
+   use dondolo_motion_response, only : largest_sure_error, response_type
    use dondolo_record, only : record_type
-   use dondolo_response, only : largest_sure_error, response_type
-   use dondolo_threads, only : team_of
    use dondolo_wall, only : wall_type
    use dondolo_wall_properties, only : wall_properties
    implicit none
@@ -256,4 +256,4 @@ contains
    end subroutine certify
 #endif
 
-end module dondolo_certificate
+end module dondolo_motion_certificate

@@ -2,24 +2,24 @@
 !>
 !> Histories are independent, and each is computed by one thread from data that no thread changes: results are the same
 !> to the bit for any number of threads and any grouping.
-module dondolo_ensemble
-   use dondolo_error, only : error_type, raise_failure, raise_input
-   use dondolo_error_estimate, only : estimated_error, other_run, runs_of_estimate
-   use dondolo_interrupt, only : watch, watched
-   use dondolo_kinds, only : wp
-   use dondolo_lane_constants, only : lane_constants_type, new_lane_constants
-   use dondolo_lane_variants, only : build_variant, check_variant, first_variant, simulate_variant
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_queue, only : progress_interface, queue_type
+module dondolo_motion_ensemble
+   use dondolo_base_error, only : error_type, raise_failure, raise_input
+   use dondolo_base_interrupt, only : watch, watched
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : brief
+   use dondolo_base_threads, only : team_of
+   use dondolo_motion_error_estimate, only : estimated_error, other_run, runs_of_estimate
+   use dondolo_motion_lane_constants, only : lane_constants_type, new_lane_constants
+   use dondolo_motion_lane_variants, only : build_variant, check_variant, first_variant, simulate_variant
+   use dondolo_motion_queue, only : progress_interface, queue_type
+   use dondolo_motion_response, only : response_type
+   use dondolo_motion_rest, only : new_rest, rest_type
+   use dondolo_motion_rk45, only : simulate_rk45
+   use dondolo_motion_solver, only : solver_type
+   use dondolo_motion_work, only : work_type
    use dondolo_record, only : record_type
-   use dondolo_response, only : response_type
-   use dondolo_rest, only : new_rest, rest_type
-   use dondolo_rk45, only : simulate_rk45
-   use dondolo_solver, only : solver_type
-   use dondolo_suite, only : suite_type
-   use dondolo_text, only : brief
-   use dondolo_threads, only : team_of
-   use dondolo_work, only : work_type
+   use dondolo_record_suite, only : suite_type
+   use dondolo_wall_mechanism, only : mechanism_type
    implicit none
    private
 
@@ -195,4 +195,4 @@ contains
          & 'must be ''auto'' or ''rk45'', or another edp_limit')
    end subroutine check_engine
 
-end module dondolo_ensemble
+end module dondolo_motion_ensemble

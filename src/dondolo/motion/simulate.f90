@@ -1,22 +1,22 @@
 !> The motion of a wall under an accelerogram, by the engine that runs its stripes: result and estimated error are those of the
 !> same history in a stripe, to the bit.
-module dondolo_simulate
-   use dondolo_ensemble, only : check_engine, ensemble_type, raise_given_up, run_ensemble
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_interrupt, only : check_interrupt
-   use dondolo_kinds, only : wp
-   use dondolo_lane_constants, only : lane_constants_type, new_lane_constants
-   use dondolo_lane_variants, only : trace_variant
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_memory, only : raise_shortage
+module dondolo_motion_simulate
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_interrupt, only : check_interrupt
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_memory, only : raise_shortage
+   use dondolo_base_text, only : to_text
+   use dondolo_motion_ensemble, only : check_engine, ensemble_type, raise_given_up, run_ensemble
+   use dondolo_motion_lane_constants, only : lane_constants_type, new_lane_constants
+   use dondolo_motion_lane_variants, only : trace_variant
+   use dondolo_motion_response, only : response_type, trace_type
+   use dondolo_motion_rest, only : new_rest, rest_type
+   use dondolo_motion_rk45, only : simulate_rk45
+   use dondolo_motion_solver, only : check_limit, check_solver, solver_type
+   use dondolo_motion_work, only : work_type
    use dondolo_record, only : record_type
-   use dondolo_response, only : response_type, trace_type
-   use dondolo_rest, only : new_rest, rest_type
-   use dondolo_rk45, only : simulate_rk45
-   use dondolo_solver, only : check_limit, check_solver, solver_type
-   use dondolo_suite, only : new_suite, suite_type
-   use dondolo_text, only : to_text
-   use dondolo_work, only : work_type
+   use dondolo_record_suite, only : new_suite, suite_type
+   use dondolo_wall_mechanism, only : mechanism_type
    implicit none
    private
 
@@ -99,4 +99,4 @@ contains
       end if
    end subroutine simulate
 
-end module dondolo_simulate
+end module dondolo_motion_simulate

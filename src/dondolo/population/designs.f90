@@ -1,16 +1,16 @@
 !> Designs of one wall, such as ties, on the same records: the median of each over that of the first.
 !>
-!> A record that is hard on the wall is hard on all its designs. To first order a cluster of records changes ln theta of a design by
-!> d_g (dondolo_clustered); it changes the difference to the first by d_g - d_g1, so that the variance of that difference is
-!> sum_g (d_g - d_g1)^2, much less than that of either median. Intervals use Student's t with one degree of freedom less than
+!> A record that is hard on the wall is hard on all its designs. To first order a cluster of records changes ln theta of a design
+!> by d_g (dondolo_fragility_clustered); it changes the difference to the first by d_g - d_g1, so that the variance of that
+!> difference is sum_g (d_g - d_g1)^2, much less than that of either median. Intervals use Student's t with one degree of freedom less than
 !> there are clusters.
-module dondolo_designs
-   use dondolo_clustered, only : confidence
+module dondolo_population_designs
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_student, only : student_cdf, student_quantile
    use dondolo_fragility, only : fragility_type
-   use dondolo_kinds, only : wp
-   use dondolo_student, only : student_cdf, student_quantile
-   use dondolo_tie_statics, only : plastic_acceleration
+   use dondolo_fragility_clustered, only : confidence
    use dondolo_wall, only : wall_type
+   use dondolo_wall_tie_statics, only : plastic_acceleration
    implicit none
    private
 
@@ -103,4 +103,4 @@ contains
       end associate
    end subroutine compare_designs
 
-end module dondolo_designs
+end module dondolo_population_designs

@@ -1,10 +1,10 @@
 !> Distributions of an uncertain property, as a case says them: 'triangular(0.5, 0.6, 0.75)'.
-module dondolo_distribution
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_kinds, only : wp
-   use dondolo_numbers, only : parse_real
-   use dondolo_restitution, only : published_factors
-   use dondolo_text, only : join, lower, rounded, to_text
+module dondolo_population_distribution
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_numbers, only : parse_real
+   use dondolo_base_text, only : join, lower, rounded, to_text
+   use dondolo_wall_restitution, only : published_factors
    implicit none
    private
 
@@ -192,4 +192,4 @@ contains
       if (p > 0.5_wp) x = -x
    end function normal_quantile
 
-end module dondolo_distribution
+end module dondolo_population_distribution

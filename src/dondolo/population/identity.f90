@@ -1,19 +1,19 @@
 !> Identity of what a population is run for: everything that its histories depend on. Names of walls, weights, groups and
 !> probabilities of occurrence are not among it, nor are threads and blocks.
-module dondolo_identity
-   use dondolo_fingerprint, only : fingerprint_type
-   use dondolo_kinds, only : wp
-   use dondolo_lane_variants, only : build_variant
-   use dondolo_row_result, only : shape_type
-   use dondolo_settings, only : group_settings_type, new_settings
-   use dondolo_settings_key, only : add_settings
-   use dondolo_solver, only : put_solver, solver_properties, solver_type
-   use dondolo_store_format, only : identity_type
-   use dondolo_study, only : study_type
-   use dondolo_study_key, only : study_key_type
-   use dondolo_suite, only : suite_type
-   use dondolo_text, only : to_text
-   use dondolo_version, only : dondolo_version_text
+module dondolo_population_identity
+   use dondolo_base_fingerprint, only : fingerprint_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_settings, only : group_settings_type, new_settings
+   use dondolo_base_settings_key, only : add_settings
+   use dondolo_base_text, only : to_text
+   use dondolo_base_version, only : dondolo_version_text
+   use dondolo_fragility_study, only : study_type
+   use dondolo_motion_lane_variants, only : build_variant
+   use dondolo_motion_solver, only : put_solver, solver_properties, solver_type
+   use dondolo_population_row_result, only : shape_type
+   use dondolo_population_store_format, only : identity_type
+   use dondolo_population_study_key, only : study_key_type
+   use dondolo_record_suite, only : suite_type
    use dondolo_wall, only : wall_type
    implicit none
    private
@@ -149,4 +149,4 @@ contains
       end do
    end function list_of
 
-end module dondolo_identity
+end module dondolo_population_identity

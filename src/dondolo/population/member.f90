@@ -1,7 +1,7 @@
 !> A row of a population: one mechanism of a wall, with its weight, its group and its facade.
-module dondolo_member
-   use dondolo_kinds, only : wp
-   use dondolo_property, only : is_text, property_type
+module dondolo_population_member
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_property, only : is_text, property_type
    use dondolo_wall, only : wall_type
    implicit none
    private
@@ -36,4 +36,4 @@ module dondolo_member
       logical :: has_name = .false.
    end type member_type
 
-end module dondolo_member
+end module dondolo_population_member

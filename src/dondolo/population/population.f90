@@ -5,12 +5,12 @@
 !> columns: first those of the rows, behind them those of the walls as a whole, whose mechanisms are in series. It is kept
 !> in memory, in arrays: about 300 bytes a row and state at 20 levels; geometry is not kept.
 module dondolo_population
-   use dondolo_error, only : error_type
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_memory, only : check_room
    use dondolo_fragility, only : fit_fragility, fragility_type
-   use dondolo_kinds, only : wp
-   use dondolo_lines, only : lines_type
-   use dondolo_memory, only : check_room
-   use dondolo_series, only : fit_share, in_series, occurrence_of
+   use dondolo_population_series, only : fit_share, in_series, occurrence_of
    use dondolo_wall, only : mechanism_names
    implicit none
    private

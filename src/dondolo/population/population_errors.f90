@@ -6,14 +6,14 @@
 !> in the number of walls or of records. Fractions of a wall whose mechanisms are in series are taken as linear in those
 !> of its mechanisms. Every stripe of a wall counts for one.
 module dondolo_population_errors
-   use dondolo_clustered, only : cluster_errors, fewest_clusters, leave_out_type
-   use dondolo_error, only : error_type
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_memory, only : check_room
    use dondolo_fragility, only : fragility_type
-   use dondolo_kinds, only : wp
-   use dondolo_memory, only : check_room
+   use dondolo_fragility_clustered, only : cluster_errors, fewest_clusters, leave_out_type
    use dondolo_population, only : part_type, population_type
-   use dondolo_series, only : in_series, series_slopes
-   use dondolo_typology, only : typology_type
+   use dondolo_population_series, only : in_series, series_slopes
+   use dondolo_population_typology, only : typology_type
    implicit none
    private
 

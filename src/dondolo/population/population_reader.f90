@@ -5,20 +5,20 @@
 !> for each: the walls 'NAME at Z m' of the facade NAME. Rows are made one by one, so that a table may have more of them than
 !> the memory has room for.
 module dondolo_population_reader
-   use dondolo_csv_reader, only : csv_row_type
-   use dondolo_error, only : add_place, error_type, problems_type, raise_input
-   use dondolo_hinge_level, only : find_hinge_levels, has_hinge_level
-   use dondolo_kinds, only : wp
-   use dondolo_limits, only : most_walls
-   use dondolo_member, only : member_properties, member_type
-   use dondolo_memory, only : check_room
+   use dondolo_base_csv_reader, only : csv_row_type
+   use dondolo_base_error, only : add_place, error_type, problems_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_limits, only : most_walls
+   use dondolo_base_memory, only : check_room
+   use dondolo_base_property, only : find_property
+   use dondolo_base_settings, only : group_settings_type, new_settings
+   use dondolo_base_settings_check, only : check_settings
+   use dondolo_base_text, only : to_text
+   use dondolo_population_member, only : member_properties, member_type
    use dondolo_population_table, only : population_table_type
-   use dondolo_property, only : find_property
-   use dondolo_settings, only : group_settings_type, new_settings
-   use dondolo_settings_check, only : check_settings
-   use dondolo_text, only : to_text
+   use dondolo_population_wall_names, only : wall_names_type
    use dondolo_wall, only : new_wall
-   use dondolo_wall_names, only : wall_names_type
+   use dondolo_wall_hinge_level, only : find_hinge_levels, has_hinge_level
    use dondolo_wall_properties, only : wall_input_type, wall_properties
    implicit none
    private

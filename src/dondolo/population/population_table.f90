@@ -3,16 +3,16 @@
 !>
 !> A cell that is empty was not given. A list has a column for each of its values. The text of the table stays in memory.
 module dondolo_population_table
-   use dondolo_csv_reader, only : csv_row_type, csv_table_type
-   use dondolo_error, only : error_type, problems_type, raise_input
-   use dondolo_kinds, only : wp
-   use dondolo_member, only : member_properties
-   use dondolo_odd_character, only : odd_character
-   use dondolo_property, only : find_item, find_property, is_list, is_many, is_text, is_words, item_name, property_type
-   use dondolo_settings, only : settings_type
-   use dondolo_spelling, only : say_allowed
-   use dondolo_text, only : lower
-   use dondolo_variants, only : stated_wall_type
+   use dondolo_base_csv_reader, only : csv_row_type, csv_table_type
+   use dondolo_base_error, only : error_type, problems_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_odd_character, only : odd_character
+   use dondolo_base_property, only : find_item, find_property, is_list, is_many, is_text, is_words, item_name, property_type
+   use dondolo_base_settings, only : settings_type
+   use dondolo_base_spelling, only : say_allowed
+   use dondolo_base_text, only : lower
+   use dondolo_population_member, only : member_properties
+   use dondolo_population_variants, only : stated_wall_type
    use dondolo_wall_properties, only : wall_input_type, wall_properties
    implicit none
    private

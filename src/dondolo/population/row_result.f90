@@ -3,13 +3,13 @@
 !>
 !> The flags are all that counts, curves and resampled records are made of. As bytes they are bits, eight a byte from the
 !> highest on: state by state, level by level, history by history.
-module dondolo_row_result
+module dondolo_population_row_result
    use, intrinsic :: iso_c_binding, only : c_bool
    use, intrinsic :: iso_fortran_env, only : int32, int64
-   use dondolo_kinds, only : wp
-   use dondolo_response, only : response_type
-   use dondolo_tie_tallies, only : tie_tally_type
-   use dondolo_work, only : work_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_fragility_tie_tallies, only : tie_tally_type
+   use dondolo_motion_response, only : response_type
+   use dondolo_motion_work, only : work_type
    implicit none
    private
 
@@ -259,4 +259,4 @@ contains
       row%response%collapsed = row%flags(:, :, shape%states)
    end subroutine unpack_row
 
-end module dondolo_row_result
+end module dondolo_population_row_result

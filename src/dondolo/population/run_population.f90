@@ -1,18 +1,18 @@
 !> A population through the stripes, block after block, so that memory holds the histories of one block only: rows that a
 !> store lacks are read, run, and put into it.
-module dondolo_run_population
-   use dondolo_error, only : error_type
-   use dondolo_interrupt, only : check_interrupt
-   use dondolo_member, only : member_type
+module dondolo_population_run_population
+   use dondolo_base_error, only : error_type
+   use dondolo_base_interrupt, only : check_interrupt
+   use dondolo_base_text, only : to_text
+   use dondolo_base_threads, only : team_of
+   use dondolo_fragility_study, only : study_type
+   use dondolo_motion_queue, only : progress_interface
+   use dondolo_population_member, only : member_type
    use dondolo_population_reader, only : population_reader_type
+   use dondolo_population_row_result, only : row_result_type
+   use dondolo_population_run_rows, only : run_rows
+   use dondolo_population_store, only : store_type
    use dondolo_population_table, only : population_table_type
-   use dondolo_queue, only : progress_interface
-   use dondolo_row_result, only : row_result_type
-   use dondolo_run_rows, only : run_rows
-   use dondolo_store, only : store_type
-   use dondolo_study, only : study_type
-   use dondolo_text, only : to_text
-   use dondolo_threads, only : team_of
    implicit none
    private
 
@@ -118,4 +118,4 @@ contains
       block_size = threads*min(rows_of_thread, max(1, histories_of_thread/max(1, histories/rows)))
    end function block_size
 
-end module dondolo_run_population
+end module dondolo_population_run_population

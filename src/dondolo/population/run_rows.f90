@@ -2,19 +2,19 @@
 !>
 !> As many rows as go round evenly are shared out among the threads; on each of the others, all threads work together.
 !> Results do not depend on it.
-module dondolo_run_rows
+module dondolo_population_run_rows
    use, intrinsic :: omp_lib, only : omp_get_thread_num
-   use dondolo_error, only : add_place, error_type
-   use dondolo_interrupt, only : watch, watched
-   use dondolo_member, only : member_type
-   use dondolo_queue, only : progress_interface
-   use dondolo_row_result, only : row_result_type
-   use dondolo_stripes, only : plan_stripes, run_histories, stripes_type
-   use dondolo_study, only : study_type
-   use dondolo_threads, only : team_of
-   use dondolo_tie_tallies, only : tally_ties
+   use dondolo_base_error, only : add_place, error_type
+   use dondolo_base_interrupt, only : watch, watched
+   use dondolo_base_threads, only : team_of
+   use dondolo_fragility_stripes, only : plan_stripes, run_histories, stripes_type
+   use dondolo_fragility_study, only : study_type
+   use dondolo_fragility_tie_tallies, only : tally_ties
+   use dondolo_motion_queue, only : progress_interface
+   use dondolo_motion_work, only : work_type
+   use dondolo_population_member, only : member_type
+   use dondolo_population_row_result, only : row_result_type
    use dondolo_wall, only : wall_type
-   use dondolo_work, only : work_type
    implicit none
    private
 
@@ -115,4 +115,4 @@ contains
       if (study%keeps_histories) call move_alloc(stripes%response, row%response)
    end subroutine run_row
 
-end module dondolo_run_rows
+end module dondolo_population_run_rows

@@ -5,12 +5,12 @@
 !> chaos). The polynomials of a quantity are orthonormal over the sample, so that the squares of the coefficients are
 !> the parts of the variance; each is reduced by the square of its standard error, which is what noise adds to it. The part
 !> that the polynomials leave is `rest`. Quantities must be independent of each other.
-module dondolo_sensitivity
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_kinds, only : wp
-   use dondolo_lapack, only : invert_symmetric
-   use dondolo_student, only : student_quantile
-   use dondolo_text, only : to_text
+module dondolo_population_sensitivity
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lapack, only : invert_symmetric
+   use dondolo_base_student, only : student_quantile
+   use dondolo_base_text, only : to_text
    implicit none
    private
 
@@ -224,4 +224,4 @@ contains
       end do
    end subroutine find_ranks
 
-end module dondolo_sensitivity
+end module dondolo_population_sensitivity

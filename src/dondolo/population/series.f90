@@ -1,10 +1,10 @@
 !> Mechanisms of a wall in series, independent of each other given the intensity: the wall collapses if any of them does,
 !> P = 1 - prod_m (1 - p_occ,m P_m), with p_occ,m the probability that mechanism m can occur in the wall at all
 !> (docs/theory.md, section 6).
-module dondolo_series
-   use dondolo_error, only : error_type
+module dondolo_population_series
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
    use dondolo_fragility, only : fit_fragility, fragility_type
-   use dondolo_kinds, only : wp
    implicit none
    private
 
@@ -80,4 +80,4 @@ contains
       call fit_fragility(fit, levels, histories*share, histories, error)
    end subroutine fit_share
 
-end module dondolo_series
+end module dondolo_population_series

@@ -3,20 +3,20 @@
 !>
 !> Rows come in any order, from one process or from many that hand them to one. One run at a time writes a file. When all
 !> rows are there they are brought into their order: the same bytes, however the work was divided.
-module dondolo_store
+module dondolo_population_store
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_error, only : error_type, raise_failure, raise_input
-   use dondolo_kinds, only : wp
-   use dondolo_lines, only : line_type
-   use dondolo_lock, only : holder_type, lock_type, look_at_lock
-   use dondolo_memory, only : check_room
-   use dondolo_origin, only : check_regular
-   use dondolo_row_result, only : row_result_type
-   use dondolo_store_format, only : is_cut_head, bytes_of_entry, identity_type, make_head, pack_entry, read_entry, &
+   use dondolo_base_error, only : error_type, raise_failure, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : line_type
+   use dondolo_base_lock, only : holder_type, lock_type, look_at_lock
+   use dondolo_base_memory, only : check_room
+   use dondolo_base_origin, only : check_regular
+   use dondolo_base_system, only : cut_file, remove_file, rename_file, writer_type
+   use dondolo_base_text, only : to_text
+   use dondolo_motion_work, only : work_type
+   use dondolo_population_row_result, only : row_result_type
+   use dondolo_population_store_format, only : is_cut_head, bytes_of_entry, identity_type, make_head, pack_entry, read_entry, &
       & read_head, unpack_entry
-   use dondolo_system, only : cut_file, remove_file, rename_file, writer_type
-   use dondolo_text, only : to_text
-   use dondolo_work, only : work_type
    implicit none
    private
 
@@ -436,4 +436,4 @@ contains
       call self%lock%release()
    end subroutine remove
 
-end module dondolo_store
+end module dondolo_population_store

@@ -3,14 +3,14 @@
 !>
 !> The file is for machines like the one that wrote it (little endian or big endian, real64 or real128). Rows may stand in
 !> any order. What a killed run left of its last row is seen by its length or its fingerprint.
-module dondolo_store_format
+module dondolo_population_store_format
    use, intrinsic :: iso_fortran_env, only : int32, int64
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_fingerprint, only : fingerprint_type
-   use dondolo_kinds, only : wp
-   use dondolo_row_result, only : bytes_of_row, pack_row, row_result_type, shape_type, unpack_row
-   use dondolo_study_key, only : study_key_type
-   use dondolo_text, only : to_text
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_fingerprint, only : fingerprint_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
+   use dondolo_population_row_result, only : bytes_of_row, pack_row, row_result_type, shape_type, unpack_row
+   use dondolo_population_study_key, only : study_key_type
    implicit none
    private
 
@@ -304,4 +304,4 @@ contains
       end if
    end subroutine read_entry_head
 
-end module dondolo_store_format
+end module dondolo_population_store_format

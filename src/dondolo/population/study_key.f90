@@ -1,8 +1,8 @@
 !> Identity of the results of a study: all that they depend on, by name. Results of studies that are identical may stand
 !> in one store.
-module dondolo_study_key
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_lines, only : lines_type
+module dondolo_population_study_key
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_lines, only : lines_type
    implicit none
    private
 
@@ -117,4 +117,4 @@ contains
       is_fingerprint = len(value) == 16 .and. verify(value, '0123456789ABCDEF') == 0
    end function is_fingerprint
 
-end module dondolo_study_key
+end module dondolo_population_study_key

@@ -4,16 +4,16 @@
 !> scatter is between walls and how much between records, and a lognormal fitted to the mean: for each mechanism and for
 !> all, for the whole population and for each of its groups (docs/theory.md, section 6). Each is the curve of a part of
 !> the population, and all its numbers are weighted means over its rows or walls.
-module dondolo_typology
-   use dondolo_error, only : error_type, raise_input
+module dondolo_population_typology
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_limits, only : most_groups
+   use dondolo_base_text, only : to_text
    use dondolo_fragility, only : fragility_type
-   use dondolo_kinds, only : wp
-   use dondolo_limits, only : most_groups
    use dondolo_population, only : part_type, population_type
-   use dondolo_series, only : fit_share
-   use dondolo_text, only : to_text
+   use dondolo_population_series, only : fit_share
+   use dondolo_population_weights, only : weights_of, weights_type
    use dondolo_wall, only : mechanism_names
-   use dondolo_weights, only : weights_of, weights_type
    implicit none
    private
 
@@ -216,4 +216,4 @@ contains
       end do
    end function whole_population
 
-end module dondolo_typology
+end module dondolo_population_typology

@@ -4,17 +4,17 @@
 !> independent given the intensity, and overstates; the union counts a history, of a record, polarity and level, as soon as
 !> one of the mechanisms reaches the state in it. With p_m the probability that mechanism m can occur, and F_mh its flag,
 !> history h counts 1 - prod_m (1 - p_m F_mh) (docs/theory.md, section 6).
-module dondolo_unions
-   use dondolo_clustered, only : cluster_errors
-   use dondolo_error, only : error_type
+module dondolo_population_unions
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : line_type
    use dondolo_fragility, only : fit_fragility, fragility_type
-   use dondolo_kinds, only : wp
-   use dondolo_lines, only : line_type
+   use dondolo_fragility_clustered, only : cluster_errors
    use dondolo_population, only : population_type
-   use dondolo_row_result, only : row_result_type
-   use dondolo_series, only : fit_share
-   use dondolo_typology, only : typology_type
-   use dondolo_weights, only : weights_of, weights_type
+   use dondolo_population_row_result, only : row_result_type
+   use dondolo_population_series, only : fit_share
+   use dondolo_population_typology, only : typology_type
+   use dondolo_population_weights, only : weights_of, weights_type
    implicit none
    private
 
@@ -283,4 +283,4 @@ contains
       end do
    end subroutine begin_mean
 
-end module dondolo_unions
+end module dondolo_population_unions

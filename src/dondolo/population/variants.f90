@@ -4,12 +4,12 @@
 !> Variants are a Latin hypercube (McKay, Beckman and Conover 1979): the range of every property is cut into as many parts
 !> of equal probability as there are samples, and each part holds one. Behind the sample stand, with a weight of 0, the wall
 !> as it was given, that with all properties at their medians, and those with one property at its fractiles 5 and 95 %.
-module dondolo_variants
-   use dondolo_distribution, only : distribution_type
-   use dondolo_kinds, only : wp
-   use dondolo_property, only : is_list, name_length
-   use dondolo_random, only : new_random, random_type
-   use dondolo_text, only : to_text
+module dondolo_population_variants
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_property, only : is_list, name_length
+   use dondolo_base_text, only : to_text
+   use dondolo_population_distribution, only : distribution_type
+   use dondolo_record_random, only : new_random, random_type
    use dondolo_wall_properties, only : wall_input_type, wall_properties
    implicit none
    private
@@ -156,4 +156,4 @@ contains
       call input%set('name', name)
    end subroutine vary
 
-end module dondolo_variants
+end module dondolo_population_variants

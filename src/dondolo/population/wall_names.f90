@@ -1,11 +1,11 @@
 !> The walls and facades of a population by their names: which rows belong together, and which names stand twice.
-module dondolo_wall_names
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_kinds, only : wp
-   use dondolo_member, only : member_type
-   use dondolo_memory, only : raise_shortage
-   use dondolo_name_index, only : name_index_type
-   use dondolo_text, only : to_text
+module dondolo_population_wall_names
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_memory, only : raise_shortage
+   use dondolo_base_name_index, only : name_index_type
+   use dondolo_base_text, only : to_text
+   use dondolo_population_member, only : member_type
    implicit none
    private
 
@@ -121,4 +121,4 @@ contains
       end if
    end subroutine note_name
 
-end module dondolo_wall_names
+end module dondolo_population_wall_names

@@ -1,9 +1,9 @@
 !> Weighted means and fractiles of what the rows or the walls of a part of a population have.
 !>
 !> The fractile of a share q is the smallest number such that the numbers up to it have at least the share q of the weight.
-module dondolo_weights
-   use dondolo_kinds, only : wp
-   use dondolo_order, only : find_order
+module dondolo_population_weights
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_order, only : find_order
    use dondolo_population, only : part_type, population_type
    implicit none
    private
@@ -119,4 +119,4 @@ contains
       end do
    end subroutine weighted_fractiles
 
-end module dondolo_weights
+end module dondolo_population_weights

@@ -1,5 +1,5 @@
 !> A catalogue of records: a CSV table with the columns file, dt_s, units, channel, format and name, level and factor, and
-!> any others, which are metadata of the records; records of one `event` depend on each other (dondolo_clusters).
+!> any others, which are metadata of the records; records of one `event` depend on each other (dondolo_record_clusters).
 !>
 !> With a column level a row is a record at a level of intensity, and a record may have several rows; where the cell is
 !> empty it runs at every level. With a column factor a cell is the factor on the record there, instead of one computed
@@ -7,20 +7,20 @@
 !>
 !> Each record has a name of its own. Where the catalogue gives none and stems of files are the same, the names get the
 !> extensions of the files; where these are the same too, the folders, as the catalogue writes them.
-module dondolo_catalogue
-   use dondolo_catalogue_source, only : describe_source, read_source, source_type, take_source
-   use dondolo_channel, only : stem
-   use dondolo_csv_reader, only : csv_row_type, csv_table_type
-   use dondolo_error, only : add_place, error_type, raise_input
-   use dondolo_kinds, only : wp
-   use dondolo_lines, only : lines_type
-   use dondolo_limits, only : most_records
-   use dondolo_memory, only : check_room
-   use dondolo_name_index, only : name_index_type
-   use dondolo_plain, only : name_problem, shown, visible
+module dondolo_record_catalogue
+   use dondolo_base_csv_reader, only : csv_row_type, csv_table_type
+   use dondolo_base_error, only : add_place, error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_limits, only : most_records
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_memory, only : check_room
+   use dondolo_base_name_index, only : name_index_type
+   use dondolo_base_plain, only : name_problem, shown, visible
+   use dondolo_base_text, only : to_text
+   use dondolo_base_threads, only : team_of
    use dondolo_record, only : record_type
-   use dondolo_text, only : to_text
-   use dondolo_threads, only : team_of
+   use dondolo_record_catalogue_source, only : describe_source, read_source, source_type, take_source
+   use dondolo_record_channel, only : stem
    implicit none
    private
 
@@ -325,4 +325,4 @@ contains
       end do
    end subroutine find_first
 
-end module dondolo_catalogue
+end module dondolo_record_catalogue

@@ -4,19 +4,19 @@
 !> changed since, or belongs to another version of the catalogue.
 !>
 !> What a row says is taken from the table row by row; the files are read from that alone, several at a time.
-module dondolo_catalogue_source
+module dondolo_record_catalogue_source
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_checksum, only : crc32_length, crc32_of_file
-   use dondolo_csv_reader, only : csv_row_type, csv_table_type
-   use dondolo_dead_channel, only : check_vertical_motion
-   use dondolo_earthquake, only : settle_labels
-   use dondolo_error, only : add_place, error_type, raise_input
-   use dondolo_kinds, only : wp
-   use dondolo_metadata, only : metadata_type
-   use dondolo_plain, only : shown
+   use dondolo_base_checksum, only : crc32_length, crc32_of_file
+   use dondolo_base_csv_reader, only : csv_row_type, csv_table_type
+   use dondolo_base_error, only : add_place, error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_plain, only : shown
+   use dondolo_base_text, only : lower, to_text
    use dondolo_record, only : record_type
+   use dondolo_record_dead_channel, only : check_vertical_motion
+   use dondolo_record_earthquake, only : settle_labels
+   use dondolo_record_metadata, only : metadata_type
    use dondolo_record_reader, only : read_record
-   use dondolo_text, only : lower, to_text
    implicit none
    private
 
@@ -249,4 +249,4 @@ contains
       is_absolute = scan(path(1:1), '/\') == 1 .or. index(path, ':') == 2
    end function is_absolute
 
-end module dondolo_catalogue_source
+end module dondolo_record_catalogue_source

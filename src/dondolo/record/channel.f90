@@ -1,15 +1,15 @@
 !> From a channel of a file to a record: which channel, its time step, its units, and a look at the header's own peak.
-module dondolo_channel
-   use dondolo_earthquake, only : settle_labels
-   use dondolo_error, only : add_place, error_type, raise_input
-   use dondolo_kinds, only : wp
-   use dondolo_numbers, only : parse_integer, parse_real
+module dondolo_record_channel
+   use dondolo_base_error, only : add_place, error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_numbers, only : parse_integer, parse_real
+   use dondolo_base_plain, only : shown, visible
+   use dondolo_base_text, only : brief, lower, to_text
+   use dondolo_base_text_file, only : text_file_type
    use dondolo_record, only : move_to_record, record_type
-   use dondolo_plain, only : shown, visible
+   use dondolo_record_earthquake, only : settle_labels
    use dondolo_record_format, only : channel_type, raise_at, samples_type
-   use dondolo_text, only : brief, lower, to_text
-   use dondolo_text_file, only : text_file_type
-   use dondolo_units, only : unit_factor
+   use dondolo_record_units, only : unit_factor
    implicit none
    private
 
@@ -309,4 +309,4 @@ contains
       stem = file(scan(file, '/\', back=.true.) + 1:)
    end function stem
 
-end module dondolo_channel
+end module dondolo_record_channel

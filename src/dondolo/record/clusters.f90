@@ -1,10 +1,10 @@
 !> Which records belong together: those of one earthquake are no independent evidence.
-module dondolo_clusters
-   use dondolo_earthquake, only : find_date, find_earthquake
-   use dondolo_kinds, only : wp
-   use dondolo_metadata, only : metadata_type
-   use dondolo_name_index, only : name_index_type
+module dondolo_record_clusters
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_name_index, only : name_index_type
    use dondolo_record, only : record_type
+   use dondolo_record_earthquake, only : find_date, find_earthquake
+   use dondolo_record_metadata, only : metadata_type
    implicit none
    private
 
@@ -84,4 +84,4 @@ contains
       if (len(date) > 0) label = metadata%get('station')//' '//date
    end subroutine cluster_label
 
-end module dondolo_clusters
+end module dondolo_record_clusters

@@ -2,8 +2,8 @@
 !>
 !> Where the steps are to each other as two small whole numbers p and q there is a step that goes p times into one and q times into
 !> the other. Both functions are linear between its samples too, so that nothing of either is lost or added.
-module dondolo_common_steps
-   use dondolo_kinds, only : wp
+module dondolo_record_common_steps
+   use dondolo_base_kinds, only : wp
    implicit none
    private
 
@@ -61,4 +61,4 @@ contains
       finer(size(finer)) = samples(size(samples))
    end subroutine refine
 
-end module dondolo_common_steps
+end module dondolo_record_common_steps

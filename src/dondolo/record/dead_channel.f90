@@ -2,11 +2,11 @@
 !>
 !> No factor makes an earthquake of them, and a wall survives them at any level. An analysis that scales records to levels,
 !> or counts them, therefore refuses them by this rule.
-module dondolo_dead_channel
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_kinds, only : wp
+module dondolo_record_dead_channel
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : brief, to_text
    use dondolo_record, only : find_extremes, record_type
-   use dondolo_text, only : brief, to_text
    implicit none
    private
 
@@ -76,4 +76,4 @@ contains
       call raise_input(error, statement//' ('//reason//'): '//demand)
    end subroutine check_samples
 
-end module dondolo_dead_channel
+end module dondolo_record_dead_channel

@@ -2,13 +2,13 @@
 !>
 !> The only place where `event` and `date` are judged, for the headers of all formats, for catalogues and for Python. An
 !> earthquake without a name is known by its origin: records that state the same time and epicentre are of one.
-module dondolo_earthquake
-   use dondolo_dates, only : find_moment, make_stamp
-   use dondolo_event_name, only : clean_event
-   use dondolo_kinds, only : wp
-   use dondolo_metadata, only : metadata_type
-   use dondolo_numbers, only : parse_real
-   use dondolo_text, only : to_text
+module dondolo_record_earthquake
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_numbers, only : parse_real
+   use dondolo_base_text, only : to_text
+   use dondolo_record_dates, only : find_moment, make_stamp
+   use dondolo_record_event_name, only : clean_event
+   use dondolo_record_metadata, only : metadata_type
    implicit none
    private
 
@@ -107,4 +107,4 @@ contains
       text = to_text(anint(parts*abs(angle))/parts)//sides(side:side)
    end subroutine write_degrees
 
-end module dondolo_earthquake
+end module dondolo_record_earthquake

@@ -3,10 +3,10 @@
 !> A file that is cut off inside its last number has as many numbers as it should have, and the last of them is wrong: the
 !> rest of 1.25E-05 is 1.25E-0. Its print gives it away: columns end at the same place, and numbers of one print have equal
 !> numbers of decimals and of digits in the exponent.
-module dondolo_last_number
-   use dondolo_kinds, only : wp
-   use dondolo_numbers, only : parse_printed
-   use dondolo_text_file, only : text_file_type
+module dondolo_record_last_number
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_numbers, only : parse_printed
+   use dondolo_base_text_file, only : text_file_type
    implicit none
    private
 
@@ -249,4 +249,4 @@ contains
       is_far = abs(number%value) > far*maxval(abs(others%value)) .and. maxval(abs(others%value)) > 0.0_wp
    end function is_far
 
-end module dondolo_last_number
+end module dondolo_record_last_number

@@ -2,8 +2,8 @@
 !>
 !> Keys that mean the same in every format are written alike: event, date, station, network, component, magnitude,
 !> latitude, longitude, processing, reading, format, quantity, units. All others keep the name that the file gives them.
-module dondolo_metadata
-   use dondolo_text, only : blanks, lower, stripped
+module dondolo_record_metadata
+   use dondolo_base_text, only : blanks, lower, stripped
    implicit none
    private
 
@@ -168,4 +168,4 @@ contains
       end do
    end function find
 
-end module dondolo_metadata
+end module dondolo_record_metadata

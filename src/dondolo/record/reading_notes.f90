@@ -1,10 +1,10 @@
 !> What there is to report of how records were read: samples that were ignored, columns that were not read, files that may be
 !> cut off. The metadata hold it under the key `reading`; a sentence that is true of several records is reported once.
-module dondolo_reading_notes
-   use dondolo_lines, only : lines_type
-   use dondolo_plain, only : visible
+module dondolo_record_reading_notes
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_plain, only : visible
+   use dondolo_base_text, only : to_text
    use dondolo_record, only : record_type
-   use dondolo_text, only : to_text
    implicit none
    private
 
@@ -43,4 +43,4 @@ contains
       end do
    end subroutine list_reading_notes
 
-end module dondolo_reading_notes
+end module dondolo_record_reading_notes

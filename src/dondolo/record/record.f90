@@ -2,13 +2,13 @@
 !>
 !> The piecewise linear function IS the input of every analysis, exactly (docs/theory.md, section 1).
 module dondolo_record
-   use dondolo_common_steps, only : find_parts, most_parts, refine, same_step
-   use dondolo_error, only : error_type, raise_failure, raise_input
-   use dondolo_kinds, only : wp
-   use dondolo_limits, only : most_samples
-   use dondolo_metadata, only : metadata_type
-   use dondolo_plain, only : name_problem, shown
-   use dondolo_text, only : to_text
+   use dondolo_base_error, only : error_type, raise_failure, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_limits, only : most_samples
+   use dondolo_base_plain, only : name_problem, shown
+   use dondolo_base_text, only : to_text
+   use dondolo_record_common_steps, only : find_parts, most_parts, refine, same_step
+   use dondolo_record_metadata, only : metadata_type
    implicit none
    private
 

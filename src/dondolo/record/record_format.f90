@@ -1,13 +1,13 @@
 !> What a file of accelerograms says, and how the readers of formats read its blocks of numbers.
 module dondolo_record_format
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_kinds, only : wp
-   use dondolo_last_number, only : find_cut
-   use dondolo_metadata, only : metadata_type
-   use dondolo_numbers, only : parse_printed, parse_real, take_real
-   use dondolo_plain, only : shown
-   use dondolo_text, only : blanks, brief, to_text
-   use dondolo_text_file, only : is_blank, text_file_type
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_numbers, only : parse_printed, parse_real, take_real
+   use dondolo_base_plain, only : shown
+   use dondolo_base_text, only : blanks, brief, to_text
+   use dondolo_base_text_file, only : is_blank, text_file_type
+   use dondolo_record_last_number, only : find_cut
+   use dondolo_record_metadata, only : metadata_type
    implicit none
    private
 

@@ -1,14 +1,14 @@
 !> Accelerogram files of every known format, recognised by their content.
 module dondolo_record_reader
-   use dondolo_channel, only : as_record, find_channel, name_channels
-   use dondolo_error, only : add_place, error_type
-   use dondolo_formats, only : find_format, format_type, read_as, recognise_format
-   use dondolo_kinds, only : wp
-   use dondolo_limits, only : longest_record_file
+   use dondolo_base_error, only : add_place, error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_limits, only : longest_record_file
+   use dondolo_base_text_file, only : find_lines, load_text, text_file_type
    use dondolo_record, only : record_type
+   use dondolo_record_channel, only : as_record, find_channel, name_channels
    use dondolo_record_format, only : samples_type
-   use dondolo_single_column, only : read_single_column
-   use dondolo_text_file, only : find_lines, load_text, text_file_type
+   use dondolo_record_formats, only : find_format, format_type, read_as, recognise_format
+   use dondolo_record_single_column, only : read_single_column
    implicit none
    private
 

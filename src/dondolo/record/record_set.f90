@@ -1,8 +1,8 @@
 !> Accelerograms side by side, for many histories at once: all samples in one array, and where it is worth looking.
 module dondolo_record_set
-   use dondolo_kinds, only : wp
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_threads, only : team_of
    use dondolo_record, only : find_extremes, record_type
-   use dondolo_threads, only : team_of
    implicit none
    private
 

@@ -1,13 +1,13 @@
 !> Records at a glance: a table with what they are, how strong, how long, and what looks odd about them.
 module dondolo_record_table
-   use dondolo_dead_channel, only : check_motion
-   use dondolo_error, only : error_type
-   use dondolo_ground_motion, only : ground_velocity, peak_velocity
-   use dondolo_kinds, only : wp
-   use dondolo_lines, only : lines_type
-   use dondolo_plain, only : visible
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_plain, only : visible
+   use dondolo_base_text, only : left, rounded, to_text
    use dondolo_record, only : record_type
-   use dondolo_text, only : left, rounded, to_text
+   use dondolo_record_dead_channel, only : check_motion
+   use dondolo_record_ground_motion, only : ground_velocity, peak_velocity
    implicit none
    private
 

@@ -3,17 +3,17 @@
 !>
 !> It is made once and then only read, by as many threads as there are. `measure` alone adds to it, and may do so while
 !> others read.
-module dondolo_suite
-   use dondolo_clusters, only : cluster_records
-   use dondolo_dead_channel, only : is_motion
-   use dondolo_earthquake, only : find_earthquake
-   use dondolo_ground_motion, only : peak_velocity
-   use dondolo_intensity, only : measure_type
-   use dondolo_kinds, only : wp
-   use dondolo_order, only : find_order
+module dondolo_record_suite
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_order, only : find_order
+   use dondolo_base_threads, only : team_of
    use dondolo_record, only : find_extremes, record_type
+   use dondolo_record_clusters, only : cluster_records
+   use dondolo_record_dead_channel, only : is_motion
+   use dondolo_record_earthquake, only : find_earthquake
+   use dondolo_record_ground_motion, only : peak_velocity
+   use dondolo_record_intensity, only : measure_type
    use dondolo_record_set, only : new_record_set, record_set_type
-   use dondolo_threads, only : team_of
    implicit none
    private
 
@@ -42,7 +42,7 @@ module dondolo_suite
       type(record_set_type) :: set
       !> Their PGA [m/s2]
       real(wp), allocatable :: peaks(:)
-      !> Whether the ground moves (dondolo_dead_channel)
+      !> Whether the ground moves (dondolo_record_dead_channel)
       logical, allocatable :: moves(:)
       !> Their PGV [m/s]
       real(wp), allocatable :: velocities(:)
@@ -198,4 +198,4 @@ contains
       !$omp end parallel do
    end function computed
 
-end module dondolo_suite
+end module dondolo_record_suite

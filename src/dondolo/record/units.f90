@@ -1,9 +1,9 @@
 !> Units of acceleration in which records are written.
-module dondolo_units
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_kinds, only : wp
-   use dondolo_odd_character, only : odd_character
-   use dondolo_text, only : join, lower, replaced
+module dondolo_record_units
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_odd_character, only : odd_character
+   use dondolo_base_text, only : join, lower, replaced
    implicit none
    private
 
@@ -59,4 +59,4 @@ contains
       plain = replaced(plain, 's-2', '/s2')
    end function plain_spelling
 
-end module dondolo_units
+end module dondolo_record_units

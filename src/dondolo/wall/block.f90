@@ -1,6 +1,6 @@
 !> A rigid rectangular block and the hinges that it turns about: geometry and inertia, per metre of wall length.
-module dondolo_block
-   use dondolo_kinds, only : wp
+module dondolo_wall_block
+   use dondolo_base_kinds, only : wp
    implicit none
    private
 
@@ -51,4 +51,4 @@ contains
       block%corner_inertia = block%central_inertia + block%mass*block%radius**2
    end function new_block
 
-end module dondolo_block
+end module dondolo_wall_block

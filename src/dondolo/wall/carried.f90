@@ -1,9 +1,9 @@
 !> What acts on a wall besides its own weight: loads, masses that it pushes, thrusts, springs, ties and friction, per metre of wall.
 !>
 !> Places are a depth behind the outer face of the base and a height above the base (docs/theory.md, section 2).
-module dondolo_carried
-   use dondolo_kinds, only : wp
-   use dondolo_tie, only : tie_type
+module dondolo_wall_carried
+   use dondolo_base_kinds, only : wp
+   use dondolo_wall_tie, only : tie_type
    implicit none
    private
 
@@ -57,4 +57,4 @@ module dondolo_carried
       real(wp) :: edge = 0.0_wp
    end type actions_type
 
-end module dondolo_carried
+end module dondolo_wall_carried

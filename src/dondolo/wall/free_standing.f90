@@ -1,10 +1,10 @@
 !> Free-standing wall: a parapet, pinnacle or statue that rocks to both sides (Housner's block).
-module dondolo_free_standing
-   use dondolo_block, only : block_type
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_restitution, only : restitution_type
-   use dondolo_single_block, only : single_block_type
+module dondolo_wall_free_standing
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_wall_block, only : block_type
+   use dondolo_wall_restitution, only : restitution_type
+   use dondolo_wall_single_block, only : single_block_type
    implicit none
    private
 
@@ -44,4 +44,4 @@ contains
       eta = 1.0_wp - 1.5_wp*sin(alpha)**2
    end function housner_restitution
 
-end module dondolo_free_standing
+end module dondolo_wall_free_standing

@@ -2,12 +2,12 @@
 !>
 !> The weight N on a hinge is carried by a block of the stress beta f over 2 u, whose resultant is the hinge:
 !> u = N/(2 beta f) (equation (3) of AlShawa et al. 2023; docs/theory.md, section 2).
-module dondolo_hinge_depth
-   use dondolo_error, only : problems_type
-   use dondolo_kinds, only : wp
-   use dondolo_property, only : find_property, hint_of, name_length
-   use dondolo_text, only : rounded, to_text
-   use dondolo_unit_hint, only : unit_hint
+module dondolo_wall_hinge_depth
+   use dondolo_base_error, only : problems_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_property, only : find_property, hint_of, name_length
+   use dondolo_base_text, only : rounded, to_text
+   use dondolo_base_unit_hint, only : unit_hint
    use dondolo_wall_properties, only : wall_input_type, wall_properties
    implicit none
    private
@@ -78,4 +78,4 @@ contains
       end if
    end subroutine check_hinge
 
-end module dondolo_hinge_depth
+end module dondolo_wall_hinge_depth

@@ -2,11 +2,11 @@
 !>
 !> It is a wall like any other: sections, loads, thrusts, springs, beds and ties above the hinge, heights measured from it,
 !> depths from the outer face there, and the floor of the building at its level (docs/theory.md, section 2).
-module dondolo_hinge_level
-   use dondolo_error, only : problems_type
-   use dondolo_kinds, only : wp
-   use dondolo_property, only : number_of_words, word_of
-   use dondolo_text, only : rounded, to_text
+module dondolo_wall_hinge_level
+   use dondolo_base_error, only : problems_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_property, only : number_of_words, word_of
+   use dondolo_base_text, only : rounded, to_text
    use dondolo_wall_properties, only : is_of_building, wall_input_type
    implicit none
    private
@@ -261,4 +261,4 @@ contains
       end if
    end subroutine choose
 
-end module dondolo_hinge_level
+end module dondolo_wall_hinge_level

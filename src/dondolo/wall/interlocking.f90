@@ -7,13 +7,13 @@
 !>
 !> eight tenths of what all courses could give. It resists only a motion to new rotations, and falls in proportion to the overlap
 !> that is left: F (1 - D/l), D the travel at h/3 (docs/theory.md, section 2).
-module dondolo_interlocking
-   use dondolo_error, only : problems_type
-   use dondolo_kinds, only : wp
-   use dondolo_rigid_body, only : faces_at, same, section_type
-   use dondolo_text, only : to_text
-   use dondolo_tie, only : new_friction, tie_type
+module dondolo_wall_interlocking
+   use dondolo_base_error, only : problems_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
    use dondolo_wall_properties, only : absent_value, wall_input_type
+   use dondolo_wall_rigid_body, only : faces_at, same, section_type
+   use dondolo_wall_tie, only : new_friction, tie_type
    implicit none
    private
 
@@ -83,4 +83,4 @@ contains
       force = share*courses*(courses + 1.0_wp)*course*overlap*friction*thickness*weight
    end function friction_force
 
-end module dondolo_interlocking
+end module dondolo_wall_interlocking

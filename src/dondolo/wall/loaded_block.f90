@@ -7,15 +7,15 @@
 !> Every term is a sum over points that is linear or quadratic in e and f, so that a few sums made once hold any number of
 !> things; only a thrust that decays is asked one by one. A tie is a thrust inwards and a spring, as long as it neither
 !> yields nor breaks nor becomes slack, and so is friction, whose spring pushes: `hold` changes those sums.
-module dondolo_loaded_block
-   use dondolo_carried, only : actions_type, spring_type
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_rigid_body, only : rigid_body_type
-   use dondolo_text, only : rounded, to_text
-   use dondolo_tie, only : elastic, flowing
-   use dondolo_travel, only : lever, rotation_after, travel, versine
+module dondolo_wall_loaded_block
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : rounded, to_text
+   use dondolo_wall_carried, only : actions_type, spring_type
+   use dondolo_wall_mechanism, only : mechanism_type
+   use dondolo_wall_rigid_body, only : rigid_body_type
+   use dondolo_wall_tie, only : elastic, flowing
+   use dondolo_wall_travel, only : lever, rotation_after, travel, versine
    implicit none
    private
 
@@ -460,4 +460,4 @@ contains
       end do
    end subroutine find_unseating
 
-end module dondolo_loaded_block
+end module dondolo_wall_loaded_block

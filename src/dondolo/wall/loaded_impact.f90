@@ -3,10 +3,10 @@
 !> The velocities after an impact are the projection, in the metric of the masses, of those before it onto rotations about
 !> the new hinge: eta = <v1, v2>/<v2, v2>, v the velocities for a rotation of 1 rad/s (Moreau's impact law without
 !> rebound; docs/theory.md, section 3). For the bare block that is Housner's ratio and equation (2) of Nale et al.
-module dondolo_loaded_impact
-   use dondolo_kinds, only : wp
-   use dondolo_rigid_body, only : section_type
+module dondolo_wall_loaded_impact
+   use dondolo_base_kinds, only : wp
    use dondolo_wall_body, only : wall_body_type
+   use dondolo_wall_rigid_body, only : section_type
    implicit none
    private
 
@@ -84,4 +84,4 @@ contains
       end associate
    end function inner_product
 
-end module dondolo_loaded_impact
+end module dondolo_wall_loaded_impact

@@ -5,9 +5,9 @@
 !>     J(q) q'' + C(q) q'^2 + G(q) (1 + v_g''(t)/g) = -s L(q) u_g''(t) + Q(q)
 !>
 !> All terms are per metre of wall length.
-module dondolo_mechanism
-   use dondolo_kinds, only : wp
-   use dondolo_tie, only : tie_type
+module dondolo_wall_mechanism
+   use dondolo_base_kinds, only : wp
+   use dondolo_wall_tie, only : tie_type
    implicit none
    private
 
@@ -150,4 +150,4 @@ contains
       p = sqrt((g - load - self%preload)/(j*sin(self%capacity)))
    end function frequency_parameter
 
-end module dondolo_mechanism
+end module dondolo_wall_mechanism

@@ -1,10 +1,10 @@
 !> One-sided wall: a facade or parapet that leans on transverse walls and can only fall outwards.
-module dondolo_one_sided
-   use dondolo_block, only : block_type
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_restitution, only : restitution_type
-   use dondolo_single_block, only : single_block_type
+module dondolo_wall_one_sided
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_wall_block, only : block_type
+   use dondolo_wall_restitution, only : restitution_type
+   use dondolo_wall_single_block, only : single_block_type
    implicit none
    private
 
@@ -46,4 +46,4 @@ contains
       eta = (1.0_wp - 1.5_wp*sin(alpha)**2)**2*(1.0_wp - 1.5_wp*cos(alpha)**2)
    end function one_sided_restitution
 
-end module dondolo_one_sided
+end module dondolo_wall_one_sided

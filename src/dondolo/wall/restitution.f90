@@ -1,10 +1,10 @@
 !> Restitution: which model, times which factor, gives which speed ratio at an impact.
-module dondolo_restitution
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_kinds, only : wp
-   use dondolo_property, only : choices_length
-   use dondolo_text, only : brief, join, to_text
-   use dondolo_unit_hint, only : unit_question
+module dondolo_wall_restitution
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_property, only : choices_length
+   use dondolo_base_text, only : brief, join, to_text
+   use dondolo_base_unit_hint, only : unit_question
    implicit none
    private
 
@@ -109,4 +109,4 @@ contains
       end if
    end subroutine speed_ratio
 
-end module dondolo_restitution
+end module dondolo_wall_restitution

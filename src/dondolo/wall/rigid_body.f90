@@ -1,6 +1,6 @@
 !> The masonry of a wall as one rigid body: mass, centroid and inertia of its storeys, per metre of wall length.
-module dondolo_rigid_body
-   use dondolo_kinds, only : wp
+module dondolo_wall_rigid_body
+   use dondolo_base_kinds, only : wp
    implicit none
    private
 
@@ -90,4 +90,4 @@ contains
       end do
    end function faces_at
 
-end module dondolo_rigid_body
+end module dondolo_wall_rigid_body

@@ -3,10 +3,10 @@
 !> Equation (1) of Nale et al. in the common form (docs/theory.md, section 2):
 !>
 !>     J = I_0    C = 0    G = M g R sin(alpha - q)    L = M R cos(alpha - q)    Q = 0    q_c = alpha
-module dondolo_single_block
-   use dondolo_block, only : block_type
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
+module dondolo_wall_single_block
+   use dondolo_base_kinds, only : wp
+   use dondolo_wall_block, only : block_type
+   use dondolo_wall_mechanism, only : mechanism_type
    implicit none
    private
 
@@ -109,4 +109,4 @@ contains
       tilt = self%gravity
    end subroutine support
 
-end module dondolo_single_block
+end module dondolo_wall_single_block

@@ -1,8 +1,8 @@
 !> What a run says of the supports that move its walls on buildings.
-module dondolo_support_notes
-   use dondolo_kinds, only : wp
-   use dondolo_lines, only : lines_type
-   use dondolo_text, only : counted
+module dondolo_wall_support_notes
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_text, only : counted
    use dondolo_wall, only : wall_type
    implicit none
    private
@@ -83,4 +83,4 @@ contains
 
    end subroutine make_notes
 
-end module dondolo_support_notes
+end module dondolo_wall_support_notes

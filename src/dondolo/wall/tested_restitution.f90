@@ -3,14 +3,14 @@
 !> Of two blocks that model is equation (4), 'sorrentino'. The same measured speeds are a larger ratio to the smaller speeds
 !> of 'impulse': the range is then rescaled by the two coefficients of the wall. A load whose mass the wall lifts has no
 !> place in equation (4), and no tests.
-module dondolo_tested_restitution
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_kinds, only : wp
-   use dondolo_property, only : choices_length
-   use dondolo_restitution, only : published_factors
-   use dondolo_text, only : lower, rounded, to_text
-   use dondolo_two_block, only : overburden_type, two_block_impulse, two_block_sorrentino, two_block_type
+module dondolo_wall_tested_restitution
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_property, only : choices_length
+   use dondolo_base_text, only : lower, rounded, to_text
    use dondolo_wall, only : wall_type
+   use dondolo_wall_restitution, only : published_factors
+   use dondolo_wall_two_block, only : overburden_type, two_block_impulse, two_block_sorrentino, two_block_type
    implicit none
    private
 
@@ -130,4 +130,4 @@ contains
       end associate
    end subroutine make_restitution_sentence
 
-end module dondolo_tested_restitution
+end module dondolo_wall_tested_restitution

@@ -4,9 +4,9 @@
 !> set and whether it is broken follow from the largest rotation so far, q_m, alone (docs/theory.md, section 2). So does what
 !> is left of friction that resists only a motion to new rotations: it is a tie that flows from the start, with a force that
 !> falls, and is slack on every way back.
-module dondolo_tie
-   use dondolo_kinds, only : wp
-   use dondolo_travel, only : rotation_after, travel
+module dondolo_wall_tie
+   use dondolo_base_kinds, only : wp
+   use dondolo_wall_travel, only : rotation_after, travel
    implicit none
    private
 
@@ -147,4 +147,4 @@ contains
       end select
    end subroutine pull
 
-end module dondolo_tie
+end module dondolo_wall_tie

@@ -1,11 +1,11 @@
 !> What follows from a wall with ties without a history: what a largest rotation does to them, and the accelerations that the
 !> wall withstands statically: at which it begins to move, the greatest of all, and that of a mechanism whose ties all yield
 !> at once, which design calls alpha_0 g (docs/theory.md, section 2).
-module dondolo_tie_statics
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_tie, only : broken, elastic, flowing
-   use dondolo_travel, only : lever
+module dondolo_wall_tie_statics
+   use dondolo_base_kinds, only : wp
+   use dondolo_wall_mechanism, only : mechanism_type
+   use dondolo_wall_tie, only : broken, elastic, flowing
+   use dondolo_wall_travel, only : lever
    implicit none
    private
 
@@ -145,4 +145,4 @@ contains
       a = (g - load)/l
    end function acceleration_at
 
-end module dondolo_tie_statics
+end module dondolo_wall_tie_statics

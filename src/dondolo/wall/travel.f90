@@ -2,8 +2,8 @@
 !>
 !> A point e behind the hinge and f above it has the horizontal travel D = a q + f sin q + e (1 - cos q) and the lever
 !> X = dD/dq = a + f cos q + e sin q (docs/theory.md, section 2).
-module dondolo_travel
-   use dondolo_kinds, only : wp
+module dondolo_wall_travel
+   use dondolo_base_kinds, only : wp
    implicit none
    private
 
@@ -79,4 +79,4 @@ contains
       versine = 2.0_wp*sin(0.5_wp*q)**2
    end function versine
 
-end module dondolo_travel
+end module dondolo_wall_travel

@@ -3,13 +3,13 @@
 !> Equation (3) of Nale et al. (Sorrentino, Masiani and Griffith 2008) in the common form (docs/theory.md,
 !> section 2). q is the rotation of the lower block; the hinges at base and top stay on one vertical line, so that
 !> sin(beta2) = R1 sin(beta1)/R2 with beta1 = alpha1 - q.
-module dondolo_two_block
-   use dondolo_block, only : block_type
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_restitution, only : restitution_type
-   use dondolo_text, only : rounded
+module dondolo_wall_two_block
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : rounded
+   use dondolo_wall_block, only : block_type
+   use dondolo_wall_mechanism, only : mechanism_type
+   use dondolo_wall_restitution, only : restitution_type
    implicit none
    private
 
@@ -295,4 +295,4 @@ contains
       eta = 1.0_wp - 2.0_wp*(chain + load)/(inertia + load)
    end function two_block_impulse
 
-end module dondolo_two_block
+end module dondolo_wall_two_block

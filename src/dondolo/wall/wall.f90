@@ -1,25 +1,25 @@
 !> A wall: what the user says of it, and the mechanism that follows. Here names become types.
 module dondolo_wall
-   use dondolo_block, only : block_type, new_block
+   use dondolo_base_error, only : error_type, problems_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_property, only : check_number, name_length
+   use dondolo_base_settings_check, only : check_settings
+   use dondolo_base_text, only : brief, rounded, to_text
    use dondolo_building, only : building_type
    use dondolo_building_input, only : leans, new_building, spans, touches_base
-   use dondolo_error, only : error_type, problems_type
-   use dondolo_free_standing, only : free_standing_type, new_free_standing
-   use dondolo_hinge_depth, only : check_hinge, read_hinge_depth
-   use dondolo_hinge_level, only : cut_wall, find_hinge_levels, has_hinge_level
-   use dondolo_kinds, only : wp
-   use dondolo_loaded_block, only : loaded_block_type, new_loaded_block
-   use dondolo_loaded_impact, only : one_sided_impulse, two_sided_impulse
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_one_sided, only : new_one_sided, one_sided_restitution, one_sided_type
-   use dondolo_property, only : check_number, name_length
-   use dondolo_restitution, only : restitution_type
-   use dondolo_settings_check, only : check_settings
-   use dondolo_text, only : brief, rounded, to_text
-   use dondolo_two_block, only : new_two_block, overburden_type, two_block_type
+   use dondolo_wall_block, only : block_type, new_block
    use dondolo_wall_body, only : is_bare, read_wall_body, take_sections, wall_body_type
+   use dondolo_wall_free_standing, only : free_standing_type, new_free_standing
+   use dondolo_wall_hinge_depth, only : check_hinge, read_hinge_depth
+   use dondolo_wall_hinge_level, only : cut_wall, find_hinge_levels, has_hinge_level
+   use dondolo_wall_loaded_block, only : loaded_block_type, new_loaded_block
+   use dondolo_wall_loaded_impact, only : one_sided_impulse, two_sided_impulse
+   use dondolo_wall_mechanism, only : mechanism_type
+   use dondolo_wall_one_sided, only : new_one_sided, one_sided_restitution, one_sided_type
    use dondolo_wall_properties, only : gravity_property, is_of_building, mechanism_names, &
       & standard_gravity, wall_input_type
+   use dondolo_wall_restitution, only : restitution_type
+   use dondolo_wall_two_block, only : new_two_block, overburden_type, two_block_type
    implicit none
    private
 

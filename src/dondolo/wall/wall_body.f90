@@ -1,16 +1,16 @@
 !> What a user says of a wall of one block, as sections, a rigid body and what acts on it.
 module dondolo_wall_body
-   use dondolo_carried, only : actions_type, carried_type, spring_type, thrust_type
-   use dondolo_error, only : problems_type
-   use dondolo_hinge_depth, only : check_hinge, read_hinge_depth
-   use dondolo_interlocking, only : read_interlocking
-   use dondolo_kinds, only : wp
-   use dondolo_property, only : name_length, number_of_words, word_of
-   use dondolo_rigid_body, only : body_of_sections, faces_at, rigid_body_type, same, section_type
-   use dondolo_text, only : rounded, to_text
+   use dondolo_base_error, only : problems_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_property, only : name_length, number_of_words, word_of
+   use dondolo_base_text, only : rounded, to_text
+   use dondolo_base_unit_hint, only : unit_question
+   use dondolo_wall_carried, only : actions_type, carried_type, spring_type, thrust_type
+   use dondolo_wall_hinge_depth, only : check_hinge, read_hinge_depth
+   use dondolo_wall_interlocking, only : read_interlocking
    use dondolo_wall_lists, only : take
-   use dondolo_unit_hint, only : unit_question
    use dondolo_wall_properties, only : is_beyond_bare, wall_input_type
+   use dondolo_wall_rigid_body, only : body_of_sections, faces_at, rigid_body_type, same, section_type
    use dondolo_wall_ties, only : read_ties
    implicit none
    private

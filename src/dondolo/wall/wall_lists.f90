@@ -1,9 +1,9 @@
 !> Lists of a wall that go with one another, such as the heights of its loads with its loads.
 module dondolo_wall_lists
-   use dondolo_error, only : problems_type
-   use dondolo_kinds, only : wp
-   use dondolo_property, only : find_property
-   use dondolo_text, only : to_text
+   use dondolo_base_error, only : problems_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_property, only : find_property
+   use dondolo_base_text, only : to_text
    use dondolo_wall_properties, only : wall_input_type, wall_properties
    implicit none
    private

@@ -3,12 +3,12 @@
 !>
 !> To add one: a row here, and its value where a mechanism is built (dondolo_wall).
 module dondolo_wall_properties
-   use dondolo_building_input, only : building_rows
-   use dondolo_kinds, only : wp
-   use dondolo_property, only : blank, choices_length, find_name, find_property, is_integer, is_list, is_text, is_words, &
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_property, only : blank, choices_length, find_name, find_property, is_integer, is_list, is_text, is_words, &
       & most_choices, property_type
-   use dondolo_restitution, only : restitution_models
-   use dondolo_settings, only : settings_type
+   use dondolo_base_settings, only : settings_type
+   use dondolo_building_input, only : building_rows
+   use dondolo_wall_restitution, only : restitution_models
    implicit none
    private
 

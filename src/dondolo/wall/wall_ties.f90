@@ -1,13 +1,13 @@
 !> The ties of a wall as a user describes them.
 module dondolo_wall_ties
-   use dondolo_error, only : problems_type
-   use dondolo_kinds, only : wp
-   use dondolo_rigid_body, only : faces_at, same, section_type
-   use dondolo_text, only : rounded, to_text
-   use dondolo_tie, only : new_tie, tie_input_type, tie_type
-   use dondolo_unit_hint, only : unit_question
+   use dondolo_base_error, only : problems_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : rounded, to_text
+   use dondolo_base_unit_hint, only : unit_question
    use dondolo_wall_lists, only : take
    use dondolo_wall_properties, only : absent_value, wall_input_type
+   use dondolo_wall_rigid_body, only : faces_at, same, section_type
+   use dondolo_wall_tie, only : new_tie, tie_input_type, tie_type
    implicit none
    private
 

@@ -3,8 +3,8 @@
 !> A series c_0 T_0 + c_1 T_1 + ... through the roots of the next polynomial; its coefficients fall geometrically for an
 !> analytic function, so that their tail tells the error (Trefethen 2013, Approximation Theory and Approximation
 !> Practice, chapters 3 and 8).
-module dondolo_chebyshev
-   use dondolo_kinds, only : pi, wp
+module dondolo_base_chebyshev
+   use dondolo_base_kinds, only : pi, wp
    implicit none
    private
 
@@ -119,4 +119,4 @@ contains
       end do
    end function as_powers
 
-end module dondolo_chebyshev
+end module dondolo_base_chebyshev

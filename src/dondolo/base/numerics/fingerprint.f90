@@ -2,9 +2,9 @@
 !>
 !> Two polynomials in the data, modulo primes of 31 bits: different data have the same fingerprint once in 4e18 times.
 !> It is to notice a mistake, not an attack.
-module dondolo_fingerprint
+module dondolo_base_fingerprint
    use, intrinsic :: iso_fortran_env, only : int32, int64
-   use dondolo_kinds, only : wp
+   use dondolo_base_kinds, only : wp
    implicit none
    private
 
@@ -87,4 +87,4 @@ contains
       write (text, '(2z8.8)') self%value
    end function text
 
-end module dondolo_fingerprint
+end module dondolo_base_fingerprint

@@ -2,7 +2,7 @@
 !>
 !> `wp` is the working precision of everything. Compiled with -DDONDOLO_REAL128 the same sources are their own
 !> reference, with 33 digits. `dp` is what LAPACK works in.
-module dondolo_kinds
+module dondolo_base_kinds
    use, intrinsic :: iso_fortran_env, only : real64, real128
    implicit none
    private
@@ -21,4 +21,4 @@ module dondolo_kinds
 
    real(wp), parameter :: pi = acos(-1.0_wp)
 
-end module dondolo_kinds
+end module dondolo_base_kinds

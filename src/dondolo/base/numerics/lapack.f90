@@ -1,6 +1,6 @@
 !> Symmetric positive definite systems by LAPACK, which works in double precision whatever `wp` is.
-module dondolo_lapack
-   use dondolo_kinds, only : dp, wp
+module dondolo_base_lapack
+   use dondolo_base_kinds, only : dp, wp
    implicit none
    private
 
@@ -93,4 +93,4 @@ contains
       inverse = real(columns, wp)
    end subroutine invert_symmetric
 
-end module dondolo_lapack
+end module dondolo_base_lapack

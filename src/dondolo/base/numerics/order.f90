@@ -1,6 +1,6 @@
 !> The order of numbers by their size.
-module dondolo_order
-   use dondolo_kinds, only : wp
+module dondolo_base_order
+   use dondolo_base_kinds, only : wp
    implicit none
    private
 
@@ -48,4 +48,4 @@ contains
       end do
    end subroutine find_order
 
-end module dondolo_order
+end module dondolo_base_order

@@ -1,6 +1,6 @@
 !> Quantiles of Student's t distribution.
-module dondolo_student
-   use dondolo_kinds, only : wp
+module dondolo_base_student
+   use dondolo_base_kinds, only : wp
    implicit none
    private
 
@@ -97,4 +97,4 @@ contains
       end do
    end function beta_fraction
 
-end module dondolo_student
+end module dondolo_base_student

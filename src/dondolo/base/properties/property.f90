@@ -1,13 +1,13 @@
 !> A property: one parameter of a wall, of the solver or of a task, with all that is known of it.
 !>
-!> Tables of properties (dondolo_wall_properties, dondolo_solver, ...) are the one home of names, units, ranges, defaults
+!> Tables of properties (dondolo_wall_properties, dondolo_motion_solver, ...) are the one home of names, units, ranges, defaults
 !> and meanings: readers of namelists and populations, messages, templates, tables of results, the identity of a
 !> checkpoint and the Python package derive from them.
-module dondolo_property
-   use dondolo_kinds, only : wp
-   use dondolo_odd_character, only : odd_character
-   use dondolo_text, only : join, lower, to_text
-   use dondolo_unit_hint, only : hint_length, unit_hint
+module dondolo_base_property
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_odd_character, only : odd_character
+   use dondolo_base_text, only : join, lower, to_text
+   use dondolo_base_unit_hint, only : hint_length, unit_hint
    implicit none
    private
 
@@ -84,7 +84,7 @@ module dondolo_property
       logical :: changes_results = .true.
       !> Plausible range: values beyond it are most likely given in another unit
       real(wp) :: usual_least = 0.0_wp, usual_most = no_limit
-      !> Question where a value is less, or more; empty: which unit it is most likely in (dondolo_unit_hint)
+      !> Question where a value is less, or more; empty: which unit it is most likely in (dondolo_base_unit_hint)
       character(len=32) :: if_less = '', if_more = ''
       !> Must a list have a value for each thing? Else one value is that of all
       logical :: one_each = .false.
@@ -447,4 +447,4 @@ contains
       end if
    end subroutine check_word
 
-end module dondolo_property
+end module dondolo_base_property

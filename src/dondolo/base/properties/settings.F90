@@ -1,9 +1,9 @@
 !> Settings: the values that the properties of a table have, where they have one.
-module dondolo_settings
-   use dondolo_kinds, only : wp
-   use dondolo_property, only : find_property, has_owner, is_list, is_text, is_words, number_of_choices, number_of_words, &
+module dondolo_base_settings
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_property, only : find_property, has_owner, is_list, is_text, is_words, number_of_choices, number_of_words, &
       & property_type
-   use dondolo_text, only : lower
+   use dondolo_base_text, only : lower
    implicit none
    private
 
@@ -483,4 +483,4 @@ contains
       if (is_listed) is_listed = allocated(self%lists(at)%values)
    end function is_listed
 
-end module dondolo_settings
+end module dondolo_base_settings

@@ -1,13 +1,13 @@
 !> The check of settings against their table, and the values as its messages show them.
-module dondolo_settings_check
-   use dondolo_error, only : problems_type
-   use dondolo_kinds, only : wp
-   use dondolo_plain, only : name_problem, shown
-   use dondolo_property, only : check_number, check_word, has_owner, is_integer, is_list, is_real, is_text, is_words, &
+module dondolo_base_settings_check
+   use dondolo_base_error, only : problems_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_plain, only : name_problem, shown
+   use dondolo_base_property, only : check_number, check_word, has_owner, is_integer, is_list, is_real, is_text, is_words, &
       & name_length, number_of_choices, property_type
-   use dondolo_settings, only : settings_type
-   use dondolo_spelling, only : say_allowed
-   use dondolo_text, only : join, to_text
+   use dondolo_base_settings, only : settings_type
+   use dondolo_base_spelling, only : say_allowed
+   use dondolo_base_text, only : join, to_text
    implicit none
    private
 
@@ -168,4 +168,4 @@ contains
       end if
    end function value_text
 
-end module dondolo_settings_check
+end module dondolo_base_settings_check

@@ -1,8 +1,8 @@
 !> The identity of settings: intermediate results belong to one set of the values that change them.
-module dondolo_settings_key
-   use dondolo_fingerprint, only : fingerprint_type
-   use dondolo_property, only : is_list, property_type
-   use dondolo_settings, only : settings_type
+module dondolo_base_settings_key
+   use dondolo_base_fingerprint, only : fingerprint_type
+   use dondolo_base_property, only : is_list, property_type
+   use dondolo_base_settings, only : settings_type
    implicit none
    private
 
@@ -35,4 +35,4 @@ contains
       end do
    end subroutine add_settings
 
-end module dondolo_settings_key
+end module dondolo_base_settings_key

@@ -1,9 +1,9 @@
 !> The unit that an implausible value is most likely in: the question that refusals and warnings ask of it.
 !>
-!> A value beyond the plausible range of its property (dondolo_property) is converted from each other unit of its kind. Of the
+!> A value beyond the plausible range of its property (dondolo_base_property) is converted from each other unit of its kind. Of the
 !> units that put it into the range the one is asked for that brings it nearest to a usual value.
-module dondolo_unit_hint
-   use dondolo_kinds, only : wp
+module dondolo_base_unit_hint
+   use dondolo_base_kinds, only : wp
    implicit none
    private
 
@@ -96,4 +96,4 @@ contains
       if (len_trim(text) > 0) text = ': '//text
    end function unit_question
 
-end module dondolo_unit_hint
+end module dondolo_base_unit_hint

@@ -3,9 +3,9 @@
 !> Eight bytes at a time by tables (slicing by 8): the files of a run are read again for it, which must not cost more than
 !> a hundredth of a short run. It finds what was changed by mistake, not what was forged; SHA-256 would take thirty times
 !> as long.
-module dondolo_checksum
+module dondolo_base_checksum
    use, intrinsic :: iso_fortran_env, only : int32, int64
-   use dondolo_kinds, only : dp, wp
+   use dondolo_base_kinds, only : dp, wp
    implicit none
    private
 
@@ -184,4 +184,4 @@ contains
       end do
    end subroutine make_tables
 
-end module dondolo_checksum
+end module dondolo_base_checksum

@@ -7,19 +7,19 @@
 !> Tables of spreadsheets may differ from this: semicolons or tabs between the columns, then with decimal commas if the
 !> numbers show them (`find_decimal_mark`); a title above the names of the columns; rows and columns of empty cells at the
 !> end. `note` says how such a table was read.
-module dondolo_csv_reader
+module dondolo_base_csv_reader
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_csv_row, only : cell_type, is_title, separator_of, split_row
-   use dondolo_checksum, only : crc32_length, crc32_of_text
-   use dondolo_decimal_mark, only : decimal_mark_type
-   use dondolo_encoding, only : byte_order_mark, encoding_problem, is_ascii, is_utf8
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_kinds, only : wp
-   use dondolo_limits, only : longest_line, longest_table
-   use dondolo_name_index, only : name_index_type
-   use dondolo_odd_character, only : odd_character, odd_length
-   use dondolo_text, only : lower, occurrences, to_text
-   use dondolo_text_file, only : decode_text, load_text, padding, text_file_type
+   use dondolo_base_checksum, only : crc32_length, crc32_of_text
+   use dondolo_base_csv_row, only : cell_type, is_title, separator_of, split_row
+   use dondolo_base_decimal_mark, only : decimal_mark_type
+   use dondolo_base_encoding, only : byte_order_mark, encoding_problem, is_ascii, is_utf8
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_limits, only : longest_line, longest_table
+   use dondolo_base_name_index, only : name_index_type
+   use dondolo_base_odd_character, only : odd_character, odd_length
+   use dondolo_base_text, only : lower, occurrences, to_text
+   use dondolo_base_text_file, only : decode_text, load_text, padding, text_file_type
    implicit none
    private
 
@@ -503,4 +503,4 @@ contains
       end associate
    end subroutine get_real
 
-end module dondolo_csv_reader
+end module dondolo_base_csv_reader

@@ -3,9 +3,9 @@
 !> Only a thread that listens is told, and those that work for it, and what it gets then are no results: it must look too,
 !> and drop them. Python's main thread listens to Ctrl-C while a call runs, and the executable to what ends it from its
 !> first history on; a program that does not listen dies of the signal.
-module dondolo_interrupt
+module dondolo_base_interrupt
    use, intrinsic :: iso_c_binding, only : c_int
-   use dondolo_error, only : error_type, raise_failure
+   use dondolo_base_error, only : error_type, raise_failure
    implicit none
    private
 
@@ -63,4 +63,4 @@ contains
       if (interrupted == 1) call raise_failure(error, 'interrupted')
    end subroutine check_interrupt
 
-end module dondolo_interrupt
+end module dondolo_base_interrupt

@@ -1,13 +1,13 @@
 !> Locks: one run at a time writes an output or a store. The lock of `out/city` is the file `out/city.lock`, which says who
 !> has it; the kernel holds the lock itself (flock), and gives it back however the process ends. A file that a killed run
 !> has left is therefore no lock, but says which run that was. Python takes the same locks (_storage/transactions.py).
-module dondolo_lock
+module dondolo_base_lock
    use, intrinsic :: iso_c_binding, only : c_char, c_double, c_int, c_null_char, c_size_t
-   use dondolo_error, only : error_type, raise_failure, raise_input
-   use dondolo_numbers, only : parse_integer
-   use dondolo_origin, only : check_regular, run_length
-   use dondolo_system, only : remove_file
-   use dondolo_text, only : to_text
+   use dondolo_base_error, only : error_type, raise_failure, raise_input
+   use dondolo_base_numbers, only : parse_integer
+   use dondolo_base_origin, only : check_regular, run_length
+   use dondolo_base_system, only : remove_file
+   use dondolo_base_text, only : to_text
    implicit none
    private
 
@@ -252,4 +252,4 @@ contains
          & trim(holder%since)//')'
    end function described
 
-end module dondolo_lock
+end module dondolo_base_lock

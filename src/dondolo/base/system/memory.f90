@@ -3,13 +3,13 @@
 !> Fortran ends the program where a temporary array, an assignment or a text finds no memory. So a work first asks
 !> whether it can have as much as all of these will take, and gives it back at once. That takes longer than to plan a small
 !> work. So small ones share what one trial has shown, unless the process has a limit that it may run into.
-module dondolo_memory
+module dondolo_base_memory
    use, intrinsic :: iso_c_binding, only : c_int
    use, intrinsic :: iso_fortran_env, only : int8, int64
    use, intrinsic :: omp_lib, only : omp_get_max_threads
-   use dondolo_error, only : error_type, raise_failure, status_memory
-   use dondolo_kinds, only : wp
-   use dondolo_text, only : to_text
+   use dondolo_base_error, only : error_type, raise_failure, status_memory
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
    implicit none
    private
 
@@ -76,4 +76,4 @@ contains
       error%stat = status_memory
    end subroutine raise_shortage
 
-end module dondolo_memory
+end module dondolo_base_memory

@@ -1,11 +1,11 @@
 !> Tables of numbers alone, such as hazard curves.
-module dondolo_number_table
-   use dondolo_csv_reader, only : csv_row_type, csv_table_type
-   use dondolo_csv_row, only : cell_type
-   use dondolo_error, only : add_place, error_type, raise_input
-   use dondolo_kinds, only : wp
-   use dondolo_limits, only : most_numbers
-   use dondolo_text, only : to_text
+module dondolo_base_number_table
+   use dondolo_base_csv_reader, only : csv_row_type, csv_table_type
+   use dondolo_base_csv_row, only : cell_type
+   use dondolo_base_error, only : add_place, error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_limits, only : most_numbers
+   use dondolo_base_text, only : to_text
    implicit none
    private
 
@@ -62,4 +62,4 @@ contains
       values = values(:, :rows)
    end subroutine read_number_table
 
-end module dondolo_number_table
+end module dondolo_base_number_table

@@ -5,10 +5,10 @@
 !> saved result with theirs; catalogues of records are tables whose first two lines say so. What is made of results - reports,
 !> workbooks, figures, animations, models of other programs - has the mark of `derived_mark` in its metadata, which names the run
 !> whose results it shows. A symbolic link, a pipe, a device or an empty file is nobody's that dondolo knows.
-module dondolo_origin
+module dondolo_base_origin
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_null_char, c_size_t
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_version, only : dondolo_version_text
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_version, only : dondolo_version_text
    implicit none
    private
 
@@ -228,4 +228,4 @@ contains
       call raise_input(error, path//': is '//trim(things(thing))//', not a regular file')
    end subroutine check_regular
 
-end module dondolo_origin
+end module dondolo_base_origin

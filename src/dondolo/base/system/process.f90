@@ -1,7 +1,7 @@
 !> The process itself: where its program is, and how it becomes another one.
-module dondolo_process
+module dondolo_base_process
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_null_char, c_size_t
-   use dondolo_lines, only : lines_type
+   use dondolo_base_lines, only : lines_type
    implicit none
    private
 
@@ -61,4 +61,4 @@ contains
       call c_become(joined, int(words%count, c_int))
    end subroutine become
 
-end module dondolo_process
+end module dondolo_base_process

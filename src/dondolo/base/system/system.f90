@@ -1,6 +1,6 @@
 !> The few things of the operating system that Fortran does not give: folders, renaming, writing that notices a full
 !> disk (gfortran's own WRITE and CLOSE report success there), terminals. All are C and POSIX functions, or in files.c.
-module dondolo_system
+module dondolo_base_system
    use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_int, c_intptr_t, c_null_char, c_long, &
       & c_null_ptr, c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only : int64, output_unit
@@ -378,4 +378,4 @@ contains
       self%handle = c_null_ptr
    end subroutine close_writer
 
-end module dondolo_system
+end module dondolo_base_system

@@ -1,14 +1,14 @@
 !> A text file as a whole: read at once, with an index of its lines.
-module dondolo_text_file
+module dondolo_base_text_file
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_encoding, only : byte_order_mark, encoding_problem, from_latin, is_ascii, is_utf8, mend_line_ends, &
+   use dondolo_base_encoding, only : byte_order_mark, encoding_problem, from_latin, is_ascii, is_utf8, mend_line_ends, &
       & from_utf16, utf16_order
-   use dondolo_error, only : add_place, error_type, raise_input, raise_missing
-   use dondolo_kinds, only : wp
-   use dondolo_memory, only : check_room
-   use dondolo_odd_character, only : odd_character
-   use dondolo_origin, only : check_regular
-   use dondolo_text, only : to_text
+   use dondolo_base_error, only : add_place, error_type, raise_input, raise_missing
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_memory, only : check_room
+   use dondolo_base_odd_character, only : odd_character
+   use dondolo_base_origin, only : check_regular
+   use dondolo_base_text, only : to_text
    implicit none
    private
 
@@ -429,4 +429,4 @@ contains
       is_blank = iachar(character) == iachar(' ') .or. iachar(character) == 9
    end function is_blank
 
-end module dondolo_text_file
+end module dondolo_base_text_file

@@ -1,8 +1,8 @@
 !> How many threads share some work.
-module dondolo_threads
+module dondolo_base_threads
    use, intrinsic :: omp_lib, only : omp_get_max_threads, omp_get_num_threads
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_text, only : to_text
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_text, only : to_text
    implicit none
    private
 
@@ -55,4 +55,4 @@ contains
          & ': must lie between 0 (all) and '//to_text(largest_threads))
    end subroutine check_threads
 
-end module dondolo_threads
+end module dondolo_base_threads

@@ -2,9 +2,9 @@
 !>
 !> A spreadsheet takes a cell that begins with = + - or @ for a formula, and with an apostrophe before it for a text. So
 !> such an apostrophe is no part of a text that is read, and one that is part of a text is written twice.
-module dondolo_csv_row
-   use dondolo_limits, only : most_cells
-   use dondolo_text, only : blanks, occurrences, stripped, to_text
+module dondolo_base_csv_row
+   use dondolo_base_limits, only : most_cells
+   use dondolo_base_text, only : blanks, occurrences, stripped, to_text
    implicit none
    private
 
@@ -277,4 +277,4 @@ contains
       end do
    end function has_outside_quotes
 
-end module dondolo_csv_row
+end module dondolo_base_csv_row

@@ -3,10 +3,10 @@
 !>
 !> 1.800 and 1,800 are 1800 or 1.8; only other cells of the table can tell. All of its numbers are looked at first, and
 !> what remains ambiguous is refused.
-module dondolo_decimal_mark
-   use dondolo_kinds, only : wp
-   use dondolo_numbers, only : parse_real
-   use dondolo_odd_character, only : odd_character
+module dondolo_base_decimal_mark
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_numbers, only : parse_real
+   use dondolo_base_odd_character, only : odd_character
    implicit none
    private
 
@@ -122,4 +122,4 @@ contains
          & .and. len_trim(cell) == point + 3 .and. verify(trim(cell(point + 1:)), figures) == 0
    end function is_grouped
 
-end module dondolo_decimal_mark
+end module dondolo_base_decimal_mark

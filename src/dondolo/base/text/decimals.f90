@@ -3,9 +3,9 @@
 !>
 !> A number in double precision, times a power of ten, is known to 112 bits in real128, and 17 digits are 57 of them. What
 !> these do not tell for sure, as a tie, is left to a WRITE, and so are numbers with three digits in their exponent.
-module dondolo_decimals
+module dondolo_base_decimals
    use, intrinsic :: iso_fortran_env, only : int64, real128
-   use dondolo_kinds, only : dp, wp
+   use dondolo_base_kinds, only : dp, wp
    implicit none
    private
 
@@ -234,4 +234,4 @@ contains
       end do
    end subroutine put_digits
 
-end module dondolo_decimals
+end module dondolo_base_decimals

@@ -1,5 +1,5 @@
 !> Bytes of files as text: UTF-8, UTF-16 that begins with a byte order mark, and what to say of all else.
-module dondolo_encoding
+module dondolo_base_encoding
    use, intrinsic :: iso_fortran_env, only : int64
    implicit none
    private
@@ -262,4 +262,4 @@ contains
       end do
    end subroutine append_character
 
-end module dondolo_encoding
+end module dondolo_base_encoding

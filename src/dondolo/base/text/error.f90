@@ -4,8 +4,8 @@
 !> full stop; callers put the place before it (file, namelist group), so that a user reads
 !> `walls.nml: &wall: thickness = -0.25: must be positive`. Where several things can be wrong at once, such as the
 !> variables of a wall or the rows of a table, their sentences stand on lines of their own (problems_type).
-module dondolo_error
-   use dondolo_plain, only : visible
+module dondolo_base_error
+   use dondolo_base_plain, only : visible
    implicit none
    private
 
@@ -187,4 +187,4 @@ contains
       end do
    end function lines_of
 
-end module dondolo_error
+end module dondolo_base_error

@@ -2,11 +2,11 @@
 !>
 !> The text is valid whatever is put in: strings are escaped, bytes that are not UTF-8 become U+FFFD, and a number that
 !> JSON cannot express (NaN, infinity) becomes null.
-module dondolo_json
+module dondolo_base_json
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_encoding, only : is_utf8
-   use dondolo_kinds, only : wp
-   use dondolo_text, only : make_real, to_text
+   use dondolo_base_encoding, only : is_utf8
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : make_real, to_text
    implicit none
    private
 
@@ -255,4 +255,4 @@ contains
       self%length = self%length + len(text)
    end subroutine append
 
-end module dondolo_json
+end module dondolo_base_json

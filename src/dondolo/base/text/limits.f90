@@ -1,6 +1,6 @@
 !> Limits of sizes: what is larger is surely no input of dondolo, and is refused in one line that names the limit. A limit
 !> is far beyond what anybody needs and bounds memory and time. docs/files.md lists them all.
-module dondolo_limits
+module dondolo_base_limits
    use, intrinsic :: iso_fortran_env, only : int64
    implicit none
    private
@@ -47,4 +47,4 @@ module dondolo_limits
    !> Groups of a population
    integer, parameter, public :: most_groups = 64
 
-end module dondolo_limits
+end module dondolo_base_limits

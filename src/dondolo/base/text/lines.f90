@@ -1,5 +1,5 @@
 !> Lines of text, one after the other: warnings, the echo of a case, names of files.
-module dondolo_lines
+module dondolo_base_lines
    implicit none
    private
 
@@ -45,4 +45,4 @@ contains
       self%line(self%count)%text = text
    end subroutine add
 
-end module dondolo_lines
+end module dondolo_base_lines

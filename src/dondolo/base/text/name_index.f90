@@ -1,9 +1,9 @@
 !> Where names stand: a hash table from names to lines of a file, 24 to 48 bytes for each name, 72 while it grows.
 !>
 !> Of a name only a fingerprint of 62 bits is kept: among a million names two are taken for the same once in 1e7 times.
-module dondolo_name_index
+module dondolo_base_name_index
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_fingerprint, only : fingerprint_type
+   use dondolo_base_fingerprint, only : fingerprint_type
    implicit none
    private
 
@@ -108,4 +108,4 @@ contains
       end do
    end subroutine make_room
 
-end module dondolo_name_index
+end module dondolo_base_name_index

@@ -1,9 +1,9 @@
 !> Numbers out of text, strictly: the whole text is one number, or it is refused.
 !>
 !> Fortran's own list-directed READ takes '3*1.0', '1/' and '1,5' for numbers; here the characters are checked first.
-module dondolo_numbers
+module dondolo_base_numbers
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_kinds, only : wp
+   use dondolo_base_kinds, only : wp
    implicit none
    private
 
@@ -360,4 +360,4 @@ contains
       if (minus .or. iachar(text(i:i)) == iachar('+')) i = i + 1
    end subroutine take_sign
 
-end module dondolo_numbers
+end module dondolo_base_numbers

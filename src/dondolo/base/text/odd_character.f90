@@ -1,7 +1,7 @@
 !> Characters of print that look like a space, a sign or nothing, and that word processors and web pages put in their place:
 !> messages name them, since nobody sees them.
-module dondolo_odd_character
-   use dondolo_encoding, only : next_character
+module dondolo_base_odd_character
+   use dondolo_base_encoding, only : next_character
    implicit none
    private
 
@@ -58,4 +58,4 @@ contains
       end select
    end function kind_of
 
-end module dondolo_odd_character
+end module dondolo_base_odd_character

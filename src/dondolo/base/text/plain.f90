@@ -1,9 +1,9 @@
 !> Text that is safe on a terminal and in a table: one line of UTF-8 without characters that nobody sees but that steer
 !> what is shown.
-module dondolo_plain
-   use dondolo_encoding, only : next_character
-   use dondolo_limits, only : longest_name
-   use dondolo_text, only : to_text
+module dondolo_base_plain
+   use dondolo_base_encoding, only : next_character
+   use dondolo_base_limits, only : longest_name
+   use dondolo_base_text, only : to_text
    implicit none
    private
 
@@ -171,4 +171,4 @@ contains
       shown = text(:shown_length(text))//'...'
    end function shown
 
-end module dondolo_plain
+end module dondolo_base_plain

@@ -1,6 +1,6 @@
 !> Which name somebody may have meant who has written another.
-module dondolo_spelling
-   use dondolo_text, only : join
+module dondolo_base_spelling
+   use dondolo_base_text, only : join
    implicit none
    private
 
@@ -72,4 +72,4 @@ contains
       distance = steps(len(a), len(b))
    end function distance
 
-end module dondolo_spelling
+end module dondolo_base_spelling

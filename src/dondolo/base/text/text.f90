@@ -2,10 +2,10 @@
 !>
 !> Results have lengths that are specification expressions: that of a result of deferred length gfortran 12 keeps in one
 !> place for each call in the source, for all threads.
-module dondolo_text
+module dondolo_base_text
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_decimals, only : find_figures, find_shortest, is_short, put_digits, rounded_to
-   use dondolo_kinds, only : wp
+   use dondolo_base_decimals, only : find_figures, find_shortest, is_short, put_digits, rounded_to
+   use dondolo_base_kinds, only : wp
    implicit none
    private
 
@@ -386,4 +386,4 @@ contains
       right = repeat(' ', max(0, width - len(text)))//text
    end function right
 
-end module dondolo_text
+end module dondolo_base_text

@@ -1,5 +1,5 @@
 !> The version of dondolo, the same as in fpm.toml.
-module dondolo_version
+module dondolo_base_version
    implicit none
    private
 
@@ -8,4 +8,4 @@ module dondolo_version
    !> Version
    character(len=*), parameter :: dondolo_version_text = '0.1.0'
 
-end module dondolo_version
+end module dondolo_base_version

@@ -1,12 +1,12 @@
 !> The group &building: what the wall stands on, where that is not the ground.
-module dondolo_building_group
+module dondolo_case_building_group
+   use dondolo_base_error, only : error_type, problems_type
+   use dondolo_base_settings, only : group_settings_type, new_settings
+   use dondolo_base_settings_check, only : check_settings
    use dondolo_building, only : building_type
    use dondolo_building_input, only : building_properties, new_building
-   use dondolo_error, only : error_type, problems_type
-   use dondolo_namelist_group, only : group_type
-   use dondolo_settings, only : group_settings_type, new_settings
-   use dondolo_settings_check, only : check_settings
-   use dondolo_settings_group, only : read_values
+   use dondolo_case_namelist_group, only : group_type
+   use dondolo_case_settings_group, only : read_values
    use dondolo_wall_properties, only : wall_input_type
    implicit none
    private
@@ -39,4 +39,4 @@ contains
       if (.not. allocated(error)) call read_values(group, wall, error, building_properties)
    end subroutine read_building_group
 
-end module dondolo_building_group
+end module dondolo_case_building_group

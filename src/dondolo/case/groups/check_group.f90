@@ -1,10 +1,10 @@
 !> The group &check: a check by a building code beside the curve.
-module dondolo_check_group
+module dondolo_case_check_group
+   use dondolo_base_error, only : error_type, problems_type
+   use dondolo_base_settings, only : group_settings_type, new_settings
+   use dondolo_case_namelist_group, only : group_type
+   use dondolo_case_settings_group, only : read_values
    use dondolo_check_input, only : check_input_type, check_properties, take_check
-   use dondolo_error, only : error_type, problems_type
-   use dondolo_namelist_group, only : group_type
-   use dondolo_settings, only : group_settings_type, new_settings
-   use dondolo_settings_group, only : read_values
    implicit none
    private
 
@@ -34,4 +34,4 @@ contains
       call group%locate(error)
    end subroutine read_check_group
 
-end module dondolo_check_group
+end module dondolo_case_check_group

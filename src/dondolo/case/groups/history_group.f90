@@ -1,13 +1,13 @@
 !> The group &history: which record, and how strong, for one time history.
-module dondolo_history_group
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_kinds, only : wp
-   use dondolo_namelist_group, only : group_type
-   use dondolo_property, only : is_number_or_name, property_type
+module dondolo_case_history_group
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_property, only : is_number_or_name, property_type
+   use dondolo_base_settings, only : group_settings_type, new_settings
+   use dondolo_base_text, only : to_text
+   use dondolo_case_namelist_group, only : group_type
+   use dondolo_case_settings_group, only : read_settings
    use dondolo_record, only : record_type
-   use dondolo_settings, only : group_settings_type, new_settings
-   use dondolo_settings_group, only : read_settings
-   use dondolo_text, only : to_text
    implicit none
    private
 
@@ -132,4 +132,4 @@ contains
       end if
    end subroutine put
 
-end module dondolo_history_group
+end module dondolo_case_history_group

@@ -1,12 +1,12 @@
 !> The group &job: what is to be done and where the results go.
-module dondolo_job_group
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_namelist_group, only : group_type
-   use dondolo_property, only : blank, choices_length, is_integer, is_logical, is_text, most_choices, property_type
-   use dondolo_settings, only : group_settings_type, new_settings
-   use dondolo_settings_group, only : read_settings
-   use dondolo_threads, only : largest_threads
+module dondolo_case_job_group
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_property, only : blank, choices_length, is_integer, is_logical, is_text, most_choices, property_type
+   use dondolo_base_settings, only : group_settings_type, new_settings
+   use dondolo_base_threads, only : largest_threads
+   use dondolo_case_namelist_group, only : group_type
+   use dondolo_case_settings_group, only : read_settings
    implicit none
    private
 
@@ -111,4 +111,4 @@ contains
       call settings%set('threads', self%threads)
    end subroutine put
 
-end module dondolo_job_group
+end module dondolo_case_job_group

@@ -1,10 +1,10 @@
 !> The group &population: the file of a population of walls, and whether they are designs of one wall.
-module dondolo_population_group
-   use dondolo_error, only : error_type
-   use dondolo_namelist_group, only : group_type
-   use dondolo_property, only : is_logical, is_text, property_type
-   use dondolo_settings, only : group_settings_type, new_settings
-   use dondolo_settings_group, only : read_settings
+module dondolo_case_population_group
+   use dondolo_base_error, only : error_type
+   use dondolo_base_property, only : is_logical, is_text, property_type
+   use dondolo_base_settings, only : group_settings_type, new_settings
+   use dondolo_case_namelist_group, only : group_type
+   use dondolo_case_settings_group, only : read_settings
    implicit none
    private
 
@@ -53,4 +53,4 @@ contains
       call settings%set('designs', designs)
    end subroutine put_population
 
-end module dondolo_population_group
+end module dondolo_case_population_group

@@ -1,16 +1,16 @@
 !> All tables of properties, by the name of their group in a namelist.
-module dondolo_property_tables
+module dondolo_case_property_tables
+   use dondolo_base_property, only : property_type
    use dondolo_building_input, only : building_properties
+   use dondolo_case_history_group, only : history_properties
+   use dondolo_case_job_group, only : job_properties
+   use dondolo_case_population_group, only : population_properties
+   use dondolo_case_records_group, only : records_properties
+   use dondolo_case_stripes_group, only : stripes_properties
+   use dondolo_case_uncertainty_group, only : uncertainty_properties
    use dondolo_check_input, only : check_properties
-   use dondolo_history_group, only : history_properties
-   use dondolo_job_group, only : job_properties
-   use dondolo_member, only : member_properties
-   use dondolo_population_group, only : population_properties
-   use dondolo_property, only : property_type
-   use dondolo_records_group, only : records_properties
-   use dondolo_solver, only : solver_properties
-   use dondolo_stripes_group, only : stripes_properties
-   use dondolo_uncertainty_group, only : uncertainty_properties
+   use dondolo_motion_solver, only : solver_properties
+   use dondolo_population_member, only : member_properties
    use dondolo_wall_properties, only : own_properties, wall_properties
    implicit none
    private
@@ -62,4 +62,4 @@ contains
       end select
    end function property_table
 
-end module dondolo_property_tables
+end module dondolo_case_property_tables

@@ -1,12 +1,12 @@
 !> The group &records: the accelerograms and their polarity.
-module dondolo_records_group
-   use dondolo_error, only : error_type
-   use dondolo_namelist_group, only : group_type
-   use dondolo_kinds, only : wp
-   use dondolo_property, only : blank, choices_length, is_text, most_choices, property_type
-   use dondolo_settings, only : group_settings_type, new_settings
-   use dondolo_settings_group, only : read_settings
-   use dondolo_study, only : polarity_names
+module dondolo_case_records_group
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_property, only : blank, choices_length, is_text, most_choices, property_type
+   use dondolo_base_settings, only : group_settings_type, new_settings
+   use dondolo_case_namelist_group, only : group_type
+   use dondolo_case_settings_group, only : read_settings
+   use dondolo_fragility_study, only : polarity_names
    implicit none
    private
 
@@ -88,4 +88,4 @@ contains
       if (allocated(self%vertical_factor)) call settings%set('vertical_factor', self%vertical_factor)
    end subroutine put
 
-end module dondolo_records_group
+end module dondolo_case_records_group

@@ -1,11 +1,11 @@
 !> The group &solver: how the motions are computed.
-module dondolo_solver_group
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_namelist_group, only : group_type
-   use dondolo_settings, only : group_settings_type, new_settings
-   use dondolo_settings_group, only : read_settings
-   use dondolo_solver, only : put_solver, solver_properties, solver_type, take_solver
+module dondolo_case_solver_group
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_settings, only : group_settings_type, new_settings
+   use dondolo_case_namelist_group, only : group_type
+   use dondolo_case_settings_group, only : read_settings
+   use dondolo_motion_solver, only : put_solver, solver_properties, solver_type, take_solver
    use dondolo_wall, only : standard_gravity
    implicit none
    private
@@ -55,4 +55,4 @@ contains
       call settings%set('gravity', self%gravity)
    end subroutine put
 
-end module dondolo_solver_group
+end module dondolo_case_solver_group

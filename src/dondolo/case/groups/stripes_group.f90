@@ -1,16 +1,16 @@
 !> The group &stripes: the intensity measure and its levels.
-module dondolo_stripes_group
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_even_levels, only : even_levels, settle_levels
-   use dondolo_kinds, only : wp
-   use dondolo_limits, only : most_levels, most_thresholds
-   use dondolo_namelist_group, only : group_type
-   use dondolo_property, only : blank, choices_length, is_integer, is_list, is_text, most_choices, property_type
-   use dondolo_scaling, only : new_scaling, scaling_type
-   use dondolo_settings, only : group_settings_type, new_settings
-   use dondolo_settings_group, only : read_settings
-   use dondolo_study, only : check_levels, check_thresholds
-   use dondolo_text, only : to_text
+module dondolo_case_stripes_group
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_limits, only : most_levels, most_thresholds
+   use dondolo_base_property, only : blank, choices_length, is_integer, is_list, is_text, most_choices, property_type
+   use dondolo_base_settings, only : group_settings_type, new_settings
+   use dondolo_base_text, only : to_text
+   use dondolo_case_namelist_group, only : group_type
+   use dondolo_case_settings_group, only : read_settings
+   use dondolo_fragility_even_levels, only : even_levels, settle_levels
+   use dondolo_fragility_scaling, only : new_scaling, scaling_type
+   use dondolo_fragility_study, only : check_levels, check_thresholds
    implicit none
    private
 
@@ -161,4 +161,4 @@ contains
       call settings%set('states', self%states)
    end subroutine put
 
-end module dondolo_stripes_group
+end module dondolo_case_stripes_group

@@ -1,17 +1,17 @@
 !> The group &uncertainty: what is not known for certain of the one wall of a case.
-module dondolo_uncertainty_group
-   use dondolo_distribution, only : distribution_type, new_distribution
-   use dondolo_error, only : error_type, problems_type, raise_input
-   use dondolo_kinds, only : wp
-   use dondolo_namelist_group, only : group_type
-   use dondolo_property, only : is_integer, is_text, name_length, property_type
-   use dondolo_sensitivity, only : smallest_sample
-   use dondolo_settings, only : group_settings_type, new_settings
-   use dondolo_settings_group, only : read_settings
-   use dondolo_tested_restitution, only : check_published
-   use dondolo_text, only : to_text
-   use dondolo_variants, only : sample_variants, stated_wall_type
+module dondolo_case_uncertainty_group
+   use dondolo_base_error, only : error_type, problems_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_property, only : is_integer, is_text, name_length, property_type
+   use dondolo_base_settings, only : group_settings_type, new_settings
+   use dondolo_base_text, only : to_text
+   use dondolo_case_namelist_group, only : group_type
+   use dondolo_case_settings_group, only : read_settings
+   use dondolo_population_distribution, only : distribution_type, new_distribution
+   use dondolo_population_sensitivity, only : smallest_sample
+   use dondolo_population_variants, only : sample_variants, stated_wall_type
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
+   use dondolo_wall_tested_restitution, only : check_published
    implicit none
    private
 
@@ -123,4 +123,4 @@ contains
       call check_published(text, medians, error)
    end subroutine check_factor
 
-end module dondolo_uncertainty_group
+end module dondolo_case_uncertainty_group

@@ -1,23 +1,23 @@
 !> A case: everything a user asks for in one namelist file.
 module dondolo_case
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_settings, only : group_settings_type, new_settings
    use dondolo_building_input, only : building_properties
-   use dondolo_echo, only : echo_type
+   use dondolo_case_echo, only : echo_type
+   use dondolo_case_history_group, only : history_input_type
+   use dondolo_case_job_group, only : job_type
+   use dondolo_case_paths, only : beside
+   use dondolo_case_population_group, only : put_population
+   use dondolo_case_records_group, only : records_input_type
+   use dondolo_case_settings_group, only : echo_settings
+   use dondolo_case_solver_group, only : solver_input_type
+   use dondolo_case_stripes_group, only : stripes_input_type
+   use dondolo_case_survey, only : survey_type
    use dondolo_check_input, only : check_input_type, check_properties, put_check
-   use dondolo_history_group, only : history_input_type
-   use dondolo_job_group, only : job_type
-   use dondolo_kinds, only : wp
-   use dondolo_lines, only : lines_type
-   use dondolo_paths, only : beside
-   use dondolo_population_group, only : put_population
+   use dondolo_fragility_study, only : new_study, study_type
    use dondolo_population_table, only : population_table_type
-   use dondolo_records_group, only : records_input_type
-   use dondolo_settings, only : group_settings_type, new_settings
-   use dondolo_settings_group, only : echo_settings
-   use dondolo_solver_group, only : solver_input_type
-   use dondolo_stripes_group, only : stripes_input_type
-   use dondolo_study, only : new_study, study_type
-   use dondolo_suite, only : suite_type
-   use dondolo_survey, only : survey_type
+   use dondolo_record_suite, only : suite_type
    use dondolo_wall, only : wall_type
    use dondolo_wall_properties, only : is_of_building, own_properties, wall_properties
    implicit none

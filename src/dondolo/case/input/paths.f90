@@ -1,5 +1,5 @@
 !> Paths that are relative to the file they stand in.
-module dondolo_paths
+module dondolo_case_paths
    implicit none
    private
 
@@ -20,4 +20,4 @@ contains
       if (path(1:1) /= '/') resolved = file(:index(file, '/', back=.true.))//path
    end function beside
 
-end module dondolo_paths
+end module dondolo_case_paths

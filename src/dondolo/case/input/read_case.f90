@@ -1,38 +1,38 @@
 !> Reading a case: its namelist file and all that it names, checked before anything is computed.
-module dondolo_read_case
-   use dondolo_building_group, only : read_building_group
+module dondolo_case_read_case
+   use dondolo_base_error, only : error_type, raise_input, status_missing
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_memory, only : check_room
+   use dondolo_base_system, only : is_folder
+   use dondolo_base_text, only : brief, to_text
    use dondolo_case, only : case_type
-   use dondolo_catalogue, only : read_catalogue, record_rows_type
-   use dondolo_check_group, only : read_check_group
-   use dondolo_dead_channel, only : check_motion
-   use dondolo_ensemble, only : check_engine
-   use dondolo_error, only : error_type, raise_input, status_missing
-   use dondolo_history_group, only : find_record, read_history_group
-   use dondolo_job_group, only : read_job
-   use dondolo_kinds, only : wp
-   use dondolo_kinematic, only : kinematic_type, new_kinematic
-   use dondolo_lane_variants, only : check_variant
-   use dondolo_memory, only : check_room
-   use dondolo_namelist, only : namelist_type, read_namelist
-   use dondolo_namelist_group, only : group_type
-   use dondolo_paths, only : beside
-   use dondolo_member, only : member_type
+   use dondolo_case_building_group, only : read_building_group
+   use dondolo_case_check_group, only : read_check_group
+   use dondolo_case_history_group, only : find_record, read_history_group
+   use dondolo_case_job_group, only : read_job
+   use dondolo_case_namelist, only : namelist_type, read_namelist
+   use dondolo_case_namelist_group, only : group_type
+   use dondolo_case_paths, only : beside
+   use dondolo_case_population_group, only : read_population_group
+   use dondolo_case_property_tables, only : group_names
+   use dondolo_case_records_group, only : read_records_group
+   use dondolo_case_settings_group, only : read_values
+   use dondolo_case_solver_group, only : read_solver_group
+   use dondolo_case_stripes_group, only : check_states, read_stripes_group
+   use dondolo_case_survey, only : survey_population
+   use dondolo_case_uncertainty_group, only : read_uncertainty_group
+   use dondolo_check_kinematic, only : kinematic_type, new_kinematic
+   use dondolo_fragility_study, only : study_type
+   use dondolo_motion_ensemble, only : check_engine
+   use dondolo_motion_lane_variants, only : check_variant
+   use dondolo_motion_solver, only : check_limit
+   use dondolo_population_member, only : member_type
    use dondolo_population_reader, only : population_reader_type
-   use dondolo_population_group, only : read_population_group
-   use dondolo_property_tables, only : group_names
-   use dondolo_reading_notes, only : list_reading_notes
    use dondolo_record, only : largest_acceleration, record_type
-   use dondolo_records_group, only : read_records_group
-   use dondolo_settings_group, only : read_values
-   use dondolo_solver, only : check_limit
-   use dondolo_solver_group, only : read_solver_group
-   use dondolo_stripes_group, only : check_states, read_stripes_group
-   use dondolo_study, only : study_type
-   use dondolo_suite, only : new_suite
-   use dondolo_survey, only : survey_population
-   use dondolo_system, only : is_folder
-   use dondolo_text, only : brief, to_text
-   use dondolo_uncertainty_group, only : read_uncertainty_group
+   use dondolo_record_catalogue, only : read_catalogue, record_rows_type
+   use dondolo_record_dead_channel, only : check_motion
+   use dondolo_record_reading_notes, only : list_reading_notes
+   use dondolo_record_suite, only : new_suite
    use dondolo_wall, only : new_wall
    use dondolo_wall_properties, only : own_properties, wall_input_type, wall_properties
    implicit none
@@ -454,4 +454,4 @@ contains
          & group%in_line(trim(merge('levels', 'last  ', group%has('levels'))))
    end subroutine check_scales
 
-end module dondolo_read_case
+end module dondolo_case_read_case

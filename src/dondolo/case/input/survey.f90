@@ -1,25 +1,25 @@
 !> Survey of a population before anything is run: every row is read and checked, and everything that is wrong is reported
 !> at once. The walls are not kept.
-module dondolo_survey
+module dondolo_case_survey
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_ensemble, only : check_engine
-   use dondolo_error, only : add_place, error_type, problems_type, raise_input
-   use dondolo_fingerprint, only : fingerprint_type
-   use dondolo_identity, only : add_wall
-   use dondolo_limits, only : most_groups
-   use dondolo_lines, only : lines_type
-   use dondolo_plausibility, only : wall_warning_type
-   use dondolo_member, only : member_type
+   use dondolo_base_error, only : add_place, error_type, problems_type, raise_input
+   use dondolo_base_fingerprint, only : fingerprint_type
+   use dondolo_base_limits, only : most_groups
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_text, only : to_text
+   use dondolo_case_plausibility, only : wall_warning_type
+   use dondolo_case_warnings, only : scale_warning_type
+   use dondolo_fragility_stripes, only : plan_stripes, stripes_type
+   use dondolo_fragility_study, only : study_type
+   use dondolo_motion_ensemble, only : check_engine
+   use dondolo_motion_solver, only : check_limit
    use dondolo_population, only : population_type
+   use dondolo_population_identity, only : add_wall
+   use dondolo_population_member, only : member_type
    use dondolo_population_reader, only : population_reader_type
    use dondolo_population_table, only : population_table_type
-   use dondolo_solver, only : check_limit
-   use dondolo_stripes, only : plan_stripes, stripes_type
-   use dondolo_study, only : study_type
-   use dondolo_support_notes, only : supports_type
-   use dondolo_text, only : to_text
    use dondolo_wall_properties, only : wall_properties
-   use dondolo_warnings, only : scale_warning_type
+   use dondolo_wall_support_notes, only : supports_type
    implicit none
    private
 
@@ -146,4 +146,4 @@ contains
          & to_text(huge(1))//' at a time, parts of the population with --walls FIRST:LAST')
    end subroutine check_size
 
-end module dondolo_survey
+end module dondolo_case_survey

@@ -1,9 +1,9 @@
 !> The echo of a case: groups of variables and their values in force, to be written as namelist text or as JSON.
-module dondolo_echo
-   use dondolo_json, only : json_type
-   use dondolo_kinds, only : wp
-   use dondolo_lines, only : lines_type
-   use dondolo_text, only : to_text
+module dondolo_case_echo
+   use dondolo_base_json, only : json_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_text, only : to_text
    implicit none
    private
 
@@ -197,4 +197,4 @@ contains
       end do
    end subroutine quote
 
-end module dondolo_echo
+end module dondolo_case_echo

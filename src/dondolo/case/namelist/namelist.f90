@@ -6,14 +6,14 @@
 !>
 !>     &wall  height = 3.0, thickness = 0.25   ! a comment
 !>            name = 'facade' /
-module dondolo_namelist
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_limits, only : longest_case
-   use dondolo_name_index, only : name_index_type
-   use dondolo_namelist_group, only : group_type, variable_type
-   use dondolo_namelist_tokens, only : comma, cut, end_of_file, equals, group_begin, group_end, quoted, token_type, word
-   use dondolo_text, only : lower, to_text
-   use dondolo_text_file, only : read_text_file, text_file_type
+module dondolo_case_namelist
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_limits, only : longest_case
+   use dondolo_base_name_index, only : name_index_type
+   use dondolo_base_text, only : lower, to_text
+   use dondolo_base_text_file, only : read_text_file, text_file_type
+   use dondolo_case_namelist_group, only : group_type, variable_type
+   use dondolo_case_namelist_tokens, only : comma, cut, end_of_file, equals, group_begin, group_end, quoted, token_type, word
    implicit none
    private
 
@@ -296,4 +296,4 @@ contains
       end do
    end function number_before
 
-end module dondolo_namelist
+end module dondolo_case_namelist

@@ -2,13 +2,13 @@
 !>
 !> What is refused is refused with its place and its value as it was typed:
 !> `walls.nml: &wall: thickness = 'thin': must be a number, such as 0.25 (line 12)`.
-module dondolo_namelist_group
-   use dondolo_error, only : add_place, error_type, raise_input
-   use dondolo_kinds, only : wp
-   use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_plain, only : name_problem, shown
-   use dondolo_spelling, only : say_allowed
-   use dondolo_text, only : first_word, lower, to_text
+module dondolo_case_namelist_group
+   use dondolo_base_error, only : add_place, error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_numbers, only : parse_integer, parse_real
+   use dondolo_base_plain, only : name_problem, shown
+   use dondolo_base_spelling, only : say_allowed
+   use dondolo_base_text, only : first_word, lower, to_text
    implicit none
    private
 
@@ -497,4 +497,4 @@ contains
       end if
    end function not_a_number
 
-end module dondolo_namelist_group
+end module dondolo_case_namelist_group

@@ -1,11 +1,11 @@
 !> The text of a namelist file, cut into tokens: words, texts in quotes, =, commas, &name and /.
-module dondolo_namelist_tokens
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_limits, only : most_tokens
-   use dondolo_odd_character, only : odd_character
-   use dondolo_plain, only : shown
-   use dondolo_text, only : lower, to_text
-   use dondolo_text_file, only : text_file_type
+module dondolo_case_namelist_tokens
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_limits, only : most_tokens
+   use dondolo_base_odd_character, only : odd_character
+   use dondolo_base_plain, only : shown
+   use dondolo_base_text, only : lower, to_text
+   use dondolo_base_text_file, only : text_file_type
    implicit none
    private
 
@@ -216,4 +216,4 @@ contains
          & ': a quote inside is doubled, ''L''''Aquila''')
    end subroutine take_quoted
 
-end module dondolo_namelist_tokens
+end module dondolo_case_namelist_tokens

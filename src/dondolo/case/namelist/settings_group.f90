@@ -1,13 +1,13 @@
 !> Settings out of the group of a namelist, and back: the table of their properties says what there is.
-module dondolo_settings_group
-   use dondolo_echo, only : echo_type
-   use dondolo_error, only : error_type, problems_type
-   use dondolo_kinds, only : wp
-   use dondolo_namelist_group, only : group_type
-   use dondolo_property, only : find_property, has_owner, is_integer, is_list, is_logical, is_number_or_name, is_text, &
+module dondolo_case_settings_group
+   use dondolo_base_error, only : error_type, problems_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_property, only : find_property, has_owner, is_integer, is_list, is_logical, is_number_or_name, is_text, &
       & is_words, name_length, property_type
-   use dondolo_settings, only : settings_type
-   use dondolo_settings_check, only : check_settings
+   use dondolo_base_settings, only : settings_type
+   use dondolo_base_settings_check, only : check_settings
+   use dondolo_case_echo, only : echo_type
+   use dondolo_case_namelist_group, only : group_type
    implicit none
    private
 
@@ -167,4 +167,4 @@ contains
 
    end subroutine echo_settings
 
-end module dondolo_settings_group
+end module dondolo_case_settings_group

@@ -1,15 +1,15 @@
 !> Kinematic checks by a building code of the walls of a case: the sheet of one, and of a population a row for each wall.
-module dondolo_check_rows
+module dondolo_case_check_rows
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : lower
    use dondolo_case, only : case_type
+   use dondolo_case_table, only : table_type
+   use dondolo_check_kinematic, only : kinematic_type, new_kinematic
+   use dondolo_check_ntc_check, only : check_ntc
    use dondolo_check_sheet, only : sheet_type
-   use dondolo_error, only : error_type
    use dondolo_fragility, only : fragility_type
-   use dondolo_kinds, only : wp
-   use dondolo_kinematic, only : kinematic_type, new_kinematic
-   use dondolo_ntc_check, only : check_ntc
-   use dondolo_member, only : member_type
-   use dondolo_table, only : table_type
-   use dondolo_text, only : lower
+   use dondolo_population_member, only : member_type
    use dondolo_wall, only : wall_type
    implicit none
    private
@@ -167,4 +167,4 @@ contains
       end associate
    end subroutine put_sheet_row
 
-end module dondolo_check_rows
+end module dondolo_case_check_rows

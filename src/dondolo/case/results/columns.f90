@@ -1,9 +1,9 @@
 !> A table in memory, column by column: what programs that call the library get in place of a file.
-module dondolo_columns
+module dondolo_case_columns
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
-   use dondolo_kinds, only : wp
-   use dondolo_memory, only : check_room
-   use dondolo_table, only : table_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_memory, only : check_room
+   use dondolo_case_table, only : table_type
    implicit none
    private
 
@@ -150,4 +150,4 @@ contains
       end associate
    end subroutine add_column
 
-end module dondolo_columns
+end module dondolo_case_columns

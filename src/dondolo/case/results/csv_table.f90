@@ -1,10 +1,10 @@
 !> A table as lines of a result file.
-module dondolo_csv_table
-   use dondolo_csv_row, only : text_cell
-   use dondolo_kinds, only : wp
-   use dondolo_result_files, only : result_files_type
-   use dondolo_table, only : table_type
-   use dondolo_text, only : to_table, to_text
+module dondolo_case_csv_table
+   use dondolo_base_csv_row, only : text_cell
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_table, to_text
+   use dondolo_case_result_files, only : result_files_type
+   use dondolo_case_table, only : table_type
    implicit none
    private
 
@@ -110,4 +110,4 @@ contains
       self%length = self%length + len(cell)
    end subroutine append
 
-end module dondolo_csv_table
+end module dondolo_case_csv_table

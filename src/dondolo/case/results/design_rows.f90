@@ -1,9 +1,9 @@
 !> Designs of one wall compared on the same records: for people and tables.
-module dondolo_design_rows
-   use dondolo_designs, only : design_type
-   use dondolo_kinds, only : wp
-   use dondolo_table, only : table_type
-   use dondolo_text, only : rounded
+module dondolo_case_design_rows
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : rounded
+   use dondolo_case_table, only : table_type
+   use dondolo_population_designs, only : design_type
    implicit none
    private
 
@@ -62,4 +62,4 @@ contains
       if (design%is_compared .and. design%steel > first%steel) line = line//', gain '//rounded(percent)//' % per kg/m'
    end subroutine make_design_sentence
 
-end module dondolo_design_rows
+end module dondolo_case_design_rows

@@ -1,10 +1,10 @@
 !> Whose results a run replaces, and what was made of them - reports, workbooks, figures - and is out of date from then on.
 !> Nothing of it is removed: it may be all that is left of a run.
-module dondolo_replaced
+module dondolo_case_replaced
    use, intrinsic :: iso_c_binding, only : c_char, c_null_char, c_size_t
-   use dondolo_lines, only : lines_type
-   use dondolo_origin, only : derived_kinds, look_at_origin, origin_type, run_length
-   use dondolo_result_files, only : published_run, run_suffix
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_origin, only : derived_kinds, look_at_origin, origin_type, run_length
+   use dondolo_case_result_files, only : published_run, run_suffix
    implicit none
    private
 
@@ -106,4 +106,4 @@ contains
       end do
    end subroutine list_outdated
 
-end module dondolo_replaced
+end module dondolo_case_replaced

@@ -1,15 +1,15 @@
 !> The rows of the result tables: what stands in them under which name.
-module dondolo_report_rows
-   use dondolo_certificate, only : certified_type, status_names
-   use dondolo_clustered, only : parameter_intervals
+module dondolo_case_report_rows
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_property, only : column_name, is_many, is_text, is_words, property_type, word_of
+   use dondolo_case_table, only : table_type
    use dondolo_fragility, only : fragility_type
-   use dondolo_kinds, only : wp
-   use dondolo_member, only : member_type
-   use dondolo_property, only : column_name, is_many, is_text, is_words, property_type, word_of
-   use dondolo_response, only : response_type
-   use dondolo_table, only : table_type
-   use dondolo_typology, only : typology_type
-   use dondolo_unions, only : union_type
+   use dondolo_fragility_clustered, only : parameter_intervals
+   use dondolo_motion_certificate, only : certified_type, status_names
+   use dondolo_motion_response, only : response_type
+   use dondolo_population_member, only : member_type
+   use dondolo_population_typology, only : typology_type
+   use dondolo_population_unions, only : union_type
    use dondolo_wall, only : wall_type
    use dondolo_wall_properties, only : is_extra, is_of_building, wall_properties
    implicit none
@@ -316,4 +316,4 @@ contains
       call table%put('edp_highest', certified%highest)
    end subroutine put_certified
 
-end module dondolo_report_rows
+end module dondolo_case_report_rows

@@ -1,19 +1,19 @@
 !> The result files of a case: CSV tables with a head of comment lines, and the run as JSON; whole or not at all.
-module dondolo_reports
+module dondolo_case_reports
    use, intrinsic :: iso_fortran_env, only : compiler_version, int64
+   use dondolo_base_error, only : add_place, error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_text, only : to_text
    use dondolo_case, only : case_type
-   use dondolo_csv_table, only : csv_table_type
-   use dondolo_echo, only : echo_type
-   use dondolo_error, only : add_place, error_type
-   use dondolo_kinds, only : wp
-   use dondolo_lines, only : lines_type
-   use dondolo_result_files, only : check_output, result_files_type, run_suffix, suffix_length
-   use dondolo_result_tables, only : list_tables, table_kind_type
-   use dondolo_results, only : results_type
-   use dondolo_run_file, only : make_run, shape_names, shape_of
-   use dondolo_text, only : to_text
-   use dondolo_warning_sentence, only : warning_sentences
-   use dondolo_work, only : work_names
+   use dondolo_case_csv_table, only : csv_table_type
+   use dondolo_case_echo, only : echo_type
+   use dondolo_case_result_files, only : check_output, result_files_type, run_suffix, suffix_length
+   use dondolo_case_result_tables, only : list_tables, table_kind_type
+   use dondolo_case_results, only : results_type
+   use dondolo_case_run_file, only : make_run, shape_names, shape_of
+   use dondolo_case_warning_sentence, only : warning_sentences
+   use dondolo_motion_work, only : work_names
    implicit none
    private
 
@@ -159,4 +159,4 @@ contains
       end do
    end subroutine list_counts
 
-end module dondolo_reports
+end module dondolo_case_reports

@@ -1,7 +1,7 @@
 !> The result files of a run, published at once: whoever reads them finds the whole set of one run, whatever moment a run
 !> was killed at, and whatever other run is under way.
 !>
-!> 1. One run at a time writes an output: it has the lock of the prefix (dondolo_lock).
+!> 1. One run at a time writes an output: it has the lock of the prefix (dondolo_base_lock).
 !> 2. Every file is written as PREFIX_table.csv.RUN.part, where RUN names the run. The name is new, and the file made
 !>    by this run alone: nothing of anybody else is opened, followed or replaced. It is synchronized to the disk.
 !> 3. The set is published by one rename, that of PREFIX_run.json, which names RUN. Before it the old set is in force, since
@@ -13,16 +13,16 @@
 !> The folder is synchronized between 3 and 4, so that a loss of power does not keep 4 without 3, and after 4, before a
 !> checkpoint is removed. Tables begin with a line that names RUN, so that files that were brought together by other
 !> means are found out. Python publishes by the same steps (_storage/transactions.py).
-module dondolo_result_files
+module dondolo_case_result_files
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_checksum, only : crc32_length, crc32_of_file
-   use dondolo_error, only : error_type, raise_failure, raise_input, status_failure
-   use dondolo_lines, only : lines_type
-   use dondolo_lock, only : lock_type
-   use dondolo_origin, only : check_replaced, look_at_origin, origin_type, run_length
-   use dondolo_system, only : is_folder, make_folder, remove_file, remove_folder, rename_file, same_file, &
+   use dondolo_base_checksum, only : crc32_length, crc32_of_file
+   use dondolo_base_error, only : error_type, raise_failure, raise_input, status_failure
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_lock, only : lock_type
+   use dondolo_base_origin, only : check_replaced, look_at_origin, origin_type, run_length
+   use dondolo_base_system, only : is_folder, make_folder, remove_file, remove_folder, rename_file, same_file, &
       & synchronize_folder, try_file, writer_type
-   use dondolo_version, only : dondolo_version_text
+   use dondolo_base_version, only : dondolo_version_text
    implicit none
    private
 
@@ -427,4 +427,4 @@ contains
       end do
    end function is_staged
 
-end module dondolo_result_files
+end module dondolo_case_result_files

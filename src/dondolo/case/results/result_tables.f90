@@ -1,20 +1,20 @@
 !> The tables of results: one list of what their names end with, when there is one, and what stands in it.
-module dondolo_result_tables
+module dondolo_case_result_tables
+   use dondolo_base_error, only : error_type, raise_failure
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_property, only : find_property
+   use dondolo_base_text, only : to_table, to_text
    use dondolo_case, only : case_type
-   use dondolo_check_rows, only : put_sheet_row
-   use dondolo_design_rows, only : put_design
-   use dondolo_error, only : error_type, raise_failure
-   use dondolo_lines, only : lines_type
-   use dondolo_property, only : find_property
-   use dondolo_report_rows, only : put_typology, put_union
-   use dondolo_result_files, only : suffix_length
-   use dondolo_results, only : results_type
-   use dondolo_row_tables, only : put_checks, put_fragilities, put_histories, put_stripes, put_ties, put_walls
-   use dondolo_source_rows, only : put_source
-   use dondolo_table, only : table_type
-   use dondolo_text, only : to_table, to_text
-   use dondolo_tie_rows, only : make_tie_comment
-   use dondolo_unions, only : union_type
+   use dondolo_case_check_rows, only : put_sheet_row
+   use dondolo_case_design_rows, only : put_design
+   use dondolo_case_report_rows, only : put_typology, put_union
+   use dondolo_case_result_files, only : suffix_length
+   use dondolo_case_results, only : results_type
+   use dondolo_case_row_tables, only : put_checks, put_fragilities, put_histories, put_stripes, put_ties, put_walls
+   use dondolo_case_source_rows, only : put_source
+   use dondolo_case_table, only : table_type
+   use dondolo_case_tie_rows, only : make_tie_comment
+   use dondolo_population_unions, only : union_type
    use dondolo_wall_properties, only : wall_properties
    implicit none
    private
@@ -346,4 +346,4 @@ contains
       end associate
    end subroutine list_motion
 
-end module dondolo_result_tables
+end module dondolo_case_result_tables

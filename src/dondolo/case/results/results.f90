@@ -1,22 +1,22 @@
 !> What comes of a case.
-module dondolo_results
-   use dondolo_certificate, only : certified_type
-   use dondolo_certified, only : state_bounds_type
-   use dondolo_check_rows, only : verdicts_type
+module dondolo_case_results
+   use dondolo_case_check_rows, only : verdicts_type
+   use dondolo_case_warning, only : warnings_type
    use dondolo_check_sheet, only : sheet_type
-   use dondolo_designs, only : design_type
-   use dondolo_ensemble, only : name_engines
    use dondolo_fragility, only : fragility_type
+   use dondolo_fragility_certified, only : state_bounds_type
+   use dondolo_fragility_stripe_counts, only : stripe_counts_type
+   use dondolo_fragility_tie_tallies, only : tie_tally_type
+   use dondolo_motion_certificate, only : certified_type
+   use dondolo_motion_ensemble, only : name_engines
+   use dondolo_motion_response, only : response_type, trace_type
+   use dondolo_motion_work, only : work_type
    use dondolo_population, only : population_type
-   use dondolo_response, only : response_type, trace_type
-   use dondolo_sensitivity, only : sensitivity_type
-   use dondolo_store, only : store_type
-   use dondolo_stripe_counts, only : stripe_counts_type
-   use dondolo_tie_tallies, only : tie_tally_type
-   use dondolo_typology, only : typology_type
-   use dondolo_unions, only : unions_type
-   use dondolo_warning, only : warnings_type
-   use dondolo_work, only : work_type
+   use dondolo_population_designs, only : design_type
+   use dondolo_population_sensitivity, only : sensitivity_type
+   use dondolo_population_store, only : store_type
+   use dondolo_population_typology, only : typology_type
+   use dondolo_population_unions, only : unions_type
    implicit none
    private
 
@@ -118,4 +118,4 @@ contains
       end do
    end subroutine remove_stores
 
-end module dondolo_results
+end module dondolo_case_results

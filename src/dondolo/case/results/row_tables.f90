@@ -1,19 +1,19 @@
 !> Tables of walls, row by row: of the one wall of a case, or of a population as its rows come out of its table and of the
 !> files of counts.
-module dondolo_row_tables
+module dondolo_case_row_tables
+   use dondolo_base_error, only : error_type
    use dondolo_case, only : case_type
-   use dondolo_check_rows, only : put_check, verdicts_type
-   use dondolo_error, only : error_type
-   use dondolo_member, only : member_type
+   use dondolo_case_check_rows, only : put_check, verdicts_type
+   use dondolo_case_report_rows, only : put_certified, put_fragility, put_history, put_names, put_stripe, put_wall
+   use dondolo_case_results, only : results_type, row_counts_type
+   use dondolo_case_table, only : table_type
+   use dondolo_case_tie_rows, only : put_tally
+   use dondolo_fragility_stripes, only : find_lifts, plan_stripes, stripes_type
+   use dondolo_fragility_study, only : study_type
+   use dondolo_population_member, only : member_type
    use dondolo_population_reader, only : population_reader_type
-   use dondolo_report_rows, only : put_certified, put_fragility, put_history, put_names, put_stripe, put_wall
-   use dondolo_results, only : results_type, row_counts_type
-   use dondolo_row_result, only : row_result_type
-   use dondolo_stripes, only : find_lifts, plan_stripes, stripes_type
-   use dondolo_store, only : read_result
-   use dondolo_study, only : study_type
-   use dondolo_table, only : table_type
-   use dondolo_tie_rows, only : put_tally
+   use dondolo_population_row_result, only : row_result_type
+   use dondolo_population_store, only : read_result
    implicit none
    private
 
@@ -294,4 +294,4 @@ contains
       end do
    end subroutine put_tie_rows
 
-end module dondolo_row_tables
+end module dondolo_case_row_tables

@@ -1,24 +1,24 @@
 !> The run as data: what ran with which settings on which inputs, what was computed and what to beware of, in one JSON
 !> file beside the tables. docs/files.md describes its keys.
-module dondolo_run_file
+module dondolo_case_run_file
    use, intrinsic :: iso_fortran_env, only : compiler_version, int64
+   use dondolo_base_checksum, only : crc32_length, crc32_of_file, crc32_of_reals
+   use dondolo_base_json, only : json_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_version, only : dondolo_version_text
    use dondolo_building, only : building_type
    use dondolo_case, only : case_type
-   use dondolo_certificate, only : status_names
-   use dondolo_checksum, only : crc32_length, crc32_of_file, crc32_of_reals
-   use dondolo_clustered, only : confidence, correction, fewest_clusters
-   use dondolo_clusters, only : cluster_label
-   use dondolo_json, only : json_type
-   use dondolo_kinds, only : wp
-   use dondolo_metadata, only : metadata_type
-   use dondolo_paths, only : beside
-   use dondolo_result_files, only : written_type
-   use dondolo_results, only : results_type
-   use dondolo_echo, only : echo_type
-   use dondolo_version, only : dondolo_version_text
-   use dondolo_tie_rows, only : put_tie
-   use dondolo_warning_sentence, only : put_warnings
-   use dondolo_work, only : work_names
+   use dondolo_case_echo, only : echo_type
+   use dondolo_case_paths, only : beside
+   use dondolo_case_result_files, only : written_type
+   use dondolo_case_results, only : results_type
+   use dondolo_case_tie_rows, only : put_tie
+   use dondolo_case_warning_sentence, only : put_warnings
+   use dondolo_fragility_clustered, only : confidence, correction, fewest_clusters
+   use dondolo_motion_certificate, only : status_names
+   use dondolo_motion_work, only : work_names
+   use dondolo_record_clusters, only : cluster_label
+   use dondolo_record_metadata, only : metadata_type
    implicit none
    private
 
@@ -336,4 +336,4 @@ contains
       call json%close_array()
    end subroutine put_notes
 
-end module dondolo_run_file
+end module dondolo_case_run_file

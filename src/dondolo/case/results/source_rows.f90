@@ -1,12 +1,12 @@
 !> What the curve of a wall with variants owes to each of its uncertain properties: for people and tables.
-module dondolo_source_rows
+module dondolo_case_source_rows
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : rounded, to_text
    use dondolo_case, only : case_type
+   use dondolo_case_results, only : results_type
+   use dondolo_case_table, only : table_type
    use dondolo_fragility, only : fragility_type
-   use dondolo_kinds, only : wp
-   use dondolo_results, only : results_type
-   use dondolo_table, only : table_type
-   use dondolo_text, only : rounded, to_text
-   use dondolo_typology, only : whole_population
+   use dondolo_population_typology, only : whole_population
    implicit none
    private
 
@@ -131,4 +131,4 @@ contains
       curve = results%population%curve(size(results%population%curve, 1), row)
    end function collapse_of
 
-end module dondolo_source_rows
+end module dondolo_case_source_rows

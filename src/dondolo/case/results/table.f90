@@ -1,9 +1,9 @@
 !> A table in the making: values are put under the names of their columns, row after row, so that head and cells cannot
 !> disagree. What becomes of them is the matter of its extensions: lines of a file, or columns in memory.
-module dondolo_table
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_lines, only : lines_type
+module dondolo_case_table
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : lines_type
    implicit none
    private
 
@@ -184,4 +184,4 @@ contains
       self%column = 0
    end subroutine end_row
 
-end module dondolo_table
+end module dondolo_case_table

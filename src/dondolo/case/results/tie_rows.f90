@@ -1,11 +1,11 @@
 !> What histories do to the ties of a wall: for people, programs and tables.
-module dondolo_tie_rows
-   use dondolo_json, only : json_type
-   use dondolo_kinds, only : wp
-   use dondolo_response, only : tie_response_type
-   use dondolo_table, only : table_type
-   use dondolo_text, only : rounded, to_table, to_text
-   use dondolo_tie_tallies, only : tie_tally_type
+module dondolo_case_tie_rows
+   use dondolo_base_json, only : json_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : rounded, to_table, to_text
+   use dondolo_case_table, only : table_type
+   use dondolo_fragility_tie_tallies, only : tie_tally_type
+   use dondolo_motion_response, only : tie_response_type
    implicit none
    private
 
@@ -87,4 +87,4 @@ contains
       call json%close_object()
    end subroutine put_tie
 
-end module dondolo_tie_rows
+end module dondolo_case_tie_rows

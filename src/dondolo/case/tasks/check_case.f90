@@ -1,16 +1,16 @@
 !> The criterion of a building code for time histories at the site's level, beside the kinematic check of a case.
-module dondolo_check_case
+module dondolo_case_check_case
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
    use dondolo_case, only : case_type
    use dondolo_check_input, only : state_names
+   use dondolo_check_kinematic, only : kinematic_type, new_kinematic
+   use dondolo_check_ntc_check, only : check_histories
    use dondolo_check_sheet, only : sheet_type
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_kinematic, only : kinematic_type, new_kinematic
-   use dondolo_ntc_check, only : check_histories
-   use dondolo_response, only : response_type
-   use dondolo_scaling, only : new_scaling
-   use dondolo_stripes, only : multiple_stripe, stripes_type
-   use dondolo_study, only : find_level, study_type
+   use dondolo_fragility_scaling, only : new_scaling
+   use dondolo_fragility_stripes, only : multiple_stripe, stripes_type
+   use dondolo_fragility_study, only : find_level, study_type
+   use dondolo_motion_response, only : response_type
    implicit none
    private
 
@@ -87,4 +87,4 @@ contains
 
    end subroutine check_stripes
 
-end module dondolo_check_case
+end module dondolo_case_check_case

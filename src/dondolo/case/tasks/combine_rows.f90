@@ -1,22 +1,22 @@
 !> The curves of a population out of what its stores hold (docs/theory.md, section 6).
-module dondolo_combine_rows
+module dondolo_case_combine_rows
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_memory, only : check_room
    use dondolo_case, only : case_type
-   use dondolo_clustered, only : cluster_errors
-   use dondolo_designs, only : compare_designs
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_member, only : member_type
-   use dondolo_memory, only : check_room
+   use dondolo_case_results, only : results_type, shown_rows
+   use dondolo_case_warnings, only : fit_warning_type, warn_of_events, warn_of_records, warn_of_union
+   use dondolo_fragility_clustered, only : cluster_errors
+   use dondolo_fragility_study, only : runs_of, study_type
+   use dondolo_population_designs, only : compare_designs
    use dondolo_population_errors, only : population_errors_type
+   use dondolo_population_member, only : member_type
    use dondolo_population_reader, only : population_reader_type
-   use dondolo_results, only : results_type, shown_rows
-   use dondolo_row_result, only : row_result_type
-   use dondolo_sensitivity, only : new_sensitivity
-   use dondolo_store, only : read_result
-   use dondolo_study, only : runs_of, study_type
-   use dondolo_typology, only : combine_population, typology_type
-   use dondolo_unions, only : mean_unions, union_builder_type, union_type, wall_union
-   use dondolo_warnings, only : fit_warning_type, warn_of_events, warn_of_records, warn_of_union
+   use dondolo_population_row_result, only : row_result_type
+   use dondolo_population_sensitivity, only : new_sensitivity
+   use dondolo_population_store, only : read_result
+   use dondolo_population_typology, only : combine_population, typology_type
+   use dondolo_population_unions, only : mean_unions, union_builder_type, union_type, wall_union
    implicit none
    private
 
@@ -241,4 +241,4 @@ contains
       end associate
    end subroutine count_clusters
 
-end module dondolo_combine_rows
+end module dondolo_case_combine_rows

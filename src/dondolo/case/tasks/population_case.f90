@@ -1,21 +1,21 @@
 !> Task 'typology': a population, from its table to its curves. A run that was killed goes on with the store that it left;
 !> stores that hold parts of the population are taken together.
-module dondolo_population_case
+module dondolo_case_population_case
+   use dondolo_base_error, only : error_type, raise_failure, raise_input
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_text, only : to_text
+   use dondolo_building_floors, only : floors_type
    use dondolo_case, only : case_type
-   use dondolo_combine_rows, only : combine_rows
-   use dondolo_error, only : error_type, raise_failure, raise_input
-   use dondolo_floors, only : floors_type
-   use dondolo_identity, only : study_identity
-   use dondolo_lines, only : lines_type
-   use dondolo_queue, only : progress_interface
-   use dondolo_result_files, only : make_folders
-   use dondolo_results, only : results_type
-   use dondolo_run_population, only : run_population
-   use dondolo_store, only : look_into_store, open_store, store_type
-   use dondolo_store_format, only : identity_type
-   use dondolo_study, only : study_type
-   use dondolo_survey, only : check_size
-   use dondolo_text, only : to_text
+   use dondolo_case_combine_rows, only : combine_rows
+   use dondolo_case_result_files, only : make_folders
+   use dondolo_case_results, only : results_type
+   use dondolo_case_survey, only : check_size
+   use dondolo_fragility_study, only : study_type
+   use dondolo_motion_queue, only : progress_interface
+   use dondolo_population_identity, only : study_identity
+   use dondolo_population_run_population, only : run_population
+   use dondolo_population_store, only : look_into_store, open_store, store_type
+   use dondolo_population_store_format, only : identity_type
    implicit none
    private
 
@@ -215,4 +215,4 @@ contains
       call store%claim(error)
    end subroutine begin
 
-end module dondolo_population_case
+end module dondolo_case_population_case

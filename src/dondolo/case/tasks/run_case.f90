@@ -1,30 +1,30 @@
 !> Run a case: from walls, records and levels to responses, curves and warnings. Nothing is printed, and no report is
 !> written here.
-module dondolo_run_case
+module dondolo_case_run_case
+   use dondolo_base_error, only : error_type
+   use dondolo_base_interrupt, only : check_interrupt
+   use dondolo_building_floor_motion, only : filter_record
+   use dondolo_building_floors, only : floors_type
    use dondolo_case, only : case_type
-   use dondolo_certified, only : bound_states, certify_stripes
-   use dondolo_check_case, only : check_stripes
-   use dondolo_check_rows, only : check_wall
-   use dondolo_error, only : error_type
-   use dondolo_floor_motion, only : filter_record
-   use dondolo_floors, only : floors_type
-   use dondolo_interrupt, only : check_interrupt
-   use dondolo_plausibility, only : wall_warning_type
-   use dondolo_member, only : member_type
-   use dondolo_population_reader, only : population_reader_type
-   use dondolo_queue, only : progress_interface
-   use dondolo_record, only : record_type
-   use dondolo_results, only : results_type
-   use dondolo_population_case, only : run_population_case
-   use dondolo_simulate, only : simulate
-   use dondolo_stripes, only : find_lifts, multiple_stripe, plan_stripes, planned_work, stripes_type
-   use dondolo_survey, only : check_size
-   use dondolo_study, only : study_type
-   use dondolo_tie_tallies, only : tally_ties
-   use dondolo_wall, only : wall_type
-   use dondolo_warnings, only : scale_warning_type, warn_of_error, warn_of_errors, warn_of_events, &
+   use dondolo_case_check_case, only : check_stripes
+   use dondolo_case_check_rows, only : check_wall
+   use dondolo_case_plausibility, only : wall_warning_type
+   use dondolo_case_population_case, only : run_population_case
+   use dondolo_case_results, only : results_type
+   use dondolo_case_survey, only : check_size
+   use dondolo_case_warnings, only : scale_warning_type, warn_of_error, warn_of_errors, warn_of_events, &
       & warn_of_fall, warn_of_fit, warn_of_records
-   use dondolo_work, only : work_type
+   use dondolo_fragility_certified, only : bound_states, certify_stripes
+   use dondolo_fragility_stripes, only : find_lifts, multiple_stripe, plan_stripes, planned_work, stripes_type
+   use dondolo_fragility_study, only : study_type
+   use dondolo_fragility_tie_tallies, only : tally_ties
+   use dondolo_motion_queue, only : progress_interface
+   use dondolo_motion_simulate, only : simulate
+   use dondolo_motion_work, only : work_type
+   use dondolo_population_member, only : member_type
+   use dondolo_population_reader, only : population_reader_type
+   use dondolo_record, only : record_type
+   use dondolo_wall, only : wall_type
    implicit none
    private
 
@@ -186,4 +186,4 @@ contains
       call move_alloc(stripes%response, results%row%response)
    end subroutine run_stripes
 
-end module dondolo_run_case
+end module dondolo_case_run_case

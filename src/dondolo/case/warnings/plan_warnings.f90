@@ -1,8 +1,8 @@
 !> Warnings of --check: what the curve will lack, before anything is run.
-module dondolo_plan_warnings
-   use dondolo_clustered, only : fewest_clusters
-   use dondolo_warning, only : warning_type, warnings_type
-   use dondolo_work, only : work_type
+module dondolo_case_plan_warnings
+   use dondolo_case_warning, only : warning_type, warnings_type
+   use dondolo_fragility_clustered, only : fewest_clusters
+   use dondolo_motion_work, only : work_type
    implicit none
    private
 
@@ -36,4 +36,4 @@ contains
       end if
    end subroutine warn_of_plan
 
-end module dondolo_plan_warnings
+end module dondolo_case_plan_warnings

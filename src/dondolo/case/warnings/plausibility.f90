@@ -1,11 +1,11 @@
 !> Values of walls that no masonry has, or that do not go together: correct input, but most likely a slip.
-module dondolo_plausibility
-   use dondolo_kinds, only : wp
-   use dondolo_property, only : property_type
-   use dondolo_rigid_body, only : same
+module dondolo_case_plausibility
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_property, only : property_type
+   use dondolo_case_warning, only : warning_type, warnings_type
    use dondolo_wall, only : wall_type
    use dondolo_wall_properties, only : gravity_property, wall_properties
-   use dondolo_warning, only : warning_type, warnings_type
+   use dondolo_wall_rigid_body, only : same
    implicit none
    private
 
@@ -143,4 +143,4 @@ contains
       end do
    end subroutine warn
 
-end module dondolo_plausibility
+end module dondolo_case_plausibility

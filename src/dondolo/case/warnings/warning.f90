@@ -1,8 +1,8 @@
 !> Warnings as facts: a code, what it is about, and numbers. Sentences are made of them at the end, in
-!> dondolo_warning_sentence.
-module dondolo_warning
+!> dondolo_case_warning_sentence.
+module dondolo_case_warning
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_kinds, only : wp
+   use dondolo_base_kinds, only : wp
    implicit none
    private
 
@@ -133,4 +133,4 @@ contains
       self%item(self%count) = warning
    end subroutine add
 
-end module dondolo_warning
+end module dondolo_case_warning

@@ -1,14 +1,14 @@
 !> Warnings as they are read: by people as sentences, by programs as JSON. The only place where a warning is worded.
-module dondolo_warning_sentence
+module dondolo_case_warning_sentence
+   use dondolo_base_json, only : json_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_property, only : find_property, hint_of, property_type
+   use dondolo_base_text, only : rounded, to_text
+   use dondolo_case_warning, only : warning_type, warnings_type
    use dondolo_fragility, only : least_ratio
-   use dondolo_json, only : json_type
-   use dondolo_kinds, only : wp
-   use dondolo_lines, only : lines_type
-   use dondolo_property, only : find_property, hint_of, property_type
    use dondolo_record_table, only : describe_pace, describe_pga
-   use dondolo_text, only : rounded, to_text
    use dondolo_wall_properties, only : gravity_property, wall_properties
-   use dondolo_warning, only : warning_type, warnings_type
    implicit none
    private
 
@@ -327,4 +327,4 @@ contains
       call json%close_object()
    end subroutine put_warning
 
-end module dondolo_warning_sentence
+end module dondolo_case_warning_sentence

@@ -1,18 +1,18 @@
 !> What a user should know of results that are correct but may mislead.
-module dondolo_warnings
+module dondolo_case_warnings
    use, intrinsic :: iso_fortran_env, only : int64
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : line_type
+   use dondolo_case_warning, only : warning_type, warnings_type
    use dondolo_fragility, only : fragility_type, status_names
-   use dondolo_kinds, only : wp
-   use dondolo_lines, only : line_type
+   use dondolo_fragility_stripes, only : find_lifts, stripes_type
+   use dondolo_fragility_study, only : study_type
+   use dondolo_motion_response, only : largest_sure_error, response_type
+   use dondolo_population_typology, only : typology_type
    use dondolo_record, only : record_type
+   use dondolo_record_suite, only : suite_type
    use dondolo_record_table, only : pace_limit, pga_limit
-   use dondolo_response, only : largest_sure_error, response_type
-   use dondolo_stripes, only : find_lifts, stripes_type
-   use dondolo_study, only : study_type
-   use dondolo_suite, only : suite_type
-   use dondolo_typology, only : typology_type
    use dondolo_wall, only : wall_type
-   use dondolo_warning, only : warning_type, warnings_type
    implicit none
    private
 
@@ -484,4 +484,4 @@ contains
       if (response%is_unsure(edp_limit)) call warnings%add(warning_type('collapse_in_doubt'))
    end subroutine warn_of_error
 
-end module dondolo_warnings
+end module dondolo_case_warnings

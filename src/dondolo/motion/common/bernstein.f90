@@ -3,8 +3,8 @@
 !> A polynomial in Bernstein form, sum_j c_j B_j(x) on 0 <= x <= 1, lies between the smallest and the largest of
 !> its coefficients and has no more roots than they have changes of sign. So a root that exists is never missed,
 !> however close two of them lie, and coefficients of one sign prove that there is none.
-module dondolo_bernstein
-   use dondolo_kinds, only : wp
+module dondolo_motion_bernstein
+   use dondolo_base_kinds, only : wp
    implicit none
    private
 
@@ -112,4 +112,4 @@ contains
       end do
    end function single_root
 
-end module dondolo_bernstein
+end module dondolo_motion_bernstein

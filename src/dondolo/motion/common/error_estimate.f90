@@ -5,10 +5,10 @@
 !> 32nd, and whatever turns the motion within that change of the record - an impact that grazes, a start on the edge, a
 !> collapse that hangs in the balance - at its full size. The first difference is the condition of the history: scaled down
 !> to the rounding of double precision it shows what that may have come to (docs/theory.md, section 5).
-module dondolo_error_estimate
-   use dondolo_kinds, only : wp
-   use dondolo_response, only : response_type
-   use dondolo_solver, only : refined, solver_type
+module dondolo_motion_error_estimate
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_response, only : response_type
+   use dondolo_motion_solver, only : refined, solver_type
    implicit none
    private
 
@@ -80,4 +80,4 @@ contains
 
    end function estimated_error
 
-end module dondolo_error_estimate
+end module dondolo_motion_error_estimate

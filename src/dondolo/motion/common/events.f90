@@ -2,9 +2,9 @@
 !>
 !> The rotation in the step is a polynomial in Bernstein form, so that no event is missed and none is found that the
 !> polynomial does not have (docs/theory.md, section 5).
-module dondolo_events
-   use dondolo_bernstein, only : first_descent, most_coefficients, nowhere
-   use dondolo_kinds, only : wp
+module dondolo_motion_events
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_bernstein, only : first_descent, most_coefficients, nowhere
    implicit none
    private
 
@@ -101,4 +101,4 @@ contains
       s = sign(1.0_wp, c(findloc(c /= 0.0_wp, .true., dim=1)))
    end function initial_sign
 
-end module dondolo_events
+end module dondolo_motion_events

@@ -3,11 +3,11 @@
 !> In each mode of its ties the motion is smooth. Modes change only at rotations that are known beforehand, levels, and where
 !> a motion outwards ends; what the ties remember is the largest rotation at which one did (docs/theory.md, section 4).
 !> Friction is one of them, which flows whenever the wall goes where it has not been.
-module dondolo_grip
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_response, only : never, tie_response_type
-   use dondolo_tie, only : broken, elastic, flowing, slack, tie_type
+module dondolo_motion_grip
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_response, only : never, tie_response_type
+   use dondolo_wall_mechanism, only : mechanism_type
+   use dondolo_wall_tie, only : broken, elastic, flowing, slack, tie_type
    implicit none
    private
 
@@ -194,4 +194,4 @@ contains
       end do
    end subroutine take_hold
 
-end module dondolo_grip
+end module dondolo_motion_grip

@@ -3,11 +3,11 @@
 !> Between two levels of the ties E = 1/2 J q'^2 + V is constant, with the potential of the forces that they have there. A
 !> motion outwards that ends is followed by lower ones only, since ties give back at most what they took (docs/theory.md,
 !> section 4).
-module dondolo_held_tail
-   use dondolo_grip, only : grip_type
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_tail, only : inertia, tail_type, time_between, turning_rotation, way_to_turn, work_between
+module dondolo_motion_held_tail
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_grip, only : grip_type
+   use dondolo_motion_tail, only : inertia, tail_type, time_between, turning_rotation, way_to_turn, work_between
+   use dondolo_wall_mechanism, only : mechanism_type
    implicit none
    private
 
@@ -155,4 +155,4 @@ contains
       moment = g - load
    end function moment
 
-end module dondolo_held_tail
+end module dondolo_motion_held_tail

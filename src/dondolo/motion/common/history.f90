@@ -1,15 +1,15 @@
 !> State of a history that does not depend on the engine, and the decisions that every engine takes alike: start and end of
 !> rocking, impacts, free motion after the record, result (docs/theory.md, section 4).
-module dondolo_history
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
+module dondolo_motion_history
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_response, only : response_type
+   use dondolo_motion_rest, only : bounce_type, rest_type
+   use dondolo_motion_step_limits, only : most_steps, shortest_motion
+   use dondolo_motion_tail, only : free_motion, tail_type
+   use dondolo_motion_wall_constants, only : wall_constants_type
+   use dondolo_motion_work, only : work_type
    use dondolo_record, only : record_type
-   use dondolo_response, only : response_type
-   use dondolo_rest, only : bounce_type, rest_type
-   use dondolo_step_limits, only : most_steps, shortest_motion
-   use dondolo_tail, only : free_motion, tail_type
-   use dondolo_wall_constants, only : wall_constants_type
-   use dondolo_work, only : work_type
+   use dondolo_wall_mechanism, only : mechanism_type
    implicit none
    private
 
@@ -256,4 +256,4 @@ contains
       work%impacts = work%impacts + self%impacts
    end subroutine finish
 
-end module dondolo_history
+end module dondolo_motion_history

@@ -1,10 +1,10 @@
 !> A queue of histories of one wall that several threads take from.
-module dondolo_queue
+module dondolo_motion_queue
    use, intrinsic :: iso_c_binding, only : c_int
    use, intrinsic :: omp_lib, only : omp_get_thread_num
-   use dondolo_interrupt, only : look_for_interrupt
-   use dondolo_kinds, only : wp
-   use dondolo_response, only : response_type
+   use dondolo_base_interrupt, only : look_for_interrupt
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_response, only : response_type
    implicit none
    private
 
@@ -138,4 +138,4 @@ contains
       if (associated(self%progress)) call self%progress(self%done, self%total)
    end subroutine report_all
 
-end module dondolo_queue
+end module dondolo_motion_queue

@@ -1,6 +1,6 @@
 !> What a motion leaves: the peak and what happened, and the time history where it was asked for.
-module dondolo_response
-   use dondolo_kinds, only : wp
+module dondolo_motion_response
+   use dondolo_base_kinds, only : wp
    implicit none
    private
 
@@ -205,4 +205,4 @@ contains
       call move_alloc(wider, column)
    end subroutine resize_column
 
-end module dondolo_response
+end module dondolo_motion_response

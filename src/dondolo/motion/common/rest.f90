@@ -2,11 +2,11 @@
 !>
 !> Both follow from the moments at q = 0 and from the accelerogram alone (docs/theory.md, section 4), so every
 !> engine takes these decisions here.
-module dondolo_rest
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
+module dondolo_motion_rest
+   use dondolo_base_kinds, only : wp
    use dondolo_record, only : record_type
    use dondolo_record_set, only : record_set_type
+   use dondolo_wall_mechanism, only : mechanism_type
    implicit none
    private
 
@@ -383,4 +383,4 @@ contains
       other = merge(least - push, here, self%two_sided)
    end subroutine least_moments
 
-end module dondolo_rest
+end module dondolo_motion_rest

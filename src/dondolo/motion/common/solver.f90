@@ -1,12 +1,12 @@
 !> How a motion is to be computed: engine, tolerances, and the rotation that counts as collapse.
-module dondolo_solver
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_property, only : blank, check_number, check_word, choices_length, is_logical, is_text, most_choices, &
+module dondolo_motion_solver
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_property, only : blank, check_number, check_word, choices_length, is_logical, is_text, most_choices, &
       & property_type
-   use dondolo_settings, only : settings_type
-   use dondolo_text, only : brief, to_text
+   use dondolo_base_settings, only : settings_type
+   use dondolo_base_text, only : brief, to_text
+   use dondolo_wall_mechanism, only : mechanism_type
    use dondolo_wall_properties, only : gravity_property
    implicit none
    private
@@ -168,4 +168,4 @@ contains
          & brief(mechanism%geometric_end()/mechanism%capacity)//', where the geometry of this wall ends')
    end subroutine check_limit
 
-end module dondolo_solver
+end module dondolo_motion_solver

@@ -1,6 +1,6 @@
 !> Limits on the length of a step, shared by the engines.
-module dondolo_step_limits
-   use dondolo_kinds, only : wp
+module dondolo_motion_step_limits
+   use dondolo_base_kinds, only : wp
    implicit none
    private
 
@@ -35,7 +35,7 @@ contains
    end function longest_step
 
    !> Most steps and events of a history from one sample to the next, after which it is given up, far more than any needs: as many
-   !> as smallest steps, while the guard of low bounces (dondolo_rest) follows 20 000, and those that a smooth motion takes a
+   !> as smallest steps, while the guard of low bounces (dondolo_motion_rest) follows 20 000, and those that a smooth motion takes a
    !> radian at the tightest tolerances
    elemental integer function most_steps(dt, rate)
       !> Sample interval [s]
@@ -49,4 +49,4 @@ contains
       most_steps = int(min(largest, fewest + steps_of_radian*rate*dt))
    end function most_steps
 
-end module dondolo_step_limits
+end module dondolo_motion_step_limits

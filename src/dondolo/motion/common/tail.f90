@@ -2,9 +2,9 @@
 !>
 !> E = 1/2 J(q) q'^2 + V(q) is constant between impacts for every mechanism, since C = J'/2
 !> (docs/theory.md, section 4).
-module dondolo_tail
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
+module dondolo_motion_tail
+   use dondolo_base_kinds, only : wp
+   use dondolo_wall_mechanism, only : mechanism_type
    implicit none
    private
 
@@ -287,4 +287,4 @@ contains
       call mechanism%terms(q, j, c, g, l, load)
    end function inertia
 
-end module dondolo_tail
+end module dondolo_motion_tail

@@ -1,9 +1,9 @@
 !> Constants of a wall and a solver, shared by all histories and by the engines.
-module dondolo_wall_constants
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_rest, only : new_rest, rest_type
-   use dondolo_solver, only : solver_type
+module dondolo_motion_wall_constants
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_rest, only : new_rest, rest_type
+   use dondolo_motion_solver, only : solver_type
+   use dondolo_wall_mechanism, only : mechanism_type
    implicit none
    private
 
@@ -56,4 +56,4 @@ contains
       constants%fastest = sqrt(max(mechanism%frequency_parameter()**2, constants%rest%stiffness/constants%rest%inertia))
    end function new_wall_constants
 
-end module dondolo_wall_constants
+end module dondolo_motion_wall_constants

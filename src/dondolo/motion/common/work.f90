@@ -1,5 +1,5 @@
 !> What was computed, and what was not: counts that show that nothing is integrated that a result does not need.
-module dondolo_work
+module dondolo_motion_work
    use, intrinsic :: iso_fortran_env, only : int64
    implicit none
    private
@@ -58,4 +58,4 @@ contains
          & self%drifted]
    end function counts
 
-end module dondolo_work
+end module dondolo_motion_work

@@ -1,10 +1,10 @@
 !> Constants of a wall in the engine lanes.
-module dondolo_lane_constants
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_normal_form, only : new_normal_form, normal_form_type, y_limit
-   use dondolo_solver, only : solver_type
-   use dondolo_wall_constants, only : new_wall_constants, wall_constants_type
+module dondolo_motion_lane_constants
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_normal_form, only : new_normal_form, normal_form_type, y_limit
+   use dondolo_motion_solver, only : solver_type
+   use dondolo_motion_wall_constants, only : new_wall_constants, wall_constants_type
+   use dondolo_wall_mechanism, only : mechanism_type
    implicit none
    private
 
@@ -45,4 +45,4 @@ contains
       constants%first_rotation = constants%limit
    end function new_lane_constants
 
-end module dondolo_lane_constants
+end module dondolo_motion_lane_constants

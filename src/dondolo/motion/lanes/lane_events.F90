@@ -1,13 +1,13 @@
 !> The first event in the step of each flagged lane: most of them all at once, in vectors, the others one by one.
-module dondolo_lane_events
+module dondolo_motion_lane_events
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_events, only : no_event, turning
-   use dondolo_kinds, only : wp
-   use dondolo_lane_constants, only : lane_constants_type
-   use dondolo_lane_grip, only : lane_grip_type
-   use dondolo_lane_series, only : allowed_part, find_first, find_first_level, find_simple, rate, undecided, value
-   use dondolo_lane_state, only : lane_width, lanes_type, part_if_held, step_taken, step_too_long, whole_vectors
-   use dondolo_step_limits, only : shortest_motion, smallest_step
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_events, only : no_event, turning
+   use dondolo_motion_lane_constants, only : lane_constants_type
+   use dondolo_motion_lane_grip, only : lane_grip_type
+   use dondolo_motion_lane_series, only : allowed_part, find_first, find_first_level, find_simple, rate, undecided, value
+   use dondolo_motion_lane_state, only : lane_width, lanes_type, part_if_held, step_taken, step_too_long, whole_vectors
+   use dondolo_motion_step_limits, only : shortest_motion, smallest_step
    implicit none
    private
 
@@ -121,4 +121,4 @@ contains
       end associate
    end subroutine find_event
 
-end module dondolo_lane_events
+end module dondolo_motion_lane_events

@@ -1,19 +1,19 @@
 !> The ties of a wall in a lane of the engine lanes: their modes, and the lane's coefficients that follow from them.
 !>
-!> What the ties do is decided by the rules that all engines share (dondolo_grip). Here their levels become values of y, and
-!> their forces the polynomial a of the lane (dondolo_normal_form).
-module dondolo_lane_grip
-   use dondolo_events, only : level_above
-   use dondolo_grip, only : grip_type
-   use dondolo_held_tail, only : held_motion
-   use dondolo_kinds, only : wp
-   use dondolo_lane_constants, only : lane_constants_type
-   use dondolo_lane_state, only : lanes_type
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_normal_form, only : highest_held
-   use dondolo_response, only : tie_response_type
-   use dondolo_rest, only : new_rest, rest_type
-   use dondolo_tail, only : tail_type
+!> What the ties do is decided by the rules that all engines share (dondolo_motion_grip). Here their levels become values of y, and
+!> their forces the polynomial a of the lane (dondolo_motion_normal_form).
+module dondolo_motion_lane_grip
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_events, only : level_above
+   use dondolo_motion_grip, only : grip_type
+   use dondolo_motion_held_tail, only : held_motion
+   use dondolo_motion_lane_constants, only : lane_constants_type
+   use dondolo_motion_lane_state, only : lanes_type
+   use dondolo_motion_normal_form, only : highest_held
+   use dondolo_motion_response, only : tie_response_type
+   use dondolo_motion_rest, only : new_rest, rest_type
+   use dondolo_motion_tail, only : tail_type
+   use dondolo_wall_mechanism, only : mechanism_type
    implicit none
    private
 
@@ -184,4 +184,4 @@ contains
       if (self%grip%flows) lanes%below(i) = max(lanes%below(i), lanes%y(i))
    end subroutine take_hold
 
-end module dondolo_lane_grip
+end module dondolo_motion_lane_grip

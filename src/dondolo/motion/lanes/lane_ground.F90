@@ -1,9 +1,9 @@
 !> The ground under a lane: its record from sample to sample, seen from the side of the wall, and how far a step may go.
-module dondolo_lane_ground
-   use dondolo_kinds, only : wp
-   use dondolo_lane_state, only : lanes_type
+module dondolo_motion_lane_ground
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_lane_state, only : lanes_type
+   use dondolo_motion_step_limits, only : longest_step
    use dondolo_record_set, only : record_set_type
-   use dondolo_step_limits, only : longest_step
    implicit none
    private
 
@@ -88,4 +88,4 @@ contains
       end associate
    end subroutine aim
 
-end module dondolo_lane_ground
+end module dondolo_motion_lane_ground

@@ -1,28 +1,28 @@
 !> The histories in lanes: how each begins, what its events do to it, and its result.
 !>
 !> The loop over lanes flags a lane where something may happen; what does happen is decided here, lane by lane, by the
-!> rules that all engines share (dondolo_history, dondolo_rest, dondolo_events; docs/theory.md, section 4).
-module dondolo_lane_history
+!> rules that all engines share (dondolo_motion_history, dondolo_motion_rest, dondolo_motion_events; docs/theory.md, section 4).
+module dondolo_motion_lane_history
    use, intrinsic :: iso_c_binding, only : c_int
-   use dondolo_events, only : impact, level_above, level_below, limit_reached, no_event, turning
-   use dondolo_history, only : history_type
-   use dondolo_interrupt, only : look_for_interrupt
-   use dondolo_kinds, only : wp
-   use dondolo_lane_constants, only : lane_constants_type
-   use dondolo_lane_events, only : find_event, found_type
-   use dondolo_lane_grip, only : lane_grip_type
-   use dondolo_lane_ground, only : aim, limit_span, next_sample, stop_between
-   use dondolo_lane_state, only : event_possible, lane_width, lanes_type
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_normal_form, only : y_limit
-   use dondolo_queue, only : queue_type
+   use dondolo_base_interrupt, only : look_for_interrupt
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_events, only : impact, level_above, level_below, limit_reached, no_event, turning
+   use dondolo_motion_history, only : history_type
+   use dondolo_motion_lane_constants, only : lane_constants_type
+   use dondolo_motion_lane_events, only : find_event, found_type
+   use dondolo_motion_lane_grip, only : lane_grip_type
+   use dondolo_motion_lane_ground, only : aim, limit_span, next_sample, stop_between
+   use dondolo_motion_lane_state, only : event_possible, lane_width, lanes_type
+   use dondolo_motion_normal_form, only : y_limit
+   use dondolo_motion_queue, only : queue_type
+   use dondolo_motion_response, only : trace_type
+   use dondolo_motion_rest, only : rest_type
+   use dondolo_motion_step_limits, only : longest_step, shortest_motion
+   use dondolo_motion_tail, only : tail_type
+   use dondolo_motion_work, only : work_type
    use dondolo_record, only : record_type
    use dondolo_record_set, only : record_set_type
-   use dondolo_response, only : trace_type
-   use dondolo_rest, only : rest_type
-   use dondolo_step_limits, only : longest_step, shortest_motion
-   use dondolo_tail, only : tail_type
-   use dondolo_work, only : work_type
+   use dondolo_wall_mechanism, only : mechanism_type
    implicit none
    private
 
@@ -368,4 +368,4 @@ contains
       end associate
    end subroutine add_row
 
-end module dondolo_lane_history
+end module dondolo_motion_lane_history

@@ -4,12 +4,12 @@
 !> in time, gives the series of the motion up to t^9. The step ends at the lane's next sample. Where an impact, a new
 !> peak, the limit or too large an error cannot be ruled out the lane stays where it is, and is flagged. (fpm does not
 !> follow the include: after a change of lane_step.inc alone, remove its folder build.)
-module dondolo_lane_kernel
+module dondolo_motion_lane_kernel
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_kinds, only : wp
-   use dondolo_lane_state, only : event_possible, lane_width, lanes_type, part_if_held, record_over, step_taken, &
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_lane_state, only : event_possible, lane_width, lanes_type, part_if_held, record_over, step_taken, &
       & step_too_long, whole_vectors
-   use dondolo_normal_form, only : degrees, harmonic_degrees, held_degrees, normal_form_type, y_limit
+   use dondolo_motion_normal_form, only : degrees, harmonic_degrees, held_degrees, normal_form_type, y_limit
    implicit none
    private
 
@@ -124,4 +124,4 @@ contains
 #define LANE_DEGREE 22
 #include "lane_step.inc"
 
-end module dondolo_lane_kernel
+end module dondolo_motion_lane_kernel

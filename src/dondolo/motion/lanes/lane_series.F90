@@ -1,11 +1,11 @@
 !> The motion within one step of a lane, a power series in the part x of the step that has passed, and the first event in it.
-module dondolo_lane_series
+module dondolo_motion_lane_series
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_bernstein, only : nowhere
-   use dondolo_events, only : find_event, find_level, impact, level_above, level_below, limit_reached, no_event, turning
-   use dondolo_kinds, only : wp
-   use dondolo_lane_state, only : lane_width
-   use dondolo_normal_form, only : y_limit
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_bernstein, only : nowhere
+   use dondolo_motion_events, only : find_event, find_level, impact, level_above, level_below, limit_reached, no_event, turning
+   use dondolo_motion_lane_state, only : lane_width
+   use dondolo_motion_normal_form, only : y_limit
    implicit none
    private
 
@@ -342,4 +342,4 @@ contains
       end do
    end function bernstein
 
-end module dondolo_lane_series
+end module dondolo_motion_lane_series

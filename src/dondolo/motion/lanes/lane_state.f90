@@ -1,8 +1,8 @@
 !> Lanes: the state of many histories of one wall, each with its own time, in arrays that one loop runs over.
-module dondolo_lane_state
+module dondolo_motion_lane_state
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_kinds, only : wp
-   use dondolo_normal_form, only : highest_held
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_normal_form, only : highest_held
    implicit none
    private
 
@@ -24,7 +24,7 @@ module dondolo_lane_state
    !> happen in it, or since it is too long for the tolerance
    integer(int64), parameter :: step_taken = 0, record_over = 1, event_possible = 2, step_too_long = 3
 
-   !> Lanes. y is the coordinate of dondolo_normal_form; u, the ground acceleration seen from the lane's side
+   !> Lanes. y is the coordinate of dondolo_motion_normal_form; u, the ground acceleration seen from the lane's side
    type :: lanes_type
       !> Coordinate and its velocity [1/s]
       real(wp) :: y(lane_width) = 0.0_wp, v(lane_width) = 0.0_wp
@@ -65,4 +65,4 @@ contains
       whole_vectors = (n + vector_width - 1)/vector_width*vector_width
    end function whole_vectors
 
-end module dondolo_lane_state
+end module dondolo_motion_lane_state

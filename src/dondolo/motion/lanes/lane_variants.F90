@@ -3,23 +3,23 @@
 !> Variants differ by rounding only. A build by meson has 'baseline', which runs anywhere, and on x86-64 'avx2' and
 !> 'avx512' (DONDOLO_VARIANTS); a build for one processor has 'native' alone (DONDOLO_NATIVE); other builds 'baseline'.
 !> The best that the processor can run is taken, or what the environment variable DONDOLO_VARIANT names.
-module dondolo_lane_variants
+module dondolo_motion_lane_variants
    use, intrinsic :: iso_c_binding, only : c_int
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_kinds, only : wp
-   use dondolo_lane_constants, only : lane_constants_type
-   use dondolo_lanes, only : simulate_first => simulate_lanes, trace_first => trace_lanes
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_lane_constants, only : lane_constants_type
+   use dondolo_motion_lanes, only : simulate_first => simulate_lanes, trace_first => trace_lanes
 #ifdef DONDOLO_VARIANTS
-   use dondolo_lanes_avx2, only : simulate_avx2 => simulate_lanes, trace_avx2 => trace_lanes
-   use dondolo_lanes_avx512, only : simulate_avx512 => simulate_lanes, trace_avx512 => trace_lanes
+   use dondolo_motion_lanes_avx2, only : simulate_avx2 => simulate_lanes, trace_avx2 => trace_lanes
+   use dondolo_motion_lanes_avx512, only : simulate_avx512 => simulate_lanes, trace_avx512 => trace_lanes
 #endif
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_queue, only : queue_type
+   use dondolo_base_text, only : join
+   use dondolo_motion_queue, only : queue_type
+   use dondolo_motion_response, only : trace_type
+   use dondolo_motion_work, only : work_type
    use dondolo_record, only : record_type
    use dondolo_record_set, only : record_set_type
-   use dondolo_response, only : trace_type
-   use dondolo_text, only : join
-   use dondolo_work, only : work_type
+   use dondolo_wall_mechanism, only : mechanism_type
    implicit none
    private
 
@@ -124,4 +124,4 @@ contains
       end select
    end subroutine trace_variant
 
-end module dondolo_lane_variants
+end module dondolo_motion_lane_variants

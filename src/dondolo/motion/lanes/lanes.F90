@@ -1,24 +1,24 @@
 !> The engine lanes: many histories of one wall in lockstep, a vector of them at a time.
 !>
-!> Each lane holds one history and has its own time. All lanes take a step at once (dondolo_lane_kernel); flagged ones
-!> are seen to one by one (dondolo_lane_history). A lane whose history is over takes the next from the queue, so that
+!> Each lane holds one history and has its own time. All lanes take a step at once (dondolo_motion_lane_kernel); flagged ones
+!> are seen to one by one (dondolo_motion_lane_history). A lane whose history is over takes the next from the queue, so that
 !> vectors stay full. What a history gives depends neither on its lane nor on those beside it.
-module dondolo_lanes
+module dondolo_motion_lanes
    use, intrinsic :: iso_fortran_env, only : int64
    use, intrinsic :: omp_lib, only : omp_get_num_threads
-   use dondolo_kinds, only : wp
-   use dondolo_lane_constants, only : lane_constants_type
-   use dondolo_lane_events, only : find_lane_events
-   use dondolo_lane_grip, only : lane_grip_type
-   use dondolo_lane_history, only : add_row, begin, begin_still, lane_batch_type, resolve
-   use dondolo_lane_kernel, only : step_lanes
-   use dondolo_lane_state, only : event_possible, lane_width, vector_width
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_queue, only : queue_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_lane_constants, only : lane_constants_type
+   use dondolo_motion_lane_events, only : find_lane_events
+   use dondolo_motion_lane_grip, only : lane_grip_type
+   use dondolo_motion_lane_history, only : add_row, begin, begin_still, lane_batch_type, resolve
+   use dondolo_motion_lane_kernel, only : step_lanes
+   use dondolo_motion_lane_state, only : event_possible, lane_width, vector_width
+   use dondolo_motion_queue, only : queue_type
+   use dondolo_motion_response, only : intervals_after, trace_type
+   use dondolo_motion_work, only : work_type
    use dondolo_record, only : record_type
    use dondolo_record_set, only : new_record_set, record_set_type
-   use dondolo_response, only : intervals_after, trace_type
-   use dondolo_work, only : work_type
+   use dondolo_wall_mechanism, only : mechanism_type
    implicit none
    private
 
@@ -231,4 +231,4 @@ contains
       end associate
    end subroutine move
 
-end module dondolo_lanes
+end module dondolo_motion_lanes

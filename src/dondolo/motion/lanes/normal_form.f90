@@ -16,11 +16,11 @@
 !>
 !> Those of one rigid body that turns about a fixed point are harmonic: e cos(w z) + f sin(w z), with w the rotation at
 !> z = 1 less that at z = 0. Two short polynomials in z^2 then serve all of them and all their derivatives.
-module dondolo_normal_form
-   use dondolo_chebyshev, only : as_powers, chebyshev_integral, chebyshev_nodes, chebyshev_series, chebyshev_value
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_travel, only : lever, travel
+module dondolo_motion_normal_form
+   use dondolo_base_chebyshev, only : as_powers, chebyshev_integral, chebyshev_nodes, chebyshev_series, chebyshev_value
+   use dondolo_base_kinds, only : wp
+   use dondolo_wall_mechanism, only : mechanism_type
+   use dondolo_wall_travel, only : lever, travel
    implicit none
    private
 
@@ -388,4 +388,4 @@ contains
       end if
    end function rotation
 
-end module dondolo_normal_form
+end module dondolo_motion_normal_form

@@ -3,14 +3,14 @@
 !> This module and all that it uses are compiled a second time with DONDOLO_REAL128, under names that end in _quadruple
 !> (meson.build beside it). Whatever crosses is a double: a wall is said again, property by property, and every number counts
 !> for exactly what it is.
-module dondolo_quadruple_wall
+module dondolo_motion_quadruple_wall
    use, intrinsic :: iso_fortran_env, only : real64
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_response, only : response_type
+   use dondolo_motion_rk45, only : simulate_rk45
+   use dondolo_motion_solver, only : solver_type
    use dondolo_record, only : record_type
-   use dondolo_response, only : response_type
-   use dondolo_rk45, only : simulate_rk45
-   use dondolo_solver, only : solver_type
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    implicit none
    private
@@ -151,4 +151,4 @@ contains
          & real(response%time_of_peak, real64), response%is_whole)
    end subroutine simulate
 
-end module dondolo_quadruple_wall
+end module dondolo_motion_quadruple_wall

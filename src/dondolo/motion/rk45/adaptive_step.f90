@@ -3,16 +3,16 @@
 !>
 !> Events - impact, turning point, limit, a level of the ties - are found on the dense output of a step; the step is then
 !> taken again so that it ends on the event, which thus has the accuracy of a step (docs/theory.md, section 5).
-module dondolo_adaptive_step
-   use dondolo_dormand_prince, only : angular_acceleration, dense_rotation, dormand_prince_step, excitation_type, &
+module dondolo_motion_adaptive_step
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_dormand_prince, only : angular_acceleration, dense_rotation, dormand_prince_step, excitation_type, &
       & is_beyond, state_type
-   use dondolo_events, only : find_event, find_level, impact, level_above, level_below, limit_reached, no_event, turning
-   use dondolo_grip, only : grip_type
-   use dondolo_history, only : history_type
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_step_limits, only : longest_step, shortest_motion, smallest_step
-   use dondolo_wall_constants, only : wall_constants_type
+   use dondolo_motion_events, only : find_event, find_level, impact, level_above, level_below, limit_reached, no_event, turning
+   use dondolo_motion_grip, only : grip_type
+   use dondolo_motion_history, only : history_type
+   use dondolo_motion_step_limits, only : longest_step, shortest_motion, smallest_step
+   use dondolo_motion_wall_constants, only : wall_constants_type
+   use dondolo_wall_mechanism, only : mechanism_type
    implicit none
    private
 
@@ -253,4 +253,4 @@ contains
       next%f = angular_acceleration(mechanism, motion%excitation, motion%time + h, next%q, next%v)
    end subroutine land
 
-end module dondolo_adaptive_step
+end module dondolo_motion_adaptive_step

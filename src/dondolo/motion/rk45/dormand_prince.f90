@@ -2,9 +2,9 @@
 !>
 !> The last stage is the acceleration at the end of the step, where the next one begins (first same as last).
 !> Dormand and Prince (1980), A family of embedded Runge-Kutta formulae, J. Comput. Appl. Math. 6, 19-26.
-module dondolo_dormand_prince
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
+module dondolo_motion_dormand_prince
+   use dondolo_base_kinds, only : wp
+   use dondolo_wall_mechanism, only : mechanism_type
    implicit none
    private
 
@@ -148,4 +148,4 @@ contains
       b(5) = next%q
    end function dense_rotation
 
-end module dondolo_dormand_prince
+end module dondolo_motion_dormand_prince

@@ -2,26 +2,26 @@
 !>
 !> At rest, rocking, collapsed (docs/theory.md, section 4). No step crosses a sample, where the piecewise linear
 !> accelerogram has its corners.
-module dondolo_rk45
+module dondolo_motion_rk45
    use, intrinsic :: iso_c_binding, only : c_int
-   use dondolo_adaptive_step, only : advance, motion_type
-   use dondolo_dormand_prince, only : angular_acceleration, excitation_type
-   use dondolo_events, only : impact, level_above, level_below, limit_reached, no_event, turning
-   use dondolo_grip, only : grip_type
-   use dondolo_held_tail, only : held_motion
-   use dondolo_history, only : starting_acceleration
-   use dondolo_interrupt, only : look_for_interrupt
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
+   use dondolo_base_interrupt, only : look_for_interrupt
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_adaptive_step, only : advance, motion_type
+   use dondolo_motion_dormand_prince, only : angular_acceleration, excitation_type
+   use dondolo_motion_events, only : impact, level_above, level_below, limit_reached, no_event, turning
+   use dondolo_motion_grip, only : grip_type
+   use dondolo_motion_held_tail, only : held_motion
+   use dondolo_motion_history, only : starting_acceleration
+   use dondolo_motion_response, only : intervals_after, response_type, trace_type
+   use dondolo_motion_rest, only : new_rest
+   use dondolo_motion_solver, only : solver_type
+   use dondolo_motion_step_limits, only : longest_step
+   use dondolo_motion_stick, only : look_for_stick, stay
+   use dondolo_motion_tail, only : tail_type
+   use dondolo_motion_wall_constants, only : new_wall_constants, wall_constants_type
+   use dondolo_motion_work, only : work_type
    use dondolo_record, only : record_type
-   use dondolo_response, only : intervals_after, response_type, trace_type
-   use dondolo_rest, only : new_rest
-   use dondolo_solver, only : solver_type
-   use dondolo_step_limits, only : longest_step
-   use dondolo_stick, only : look_for_stick, stay
-   use dondolo_tail, only : tail_type
-   use dondolo_wall_constants, only : new_wall_constants, wall_constants_type
-   use dondolo_work, only : work_type
+   use dondolo_wall_mechanism, only : mechanism_type
    implicit none
    private
 
@@ -386,4 +386,4 @@ contains
       end associate
    end subroutine add_row
 
-end module dondolo_rk45
+end module dondolo_motion_rk45

@@ -3,12 +3,12 @@
 !> There the ground pushes it outwards, but by less than the friction that a further motion would wake. At a rotation that does
 !> not change both accelerations, without and with that friction, are linear between two samples, so that the instant at which
 !> the wall falls back or goes on is known in closed form (docs/theory.md, section 4).
-module dondolo_stick
-   use dondolo_adaptive_step, only : most_stalled, motion_type
-   use dondolo_dormand_prince, only : angular_acceleration
-   use dondolo_kinds, only : wp
-   use dondolo_mechanism, only : mechanism_type
-   use dondolo_step_limits, only : longest_step
+module dondolo_motion_stick
+   use dondolo_base_kinds, only : wp
+   use dondolo_motion_adaptive_step, only : most_stalled, motion_type
+   use dondolo_motion_dormand_prince, only : angular_acceleration
+   use dondolo_motion_step_limits, only : longest_step
+   use dondolo_wall_mechanism, only : mechanism_type
    implicit none
    private
 
@@ -100,4 +100,4 @@ contains
       call motion%grip%turn(wall, motion%peak)
    end subroutine both
 
-end module dondolo_stick
+end module dondolo_motion_stick

@@ -1,8 +1,8 @@
 !> The cells of a line of columns, what separates them, and the line in which values begin.
-module dondolo_column_cells
-   use dondolo_limits, only : most_columns
-   use dondolo_text, only : blanks, lower
-   use dondolo_text_file, only : text_file_type
+module dondolo_record_column_cells
+   use dondolo_base_limits, only : most_columns
+   use dondolo_base_text, only : blanks, lower
+   use dondolo_base_text_file, only : text_file_type
    implicit none
    private
 
@@ -202,4 +202,4 @@ contains
       titles = 0
    end subroutine find_titles
 
-end module dondolo_column_cells
+end module dondolo_record_column_cells

@@ -1,15 +1,15 @@
 !> Rows of columns that are no samples: the number of samples above them, names that a program gives, and samples beyond the number
 !> that is stated.
-module dondolo_column_counts
-   use dondolo_column_cells, only : find_cells, most_cells, separator_of
-   use dondolo_column_roles, only : table_type
-   use dondolo_column_top, only : top_type
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_numbers, only : parse_integer, parse_real
+module dondolo_record_column_counts
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_numbers, only : parse_integer, parse_real
+   use dondolo_base_text, only : to_text
+   use dondolo_base_text_file, only : text_file_type
+   use dondolo_record_column_cells, only : find_cells, most_cells, separator_of
+   use dondolo_record_column_roles, only : table_type
+   use dondolo_record_column_top, only : top_type
    use dondolo_record_format, only : describe_extra, most_extra, raise_at
-   use dondolo_text, only : to_text
-   use dondolo_text_file, only : text_file_type
    implicit none
    private
 
@@ -146,4 +146,4 @@ contains
       end associate
    end subroutine check_count
 
-end module dondolo_column_counts
+end module dondolo_record_column_counts

@@ -3,17 +3,17 @@
 !> A column is a time only if it is titled so, or if it is the first without a title, or the second after numbers of samples, and
 !> increases by equal steps that a recorder can have. Numbers of samples, such as the index of a table, are reported and not read.
 !> All else is a channel. A column that increases throughout and is none of these is an error.
-module dondolo_column_roles
-   use dondolo_column_cells, only : find_cells, most_cells
-   use dondolo_column_titles, only : is_index, is_seconds, is_time, says_nothing
-   use dondolo_column_top, only : top_type
-   use dondolo_equal_steps, only : check_equal_steps
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_plain, only : shown
+module dondolo_record_column_roles
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_plain, only : shown
+   use dondolo_base_text, only : brief, to_text
+   use dondolo_base_text_file, only : text_file_type
+   use dondolo_record_column_cells, only : find_cells, most_cells
+   use dondolo_record_column_titles, only : is_index, is_seconds, is_time, says_nothing
+   use dondolo_record_column_top, only : top_type
+   use dondolo_record_equal_steps, only : check_equal_steps
    use dondolo_record_format, only : raise_at
-   use dondolo_text, only : brief, to_text
-   use dondolo_text_file, only : text_file_type
    implicit none
    private
 
@@ -215,4 +215,4 @@ contains
       increases = all(values(2:) >= values(:size(values) - 1)) .and. values(size(values)) > values(1)
    end function increases
 
-end module dondolo_column_roles
+end module dondolo_record_column_roles

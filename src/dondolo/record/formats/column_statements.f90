@@ -4,18 +4,18 @@
 !> A statement is `key: value` or `key = value`, several of them separated by commas, a key before a number, `dt 0.02`, or after
 !> it, `200 Hz`. Free text states units in brackets, after `in` or beside an acceleration, and another quantity where it is a
 !> title such as `Velocity time history`. Two statements that differ are an error; none is chosen.
-module dondolo_column_statements
-   use dondolo_column_titles, only : find_units, has_word, is_other_unit, is_title_of_other
-   use dondolo_column_words, only : acceleration_words, count_keys, has_letter, milli_units, quantity_keys, rate_keys, rate_units, &
-      & second_units, split_number, step_keys, unit_words, without_brackets
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_numbers, only : parse_integer
-   use dondolo_plain, only : shown
+module dondolo_record_column_statements
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_numbers, only : parse_integer
+   use dondolo_base_plain, only : shown
+   use dondolo_base_text, only : blanks, first_word, lower, stripped, to_text
+   use dondolo_base_text_file, only : text_file_type
+   use dondolo_record_column_titles, only : find_units, has_word, is_other_unit, is_title_of_other
+   use dondolo_record_column_words, only : acceleration_words, count_keys, has_letter, milli_units, quantity_keys, rate_keys, &
+      & rate_units, second_units, split_number, step_keys, unit_words, without_brackets
    use dondolo_record_format, only : raise_at
-   use dondolo_text, only : blanks, first_word, lower, stripped, to_text
-   use dondolo_text_file, only : text_file_type
-   use dondolo_units, only : unit_factor
+   use dondolo_record_units, only : unit_factor
    implicit none
    private
 
@@ -375,4 +375,4 @@ contains
       self%dt_line = line
    end subroutine take_step
 
-end module dondolo_column_statements
+end module dondolo_record_column_statements

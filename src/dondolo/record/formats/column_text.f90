@@ -3,10 +3,10 @@
 !>
 !> Decimal commas are read where they cannot be anything else: in quotes, or where columns are separated by semicolons or blanks,
 !> and no value has a point.
-module dondolo_column_text
-   use dondolo_column_cells, only : first_value_line, unquoted
-   use dondolo_text, only : blanks, lower
-   use dondolo_text_file, only : text_file_type
+module dondolo_record_column_text
+   use dondolo_base_text, only : blanks, lower
+   use dondolo_base_text_file, only : text_file_type
+   use dondolo_record_column_cells, only : first_value_line, unquoted
    implicit none
    private
 
@@ -117,4 +117,4 @@ contains
       end do
    end subroutine unquote
 
-end module dondolo_column_text
+end module dondolo_record_column_text

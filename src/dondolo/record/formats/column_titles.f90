@@ -1,9 +1,9 @@
 !> What the title of a column says: units in its brackets, whether its values are times, numbers of samples or accelerations.
-module dondolo_column_titles
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_text, only : lower
-   use dondolo_units, only : unit_factor
+module dondolo_record_column_titles
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : lower
+   use dondolo_record_units, only : unit_factor
    implicit none
    private
 
@@ -234,4 +234,4 @@ contains
       end associate
    end function without_sec
 
-end module dondolo_column_titles
+end module dondolo_record_column_titles

@@ -2,20 +2,20 @@
 !>
 !> Titles are in the last line, or in the last but one above a row of units. Comments are titles only if a word or a unit in them
 !> is known; words separated by blanks too, since a sentence may have as many words as there are columns.
-module dondolo_column_top
-   use dondolo_column_cells, only : find_titles, mark_length, most_cells, unquoted
-   use dondolo_column_statements, only : statements_type
-   use dondolo_column_titles, only : find_units, has_word, is_acceleration_unit, is_index, is_other_quantity, is_other_unit, &
-      & is_seconds, is_time, is_title_of_other, says_nothing
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_lines, only : line_type
-   use dondolo_metadata, only : metadata_type
-   use dondolo_numbers, only : parse_real
-   use dondolo_plain, only : shown
+module dondolo_record_column_top
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : line_type
+   use dondolo_base_numbers, only : parse_real
+   use dondolo_base_plain, only : shown
+   use dondolo_base_text, only : blanks, lower, stripped
+   use dondolo_base_text_file, only : text_file_type
+   use dondolo_record_column_cells, only : find_titles, mark_length, most_cells, unquoted
+   use dondolo_record_column_statements, only : statements_type
+   use dondolo_record_column_titles, only : find_units, has_word, is_acceleration_unit, is_index, is_other_quantity, &
+      & is_other_unit, is_seconds, is_time, is_title_of_other, says_nothing
    use dondolo_record_format, only : raise_at
-   use dondolo_text, only : blanks, lower, stripped
-   use dondolo_text_file, only : text_file_type
+   use dondolo_record_metadata, only : metadata_type
    implicit none
    private
 
@@ -313,4 +313,4 @@ contains
       inner = text(max(verify(text, ' ()[]'), 1):)
    end function inner
 
-end module dondolo_column_top
+end module dondolo_record_column_top

@@ -1,8 +1,8 @@
 !> Words in which files state time step, sampling rate, number of samples and units, and amounts with their units.
-module dondolo_column_words
-   use dondolo_kinds, only : wp
-   use dondolo_numbers, only : parse_real
-   use dondolo_text, only : blanks, first_word, lower, stripped
+module dondolo_record_column_words
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_numbers, only : parse_real
+   use dondolo_base_text, only : blanks, first_word, lower, stripped
    implicit none
    private
 
@@ -101,4 +101,4 @@ contains
       has_letter = scan(lower(text), 'abcdefghijklmnopqrstuvwxyz') > 0
    end function has_letter
 
-end module dondolo_column_words
+end module dondolo_record_column_words

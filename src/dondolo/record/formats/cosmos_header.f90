@@ -1,13 +1,13 @@
 !> Headers of a COSMOS file: where their parts are, and what they say of the record.
-module dondolo_cosmos_header
-   use dondolo_dates, only : find_moment
-   use dondolo_error, only : error_type
-   use dondolo_header_text, only : after, before, leading_number, parse_format, squeezed, table_type
-   use dondolo_kinds, only : wp
-   use dondolo_numbers, only : parse_integer, parse_real
+module dondolo_record_cosmos_header
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_numbers, only : parse_integer, parse_real
+   use dondolo_base_text, only : first_word, lower, to_text
+   use dondolo_base_text_file, only : text_file_type
+   use dondolo_record_dates, only : find_moment
    use dondolo_record_format, only : channel_type, raise_at
-   use dondolo_text, only : first_word, lower, to_text
-   use dondolo_text_file, only : text_file_type
+   use dondolo_record_header_text, only : after, before, leading_number, parse_format, squeezed, table_type
    implicit none
    private
 
@@ -258,4 +258,4 @@ contains
 
    end subroutine keep
 
-end module dondolo_cosmos_header
+end module dondolo_record_cosmos_header

@@ -1,11 +1,11 @@
 !> Dates and times of headers and catalogues, written one way: 1997-10-14T15:23:09+09:00, as ISO 8601 has it.
 !>
 !> What is no date of the calendar gives none: a text in its place is no date either.
-module dondolo_dates
-   use dondolo_day_times, only : digits, letters, pass, take_time
-   use dondolo_kinds, only : wp
-   use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_text, only : blanks, lower
+module dondolo_record_dates
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_numbers, only : parse_integer, parse_real
+   use dondolo_base_text, only : blanks, lower
+   use dondolo_record_day_times, only : digits, letters, pass, take_time
    implicit none
    private
 
@@ -342,4 +342,4 @@ contains
       end do
    end subroutine move_days
 
-end module dondolo_dates
+end module dondolo_record_dates

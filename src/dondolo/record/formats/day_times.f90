@@ -1,8 +1,8 @@
 !> Times of the day in headers and catalogues, with their zones.
-module dondolo_day_times
-   use dondolo_kinds, only : wp
-   use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_text, only : blanks
+module dondolo_record_day_times
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_numbers, only : parse_integer, parse_real
+   use dondolo_base_text, only : blanks
    implicit none
    private
 
@@ -187,4 +187,4 @@ contains
       write (two, '(i2.2)') number
    end function two
 
-end module dondolo_day_times
+end module dondolo_record_day_times

@@ -6,13 +6,13 @@
 !>
 !> The time step is the shortest decimal that all times allow: 0.02 of 0.019999999552965164, 0.03999999910593033 ..., which a
 !> program had in single precision before it printed them.
-module dondolo_equal_steps
+module dondolo_record_equal_steps
    use, intrinsic :: iso_fortran_env, only : real32
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : brief, to_text
+   use dondolo_base_text_file, only : text_file_type
    use dondolo_record_format, only : raise_at
-   use dondolo_text, only : brief, to_text
-   use dondolo_text_file, only : text_file_type
    implicit none
    private
 
@@ -219,4 +219,4 @@ contains
       end do
    end subroutine print_of_times
 
-end module dondolo_equal_steps
+end module dondolo_record_equal_steps

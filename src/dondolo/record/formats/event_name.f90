@@ -2,13 +2,13 @@
 !>
 !> Records of one event are taken together in standard errors. Free text in the place of a name (a time of recording, a
 !> placeholder, a program) would put records of several earthquakes together, or those of one apart.
-module dondolo_event_name
-   use dondolo_dates, only : make_stamp, pass_weekday, take_moment
-   use dondolo_day_times, only : digits, take_time
-   use dondolo_header_text, only : squeezed
-   use dondolo_kinds, only : wp
-   use dondolo_numbers, only : parse_real
-   use dondolo_text, only : first_word, lower
+module dondolo_record_event_name
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_numbers, only : parse_real
+   use dondolo_base_text, only : first_word, lower
+   use dondolo_record_dates, only : make_stamp, pass_weekday, take_moment
+   use dondolo_record_day_times, only : digits, take_time
+   use dondolo_record_header_text, only : squeezed
    implicit none
    private
 
@@ -301,4 +301,4 @@ contains
          & index(word, '.', back=.true.) > index(word, '.') + 1 .and. index(word, '.', back=.true.) < len(word)
    end function has_two_points
 
-end module dondolo_event_name
+end module dondolo_record_event_name

@@ -1,18 +1,18 @@
 !> Text files of the national network of Turkey (AFAD): a title, lines `KEY : value`, a line with the names of the components, and
 !> one column for each of them. The values are in gal, the unit of the peaks in the header. Raw values contain the offset of the
 !> instrument.
-module dondolo_format_afad
-   use dondolo_dates, only : find_moment
-   use dondolo_error, only : error_type
-   use dondolo_header_text, only : after, before, leading_number
-   use dondolo_kinds, only : wp
-   use dondolo_labels, only : labels_type, read_labels
-   use dondolo_metadata, only : metadata_type
-   use dondolo_numbers, only : parse_real
+module dondolo_record_format_afad
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_numbers, only : parse_real
+   use dondolo_base_text, only : blanks, first_word, lower, to_text
+   use dondolo_base_text_file, only : text_file_type
+   use dondolo_record_dates, only : find_moment
    use dondolo_record_format, only : channel_type, describe_extra, most_extra, raise_at, read_block, samples_type
-   use dondolo_text, only : blanks, first_word, lower, to_text
-   use dondolo_text_file, only : text_file_type
-   use dondolo_units, only : unit_factor
+   use dondolo_record_header_text, only : after, before, leading_number
+   use dondolo_record_labels, only : labels_type, read_labels
+   use dondolo_record_metadata, only : metadata_type
+   use dondolo_record_units, only : unit_factor
    implicit none
    private
 
@@ -246,4 +246,4 @@ contains
       if (stated(side:side) == negative) degrees = '-'//number
    end function signed
 
-end module dondolo_format_afad
+end module dondolo_record_format_afad

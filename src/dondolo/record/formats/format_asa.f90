@@ -1,18 +1,18 @@
 !> Standard accelerograms of Mexico (ASA 2.0): lines `KEY : value` in Spanish, then one row a sample, one column of 10
 !> characters a channel.
-module dondolo_format_asa
-   use dondolo_dates, only : find_moment
-   use dondolo_error, only : error_type
-   use dondolo_header_text, only : after
-   use dondolo_kinds, only : wp
-   use dondolo_labels, only : labels_type, read_labels
-   use dondolo_metadata, only : metadata_type
-   use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_plain, only : shown
+module dondolo_record_format_asa
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_numbers, only : parse_integer, parse_real
+   use dondolo_base_plain, only : shown
+   use dondolo_base_text, only : first_word, to_text
+   use dondolo_base_text_file, only : text_file_type
+   use dondolo_record_dates, only : find_moment
    use dondolo_record_format, only : channel_type, check_duration, describe_extra, most_extra, raise_at, read_fixed, &
       & samples_type
-   use dondolo_text, only : first_word, to_text
-   use dondolo_text_file, only : text_file_type
+   use dondolo_record_header_text, only : after
+   use dondolo_record_labels, only : labels_type, read_labels
+   use dondolo_record_metadata, only : metadata_type
    implicit none
    private
 
@@ -263,4 +263,4 @@ contains
       line = 0
    end function line_with
 
-end module dondolo_format_asa
+end module dondolo_record_format_asa

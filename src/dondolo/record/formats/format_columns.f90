@@ -1,28 +1,28 @@
 !> Plain columns of numbers: accelerations alone, one a line, or times and one or more columns of accelerations.
 !>
-!> Above them may be comments, titles, a row of units, and lines of words (dondolo_column_top). Columns are separated by
+!> Above them may be comments, titles, a row of units, and lines of words (dondolo_record_column_top). Columns are separated by
 !> semicolons, commas, or blanks and tabs. Comments `# key: value` are metadata. Units, time step, sampling rate, number of samples
 !> and quantity that these lines state are used, or contradict the values or what is given, and are an error.
-!> Times, numbers of samples and channels are told apart in dondolo_column_roles. Of two channels or more, each has
+!> Times, numbers of samples and channels are told apart in dondolo_record_column_roles. Of two channels or more, each has
 !> its title for a name, else `column 2` and so on.
-module dondolo_format_columns
-   use dondolo_column_cells, only : find_cells, first_value_line, most_cells, separator_of
-   use dondolo_column_counts, only : are_names, check_count, drop_row, has_count_line, take_count_line
-   use dondolo_column_roles, only : find_roles, roles_type, table_type
-   use dondolo_column_text, only : look_at_columns, make_plain, oddities_type
-   use dondolo_column_titles, only : is_other_quantity
-   use dondolo_column_top, only : read_top, top_type
-   use dondolo_error, only : add_place, error_type
-   use dondolo_kinds, only : wp
-   use dondolo_last_number, only : find_cut
-   use dondolo_limits, only : most_columns
-   use dondolo_memory, only : check_room
-   use dondolo_numbers, only : parse_printed, parse_real, take_real
-   use dondolo_plain, only : shown
+module dondolo_record_format_columns
+   use dondolo_base_error, only : add_place, error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_limits, only : most_columns
+   use dondolo_base_memory, only : check_room
+   use dondolo_base_numbers, only : parse_printed, parse_real, take_real
+   use dondolo_base_plain, only : shown
+   use dondolo_base_text, only : to_text
+   use dondolo_base_text_file, only : text_file_type
+   use dondolo_record_column_cells, only : find_cells, first_value_line, most_cells, separator_of
+   use dondolo_record_column_counts, only : are_names, check_count, drop_row, has_count_line, take_count_line
+   use dondolo_record_column_roles, only : find_roles, roles_type, table_type
+   use dondolo_record_column_text, only : look_at_columns, make_plain, oddities_type
+   use dondolo_record_column_titles, only : is_other_quantity
+   use dondolo_record_column_top, only : read_top, top_type
    use dondolo_record_format, only : raise_at, samples_type
-   use dondolo_text, only : to_text
-   use dondolo_text_file, only : text_file_type
-   use dondolo_units, only : unit_factor
+   use dondolo_record_last_number, only : find_cut
+   use dondolo_record_units, only : unit_factor
    implicit none
    private
 
@@ -329,4 +329,4 @@ contains
       call raise_at(error, text, line, 'columns must be separated as in line '//to_text(begin))
    end subroutine raise_bad_line
 
-end module dondolo_format_columns
+end module dondolo_record_format_columns

@@ -7,16 +7,16 @@
 !>
 !> Source of positions and codes: COSMOS Strong Motion Programs Board (2001), COSMOS Strong Motion Data Format,
 !> version 1.20, tables 1 and 2.
-module dondolo_format_cosmos
-   use dondolo_cosmos_header, only : cosmos_header_type, find_headers
-   use dondolo_error, only : error_type
-   use dondolo_header_text, only : after, before, check_not_missing, leading_number, parse_format, squeezed
-   use dondolo_kinds, only : wp
-   use dondolo_numbers, only : parse_integer, parse_real
+module dondolo_record_format_cosmos
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_numbers, only : parse_integer, parse_real
+   use dondolo_base_text, only : first_word, lower, to_text
+   use dondolo_base_text_file, only : text_file_type
+   use dondolo_record_cosmos_header, only : cosmos_header_type, find_headers
    use dondolo_record_format, only : after_block_type, channel_type, raise_at, read_fixed, samples_type
-   use dondolo_text, only : first_word, lower, to_text
-   use dondolo_text_file, only : text_file_type
-   use dondolo_units, only : unit_factor
+   use dondolo_record_header_text, only : after, before, check_not_missing, leading_number, parse_format, squeezed
+   use dondolo_record_units, only : unit_factor
    implicit none
    private
 
@@ -318,4 +318,4 @@ contains
          & to_text(length)//' s: '//to_text(count)//' values at '//to_text(dt)//' s')
    end subroutine read_step
 
-end module dondolo_format_cosmos
+end module dondolo_record_format_cosmos

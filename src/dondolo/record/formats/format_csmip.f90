@@ -4,16 +4,16 @@
 !>
 !> Source: Shakal and Huang (1985), Standard tape format for CSMIP strong-motion data tapes, report OSMS 85-03. Later
 !> files state the Fortran format as well: `in cm/sec2. (8f10.6)`.
-module dondolo_format_csmip
-   use dondolo_dates, only : find_moment
-   use dondolo_error, only : error_type
-   use dondolo_header_text, only : after, before, leading_number, parse_format, squeezed
-   use dondolo_kinds, only : wp
-   use dondolo_metadata, only : metadata_type
-   use dondolo_numbers, only : parse_integer, parse_real
+module dondolo_record_format_csmip
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_numbers, only : parse_integer, parse_real
+   use dondolo_base_text, only : first_word, lower, to_text
+   use dondolo_base_text_file, only : text_file_type
+   use dondolo_record_dates, only : find_moment
    use dondolo_record_format, only : after_block_type, channel_type, check_duration, raise_at, read_fixed, samples_type
-   use dondolo_text, only : first_word, lower, to_text
-   use dondolo_text_file, only : text_file_type
+   use dondolo_record_header_text, only : after, before, leading_number, parse_format, squeezed
+   use dondolo_record_metadata, only : metadata_type
    implicit none
    private
 
@@ -343,4 +343,4 @@ contains
       line = 0
    end function line_with
 
-end module dondolo_format_csmip
+end module dondolo_record_format_csmip

@@ -1,17 +1,17 @@
 !> Files of the Central Weather Administration of Taiwan: header lines `#key: value`, then times and components in
 !> columns of 10 characters. Times are those of Taiwan.
-module dondolo_format_cwa
-   use dondolo_dates, only : find_moment
-   use dondolo_equal_steps, only : check_equal_steps
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_labels, only : labels_type, read_labels
-   use dondolo_metadata, only : metadata_type
-   use dondolo_numbers, only : parse_real
-   use dondolo_plain, only : shown
+module dondolo_record_format_cwa
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_numbers, only : parse_real
+   use dondolo_base_plain, only : shown
+   use dondolo_base_text, only : first_word, to_text
+   use dondolo_base_text_file, only : text_file_type
+   use dondolo_record_dates, only : find_moment
+   use dondolo_record_equal_steps, only : check_equal_steps
    use dondolo_record_format, only : describe_extra, most_extra, raise_at, read_fixed, samples_type
-   use dondolo_text, only : first_word, to_text
-   use dondolo_text_file, only : text_file_type
+   use dondolo_record_labels, only : labels_type, read_labels
+   use dondolo_record_metadata, only : metadata_type
    implicit none
    private
 
@@ -223,4 +223,4 @@ contains
       end do
    end function header_lines
 
-end module dondolo_format_cwa
+end module dondolo_record_format_cwa

@@ -1,16 +1,16 @@
 !> Files of the archives ITACA and ESM (DYNA 1.0 to 1.2, ITACA 1.x): lines `KEY: value`, then one value a line.
 !>
 !> Values of keys may be empty. Dates may be 19971014, 1997/10/14 or 14/10/1997.
-module dondolo_format_dyna
-   use dondolo_dates, only : find_moment
-   use dondolo_error, only : error_type
-   use dondolo_event_name, only : clean_event
-   use dondolo_labels, only : labels_type, read_labels
-   use dondolo_metadata, only : metadata_type
-   use dondolo_plain, only : shown
+module dondolo_record_format_dyna
+   use dondolo_base_error, only : error_type
+   use dondolo_base_plain, only : shown
+   use dondolo_base_text, only : lower
+   use dondolo_base_text_file, only : text_file_type
+   use dondolo_record_dates, only : find_moment
+   use dondolo_record_event_name, only : clean_event
    use dondolo_record_format, only : check_duration, raise_at, read_block, samples_type
-   use dondolo_text, only : lower
-   use dondolo_text_file, only : text_file_type
+   use dondolo_record_labels, only : labels_type, read_labels
+   use dondolo_record_metadata, only : metadata_type
    implicit none
    private
 
@@ -149,4 +149,4 @@ contains
       end do
    end function header_lines
 
-end module dondolo_format_dyna
+end module dondolo_record_format_dyna

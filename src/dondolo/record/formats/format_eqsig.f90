@@ -1,13 +1,13 @@
 !> Text files of the Python package eqsig: a line with a label, a line with count and time step, then one value a line.
 !> They do not state their units.
-module dondolo_format_eqsig
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_plain, only : shown
+module dondolo_record_format_eqsig
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_numbers, only : parse_integer, parse_real
+   use dondolo_base_plain, only : shown
+   use dondolo_base_text, only : blanks, first_word
+   use dondolo_base_text_file, only : text_file_type
    use dondolo_record_format, only : raise_at, read_block, samples_type
-   use dondolo_text, only : blanks, first_word
-   use dondolo_text_file, only : text_file_type
    implicit none
    private
 
@@ -77,4 +77,4 @@ contains
       if (ok) ok = count > 0 .and. dt > 0.0_wp
    end subroutine read_count
 
-end module dondolo_format_eqsig
+end module dondolo_record_format_eqsig

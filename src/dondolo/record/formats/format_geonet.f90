@@ -3,15 +3,15 @@
 !>
 !> Source of all positions: GeoNet, Strong Motion File Formats
 !> (geonet.org.nz/data/supplementary/strong_motion_file_formats).
-module dondolo_format_geonet
-   use dondolo_dates, only : find_moment
-   use dondolo_error, only : error_type
-   use dondolo_header_text, only : after, before, leading_number, squeezed, table_type
-   use dondolo_kinds, only : wp
-   use dondolo_numbers, only : parse_integer, parse_real
+module dondolo_record_format_geonet
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_numbers, only : parse_integer, parse_real
+   use dondolo_base_text, only : first_word, lower, to_text
+   use dondolo_base_text_file, only : text_file_type
+   use dondolo_record_dates, only : find_moment
    use dondolo_record_format, only : after_block_type, channel_type, raise_at, read_fixed, samples_type
-   use dondolo_text, only : first_word, lower, to_text
-   use dondolo_text_file, only : text_file_type
+   use dondolo_record_header_text, only : after, before, leading_number, squeezed, table_type
    implicit none
    private
 
@@ -286,4 +286,4 @@ contains
       nonzero = printed
    end function nonzero
 
-end module dondolo_format_geonet
+end module dondolo_record_format_geonet

@@ -3,17 +3,17 @@
 !>
 !> The counts hold the offset of the instrument, so their mean is removed, which the metadata say. Times are those of
 !> Japan. (National Research Institute for Earth Science and Disaster Resilience, format of the ASCII files.)
-module dondolo_format_knet
-   use dondolo_dates, only : find_moment
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_labels, only : labels_type, read_labels
-   use dondolo_metadata, only : metadata_type
-   use dondolo_numbers, only : parse_real
-   use dondolo_plain, only : shown
+module dondolo_record_format_knet
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_numbers, only : parse_real
+   use dondolo_base_plain, only : shown
+   use dondolo_base_text, only : to_text
+   use dondolo_base_text_file, only : text_file_type
+   use dondolo_record_dates, only : find_moment
    use dondolo_record_format, only : raise_at, read_block, samples_type
-   use dondolo_text, only : to_text
-   use dondolo_text_file, only : text_file_type
+   use dondolo_record_labels, only : labels_type, read_labels
+   use dondolo_record_metadata, only : metadata_type
    implicit none
    private
 
@@ -133,4 +133,4 @@ contains
       call metadata%set('longitude', labels%value_of('Station Long.'))
    end subroutine add_metadata
 
-end module dondolo_format_knet
+end module dondolo_record_format_knet

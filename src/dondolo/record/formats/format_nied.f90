@@ -1,20 +1,20 @@
 !> Tables of K-NET and KiK-net as NIED of Japan publishes them: comments `# key, value`, a comment with the titles of the columns,
 !> then a time and the components, separated by commas. Times are dates with a time of the day, of Japan, or seconds.
-module dondolo_format_nied
-   use dondolo_column_cells, only : find_cells, most_cells, unquoted
-   use dondolo_column_titles, only : find_units, is_other_quantity
-   use dondolo_dates, only : find_moment
-   use dondolo_equal_steps, only : check_equal_steps
-   use dondolo_error, only : error_type
-   use dondolo_header_text, only : leading_number
-   use dondolo_kinds, only : wp
-   use dondolo_last_number, only : find_cut
-   use dondolo_metadata, only : metadata_type
-   use dondolo_numbers, only : parse_integer, parse_printed, parse_real
-   use dondolo_plain, only : shown
+module dondolo_record_format_nied
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_numbers, only : parse_integer, parse_printed, parse_real
+   use dondolo_base_plain, only : shown
+   use dondolo_base_text, only : lower, stripped, to_text
+   use dondolo_base_text_file, only : text_file_type
+   use dondolo_record_column_cells, only : find_cells, most_cells, unquoted
+   use dondolo_record_column_titles, only : find_units, is_other_quantity
+   use dondolo_record_dates, only : find_moment
+   use dondolo_record_equal_steps, only : check_equal_steps
    use dondolo_record_format, only : raise_at, samples_type
-   use dondolo_text, only : lower, stripped, to_text
-   use dondolo_text_file, only : text_file_type
+   use dondolo_record_header_text, only : leading_number
+   use dondolo_record_last_number, only : find_cut
+   use dondolo_record_metadata, only : metadata_type
    implicit none
    private
 
@@ -223,4 +223,4 @@ contains
       end do
    end subroutine add_metadata
 
-end module dondolo_format_nied
+end module dondolo_record_format_nied

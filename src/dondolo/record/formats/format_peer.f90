@@ -3,16 +3,16 @@
 !> The second line names event, date, station and component, between commas, and a station may hold commas too. In
 !> older files event and date stand together. The fourth line reads `NPTS=   7999, DT=   .0050 SEC,` or, in older
 !> files, `7999    .0050    NPTS, DT`.
-module dondolo_format_peer
-   use dondolo_dates, only : find_moment, take_moment
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_metadata, only : metadata_type
-   use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_plain, only : shown
+module dondolo_record_format_peer
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_numbers, only : parse_integer, parse_real
+   use dondolo_base_plain, only : shown
+   use dondolo_base_text, only : first_word, lower, occurrences
+   use dondolo_base_text_file, only : text_file_type
+   use dondolo_record_dates, only : find_moment, take_moment
    use dondolo_record_format, only : raise_at, read_block, samples_type
-   use dondolo_text, only : first_word, lower, occurrences
-   use dondolo_text_file, only : text_file_type
+   use dondolo_record_metadata, only : metadata_type
    implicit none
    private
 
@@ -197,4 +197,4 @@ contains
       ok = ok .and. dt > 0.0_wp
    end subroutine read_count
 
-end module dondolo_format_peer
+end module dondolo_record_format_peer

@@ -3,15 +3,15 @@
 !>
 !> Source of all positions: USGS National Strong-Motion Program, SMC- and BBF-format Data Files (smcfmt.txt).
 !> Accelerations are in cm/s2 by definition of the format; the file itself does not name its units.
-module dondolo_format_smc
-   use dondolo_dates, only : take_moment
-   use dondolo_error, only : error_type
-   use dondolo_header_text, only : after, before, check_not_missing, squeezed, table_type
-   use dondolo_kinds, only : wp
-   use dondolo_numbers, only : parse_real
+module dondolo_record_format_smc
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_numbers, only : parse_real
+   use dondolo_base_text, only : lower, to_text
+   use dondolo_base_text_file, only : text_file_type
+   use dondolo_record_dates, only : take_moment
    use dondolo_record_format, only : after_block_type, channel_type, raise_at, read_fixed, samples_type
-   use dondolo_text, only : lower, to_text
-   use dondolo_text_file, only : text_file_type
+   use dondolo_record_header_text, only : after, before, check_not_missing, squeezed, table_type
    implicit none
    private
 
@@ -227,4 +227,4 @@ contains
       if (stated == '*') stated = ''
    end function stated
 
-end module dondolo_format_smc
+end module dondolo_record_format_smc

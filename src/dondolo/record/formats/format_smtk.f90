@@ -1,13 +1,13 @@
 !> Files of the strong-motion toolkit of the Global Earthquake Model (.cor.acc): lines `key : value`, a line that names
 !> quantity and units, then five values a line in columns of 14 characters that may touch.
-module dondolo_format_smtk
-   use dondolo_dates, only : find_moment
-   use dondolo_error, only : error_type
-   use dondolo_labels, only : labels_type, read_labels
-   use dondolo_plain, only : shown
+module dondolo_record_format_smtk
+   use dondolo_base_error, only : error_type
+   use dondolo_base_plain, only : shown
+   use dondolo_base_text, only : lower
+   use dondolo_base_text_file, only : text_file_type
+   use dondolo_record_dates, only : find_moment
    use dondolo_record_format, only : after_block_type, raise_at, read_fixed, samples_type
-   use dondolo_text, only : lower
-   use dondolo_text_file, only : text_file_type
+   use dondolo_record_labels, only : labels_type, read_labels
    implicit none
    private
 
@@ -93,4 +93,4 @@ contains
       end do
    end function quantity_line
 
-end module dondolo_format_smtk
+end module dondolo_record_format_smtk

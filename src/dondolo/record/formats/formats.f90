@@ -1,24 +1,24 @@
 !> The formats of accelerogram files that are known. A new format is one new file with two procedures, and a line here.
-module dondolo_formats
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_format_afad, only : read_afad, recognises_afad
-   use dondolo_format_asa, only : read_asa, recognises_asa
-   use dondolo_format_columns, only : read_columns, recognises_columns
-   use dondolo_format_cosmos, only : read_cosmos, recognises_cosmos
-   use dondolo_format_csmip, only : read_csmip, recognises_csmip
-   use dondolo_format_cwa, only : read_cwa, recognises_cwa
-   use dondolo_format_dyna, only : read_dyna, recognises_dyna
-   use dondolo_format_eqsig, only : read_eqsig, recognises_eqsig
-   use dondolo_format_geonet, only : read_geonet, recognises_geonet
-   use dondolo_format_knet, only : read_knet, recognises_knet
-   use dondolo_format_nied, only : read_nied, recognises_nied
-   use dondolo_format_peer, only : read_peer, recognises_peer
-   use dondolo_format_smc, only : read_smc, recognises_smc
-   use dondolo_format_smtk, only : read_smtk, recognises_smtk
-   use dondolo_kinds, only : wp
+module dondolo_record_formats
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : join, lower
+   use dondolo_base_text_file, only : text_file_type
    use dondolo_record_format, only : samples_type
-   use dondolo_text, only : join, lower
-   use dondolo_text_file, only : text_file_type
+   use dondolo_record_format_afad, only : read_afad, recognises_afad
+   use dondolo_record_format_asa, only : read_asa, recognises_asa
+   use dondolo_record_format_columns, only : read_columns, recognises_columns
+   use dondolo_record_format_cosmos, only : read_cosmos, recognises_cosmos
+   use dondolo_record_format_csmip, only : read_csmip, recognises_csmip
+   use dondolo_record_format_cwa, only : read_cwa, recognises_cwa
+   use dondolo_record_format_dyna, only : read_dyna, recognises_dyna
+   use dondolo_record_format_eqsig, only : read_eqsig, recognises_eqsig
+   use dondolo_record_format_geonet, only : read_geonet, recognises_geonet
+   use dondolo_record_format_knet, only : read_knet, recognises_knet
+   use dondolo_record_format_nied, only : read_nied, recognises_nied
+   use dondolo_record_format_peer, only : read_peer, recognises_peer
+   use dondolo_record_format_smc, only : read_smc, recognises_smc
+   use dondolo_record_format_smtk, only : read_smtk, recognises_smtk
    implicit none
    private
 
@@ -153,4 +153,4 @@ contains
          & join([(known(i)%name, i=1, size(known))]))
    end subroutine recognise_format
 
-end module dondolo_formats
+end module dondolo_record_formats

@@ -1,12 +1,12 @@
 !> Words and numbers out of the header lines of archives: what stands after a label, before a mark, in a format,
 !> in a table of numbers.
-module dondolo_header_text
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_numbers, only : parse_integer, parse_real
+module dondolo_record_header_text
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_numbers, only : parse_integer, parse_real
+   use dondolo_base_text, only : blanks, lower, to_text
+   use dondolo_base_text_file, only : text_file_type
    use dondolo_record_format, only : raise_at
-   use dondolo_text, only : blanks, lower, to_text
-   use dondolo_text_file, only : text_file_type
    implicit none
    private
 
@@ -303,4 +303,4 @@ contains
       if (self%count > 0) line = self%line_of(self%count) + 1
    end function next_line
 
-end module dondolo_header_text
+end module dondolo_record_header_text

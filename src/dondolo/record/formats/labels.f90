@@ -1,13 +1,13 @@
 !> Header lines of the kind `key: value`.
-module dondolo_labels
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
-   use dondolo_metadata, only : metadata_type
-   use dondolo_numbers, only : parse_integer, parse_real
-   use dondolo_plain, only : shown
+module dondolo_record_labels
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_numbers, only : parse_integer, parse_real
+   use dondolo_base_plain, only : shown
+   use dondolo_base_text, only : stripped
+   use dondolo_base_text_file, only : text_file_type
    use dondolo_record_format, only : raise_at
-   use dondolo_text, only : stripped
-   use dondolo_text_file, only : text_file_type
+   use dondolo_record_metadata, only : metadata_type
    implicit none
    private
 
@@ -182,4 +182,4 @@ contains
       end do
    end subroutine add_to
 
-end module dondolo_labels
+end module dondolo_record_labels

@@ -3,12 +3,12 @@
 !> Such a text is read in one go. No other format recognises it, for their headers have words; of any other text nothing is
 !> taken here, and the readers of the formats say what it is or what is wrong with it. They also read a column that begins with
 !> a whole number, which may be that of the samples, and one that may be cut off.
-module dondolo_single_column
-   use dondolo_kinds, only : wp
-   use dondolo_last_number, only : compared_lines, cut_in_lines
-   use dondolo_numbers, only : take_column
+module dondolo_record_single_column
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_numbers, only : take_column
+   use dondolo_base_text_file, only : find_content, text_file_type
    use dondolo_record_format, only : samples_type
-   use dondolo_text_file, only : find_content, text_file_type
+   use dondolo_record_last_number, only : compared_lines, cut_in_lines
    implicit none
    private
 
@@ -78,4 +78,4 @@ contains
       call cut_in_lines(text, first(i:), last(i:), 0, .false., ends_line, is_cut, at)
    end function is_cut
 
-end module dondolo_single_column
+end module dondolo_record_single_column

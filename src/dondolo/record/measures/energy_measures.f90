@@ -1,6 +1,6 @@
 !> Measures that grow while the ground shakes: integrals of the piecewise linear acceleration, exactly.
-module dondolo_energy_measures
-   use dondolo_kinds, only : wp
+module dondolo_record_energy_measures
+   use dondolo_base_kinds, only : wp
    use dondolo_record, only : record_type
    implicit none
    private
@@ -138,4 +138,4 @@ contains
       time = record%dt*(real(i - 1, wp) + high)
    end function time_of
 
-end module dondolo_energy_measures
+end module dondolo_record_energy_measures

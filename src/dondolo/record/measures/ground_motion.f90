@@ -2,8 +2,8 @@
 !>
 !> The ground is at rest at the first sample, and nothing is corrected: no baseline, no filter. Peaks are those of the
 !> continuous functions, which lie between samples too, from the first sample to the last.
-module dondolo_ground_motion
-   use dondolo_kinds, only : wp
+module dondolo_record_ground_motion
+   use dondolo_base_kinds, only : wp
    use dondolo_record, only : record_type
    implicit none
    private
@@ -101,4 +101,4 @@ contains
       end associate
    end function peak_displacement
 
-end module dondolo_ground_motion
+end module dondolo_record_ground_motion

@@ -3,16 +3,16 @@
 !> Levels of accelerations are in g, all others in SI units. Where a measure needs the acceleration of gravity, that
 !> stands in the size of a level and not in the value: the value of 'arias' is pi/2 times the integral of a**2, and a
 !> level of 1 m/s is g of it.
-module dondolo_intensity
-   use dondolo_energy_measures, only : acceleration_energy, cumulative_absolute_velocity, significant_duration, trapezoid
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_ground_motion, only : peak_displacement, peak_velocity
-   use dondolo_kinds, only : pi, wp
-   use dondolo_numbers, only : parse_real
-   use dondolo_odd_character, only : odd_character
+module dondolo_record_intensity
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : pi, wp
+   use dondolo_base_numbers, only : parse_real
+   use dondolo_base_odd_character, only : odd_character
+   use dondolo_base_text, only : join, lower, replaced, to_text
    use dondolo_record, only : record_type
-   use dondolo_response_spectrum, only : largest_period, pseudo_acceleration, smallest_period, standard_damping
-   use dondolo_text, only : join, lower, replaced, to_text
+   use dondolo_record_energy_measures, only : acceleration_energy, cumulative_absolute_velocity, significant_duration, trapezoid
+   use dondolo_record_ground_motion, only : peak_displacement, peak_velocity
+   use dondolo_record_response_spectrum, only : largest_period, pseudo_acceleration, smallest_period, standard_damping
    implicit none
    private
 
@@ -273,4 +273,4 @@ contains
       if (self%kind(1:2) == 'd5') power = 0
    end function power
 
-end module dondolo_intensity
+end module dondolo_record_intensity

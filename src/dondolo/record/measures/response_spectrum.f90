@@ -6,8 +6,8 @@
 !> the series is short. The peak is that of the continuous motion: where a bound says that the motion between two
 !> samples may exceed the largest so far, the turning point is found. After the record the oscillator swings freely, and
 !> that counts too.
-module dondolo_response_spectrum
-   use dondolo_kinds, only : pi, wp
+module dondolo_record_response_spectrum
+   use dondolo_base_kinds, only : pi, wp
    use dondolo_record, only : record_type
    implicit none
    private
@@ -318,4 +318,4 @@ contains
          & *sqrt(max(0.0_wp, u**2 + 2.0_wp*damping*u*velocity/omega + (velocity/omega)**2))
    end function last_swing
 
-end module dondolo_response_spectrum
+end module dondolo_record_response_spectrum

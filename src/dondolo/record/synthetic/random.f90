@@ -5,9 +5,9 @@
 !> random-number package with many long streams and substreams, Operations Research 50(6):1073-1075: stream k begins
 !> 2**127 k numbers after stream 0. Seeding: all six words of the state of stream 0 are the seed (the seed 12345 is
 !> the published default). All arithmetic is on integers that fit 64 bits, so nothing depends on rounding.
-module dondolo_random
+module dondolo_record_random
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_kinds, only : wp
+   use dondolo_base_kinds, only : wp
    implicit none
    private
 
@@ -119,4 +119,4 @@ contains
       end do
    end function product_modulo
 
-end module dondolo_random
+end module dondolo_record_random

@@ -6,12 +6,12 @@
 !> whose centre falls with time. Two steps are this project's own: harmonics are weighted by the modulus of
 !> a Butterworth high-pass filter of 4th order at 0.1 Hz (no phase is moved, nothing rings), and the
 !> straight line of least squares is taken off, which makes the final velocity and displacement vanish.
-module dondolo_synthetic
-   use dondolo_error, only : error_type, raise_input
-   use dondolo_kinds, only : pi, wp
-   use dondolo_random, only : new_random, random_type
+module dondolo_record_synthetic
+   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : pi, wp
+   use dondolo_base_text, only : join, to_text
    use dondolo_record, only : new_record, record_type
-   use dondolo_text, only : join, to_text
+   use dondolo_record_random, only : new_random, random_type
    implicit none
    private
 
@@ -244,4 +244,4 @@ contains
       end do
    end subroutine remove_line
 
-end module dondolo_synthetic
+end module dondolo_record_synthetic

@@ -2,11 +2,11 @@
 !>
 !> Magnitudes follow Italian earthquakes from 1972 to 2016 (rounded); the names of the scenarios only say which.
 !> Distances and sites are not those of any record: they spread the peak acceleration from about 0.03 to 0.6 g.
-module dondolo_synthetic_suite
-   use dondolo_error, only : error_type
-   use dondolo_kinds, only : wp
+module dondolo_record_synthetic_suite
+   use dondolo_base_error, only : error_type
+   use dondolo_base_kinds, only : wp
    use dondolo_record, only : record_type
-   use dondolo_synthetic, only : synthetic_record
+   use dondolo_record_synthetic, only : synthetic_record
    implicit none
    private
 
@@ -80,4 +80,4 @@ contains
       record%name = number//'_'//trim(chosen%name)//'_m'//magnitude//'_'//letters(component:component)
    end subroutine suite_record
 
-end module dondolo_synthetic_suite
+end module dondolo_record_synthetic_suite
