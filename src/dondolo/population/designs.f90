@@ -2,8 +2,8 @@
 !>
 !> A record that is hard on the wall is hard on all its designs. To first order a cluster of records changes ln theta of a design
 !> by d_g (dondolo_fragility_clustered); it changes the difference to the first by d_g - d_g1, so that the variance of that
-!> difference is sum_g (d_g - d_g1)^2, much less than that of either median. Intervals use Student's t with one degree of freedom less than
-!> there are clusters.
+!> difference is sum_g (d_g - d_g1)^2, much less than that of either median. Intervals use Student's t with one degree of freedom
+!> less than there are clusters.
 module dondolo_population_designs
    use dondolo_base_kinds, only : wp
    use dondolo_base_student, only : student_cdf, student_quantile
