@@ -71,8 +71,8 @@ def test_program_of_the_verification(root, tmp_path):
 
 LOOK_UP = """
 program look_up
-   use dondolo_settings, only : group_settings_type, new_settings
-   use dondolo_solver, only : solver_properties
+   use dondolo_base_settings, only : group_settings_type, new_settings
+   use dondolo_motion_solver, only : solver_properties
    implicit none
 
    type(group_settings_type) :: settings

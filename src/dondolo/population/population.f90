@@ -264,11 +264,14 @@ contains
       !> Number of the column
       integer, intent(in) :: column
 
+      real(wp), allocatable :: p_occ(:)
+      integer :: of(2)
+
       occurrence = 1.0_wp
       if (column <= self%rows) return
-      associate (of => self%rows_of(column))
-         occurrence = occurrence_of(self%row(of(1):of(2))%p_occ)
-      end associate
+      of = self%rows_of(column)
+      p_occ = self%row(of(1):of(2))%p_occ
+      occurrence = occurrence_of(p_occ)
    end function occurrence
 
    !> Histories of a column in each stripe; a wall has no more than its rows have
@@ -292,12 +295,14 @@ contains
       !> Fractions (levels): of a row if it can occur
       real(wp) :: whole(size(self%levels))
 
+      real(wp), allocatable :: p_occ(:)
       integer :: of(2)
 
       of = self%rows_of(column)
+      p_occ = self%row(of(1):of(2))%p_occ
       associate (rows => real(self%reached(:, state, of(1):of(2)), wp)/real(self%histories(:, of(1):of(2)), wp))
          if (column <= self%rows) whole = rows(:, 1)
-         if (column > self%rows) whole = in_series(self%row(of(1):of(2))%p_occ, rows)
+         if (column > self%rows) whole = in_series(p_occ, rows)
       end associate
    end function fraction
 
@@ -318,6 +323,7 @@ contains
       integer, intent(in), optional :: columns(:)
 
       logical, allocatable :: needed(:)
+      real(wp), allocatable :: p_occ(:)
       integer :: i, k, of(2)
 
       call check_room(real(storage_size(p)/8, wp)*real(size(x), wp)*real(self%rows + self%walls, wp), error)
@@ -335,7 +341,8 @@ contains
                p(:, k) = interpolated(self%levels, self%fraction(k, state), x)
             end if
          end do
-         p(:, i) = in_series(self%row(of(1):of(2))%p_occ, p(:, of(1):of(2)))
+         p_occ = self%row(of(1):of(2))%p_occ
+         p(:, i) = in_series(p_occ, p(:, of(1):of(2)))
       end do
    end subroutine probabilities
 

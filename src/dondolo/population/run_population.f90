@@ -49,7 +49,7 @@ contains
 
       block = block_size(study, histories, store%identity%last - store%identity%first + 1)
       reader%names%is_checked = .false.
-      do
+      do while (.not. allocated(error))
          call read_block(reader, table, store, block, members, numbers, error)
          if (allocated(error) .or. size(members) == 0) exit
          call run_rows(study, members, rows, error, int(store%work%histories), histories, progress)
