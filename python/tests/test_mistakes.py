@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from dondolo._fortran import _core
 
 import dondolo as dd
 
@@ -231,3 +232,17 @@ def test_levels_are_the_same_numbers(folder, run, monkeypatch):
         assert dd.multiple_stripe(wall, records, levels, progress=False).levels.tolist() == tenths
     uneven = np.geomspace(0.1, 0.8, 4)
     assert dd.multiple_stripe(wall, records, uneven, progress=False).levels.tobytes() == uneven.tobytes()
+
+
+def test_levels_are_the_nearest_short_numbers():
+    """As printed with 14 digits and read again, of any size."""
+    drawn = np.random.default_rng(5)
+    for size in (1e-9, 1e-3, 1.0, 10.0, 1e5, 1e13):
+        for _ in range(100):
+            count = int(drawn.integers(3, 40))
+            first, step = (float(f"{size * x:.3g}") for x in drawn.uniform(0.01, 1.0, 2))
+            levels = np.linspace(first, first + step * (count - 1), count)
+            a, b = (float(f"{x:.13e}") for x in levels[[0, -1]])
+            between = [((count - 1 - i) * a + i * b) / (count - 1) for i in range(1, count - 1)]
+            expected = [a, *(float(f"{x:.13e}") for x in between), b]
+            assert _core.stripes.settle(levels).tolist() == expected

@@ -14,6 +14,12 @@ module dondolo_fragility_even_levels
    !> were given
    real(wp), parameter :: smallest_step = 1.0e4_wp
 
+   !> Powers of ten up to this one are exact
+   integer, parameter :: exact_powers = 22
+
+   !> Distance to the nearest whole number up to which the product's own rounding cannot make it another
+   real(wp), parameter :: sure = 0.4_wp
+
 contains
 
    !> Equally spaced levels, both ends included, each the nearest number of 14 decimal digits: the third of 0.2, 0.4, ... is
@@ -76,7 +82,21 @@ contains
       real(wp) :: rounded
 
       character(len=32) :: buffer
+      real(wp) :: power, digits
+      integer :: places
 
+      if (value > 0.0_wp .and. value <= huge(value)) then
+         ! A whole number of 14 digits over a power of ten, both exact, is the nearest number, and found without printing.
+         places = 13 - floor(log10(value))
+         if (places >= 0 .and. places <= exact_powers) then
+            power = 10.0_wp**places
+            digits = value*power
+            if (abs(digits - anint(digits)) < sure .and. digits > 1.0e13_wp .and. digits < 9.9e13_wp) then
+               rounded = anint(digits)/power
+               return
+            end if
+         end if
+      end if
       write (buffer, '(es32.13e4)') value
       read (buffer, *) rounded
    end function decimal
