@@ -122,7 +122,7 @@ def test_rooms_of_motion(root):
 def test_quadruple_sources(root):
     """Every module that depends on the precision is compiled a second time if one that is uses it."""
     text = (root / "src/dondolo/motion/quadruple/meson.build").read_text()
-    listed = re.search(r"files\((.*?)\)", text, re.S).group(1)
+    listed = re.search(r"quadruple_sources = \[(.*?)\]", text, re.S).group(1)
     stems = {Path(name).stem for name in re.findall(r"'([^']+)'", listed)}
     twice, uses = set(), {}
     for path in root.glob("src/dondolo/**/*.[fF]90"):
