@@ -83,7 +83,7 @@ contains
       call new_motions(suite, records, threads)
       associate (records => size(suite%records))
          allocate (suite%peaks(records), suite%moves(records), suite%clusters(records), suite%has_event(records), &
-            & suite%velocities(records))
+            & suite%velocities(records), suite%falls(records))
       end associate
       do i = 1, size(suite%records)
          call find_extremes(suite%records(i)%acceleration, lowest, highest)
@@ -92,7 +92,7 @@ contains
          call find_earthquake(suite%records(i)%metadata, earthquake)
          suite%has_event(i) = len(earthquake) > 0
       end do
-      suite%falls = suite%records%largest_fall()
+      suite%falls(:) = suite%records%largest_fall()
       !$omp parallel do schedule(dynamic) num_threads(team_of(team, size(suite%records))) default(none) shared(suite)
       do i = 1, size(suite%records)
          suite%velocities(i) = peak_velocity(suite%records(i))
