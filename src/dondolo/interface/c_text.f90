@@ -96,7 +96,7 @@ contains
 
       do i = 1, size(numbers)
          if (abs(numbers(i)) <= huge(1.0_wp)) cycle
-         call raise_input(error, what//' = '//to_text(numbers(i))//': must be a number')
+         call raise_input(error, what//' = '//to_text(real(numbers(i), wp))//': must be a number')
          return
       end do
    end subroutine check_finite
