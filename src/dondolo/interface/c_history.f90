@@ -2,6 +2,7 @@
 module dondolo_interface_c_history
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t, c_null_ptr, c_ptr
    use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
    use dondolo_base_text, only : to_text
    use dondolo_building_floors, only : floors_type
@@ -66,12 +67,12 @@ contains
             & ': must lie between 0 and '//to_text(size(suite%records) - 1))
       end if
       if (.not. allocated(problem)) call check_finite([scale], 'scale', problem)
-      if (.not. allocated(problem)) call check_scale(suite, int(number) + 1, scale, problem)
+      if (.not. allocated(problem)) call check_scale(suite, int(number) + 1, real(scale, wp), problem)
       if (.not. allocated(problem)) call solver_of(solver, how, problem)
       if (.not. allocated(problem)) call find_motions(one, suite, 1, own, motions, problem)
       if (.not. allocated(problem)) then
          allocate (held)
-         call simulate(one%mechanism, motions%records(number + 1), scale, how, held%response, problem, held%trace)
+         call simulate(one%mechanism, motions%records(number + 1), real(scale, wp), how, held%response, problem, held%trace)
          if (allocated(problem)) then
             deallocate (held)
          else
@@ -99,7 +100,7 @@ contains
          call oddities%look(wall)
          call oddities%warn(warnings)
          call warn_of_records(suite, wall%gravity, warnings, record)
-         call warn_of_fall(suite%records(record), scale, wall%gravity, warnings)
+         call warn_of_fall(suite%records(record), real(scale, wp), wall%gravity, warnings)
          call warn_of_error(held%response, how%edp_limit, warnings)
          call warning_sentences(warnings, held%warnings)
       end subroutine warn

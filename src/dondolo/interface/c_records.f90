@@ -2,6 +2,7 @@
 module dondolo_interface_c_records
    use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_int64_t, c_null_ptr, c_ptr
    use dondolo_base_error, only : add_place, error_type, raise_input
+   use dondolo_base_kinds, only : wp
    use dondolo_base_memory, only : check_room
    use dondolo_base_plain, only : shown
    use dondolo_base_text, only : to_text
@@ -16,7 +17,7 @@ module dondolo_interface_c_records
    private
 
    !> What each record and each sample takes at most while records are made [bytes]
-   real(c_double), parameter :: bytes_of_record = 2000.0_c_double, bytes_of_sample = 64.0_c_double
+   real(wp), parameter :: bytes_of_record = 2000.0_wp, bytes_of_sample = 64.0_wp
 
 contains
 
@@ -38,7 +39,7 @@ contains
       if (.not. allocated(problem)) then
          allocate (held)
          if (abs(vertical_factor) > 0.0_c_double) then
-            call read_catalogue(file, records, problem, held%note, held%rows, vertical_factor)
+            call read_catalogue(file, records, problem, held%note, held%rows, real(vertical_factor, wp))
          else
             call read_catalogue(file, records, problem, held%note, held%rows)
          end if
@@ -74,7 +75,7 @@ contains
       if (.not. allocated(problem)) call check_finite([dt], 'dt', problem)
       if (.not. allocated(problem)) then
          if (abs(dt) > 0.0_c_double) then
-            call read_record(file, records(1), problem, dt, unit)
+            call read_record(file, records(1), problem, real(dt, wp), unit)
          else
             call read_record(file, records(1), problem, units=unit)
          end if
@@ -132,7 +133,8 @@ contains
             name = to_text(i)
             if (associated(name_of)) call take_text(name_of(i), 'names', name, problem)
             if (.not. allocated(problem)) then
-               call new_record(records(i), sample(first + 1:first + length(i)), step(i), name, problem)
+               call new_record(records(i), real(sample(first + 1:first + length(i)), wp), real(step(i), wp), name, &
+                  & problem)
                call add_place(problem, 'record '''//shown(name)//'''')
             end if
             if (allocated(problem)) exit
@@ -153,7 +155,7 @@ contains
       !> One is negative, or all together are too many
       type(error_type), allocatable, intent(out) :: error
 
-      real(c_double) :: whole
+      real(wp) :: whole
       integer :: i
 
       do i = 1, size(length)
@@ -161,8 +163,8 @@ contains
          call raise_input(error, 'lengths = '//to_text(int(length(i)))//': must not be negative')
          return
       end do
-      whole = sum(real(length, c_double))
-      if (whole > real(huge(length), c_double)) call raise_input(error, 'lengths: records of '//to_text(whole)// &
+      whole = sum(real(length, wp))
+      if (whole > real(huge(length), wp)) call raise_input(error, 'lengths: records of '//to_text(whole)// &
          & ' samples, must have at most '//to_text(huge(length)))
       if (.not. allocated(error)) call check_room(bytes_of_record*size(length) + bytes_of_sample*whole, error)
    end subroutine check_lengths

@@ -2,6 +2,7 @@
 module dondolo_interface_c_settings
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t, c_null_ptr, c_ptr
    use dondolo_base_error, only : error_type, problems_type, raise_input
+   use dondolo_base_kinds, only : wp
    use dondolo_base_plain, only : shown
    use dondolo_base_property, only : find_property, is_integer, is_list, is_logical, is_text, is_words, name_length, property_type
    use dondolo_base_settings, only : group_settings_type, new_settings, settings_type
@@ -153,7 +154,7 @@ contains
       if (is_ready(error, failure)) then
          call find_row(settings, name, found, row, problem)
          if (.not. allocated(problem)) call check_kind(found%table(row), [value], problem)
-         if (.not. allocated(problem)) call found%values%set(trim(found%table(row)%name), value)
+         if (.not. allocated(problem)) call found%values%set(trim(found%table(row)%name), real(value, wp))
          call failure%take(problem)
       end if
       if (associated(failure)) status = failure%status()
@@ -175,7 +176,7 @@ contains
          call find_row(settings, name, found, row, problem)
          if (.not. allocated(problem)) call take_numbers(values, count, trim(found%table(row)%name), numbers, problem)
          if (.not. allocated(problem)) call check_kind(found%table(row), numbers, problem)
-         if (.not. allocated(problem)) call found%values%set(trim(found%table(row)%name), numbers)
+         if (.not. allocated(problem)) call found%values%set(trim(found%table(row)%name), real(numbers, wp))
          call failure%take(problem)
       end if
       if (associated(failure)) status = failure%status()
@@ -221,7 +222,7 @@ contains
       name = trim(property%name)
       select case (property%kind)
       case (is_text, is_words)
-         call raise_input(error, name//' = '//to_text(numbers(1))//': must be a text')
+         call raise_input(error, name//' = '//to_text(real(numbers(1), wp))//': must be a text')
       case (is_list)
          call check_finite(numbers, name, error)
       case default
@@ -240,9 +241,9 @@ contains
          real(c_double), intent(in) :: number
 
          if (property%kind == is_logical .and. all(abs(number - [0.0_c_double, 1.0_c_double]) > 0.0_c_double)) then
-            call raise_input(error, name//' = '//to_text(number)//': must be 0 or 1')
+            call raise_input(error, name//' = '//to_text(real(number, wp))//': must be 0 or 1')
          else if (property%kind == is_integer .and. abs(number - anint(number)) > 0.0_c_double) then
-            call raise_input(error, name//' = '//to_text(number)//': must be a whole number')
+            call raise_input(error, name//' = '//to_text(real(number, wp))//': must be a whole number')
          end if
       end subroutine check_whole
 

@@ -214,7 +214,7 @@ contains
       call take_numbers(levels, count, 'levels', x, problem)
       if (.not. allocated(problem)) call take_numbers(collapses, count, 'collapses', z, problem)
       if (.not. allocated(problem)) call take_numbers(histories, count, 'histories', n, problem)
-      if (.not. allocated(problem)) call fit_fragility(fragility, x, z, n, problem)
+      if (.not. allocated(problem)) call fit_fragility(fragility, real(x, wp), real(z, wp), real(n, wp), problem)
       if (.not. allocated(problem)) then
          stripes%levels = x
          ! Why there is no curve, its status says: the sentence would be of EDPs, which are not known
