@@ -24,7 +24,7 @@ contains
       line = ''
       if (work%drifted > 0) line = 'the supports of walls drift apart by more than '//rounded(largest_drift)// &
          & ' of the capacity rotation in '//trim(share_of(work%drifted, work%histories))//' histories, where the motion that '// &
-         & 'the wall feels is approximate'
+         & 'the wall feels is approximate: beyond the capacity rotation itself the median of a facade with ties may be too high'
    end subroutine make_drift_note
 
    !> A part of a whole: the percentage and both counts

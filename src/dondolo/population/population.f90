@@ -61,7 +61,9 @@ module dondolo_population
    contains
       !> Add a row
       procedure :: add
-      !> All rows are there: make room for their histories
+      !> All rows are there: give back room for more
+      procedure :: trim_rows
+      !> Make room for the histories of all rows
       procedure :: begin
       !> Fit the curves
       procedure :: fit
@@ -116,7 +118,14 @@ contains
          & self%number_of_group(group), weight, p_occ)
    end subroutine add
 
-   !> All rows are there: make room for their histories, of which there are none so far
+   !> All rows are there: give back room for more
+   subroutine trim_rows(self)
+      class(population_type), intent(inout) :: self
+
+      if (allocated(self%row)) self%row = self%row(:self%rows)
+   end subroutine trim_rows
+
+   !> Make room for the histories of all rows, of which there are none so far
    subroutine begin(self, levels, states, error)
       class(population_type), intent(inout) :: self
       !> Levels of intensity
@@ -133,7 +142,7 @@ contains
          & + real(self%rows + self%walls, wp)*real(states, wp)*bytes_of_curve, error)
       if (allocated(error)) return
       self%levels = levels
-      self%row = self%row(:self%rows)
+      call self%trim_rows()
       self%first = [(0, i=1, self%walls), self%rows + 1]
       do i = self%rows, 1, -1
          self%first(self%row(i)%wall) = i

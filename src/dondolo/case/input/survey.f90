@@ -117,6 +117,7 @@ contains
          call problems%take(error)
       end do
       survey%last = min(rows(2), survey%rows)
+      call survey%population%trim_rows()
       call problems%take(error)
       call problems%raise(error)
    end subroutine survey_population
