@@ -37,11 +37,31 @@ class DondoloError(Exception):
 
 
 class InputError(DondoloError, ValueError):
-    """What was asked for is wrong; the message is the sentence of the executable."""
+    """What was asked for is wrong; the message is the sentence of the executable.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> try:
+    ...     dd.OneSidedWall(height=-1.0, thickness=0.25)
+    ... except dd.InputError as error:
+    ...     print(error)
+    height = -1: must be positive
+    """
 
 
 class MissingFileError(FileNotFoundError, InputError):
-    """A file that was asked for does not exist."""
+    """A file that was asked for does not exist.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> try:
+    ...     dd.read_catalogue("nowhere.csv")
+    ... except dd.MissingFileError as error:
+    ...     print(error)
+    nowhere.csv: no such file
+    """
 
     # That of OSError comes first, and escapes nothing.
     __str__ = DondoloError.__str__
@@ -60,6 +80,17 @@ class DondoloWarning(UserWarning):
         What it is about: kind -> name, such as ``{"record": "tolmezzo"}``.
     numbers : mapping
         Name -> number.
+
+    Examples
+    --------
+    >>> import warnings
+    >>> import dondolo as dd
+    >>> wall, records = dd.OneSidedWall(1.5, 0.25), dd.synthetic_records(6.5, 10.0, "shallow", n_records=4)
+    >>> with warnings.catch_warnings(record=True) as found:
+    ...     warnings.simplefilter("always", dd.DondoloWarning)
+    ...     stripes = dd.multiple_stripe(wall, records, levels=[8.0, 9.0], progress=False)
+    >>> found[0].message.code
+    'levels_above_usual'
     """
 
     def __init__(
@@ -112,7 +143,14 @@ class Interrupted(KeyboardInterrupt):
 
     Examples
     --------
-    In a notebook, after the interruption: ``import sys; partial = sys.last_value.partial``.
+    In a notebook, after the interruption: ``import sys; partial = sys.last_value.partial``. In a script:
+
+    >>> import dondolo as dd
+    >>> wall, records = dd.OneSidedWall(1.5, 0.25), dd.synthetic_records(6.5, 10.0, "shallow", n_records=4)
+    >>> try:
+    ...     stripes = dd.multiple_stripe(wall, records, [0.6, 0.8], progress=False)
+    ... except dd.Interrupted as stop:
+    ...     stripes = stop.partial
     """
 
     def __init__(self, message: str, partial: Any = None) -> None:

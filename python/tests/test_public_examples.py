@@ -1,10 +1,9 @@
-"""Every public name is in an example that is run: in a docstring, in docs/recipes.md, or in docs/examples."""
+"""Every public name is in an example that is run: in a docstring, or in docs/examples."""
 
 import ast
 import doctest
 import importlib
 import inspect
-import os
 import pkgutil
 import re
 import time
@@ -20,17 +19,12 @@ from public import public_things
 
 import dondolo as dd
 
-
-def recipes(root):
-    """The page as a doctest, without the fences of its blocks."""
-    text = re.sub(r"(?m)^```.*$", "", (root / "docs/recipes.md").read_text())
-    return doctest.DocTestParser().get_doctest(text, {}, "recipes", "docs/recipes.md", 0)
-
-
-def docstrings():
-    finder = doctest.DocTestFinder()
-    modules = ["dondolo", *(module.name for module in pkgutil.walk_packages(dd.__path__, "dondolo."))]
-    return [test for name in modules for test in finder.find(importlib.import_module(name))]
+MODULES = ["dondolo", *(module.name for module in pkgutil.walk_packages(dd.__path__, "dondolo."))]
+TESTS = [
+    test for name in MODULES for test in doctest.DocTestFinder().find(importlib.import_module(name)) if test.examples
+]
+# What an example may take, imports apart [s]
+SLOWEST = 1.0
 
 
 def names_in(source):
@@ -55,29 +49,63 @@ def public_names():
         yield f"pulses.{name}", name
 
 
-def test_every_public_name_has_an_example(root):
-    """A method counts by its name: that of a base class, or of the same name in another class, is enough."""
-    tests = [*docstrings(), recipes(root)]
-    sources = [example.source for test in tests for example in test.examples if doctest.SKIP not in example.options] + [
-        path.read_text() for path in (root / "docs/examples").glob("*.py")
-    ]
-    used = set().union(*map(names_in, sources))
-    public = dict(public_names())
-    assert len(public) > 270
-    assert sorted(name for name, word in public.items() if word not in used) == []
+def words_in(annotation):
+    """Names in an annotation, which is a string."""
+    return set(re.findall(r"\w+", str(annotation)))
 
 
-@pytest.mark.slow
-@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
-def test_recipes(root, tmp_path, monkeypatch, executable):
-    """The page runs as a reader copies it, quickly, and without what is not installed."""
-    pytest.importorskip("pandas")
-    pytest.importorskip("openpyxl")
+def returned(used):
+    """Names of the types that functions, methods and attributes return that examples use."""
+    words = set()
+    for thing in public_things().values():
+        for name, one in [(getattr(thing, "__name__", ""), thing), *inspect.getmembers(thing)]:
+            if name in used:
+                words |= words_in(getattr(getattr(one, "fget", one), "__annotations__", {}).get("return", ""))
+        for base in inspect.getmro(thing) if inspect.isclass(thing) else ():
+            fields = inspect.get_annotations(base)
+            words |= set().union(*(words_in(kind) for name, kind in fields.items() if name in used))
+    return words
+
+
+@pytest.fixture(scope="module")
+def installed():
+    """What examples take besides, imported before their time counts."""
+    for name in ("pandas", "openpyxl", "scipy.stats", "scipy.optimize", "matplotlib.animation"):
+        pytest.importorskip(name)
+    plt.close(plt.figure())
+
+
+@pytest.mark.parametrize("test", TESTS, ids=lambda test: test.name)
+@pytest.mark.usefixtures("installed")
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning", "ignore:Animation was deleted")
+def test_example(test, tmp_path, monkeypatch):
+    """Each runs as a reader copies it: in an empty folder, with only the names that it imports, and soon."""
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setenv("PATH", f"{Path(executable).parent}{os.pathsep}{os.environ['PATH']}")
-    page, start = recipes(root), time.process_time()
-    assert len(page.examples) > 100
-    done = doctest.DocTestRunner().run(page)
+    test.globs = {}
+    start = time.process_time()
+    done = doctest.DocTestRunner().run(test)
+    spent = time.process_time() - start
     plt.close("all")
     assert done.failed == 0
-    assert time.process_time() - start < 20.0
+    assert spent < SLOWEST
+
+
+def test_every_public_name_has_an_example():
+    """A method counts by its name: that of a base class, or of the same name in another class, is enough.
+
+    Types of results count if something returns them that an example uses, base classes by the classes made of them.
+    """
+    folder = Path(__file__).resolve().parents[2] / "docs/examples"
+    sources = [example.source for test in TESTS for example in test.examples if doctest.SKIP not in example.options] + [
+        path.read_text() for path in folder.glob("*.py")
+    ]
+    used = set().union(*map(names_in, sources))
+    used |= returned(used)
+    things = public_things()
+    for name, thing in things.items():
+        if name in used and inspect.isclass(thing):
+            used |= {base.__name__ for base in inspect.getmro(thing)}
+    public = dict(public_names())
+    assert len(TESTS) > 100
+    assert len(public) > 270
+    assert sorted(name for name, word in public.items() if word not in used) == []

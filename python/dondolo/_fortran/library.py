@@ -188,6 +188,12 @@ def build_variant() -> str:
     ------
     InputError
         DONDOLO_VARIANT names none that this build and this processor have.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> dd.build_variant() in ("baseline", "avx2", "avx512", "native")
+    True
     """
     name, failure = _core.library.variant()
     check(failure)

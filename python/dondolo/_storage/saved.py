@@ -101,6 +101,13 @@ class Saved:
             function of yours.
         DondoloError
             The file cannot be written.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> dd.Fragility.of_parameters(0.8, 0.4, im="pga").save("curve.npz")
+        >>> dd.load("curve.npz").theta
+        0.8
         """
         import zipfile
 

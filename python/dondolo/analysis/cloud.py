@@ -491,6 +491,18 @@ def cloud(
     Notes
     -----
     Jalayer and others (2017). The docstring of the module dondolo.analysis.cloud has the formulas.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> wall = dd.OneSidedWall(1.5, 0.25, name="parapet")
+    >>> records = dd.RecordSet(dd.synthetic_records(6.5, 10.0, "shallow", n_records=30), factor=2.0)
+    >>> cloud = dd.cloud(wall, records)
+    >>> cloud.regression.slope > 0.0
+    True
+    >>> curve = cloud.fit()
+    >>> bool(curve(0.5) < curve(1.0))
+    True
     """
     instance_of("wall", wall, Wall, "no wall")
     several = scaled_records(records)

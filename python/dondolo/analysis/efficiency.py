@@ -194,6 +194,15 @@ def compare_intensities(
         Records with levels or factors of their own, measures that are not known.
     DondoloError
         A measure without a curve: too few records, say.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> wall = dd.OneSidedWall(1.5, 0.25, name="parapet")
+    >>> records = dd.synthetic_records(6.5, 10.0, "shallow", n_records=12)
+    >>> found = dd.compare_intensities(wall, records, ["pga", "pgv"], n_levels=6, n_resamples=20, progress=False)
+    >>> found.best
+    'pga'
     """
     several = plain_records(records)
     names = [describe_measure(im).name for im in as_measures(ims)]

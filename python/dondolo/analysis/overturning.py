@@ -282,6 +282,20 @@ def overturning_spectrum(
     So the whole range is scanned, and a window narrower than the steps of the scan can be missed. Impacts before
     overturning are counted to the end, also after the pulse; a wall that survives always falls back on its base, and
     its impacts are those while the pulse lasts. docs/processing.md compares with published values.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> wall = dd.FreeStandingWall(1.5, 0.25, name="pinnacle")
+    >>> spectrum = dd.overturning_spectrum(
+    ...     wall, dd.pulses.one_sine, frequencies=[1.0, 2.0], amplitudes=[0.2, 1.0, 3.0], progress=False
+    ... )
+    >>> spectrum.overturned.tolist()  # amplitudes down, frequencies across
+    [[False, False], [True, True], [True, True]]
+    >>> [window.state.name for window in spectrum.windows(0)]
+    ['SAFE_AFTER_IMPACTS', 'OVERTURNED_AFTER_IMPACTS', 'SAFE', 'OVERTURNED']
+    >>> round(spectrum.boundaries[0].lower, 4)  # in g, at the first frequency
+    0.2034
     """
     instance_of("wall", wall, Wall, "no wall")
     one_of("polarity", polarity, ("as_recorded", "reversed"))

@@ -127,6 +127,15 @@ class Response(Shown, Saved):
         Momentum of the block: M (g + v_g'') + (S q')' and M s u_g'' + (L q')', with S = G/g, S' = -L and L' = S. The
         block slides, if it does, from the first row on that needs more friction than there is, which no equation of
         dondolo describes. When a one-sided wall is at rest its transverse walls take part of the shear force.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> record = dd.synthetic_records(6.5, 10.0, "shallow", n_records=1)[0]
+        >>> response = dd.simulate(dd.OneSidedWall(1.5, 0.25), record, scale=2.0)
+        >>> normal, shear = response.base_forces()
+        >>> normal.shape == shear.shape == response.time.shape
+        True
         """
         time, ground, rotation, _ = self._motion()
         velocity, side = np.abs(np.asarray(self.velocity)), np.asarray(self.side, dtype=np.float64)
@@ -247,6 +256,13 @@ class Response(Shown, Saved):
             The response has no time history.
         InputError
             A speed that is not positive.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> record = dd.synthetic_records(6.5, 10.0, "shallow", n_records=1)[0]
+        >>> film = dd.simulate(dd.OneSidedWall(1.5, 0.25), record, scale=2.0).animate(frames_per_second=10)
+        >>> film.save("motion.gif")  # doctest: +SKIP
         """
         from dondolo.analysis import film
 
@@ -351,6 +367,17 @@ def simulate(
     -----
     Equations (1) to (4) of Nale et al.; docs/theory.md, section 4. The engine is that of the stripes: EDP, flag,
     impacts and estimated error are those that `multiple_stripe` gives this history, to the bit.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> wall = dd.OneSidedWall(1.5, 0.25, name="parapet")
+    >>> record = dd.synthetic_records(6.5, 10.0, "shallow", n_records=1)[0]
+    >>> response = dd.simulate(wall, record, scale=2.0)
+    >>> response.collapsed, len(response.time) == len(response.rotation)
+    (False, True)
+    >>> response.ties is None or response.uplift
+    False
     """
     instance_of("wall", wall, Wall, "no wall")
     instance_of("record", record, Record, "no record")

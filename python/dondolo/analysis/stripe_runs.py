@@ -212,6 +212,23 @@ def multiple_stripe(
     Section 3.3 of Nale et al.
 
     A `Study` runs several walls alike, `adaptive_stripes` chooses the levels itself.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> wall = dd.OneSidedWall(1.5, 0.25, name="parapet")
+    >>> records = dd.synthetic_records(6.5, 10.0, "shallow", n_records=10)
+    >>> stripes = dd.multiple_stripe(wall, records, [0.6, 0.8, 1.0, 1.2], progress=False)
+    >>> stripes.collapses.tolist(), stripes.histories.tolist()
+    ([0, 6, 8, 10], [10, 10, 10, 10])
+    >>> stripes.fit().status
+    'ok'
+
+    Records of their own at each level:
+
+    >>> stripes = dd.multiple_stripe(wall, {0.6: records[:4], 1.0: records[4:]}, progress=False)
+    >>> stripes.histories.tolist()
+    [4, 6]
     """
     instance_of("wall", wall, Wall, "no wall")
     study = Study(

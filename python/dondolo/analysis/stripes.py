@@ -96,6 +96,17 @@ class Stripes(Shown, Saved):
         `Record.event` of each record: those of one event depend on each other; '' for a record by itself.
     checksums : tuple of str, length records
         `Record.checksum` of each.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> records = dd.synthetic_records(6.5, 10.0, "shallow", n_records=10)
+    >>> stripes = dd.multiple_stripe(dd.OneSidedWall(1.5, 0.25), records, [0.6, 0.8, 1.0, 1.2], progress=False)
+    >>> low, high = stripes[:2], stripes[2:]
+    >>> (low + high).collapses.tolist() == stripes.collapses.tolist()
+    True
+    >>> stripes[:, :5].histories.tolist()
+    [5, 5, 5, 5]
     """
 
     wall: Wall
@@ -272,6 +283,14 @@ class Stripes(Shown, Saved):
         ------
         InputError
             A threshold beyond that.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> records = dd.synthetic_records(6.5, 10.0, "shallow", n_records=10)
+        >>> stripes = dd.multiple_stripe(dd.OneSidedWall(1.5, 0.25), records, [0.6, 0.8, 1.0], progress=False)
+        >>> bool((stripes.exceedances(0.4) >= stripes.collapses).all())
+        True
         """
         threshold = as_number("edp_threshold", edp_threshold)
         if not 0.0 < threshold <= self.edp_limit:
@@ -350,6 +369,16 @@ class Stripes(Shown, Saved):
         -----
         DondoloWarning
             As `fit`.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> records = dd.synthetic_records(6.5, 10.0, "shallow", n_records=20)
+        >>> stripes = dd.multiple_stripe(dd.OneSidedWall(1.5, 0.25), records, [0.4, 0.6, 0.8, 1.0], progress=False)
+        >>> heavy, collapse = stripes.fit_damage_states([0.4, 1.0])
+        >>> heavy.theta < collapse.theta
+        True
+        >>> axes = stripes.plot_damage_states(edp_thresholds=[0.4, 1.0])
         """
         one_of("states", states, ("separate", "ordinal"))
         limits = self._thresholds(edp_thresholds)
@@ -421,6 +450,20 @@ class Stripes(Shown, Saved):
         its estimated error exceeds 1e-6, or may turn the outcome. It is run at a relative tolerance of 1e-12, 1e-14,
         1e-16 and 1e-18 until two neighbours agree to 1e-7, and then with factors on its record one unit in the last
         place smaller and greater (docs/certification.md).
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> wall, records = dd.OneSidedWall(1.5, 0.25), dd.synthetic_records(6.5, 10.0, "shallow", n_records=4)
+        >>> stripes = dd.multiple_stripe(wall, records, [0.8, 1.0], estimate_error=True, progress=False)
+        >>> certified = stripes.certify(records, progress=False)
+        >>> bool((certified.status == dd.results.Certified.DOUBLE).all())
+        True
+        >>> fewest, most = certified.exceedance_bounds(0.5)
+        >>> fewest.tolist() == most.tolist()
+        True
+        >>> len(certified.state_bounds([0.5, 1.0]))
+        2
         """
         from dondolo.analysis.certificate import certify
 
@@ -443,6 +486,15 @@ class Stripes(Shown, Saved):
         Notes
         -----
         Vamvatsikos and Cornell (2002). The docstring of the module dondolo.analysis.incremental has the formulas.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> records = dd.synthetic_records(6.5, 10.0, "shallow", n_records=20)
+        >>> stripes = dd.multiple_stripe(dd.OneSidedWall(1.5, 0.25), records, [0.4, 0.6, 0.8, 1.0], progress=False)
+        >>> found = stripes.incremental()
+        >>> found.fit().theta <= stripes.fit().theta
+        True
         """
         from dondolo.analysis.incremental import incremental
 

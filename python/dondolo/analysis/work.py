@@ -34,6 +34,14 @@ class Work(NamedTuple):
     drifted : int
         Histories in which the supports of a wall on a building drift apart by more than 0.2 of its capacity rotation:
         the motion that it feels is approximate there (docs/theory.md, section 1).
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> records = dd.synthetic_records(6.5, 10.0, "shallow", n_records=10)
+    >>> stripes = dd.multiple_stripe(dd.OneSidedWall(1.5, 0.25), records, [0.6, 0.8], progress=False)
+    >>> stripes.work.histories
+    20
     """
 
     histories: int = 0
@@ -47,7 +55,14 @@ class Work(NamedTuple):
 
     @classmethod
     def total(cls, parts: Iterable[Work]) -> Work:
-        """The sum of counts."""
+        """The sum of counts.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> dd.results.Work.total([dd.results.Work(histories=2), dd.results.Work(histories=3)]).histories
+        5
+        """
         return cls(*map(sum, zip(cls(), *parts, strict=True)))
 
     def _notes(self) -> list[tuple[str, str]]:

@@ -113,6 +113,14 @@ class CodeCheck(Shown, Saved):
             A curve of another measure.
         DondoloError
             There is no curve.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> check = dd.check_ntc(dd.OneSidedWall(3.0, 0.25), dd.Site(ag=0.2, f0=2.5, tc_star=0.35, soil="B"))
+        >>> found = check.probabilities(dd.Fragility.of_parameters(0.5, 0.4, im="pga"))
+        >>> round(found["site", ""], 4)
+        0.0333
         """
         if instance_of("curve", curve, Fragility, "no fragility curve").im != "pga":
             raise InputError(f"curve: its measure is {curve.im!r}, must be 'pga'")

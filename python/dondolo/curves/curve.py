@@ -33,6 +33,12 @@ class Curve(ABC):
     ----------
     im : str
         Intensity measure; '' if it is not known.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> isinstance(dd.DiscreteFragility([0.2, 0.4], [0.1, 0.6]), dd.Curve)
+    True
     """
 
     im: str
@@ -156,6 +162,13 @@ class Curve(ABC):
         -----
         A lognormal is written as continuous, any other curve as discrete, at levels that straight lines between them
         differ from it by 0.5 % of the probability or 1e-9 at most.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> dd.Fragility.of_parameters(0.8, 0.4, im="pga").to_nrml("parapets.xml", taxonomy="parapet")
+        >>> dd.read_nrml("parapets.xml").functions["parapet"]["collapse"].theta
+        0.8
         """
         from dondolo.curves.nrml import write_nrml
 

@@ -88,6 +88,13 @@ class Fragility(Curve, Shown, Saved):
     parts : tuple of Clusters
         The clusters with the change of the parameters if each is left out; () for 'naive', and for the walls of a
         population.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> curve = dd.Fragility.of_parameters(0.8, 0.4, im="pga")
+    >>> round(float(curve(0.8)), 12), round(float(curve.ppf(0.16)), 4)
+    (0.5, 0.5374)
     """
 
     theta: float
@@ -274,6 +281,13 @@ class Fragility(Curve, Shown, Saved):
             There is no curve, or it has no standard errors.
         InputError
             A probability at which there is no level, a confidence beyond 0 and 1.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> curve = dd.fit_fragility([0.2, 0.4], [11, 33], 44, im="pga")
+        >>> [round(float(end), 4) for end in curve.ppf_interval(0.5)]
+        [0.2444, 0.3274]
         """
         quantile = self._quantile(confidence)
         values, probit = self._probits(p)
@@ -348,6 +362,17 @@ class Fragility(Curve, Shown, Saved):
             As many labels as records are needed, and two records or events to draw from.
         DondoloError
             The curve does not come from stripes.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import dondolo as dd
+        >>> outcomes = np.random.default_rng(1).random((40, 3)) < [0.2, 0.5, 0.8]
+        >>> curve = dd.fit_fragility([0.4, 0.6, 0.8], outcomes, records=[f"record {i}" for i in range(40)])
+        >>> drawn = curve.bootstrap(n_resamples=200)
+        >>> low, high = drawn.parameter_interval()["theta"]
+        >>> low < curve.theta < high
+        True
         """
         self._need_fit()
         if self.sample is None:

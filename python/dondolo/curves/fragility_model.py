@@ -85,6 +85,12 @@ class FragilityModel(Shown, Saved):
             A file that is no model of dondolo.
         DondoloError
             The file cannot be written.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> dd.Fragility.of_parameters(0.8, 0.4, im="pga").to_nrml("one.xml")
+        >>> dd.read_nrml("one.xml").write("copy.xml")
         """
         check_replaced(path, "model")
         root = ElementTree.Element("nrml", {"xmlns": NAMESPACE})

@@ -104,6 +104,21 @@ class Risk(Shown, Saved):
     error : float
         Estimated error of the integration of `inside` [1/year]; 0 for a fitted curve, of which the integral has a
         closed form.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> hazard = dd.HazardCurve.power_law(1e-4, 2.5)
+    >>> risk = dd.Fragility.of_parameters(0.8, 0.4, im="pga").risk(hazard)
+    >>> round(risk.return_period), round(risk.probability(50.0), 5)
+    (3472, 0.0143)
+    >>> low, high = risk.probability_bounds(50.0)
+    >>> low == risk.probability(50.0)
+    True
+    >>> 0.5 < risk.dominant_level < 0.8
+    True
+    >>> bool(risk.density(0.6) > risk.density(0.2))
+    True
     """
 
     fragility: Curve

@@ -68,6 +68,14 @@ class RiskUncertainty(Shown, Saved):
         What was drawn, in words.
     degrees_of_freedom : float
         Of Student's t.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> hazard = dd.HazardCurve([0.05, 0.5, 3.0], [0.05, 1e-3, 1e-7], fractiles={0.84: [0.1, 2e-3, 2e-7]})
+    >>> risk = dd.fit_fragility([0.2, 0.4], [11, 33], 44, im="pga").risk(hazard)
+    >>> list(risk.uncertainty(n_draws=200).table())
+    ['hazard', 'annual_frequency', 'low', 'high']
     """
 
     risk: Risk

@@ -107,6 +107,23 @@ def read_case(path: str | os.PathLike[str]) -> Case:
     ------
     InputError
         What is wrong, with the sentence of the executable; of the table of a population everything, a line each.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> import dondolo as dd
+    >>> records = dd.RecordSet(dd.synthetic_records(6.5, 10.0, "shallow", n_records=4))
+    >>> records.to_catalogue("records.csv")
+    >>> _ = Path("parapet.nml").write_text(
+    ...     '''
+    ...     &wall    mechanism = 'one_sided', height = 1.5, thickness = 0.25 /
+    ...     &records catalogue = 'records.csv' /
+    ...     &stripes levels = 0.6, 0.8, 1.0 /
+    ...     '''
+    ... )
+    >>> case = dd.read_case("parapet.nml")
+    >>> case.population[0].height, case.levels.tolist()
+    (1.5, [0.6, 0.8, 1.0])
     """
     return case_of(receive(_core.cases.read_case(as_path(path))))
 

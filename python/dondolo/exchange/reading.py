@@ -40,6 +40,15 @@ def read_results(prefix: str | os.PathLike[str]) -> Results:
         named, and the line if there is one.
     MissingFileError
         There are no such files.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> walls = dd.Population([dd.OneSidedWall(1.5, 0.25, name="a"), dd.OneSidedWall(1.8, 0.25, name="b")])
+    >>> records = dd.synthetic_records(6.5, 10.0, "shallow", n_records=10)
+    >>> dd.typology(walls, records, [0.6, 0.8, 1.0], progress=False).write_results("parapets")
+    >>> dd.read_results("parapets").typology["all"].fit.status
+    'ok'
     """
     name = as_file("prefix", prefix).name
     prefix = os.fspath(prefix)

@@ -60,6 +60,22 @@ def run_case(path: str | os.PathLike[str], *, progress: bool = True) -> Results:
     -----
     DondoloWarning
         What the executable warns of.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> import dondolo as dd
+    >>> records = dd.RecordSet(dd.synthetic_records(6.5, 10.0, "shallow", n_records=10))
+    >>> records.to_catalogue("records.csv")
+    >>> _ = Path("parapet.nml").write_text(
+    ...     '''
+    ...     &wall    mechanism = 'one_sided', height = 1.5, thickness = 0.25 /
+    ...     &records catalogue = 'records.csv' /
+    ...     &stripes levels = 0.6, 0.8, 1.0 /
+    ...     '''
+    ... )
+    >>> dd.run_case("parapet.nml", progress=False).fragility.status
+    'ok'
     """
     name = as_path(path)
     with deferred() as interrupts:

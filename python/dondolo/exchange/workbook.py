@@ -49,6 +49,14 @@ def write_workbook(prefix: str | os.PathLike[str], path: str | os.PathLike[str])
         the workbook.
     DondoloError
         openpyxl is not installed; the workbook cannot be written.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> walls = dd.Population([dd.OneSidedWall(1.5, 0.25, name="a"), dd.OneSidedWall(1.8, 0.25, name="b")])
+    >>> records = dd.synthetic_records(6.5, 10.0, "shallow", n_records=10)
+    >>> dd.typology(walls, records, [0.6, 0.8, 1.0], progress=False).write_results("parapets")
+    >>> dd.write_workbook("parapets", "parapets.xlsx")
     """
     try:
         import openpyxl

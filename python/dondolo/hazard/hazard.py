@@ -221,6 +221,14 @@ class HazardCurve(Shown, Saved):
         -----
         ag of the Italian code is that of rigid, level ground: multiply it by the factors of soil and topography of the
         site. Tables of spreadsheets with semicolons and decimal commas are read as those of walls and records are.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> hazard = dd.HazardCurve([0.05, 0.5, 3.0], [0.05, 1e-3, 1e-7])
+        >>> hazard.to_csv("hazard.csv")
+        >>> float(dd.HazardCurve.from_csv("hazard.csv")(0.5))
+        0.001
         """
         name = os.fspath(as_file("path", path))
         im, levels, frequency, fractiles, notes, is_rigid = read_hazard(name)
@@ -271,6 +279,14 @@ class HazardCurve(Shown, Saved):
         The comment in the first line of a file gives the measure, the investigation time t and the kind of the curve,
         and a column 'poe-x' the probability p that x is exceeded in t years, of which the frequency is -ln(1 - p)/t.
         Levels of SA and PGA are in g, as here; those of PGV are in cm/s there and in m/s here.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> hazard = dd.HazardCurve([0.05, 0.5, 3.0], [0.05, 1e-3, 1e-7])
+        >>> files = hazard.to_openquake(".", site=(11.62, 44.83))
+        >>> round(float(dd.HazardCurve.from_openquake(files)(0.5)), 5)
+        0.001
         """
         several = [paths] if isinstance(paths, (str, os.PathLike)) else paths
         if not isinstance(several, Iterable):
@@ -360,6 +376,13 @@ class HazardCurve(Shown, Saved):
         ------
         InputError
             A share that is not there; fewer than two levels that are exceeded.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> hazard = dd.HazardCurve([0.05, 0.5, 3.0], [0.05, 1e-3, 1e-7], fractiles={0.84: [0.1, 2e-3, 2e-7]})
+        >>> float(hazard.fractile(0.84)(0.5))
+        0.002
         """
         share = as_number("q", q)
         if share not in self.fractiles:
@@ -402,6 +425,12 @@ class HazardCurve(Shown, Saved):
         Notes
         -----
         The docstring of the module dondolo.hazard.hazard tells how much that changes annual frequencies.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> len(dd.HazardCurve([0.05, 0.5, 3.0], [0.05, 1e-3, 1e-7]).smoothed(steps=4).levels)
+        9
         """
         parts = as_count("steps", steps, 1)
         if self.endless:

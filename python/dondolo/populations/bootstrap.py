@@ -42,6 +42,16 @@ class TypologyBootstrap(Bootstrap):
         Share of the weight in which any mechanism can occur.
     over : tuple of str
         What was drawn: 'records', 'walls' or both.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> people = dd.Population([dd.OneSidedWall(1.5, 0.25, name="a"), dd.OneSidedWall(1.8, 0.25, name="b")])
+    >>> records = dd.synthetic_records(6.5, 10.0, "shallow", n_records=10)
+    >>> found = dd.typology(people, records, [0.6, 0.8, 1.0], progress=False)
+    >>> low, high = found["all"].bootstrap(n_resamples=50).mean_interval()
+    >>> bool((low <= high).all())
+    True
     """
 
     levels: FloatArray

@@ -176,7 +176,18 @@ class PopulationCurve(Shown, Group, MeanCurve):
         return self._source.flags is not None
 
     def changes(self, x: FloatArray, weights: FloatArray) -> dict[str, FloatArray]:
-        """Changes of sum(weights * curve(x)) if each cluster of records, or each wall, is left out, by their kind."""
+        """Changes of sum(weights * curve(x)) if each cluster of records, or each wall, is left out, by their kind.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import dondolo as dd
+        >>> people = dd.Population([dd.OneSidedWall(1.5, 0.25, name="a"), dd.OneSidedWall(1.8, 0.25, name="b")])
+        >>> records = dd.synthetic_records(6.5, 10.0, "shallow", n_records=10)
+        >>> curve = dd.typology(people, records, [0.6, 0.8, 1.0], progress=False)["all"]
+        >>> {kind: len(changes) for kind, changes in curve.changes(np.array([0.6, 0.8]), np.array([0.5, 0.5])).items()}
+        {'clusters of records': 10, 'walls': 2}
+        """
         flags = self._source.flags
         if flags is None:
             raise DondoloError(

@@ -86,6 +86,19 @@ def typology(
     DondoloWarning
         Walls or PGAs that look as if they were given in another unit, scale factors above 10,
         walls without a fit, a fit that extrapolates.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> walls = [dd.OneSidedWall(1.5, 0.25, name="a"), dd.OneSidedWall(1.8, 0.25, name="b")]
+    >>> people = dd.Population(walls, groups=["old", "new"])
+    >>> records = dd.synthetic_records(6.5, 10.0, "shallow", n_records=10)
+    >>> found = dd.typology(people, records, [0.6, 0.8, 1.0], edp_thresholds=[0.4], progress=False)
+    >>> curve = found["all"]
+    >>> found.at(0.4)["all"].fit.theta < curve.fit.theta
+    True
+    >>> curve.fractiles(0.8).shape, curve.probabilities(0.8).shape
+    ((3,), (2,))
     """
     people = population if isinstance(population, Population) else Population(population)  # type: ignore[arg-type]
     if executor is not None and threads == 0:

@@ -87,6 +87,15 @@ class Typology(Shown, Saved):
     ties : tuple of TieCounts
         What the histories do to the ties of each row: how many make each `yielded` and `broken`, and its mean and
         largest plastic elongation; None where that is not known.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> walls = [dd.OneSidedWall(1.5, 0.25, name="a"), dd.OneSidedWall(1.8, 0.25, name="b")]
+    >>> people = dd.Population(walls, groups=["old", "new"])
+    >>> records = dd.synthetic_records(6.5, 10.0, "shallow", n_records=10)
+    >>> found = dd.typology(people, records, [0.6, 0.8, 1.0], edp_thresholds=[0.4], progress=False)
+    >>> axes = found.plot_groups(), found.plot_damage_states(), found.plot_combination()
     """
 
     population: Population

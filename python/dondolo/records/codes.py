@@ -212,6 +212,12 @@ def ntc_spectrum(
     ------
     InputError
         Parameters that the code does not have.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> dd.ntc_spectrum(0.2, 2.5, 0.35, soil="B", periods=[0.2, 0.6, 1.2]).sa.round(4).tolist()
+    [0.6, 0.4749, 0.2375]
     """
     return Site(ag, f0, tc_star, soil=soil, topography=topography).spectrum(periods=periods, damping=damping)
 
@@ -248,6 +254,12 @@ def ec8_spectrum(
     ------
     InputError
         Parameters that the code does not have.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> dd.ec8_spectrum(0.25, soil="C", periods=[0.2, 0.6, 1.2]).sa.round(5).tolist()
+    [0.71875, 0.71875, 0.35938]
     """
     a = as_number("ag", ag)
     if not 0.0 < a < np.inf:

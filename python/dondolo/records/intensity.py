@@ -40,6 +40,13 @@ def intensity_table(
     ------
     InputError
         No records, or no such measure; a row of a set with a level and no factor.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> records = dd.synthetic_records(6.5, 10.0, "shallow", n_records=3)
+    >>> list(dd.intensity_table(records, ["pga", "d5-95"]).columns)
+    ['record', 'pga [g]', 'd5-95 [s]']
     """
     factors = factors_of(records)
     several = as_records(records)

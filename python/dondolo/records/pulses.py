@@ -75,6 +75,13 @@ def one_cosine(amplitude: float, frequency: float, *, error: float = 1e-5) -> Re
     Notes
     -----
     Type B of Makris and Roussos (2000).
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> pulse = dd.pulses.one_cosine(amplitude=0.3, frequency=1.0)
+    >>> round(pulse.intensity("pga"), 12)
+    0.3
     """
     return _harmonic(np.cos, "one_cosine", amplitude, frequency, error)
 

@@ -21,7 +21,7 @@ def read_record(
     channel: str | int | None = None,
     format: str | None = None,
 ) -> Record:
-    """Read one channel of an accelerogram file; the format is recognised by its content.
+    r"""Read one channel of an accelerogram file; the format is recognised by its content.
 
     Parameters
     ----------
@@ -44,6 +44,17 @@ def read_record(
     ------
     InputError
         The file is missing, unknown, wrong, or says less than is needed; it has no such channel.
+
+    Examples
+    --------
+    A column in g, its time step given, as the file does not state it.
+
+    >>> from pathlib import Path
+    >>> import dondolo as dd
+    >>> _ = Path("station.txt").write_text("0.0\n0.1\n-0.2\n0.0\n")
+    >>> record = dd.read_record("station.txt", dt=0.01, units="g")
+    >>> record.name, round(record.peak_acceleration, 3)  # in m/s2
+    ('station', 1.961)
     """
     name = str(channel) if isinstance(channel, int) else channel
     ((data,), _) = records_of_file(path, 0, dt, units, name, format)
@@ -57,7 +68,7 @@ def read_records(
     units: str | None = None,
     format: str | None = None,
 ) -> list[Record]:
-    """Read all channels of an accelerogram file.
+    r"""Read all channels of an accelerogram file.
 
     Parameters
     ----------
@@ -73,6 +84,14 @@ def read_records(
     ------
     InputError
         The file is missing, unknown, wrong, or says less than is needed.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> import dondolo as dd
+    >>> _ = Path("station.txt").write_text("0.0\n0.1\n-0.2\n0.0\n")
+    >>> len(dd.read_records("station.txt", dt=0.01, units="g"))
+    1
     """
     return [record_from(data) for data in records_of_file(path, 2, dt, units, layout=format)[0]]
 
@@ -83,7 +102,7 @@ def read_catalogue(
     vertical: Literal["none", "recorded"] = "none",
     vertical_factor: float = 1.0,
 ) -> RecordSet:
-    """Read all records of a catalogue.
+    r"""Read all records of a catalogue.
 
     Parameters
     ----------
@@ -104,6 +123,16 @@ def read_catalogue(
     ------
     InputError
         The catalogue or one of its records is wrong.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> import dondolo as dd
+    >>> _ = Path("station.txt").write_text("0.0\n0.1\n-0.2\n0.0\n")
+    >>> _ = Path("records.csv").write_text("file,dt_s,units,magnitude\nstation.txt,0.01,g,6.1\n")
+    >>> records = dd.read_catalogue("records.csv")
+    >>> records[0].metadata["magnitude"]
+    '6.1'
     """
     one_of("vertical", vertical, ("none", "recorded"))
     on_vertical = as_number("vertical_factor", vertical_factor) if vertical == "recorded" else None

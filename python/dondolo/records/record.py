@@ -72,6 +72,17 @@ class Record:
     ------
     InputError
         A step that is not positive, a sample that is no acceleration, too few samples; more or fewer vertical samples.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import dondolo as dd
+    >>> t = np.arange(0.0, 10.0, 0.01)
+    >>> record = dd.Record(3.0 * np.sin(2.0 * np.pi * t), dt=0.01, name="sine")
+    >>> round(record.intensity("pga"), 4)  # in g
+    0.3058
+    >>> record.spectrum([0.1, 0.5, 1.0]).pseudo_acceleration.shape
+    (3,)
     """
 
     acceleration: FloatArray
@@ -148,6 +159,14 @@ class Record:
         Notes
         -----
         docs/ground_motions.md, Vertical motion.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> record = dd.synthetic_records(6.5, 10.0, "shallow", n_records=1)[0]
+        >>> both = record.with_vertical(record, factor=0.5)
+        >>> bool((both.vertical == 0.5 * record.acceleration).all())
+        True
         """
         values, dt, samples, steps = self.acceleration, self.dt, None, self.processing
         if vertical is not None:
@@ -304,6 +323,14 @@ class Record:
         ------
         InputError
             Parts that do not increase from 0 to 1, a record without motion.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> record = dd.synthetic_records(6.5, 10.0, "shallow", n_records=1)[0]
+        >>> start, end = record.significant_times()
+        >>> 0.0 < start < end < record.duration
+        True
         """
         return suite.significant_times(self, low, high)
 
@@ -457,6 +484,14 @@ class Record:
         -----
         Analyses filter by themselves where a wall stands on a building, and scale by measures of the ground motion;
         a record of a floor has measures of its own. docs/floors.md.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> record = dd.synthetic_records(6.5, 10.0, "shallow", n_records=1)[0]
+        >>> floor = record.on_floor(dd.Building(0.3, storeys=3, level=9.0, building_height=9.0))
+        >>> floor.peak_acceleration > record.peak_acceleration
+        True
         """
         instance_of("building", building, Building, "no building")
         values, upwards, parts = floor_motion(self.acceleration, self.vertical, self.dt, building._values())
@@ -510,6 +545,13 @@ class Record:
         Returns
         -------
         Record
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> record = dd.Record([0.0, 1.0, -2.0], dt=0.01)
+        >>> record.reverse().acceleration.tolist()
+        [-0.0, -1.0, 2.0]
         """
         return self.processed(-self.acceleration, "reversed polarity", vertical=self.vertical)
 

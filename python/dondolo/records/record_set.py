@@ -142,6 +142,14 @@ class RecordSet(Shown, Saved):
         ------
         InputError
             A level that is not positive, has no records, or differs from another by rounding alone.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> records = dd.synthetic_records(6.5, 10.0, "shallow", n_records=4)
+        >>> several = dd.RecordSet.of_levels({0.4: records[:2], 0.8: records[1:]})
+        >>> several.level.tolist()
+        [0.4, 0.4, 0.8, 0.8, 0.8]
         """
         if not isinstance(sets, Mapping) or not sets:
             raise InputError("records: must be a mapping of levels to records, one level at least")
@@ -240,6 +248,14 @@ class RecordSet(Shown, Saved):
         Returns
         -------
         RecordSet
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> records = dd.RecordSet(dd.synthetic_records(6.5, 10.0, "shallow", n_records=4))
+        >>> strongest = records.sort("pga", descending=True)[0]
+        >>> strongest.peak_acceleration == max(record.peak_acceleration for record in records)
+        True
         """
         values = self._column(by)
         descending = as_flag("descending", descending)
@@ -262,6 +278,13 @@ class RecordSet(Shown, Saved):
         -------
         ndarray, shape (rows, periods)
             [g]
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> records = dd.RecordSet(dd.synthetic_records(6.5, 10.0, "shallow", n_records=4))
+        >>> records.spectra([0.1, 0.5, 1.0]).shape
+        (4, 3)
         """
         found: dict[int, FloatArray] = {}
         for record in self.records:
@@ -305,6 +328,14 @@ class RecordSet(Shown, Saved):
         Nothing of an earlier catalogue is replaced but its table, at once and last, so that it is the old or the new
         one whatever fails. The table states the CRC-32 of each file, and whoever reads it, the executable too, refuses
         a file of another. Files that only the earlier catalogue named are removed, unless they were changed since.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> records = dd.RecordSet(dd.synthetic_records(6.5, 10.0, "shallow", n_records=2))
+        >>> records.to_catalogue("records.csv")
+        >>> [record.checksum for record in dd.read_catalogue("records.csv")] == [record.checksum for record in records]
+        True
         """
         from dondolo.records.catalogues import write_catalogue
 

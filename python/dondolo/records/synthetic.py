@@ -59,6 +59,13 @@ def synthetic_records(
     The generator of ``dondolo-synthetic44``, with one stream of random numbers a realisation; the phases alone are
     random, so that two realisations differ less than two recorded motions of a magnitude and distance.
     docs/processing.md shows what the model gives and how it differs from recordings.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", n_records=3)
+    >>> len(records), records[0].dt
+    (3, 0.005)
     """
     numbers = [
         as_number(what, value)

@@ -47,6 +47,12 @@ class Uniform:
     ------
     InputError
         A parameter is no finite number, or `high` not greater than `low`.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> dd.Uniform(2.4, 3.6).ppf(0.5)
+    3.0
     """
 
     low: float
@@ -74,6 +80,12 @@ class Triangular:
     ------
     InputError
         A parameter is no finite number, `high` not greater than `low`, or `mode` not between them.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> round(float(dd.Triangular(0.3, 0.38, 0.5).ppf(0.5)), 4)
+    0.3905
     """
 
     low: float
@@ -122,6 +134,12 @@ class Normal(_CutOff):
     InputError
         A parameter is no finite number, `sd` not positive, `high` not greater than `low`, or next to nothing of the
         distribution between them.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> float(dd.Normal(3.0, 0.2, low=2.5, high=3.5).ppf(0.5))
+    3.0
     """
 
     mean: float
@@ -165,6 +183,12 @@ class Lognormal(_CutOff):
     InputError
         A parameter is no positive finite number, `high` not greater than `low`, or next to nothing of the distribution
         between them.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> float(dd.Lognormal(0.3, 0.1).ppf(0.5))
+    0.3
     """
 
     theta: float
@@ -207,6 +231,12 @@ class Choice:
     ------
     InputError
         The values do not rise, or there are not as many probabilities, not negative and with the sum 1.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> dd.Choice((0.25, 0.38), (0.7, 0.3)).ppf([0.5, 0.8]).tolist()
+    [0.25, 0.38]
     """
 
     values: tuple[float, ...]

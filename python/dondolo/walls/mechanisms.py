@@ -152,6 +152,13 @@ class FreeStandingWall(BlockWall):
     Parameters are those of `OneSidedWall` except its ties; the models of restitution are 'default', 'impulse' (both
     1 - 3/2 sin^2 alpha for a bare block) and 'constant'. Since it rocks to both sides, what it carries bears at half
     its thickness, and nothing thrusts.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> pinnacle = dd.FreeStandingWall(height=1.5, thickness=0.25, name="pinnacle")
+    >>> pinnacle.two_sided
+    True
     """
 
     mechanism: ClassVar[str] = "free_standing"

@@ -349,7 +349,7 @@ class Population(Shown):
 
 
 def read_population(path: str | os.PathLike[str], *, gravity: float | None = None) -> Population:
-    """Read a population of walls.
+    r"""Read a population of walls.
 
     Parameters
     ----------
@@ -367,6 +367,15 @@ def read_population(path: str | os.PathLike[str], *, gravity: float | None = Non
     ------
     InputError
         The table or one of its walls is wrong.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> import dondolo as dd
+    >>> table = "name,mechanism,height,thickness\na,one_sided,1.5,0.25\nb,two_block,3.0,0.3\n"
+    >>> _ = Path("walls.csv").write_text(table)
+    >>> [wall.name for wall in dd.read_population("walls.csv")]
+    ['a', 'b']
     """
     walls, weights, groups, p_occ, facades = read_walls(path, gravity)
     origin = (f"read from {Path(path).name}",)

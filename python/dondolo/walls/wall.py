@@ -72,6 +72,15 @@ class Wall:
     """What all walls share. Use `OneSidedWall`, `FreeStandingWall` or `TwoBlockWall`.
 
     Every number that is left out (None) gets its default from the Fortran library, and stands in the wall afterwards.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> parapet, strip = dd.OneSidedWall(1.5, 0.25), dd.TwoBlockWall(3.0, 0.25)
+    >>> all(isinstance(wall, dd.Wall) for wall in (parapet, strip))
+    True
+    >>> round(parapet.trigger_acceleration / parapet.gravity, 4)  # in g
+    0.1667
     """
 
     mechanism: ClassVar[str] = ""
@@ -267,6 +276,13 @@ class Wall:
         Notes
         -----
         1/2 J q'^2 + V is constant in still ground; docs/theory.md, section 2.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> wall = dd.OneSidedWall(1.5, 0.25)
+        >>> bool(wall.potential(0.5 * wall.capacity_angle) < wall.potential(wall.capacity_angle))
+        True
         """
         energy: FloatArray = wall_terms(upload((self,)), rotation)[5]
         return energy
