@@ -275,6 +275,8 @@ contains
       where = 2.0_rk
       h = history%motion%h*until
       call look(history, number, there, g1, s1)
+      ! Rounding alone passes a level that is only touched, again and again
+      if (abs(g1) < spacing(history%wall%limit)) g1 = 0.0_rk
       if (g1 >= 0.0_rk .and. s1 <= 0.0_rk) return
       here = end_type(history%state%y, history%state%v, k1, felt(history, history%z), 0.0_rk)
       call look(history, number, here, g0, s0)
