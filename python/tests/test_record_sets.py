@@ -1,5 +1,6 @@
 """Sets of records, records of their own at each level, and selection to a target spectrum."""
 
+import pickle
 import subprocess
 import sys
 import warnings
@@ -79,6 +80,17 @@ def test_stripes_are_joined_and_cut(records, parapet):
     )
     with pytest.raises(dd.InputError, match="must be of one"):
         first + second
+
+
+def test_a_run_counts_once(records, parapet):
+    """Its work is whole in every part of it, and once in what parts are joined to."""
+    run = dd.multiple_stripe(parapet, records[:6], [0.6, 0.8], progress=False)
+    more = dd.multiple_stripe(parapet, records[6:], [0.6, 0.8], progress=False)
+    assert run[:1].work == run[:, :2].work == (run[:1] + run[1:]).work == (run[:, ::2] + run[:, 1::2]).work == run.work
+    for both in (run + more, run[:1] + more + run[1:], (run + more)[:1] + (run + more)[1:]):
+        assert both.work == dd.results.Work.total([run.work, more.work])
+    again = pickle.loads(pickle.dumps(run))
+    assert (run[:1] + again[1:]).work == run.work
 
 
 def test_levels_that_differ_by_rounding_are_the_same(records, parapet):

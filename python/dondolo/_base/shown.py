@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+from numpy.typing import NDArray
+
 # Dispersions below this are rounding
 _ROUNDING = 1e-6
 
@@ -11,6 +14,12 @@ _ROUNDING = 1e-6
 def shown_dispersion(value: float) -> float:
     """A dispersion to be shown: 0 where it is rounding alone, as between walls that are alike."""
     return 0.0 if abs(value) < _ROUNDING else value
+
+
+def span(counts: NDArray[np.integer]) -> str:
+    """Counts in words: one number, or the least and the most."""
+    few, many = int(counts.min()), int(counts.max())
+    return str(few) if few == many else f"{few} to {many}"
 
 
 class Shown:

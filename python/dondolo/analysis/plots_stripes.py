@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from dondolo._base.shown import span
 from dondolo._fortran.records import blank_unit
 from dondolo.analysis.certificate import Certified
 from dondolo.analysis.incremental import Incremental
-from dondolo.analysis.stripe_sets import span
 from dondolo.analysis.stripes import Stripes
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.plots import parameters

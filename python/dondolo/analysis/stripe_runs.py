@@ -16,9 +16,9 @@ from dondolo._fortran.library import warn
 from dondolo._fortran.records import levels_in_words
 from dondolo.analysis.auto_levels import FEWEST, next_level, rounded
 from dondolo.analysis.certificate import run_again
+from dondolo.analysis.histories import matrix, stack
 from dondolo.analysis.request import Kept, Outcome, Pace, Plan, Polarity, Request, new_request, progress_bar
 from dondolo.analysis.solver import Solver
-from dondolo.analysis.stripe_sets import in_matrix, stack
 from dondolo.analysis.stripes import Stripes
 from dondolo.errors import DondoloWarning, InputError, Interrupted
 from dondolo.records.record import Record
@@ -386,7 +386,7 @@ def _stripes(request: Request, plan: Plan, outcome: Outcome, complete: int) -> S
     count = len(outcome.edp) if complete == len(request.levels) else int(ran.sum())
     if count < ran.size:
         scale = np.where(ran, scale, np.nan)
-    facts = request.facts
+    facts, places = request.facts, np.nonzero(ran)
     names = ("edp", "collapsed", "impacts", "time_of_peak", *(("edp_error",) if estimated else ()))
     uplift = None
     if facts.falls is not None:
@@ -403,11 +403,11 @@ def _stripes(request: Request, plan: Plan, outcome: Outcome, complete: int) -> S
         rtol=rtol,
         atol=atol,
         edp_limit=edp_limit,
-        work=outcome.work,
+        runs=outcome.work._of_run(levels, facts.checksums, plan.polarity, outcome.edp),
         uplift=uplift,
         events=facts.events,
         checksums=facts.checksums,
-        **{name: in_matrix(getattr(outcome, name)[:count], ran) for name in names},
+        **{name: matrix(getattr(outcome, name)[:count], ran.shape, places) for name in names},
     )
 
 

@@ -12,14 +12,14 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_array, as_number, one_of
-from dondolo._base.shown import Shown
+from dondolo._base.shown import Shown, span
 from dondolo._fortran.curves import CurveData, warnings_of_curve
 from dondolo._fortran.library import warn
 from dondolo._fortran.records import levels_in_words, unit_of
 from dondolo._fortran.uncertainty import restitution_sentence
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
-from dondolo.analysis.stripe_sets import cut, join, span
+from dondolo.analysis.histories import cut, join
 from dondolo.analysis.stripe_tables import histories_table, stripes_table
 from dondolo.analysis.work import Work
 from dondolo.curves.damage_states import fit_states
@@ -79,8 +79,9 @@ class Stripes(Shown, Saved):
         +1 as recorded, -1 reversed.
     engine, edp_limit, rtol, atol
         How it was computed.
-    work : Work
-        What was computed, and what was not, by the runs that the stripes come from.
+    runs : dict of str to Work
+        What was computed, and what was not, by each of the runs that the stripes come from, whole even where they have
+        a part of its histories; runs are told apart by a checksum of their histories.
     edp_error : ndarray, shape (levels, histories), or None
         Estimated errors of `edp`; None unless asked for.
     status : ndarray of int, shape (levels, histories), or None
@@ -124,7 +125,7 @@ class Stripes(Shown, Saved):
     rtol: float
     atol: float
     edp_limit: float
-    work: Work
+    runs: dict[str, Work]
     edp_error: FloatArray | None = None
     status: np.ndarray[Any, np.dtype[np.int32]] | None = None
     edp_lowest: FloatArray | None = None
@@ -154,6 +155,11 @@ class Stripes(Shown, Saved):
     def __add__(self, other: Stripes) -> Stripes:
         """The stripes of both, of one wall; records of the same name are the same, and run once at a level."""
         return join(self, other)
+
+    @property
+    def work(self) -> Work:
+        """What was computed, and what was not, by all of `runs`, each counted once."""
+        return Work.total(self.runs.values())
 
     @property
     def n_records(self) -> int:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import zlib
 from collections.abc import Iterable
-from typing import NamedTuple
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from dondolo._fortran.buildings import drift_note
 from dondolo._storage.saved import part_of_results
@@ -64,6 +67,13 @@ class Work(NamedTuple):
         5
         """
         return cls(*map(sum, zip(cls(), *parts, strict=True)))
+
+    def _of_run(self, *contents: Any) -> dict[str, Work]:
+        """The work of a run under a checksum of its contents, arrays and texts."""
+        crc = 0
+        for content in contents:
+            crc = zlib.crc32(np.asarray(content).tobytes(), crc)
+        return {f"{crc:08x}": self}
 
     def _notes(self) -> list[tuple[str, str]]:
         """What there is to say of supports that drift apart, as facts."""

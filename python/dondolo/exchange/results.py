@@ -15,6 +15,7 @@ from dondolo._fortran.library import constants
 from dondolo._fortran.walls import WALL_EXTRAS, WALL_LISTS, WALL_PROPERTIES, WALL_TEXTS, WALL_WORDS, describe_wall
 from dondolo._storage.columns import Columns
 from dondolo._storage.run_file import HistoryResult, RunFile
+from dondolo.analysis import histories
 from dondolo.analysis.certificate import Certified
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import States, Stripes
@@ -330,9 +331,7 @@ def _stripes(
         raise ValueError(f"{len(table)} rows: are not the {work.histories} histories of the run")
 
     def matrix(values: Any) -> Any:
-        found = np.full(ran.shape, np.nan if values.dtype.kind == "f" else 0, dtype=values.dtype)
-        found[row, column] = values
-        return found
+        return histories.matrix(values, ran.shape, (row, column))
 
     certified: dict[str, Any] = {}
     if "status" in table:
@@ -358,7 +357,7 @@ def _stripes(
         rtol=rtol,
         atol=atol,
         edp_limit=edp_limit,
-        work=work,
+        runs=work._of_run(levels, names, signs, table.numbers("edp")),
         edp_error=matrix(table.numbers("edp_error")) if "edp_error" in table else None,
         uplift=matrix(table.numbers("uplift")) == 1.0 if "uplift" in table else None,
         **certified,

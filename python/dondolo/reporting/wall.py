@@ -7,11 +7,11 @@ from typing import Any
 
 import numpy as np
 
+from dondolo._base.shown import span
 from dondolo._fortran.records import blank_unit
 from dondolo.analysis.certificate import Certified
 from dondolo.analysis.plots_stripes import draw_damage_states
 from dondolo.analysis.response import Response
-from dondolo.analysis.stripe_sets import span
 from dondolo.analysis.stripes import States, Stripes
 from dondolo.curves.fragility import Fragility
 from dondolo.reporting.content import (
