@@ -4,7 +4,7 @@ module dondolo_fit_lines
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : counted, right, rounded, to_text
    use dondolo_case, only : case_type
-   use dondolo_fragility, only : fragility_type
+   use dondolo_fragility, only : fit_status_names, fragility_type
    use dondolo_fragility_clustered, only : fewest_clusters, parameter_intervals
    use dondolo_population_typology, only : typology_type
    implicit none
@@ -30,12 +30,12 @@ contains
       if (present(saturation)) share = saturation
       if (curve%has_fit()) then
          write (output_unit, '(a)') 'theta = '//rounded(curve%theta)//case%stripes%scaling%unit_after_blank()// &
-            & ', beta = '//rounded(curve%beta)//', status '//trim(curve%status)
+            & ', beta = '//rounded(curve%beta)//', status '//trim(fit_status_names(curve%status))
          call print_errors(curve)
          write (output_unit, '(a)') case%stripes%scaling%name//' at a probability of 16, 50, 84 %: '// &
             & trim(fractiles(case, curve, share))
       else
-         write (output_unit, '(a)') 'no fragility curve, status '//trim(curve%status)
+         write (output_unit, '(a)') 'no fragility curve, status '//trim(fit_status_names(curve%status))
       end if
    end subroutine print_fit
 

@@ -20,7 +20,6 @@ program dondolo_main
    use dondolo_case_result_tables, only : table_suffixes
    use dondolo_case_results, only : results_type
    use dondolo_case_run_case, only : run_case
-   use dondolo_case_warning_sentence, only : warning_sentences
    use dondolo_completion, only : print_completion
    use dondolo_example, only : print_example
    use dondolo_front_door, only : hand_over
@@ -161,7 +160,7 @@ contains
          ! The checkpoint of a whole population has served; parts are the user's
          if (case%job%task == 'typology' .and. arguments%action == 'run') call results%remove_stores()
       end if
-      call warning_sentences(results%warnings, warnings)
+      call results%warnings%put_sentences(warnings)
       call print_lines('warning', warnings)
       call list_outdated(case%job%output, outdated)
       call print_lines('note', outdated)

@@ -8,14 +8,13 @@ module dondolo_plan
    use dondolo_base_text, only : counted, rounded, to_text
    use dondolo_case, only : case_type
    use dondolo_case_check_rows, only : check_wall
-   use dondolo_case_plan_warnings, only : warn_of_plan
-   use dondolo_case_plausibility, only : wall_warning_type
+   use dondolo_case_motion_warnings, only : scale_warnings_type, warn_of_events, warn_of_records
    use dondolo_case_population_case, only : find_start
+   use dondolo_case_result_warnings, only : warn_of_plan
    use dondolo_case_results, only : shown_rows
    use dondolo_case_run_case, only : plan_case
+   use dondolo_case_wall_warnings, only : wall_warnings_type
    use dondolo_case_warning, only : warnings_type
-   use dondolo_case_warning_sentence, only : warning_sentences
-   use dondolo_case_warnings, only : scale_warning_type, warn_of_events, warn_of_records
    use dondolo_check_lines, only : print_check
    use dondolo_check_sheet, only : sheet_type
    use dondolo_motion_work, only : work_type
@@ -45,7 +44,7 @@ contains
       !> What cannot be run
       type(error_type), allocatable, intent(out) :: error
 
-      type(scale_warning_type) :: scales
+      type(scale_warnings_type) :: scales
       type(store_type) :: store
       type(work_type) :: work
       type(sheet_type) :: sheet
@@ -103,7 +102,7 @@ contains
       !> Work of all
       type(work_type), intent(in) :: work
       !> The largest scale factor
-      type(scale_warning_type), intent(in) :: scales
+      type(scale_warnings_type), intent(in) :: scales
       !> What an earlier run has done
       type(store_type), intent(in) :: store
 
@@ -150,19 +149,19 @@ contains
       !> Work of all histories
       type(work_type), intent(in) :: work
       !> What there is to say of scale factors
-      type(scale_warning_type), intent(in) :: scales
+      type(scale_warnings_type), intent(in) :: scales
       !> What to say
       type(lines_type), intent(out) :: sentences
 
-      type(wall_warning_type) :: oddities
+      type(wall_warnings_type) :: wall_warnings
       type(warnings_type) :: warnings
 
       if (case%job%task == 'typology') then
-         oddities = case%survey%oddities
+         wall_warnings = case%survey%wall_warnings
       else
-         call oddities%look(case%wall)
+         call wall_warnings%look(case%wall)
       end if
-      call oddities%warn(warnings)
+      call wall_warnings%warn(warnings)
       if (case%job%task == 'history') then
          call warn_of_records(case%suite, case%solver%gravity, warnings, case%history%record)
       else
@@ -171,7 +170,7 @@ contains
          call warn_of_plan(size(case%stripes%levels), case%suite%clusters, work, warnings)
       end if
       call scales%warn(warnings)
-      call warning_sentences(warnings, sentences)
+      call warnings%put_sentences(sentences)
    end subroutine find_warnings
 
    !> Print the first rows of the population

@@ -12,6 +12,7 @@ module dondolo_summary
    use dondolo_check_lines, only : print_check, print_verdicts
    use dondolo_design_lines, only : print_designs
    use dondolo_fit_lines, only : bar, fractiles, make_head, print_fit, print_population_errors
+   use dondolo_fragility, only : fit_status_names
    use dondolo_fragility_drift_note, only : make_drift_note, share_of
    use dondolo_motion_certificate, only : in_double, in_quadruple, not_computable
    use dondolo_motion_error_estimate, only : runs_of_estimate
@@ -311,7 +312,7 @@ contains
                beta = rounded(curve%beta)
             end if
             write (output_unit, '(a, a15, 2a10, 2x, a)') left(results%shown(i)%name, width), results%shown(i)%mechanism, &
-               & trim(theta), adjustr(beta), trim(curve%status)
+               & trim(theta), adjustr(beta), trim(fit_status_names(curve%status))
          end associate
       end do
       more = case%survey%rows - size(results%shown)
@@ -351,11 +352,11 @@ contains
                   write (output_unit, '(a)') who//': theta = '//rounded(typology%fit%theta)// &
                      & case%stripes%scaling%unit_after_blank()//', beta = '//rounded(typology%fit%beta)// &
                      & ' (walls '//rounded(typology%beta_walls)//', records '//rounded(typology%beta_records)// &
-                     & '), status '//trim(typology%fit%status)//'; at 16, 50, 84 %: '// &
+                     & '), status '//trim(fit_status_names(typology%fit%status))//'; at 16, 50, 84 %: '// &
                      & trim(fractiles(case, typology%fit, typology%saturation))
                   call print_population_errors(typology)
                else
-                  write (output_unit, '(a)') who//': no fragility curve, status '//trim(typology%fit%status)
+                  write (output_unit, '(a)') who//': no fragility curve, status '//trim(fit_status_names(typology%fit%status))
                end if
             end associate
          end do

@@ -8,7 +8,7 @@ module dondolo_union_lines
    use dondolo_case_results, only : results_type, shown_rows
    use dondolo_check_lines, only : chance
    use dondolo_fit_lines, only : bar, fractiles, make_head, print_fit
-   use dondolo_fragility, only : fragility_type
+   use dondolo_fragility, only : fit_status_names, fragility_type
    use dondolo_name_column, only : name_width
    use dondolo_population_unions, only : union_type
    implicit none
@@ -141,7 +141,7 @@ contains
       !> In words, filled up with blanks
       character(len=300) :: text
 
-      text = 'no fragility curve, status '//curve%status
+      text = 'no fragility curve, status '//fit_status_names(curve%status)
       if (curve%has_fit()) text = 'theta = '//rounded(curve%theta)//case%stripes%scaling%unit_after_blank()//', beta = '// &
          & rounded(curve%beta)//', at 16, 50, 84 % '//trim(fractiles(case, curve, saturation))
    end function parameters

@@ -9,6 +9,7 @@ program test_case
    use dondolo_case, only : case_type
    use dondolo_case_columns, only : columns_type, integer_column, real_column, text_column
    use dondolo_case_echo, only : echo_type
+   use dondolo_case_motion_warnings, only : scale_warnings_type
    use dondolo_case_namelist, only : namelist_type, read_namelist
    use dondolo_case_namelist_group, only : group_type
    use dondolo_case_read_case, only : read_case
@@ -17,7 +18,6 @@ program test_case
    use dondolo_case_result_tables, only : list_tables, table_kind_type, table_suffixes
    use dondolo_case_results, only : results_type
    use dondolo_case_run_case, only : plan_case, run_case
-   use dondolo_case_warnings, only : scale_warning_type
    use dondolo_fragility_study, only : study_type
    use dondolo_motion_error_estimate, only : runs_of_estimate
    use dondolo_motion_work, only : work_type
@@ -380,7 +380,7 @@ contains
       type(results_type) :: results
       type(error_type), allocatable :: error
       type(work_type) :: planned
-      type(scale_warning_type) :: scales
+      type(scale_warnings_type) :: scales
 
       call suite('work')
       call write_file('a.nml', stripes_case)

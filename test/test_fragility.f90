@@ -6,10 +6,9 @@ program test_fragility
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
    use dondolo_base_student, only : student_cdf, student_quantile
+   use dondolo_case_result_warnings, only : warn_of_fit
    use dondolo_case_warning, only : warnings_type
-   use dondolo_case_warning_sentence, only : warning_sentences
-   use dondolo_case_warnings, only : warn_of_fit
-   use dondolo_fragility, only : fit_fragility, fragility_type, normal_cdf
+   use dondolo_fragility, only : fit_fragility, fit_status_names, fragility_type, normal_cdf
    use dondolo_fragility_clustered, only : cluster_errors, parameter_intervals
    use dondolo_fragility_even_levels, only : even_levels, settle_levels
    use dondolo_fragility_ordinal, only : fit_ordinal, ordinal_errors
@@ -49,7 +48,7 @@ contains
 
       call suite('two stripes')
       curve = fitted([0.2_wp, 0.4_wp], [11.0_wp, 33.0_wp], [44.0_wp, 44.0_wp], 'fit')
-      call check_text(curve%status, 'ok', 'status')
+      call check_text(trim(fit_status_names(curve%status)), 'ok', 'status')
       call check_close(curve%theta, sqrt(0.08_wp), 1.0e-12_wp, 'theta')
       call check_close(curve%beta, 0.513830774_wp, 1.0e-9_wp, 'beta')
       call check_close(curve%probability(0.2_wp), 0.25_wp, 1.0e-12_wp, 'P(0.2)')
@@ -81,7 +80,7 @@ contains
 
       call suite('published data')
       curve = fitted(levels, collapses, spread(45.0_wp, 1, 16), 'sixteen stripes of 45')
-      call check_text(curve%status, 'ok', 'status')
+      call check_text(trim(fit_status_names(curve%status)), 'ok', 'status')
       call check_close(curve%theta, 1.2194475_wp, 5.0e-8_wp, 'theta')
       call check_close(curve%beta, 0.3100660_wp, 2.0e-7_wp, 'beta')
       call check_close(curve%log_likelihood, -12.8704444_wp, 5.0e-9_wp, 'log likelihood')
@@ -89,14 +88,14 @@ contains
       call check_close(curve%se_beta(), 0.02532_wp, 2.0e-4_wp, 'standard error of beta')
 
       curve = fitted([1.0_wp, 1.5_wp, 2.0_wp], [0.0_wp, 2.0_wp, 2.0_wp], [59.0_wp, 50.0_wp, 44.0_wp], 'unequal stripes')
-      call check_text(curve%status, 'extrapolated', 'status')
+      call check_text(trim(fit_status_names(curve%status)), 'extrapolated', 'status')
       call check_close(curve%theta, 5.85981_wp, 1.0e-6_wp, 'theta')
       call check_close(curve%beta, 0.684495_wp, 1.0e-6_wp, 'beta')
       stripes%levels = [1.0_wp, 1.5_wp, 2.0_wp]
       allocate(stripes%response(59, 3))
       call warn_of_fit(wall, stripes, curve, warnings)
       call check(warnings%count == 1, 'one warning')
-      call warning_sentences(warnings, sentences)
+      call warnings%put_sentences(sentences)
       call check_text(sentences%line(1)%text, &
          & 'theta = 5.86 lies outside the levels 1 to 2: the fit extrapolates', 'warning')
    end subroutine test_published
@@ -149,30 +148,30 @@ contains
          end if
       end do
       curve = fitted(x, [27.0_wp, low - 1.0e-6_wp], n, 'just not significant')
-      call check_text(curve%status, 'nearly_flat', 'status below the quantile')
+      call check_text(trim(fit_status_names(curve%status)), 'nearly_flat', 'status below the quantile')
       call check(curve%has_fit(), 'a nearly flat curve is a curve')
       curve = fitted(x, [27.0_wp, high + 1.0e-6_wp], n, 'just significant')
-      call check_text(curve%status, 'ok', 'status above the quantile')
+      call check_text(trim(fit_status_names(curve%status)), 'ok', 'status above the quantile')
       curve = fitted([0.1_wp, 0.2_wp, 0.4_wp, 0.8_wp], [9.0_wp, 11.0_wp, 9.0_wp, 11.0_wp], spread(20.0_wp, 1, 4), 'hardly rising')
-      call check_text(curve%status, 'nearly_flat', 'status of counts that hardly rise')
+      call check_text(trim(fit_status_names(curve%status)), 'nearly_flat', 'status of counts that hardly rise')
       call check(curve%beta > 5.0_wp, 'its dispersion is large')
       ! A slope that is certain is no fault, however flat
       curve = fitted([0.1_wp, 10.0_wp], [4.0e4_wp, 6.0e4_wp], spread(1.0e5_wp, 1, 2), 'flat and certain')
-      call check_text(curve%status, 'ok', 'status of a flat curve of many histories')
+      call check_text(trim(fit_status_names(curve%status)), 'ok', 'status of a flat curve of many histories')
       ! A median outside the levels is the first thing to say
       curve = fitted([1.0_wp, 2.0_wp], [1.0_wp, 2.0_wp], [44.0_wp, 44.0_wp], 'beyond the levels')
-      call check_text(curve%status, 'extrapolated', 'status of a median outside the levels')
+      call check_text(trim(fit_status_names(curve%status)), 'extrapolated', 'status of a median outside the levels')
 
       call fit_ordinal(curves, x, reshape([28.0_wp, 33.0_wp, 27.0_wp, 32.0_wp], [2, 2]), n, error)
       call check_ok(error, 'two states')
-      call check_text(curves(1)%status, 'nearly_flat', 'the first of two states with one dispersion')
-      call check_text(curves(2)%status, 'nearly_flat', 'the second of them')
+      call check_text(trim(fit_status_names(curves(1)%status)), 'nearly_flat', 'the first of two states with one dispersion')
+      call check_text(trim(fit_status_names(curves(2)%status)), 'nearly_flat', 'the second of them')
 
       stripes%levels = x
       curve = fitted(x, [29.0_wp, 31.0_wp], n, 'of a wall')
       call warn_of_fit(wall, stripes, curve, warnings)
       call check(warnings%count == 1, 'one warning')
-      call warning_sentences(warnings, sentences)
+      call warnings%put_sentences(sentences)
       call check(index(sentences%line(1)%text, 'collapses hardly become more frequent with the level') == 1, 'its sentence')
    end subroutine test_nearly_flat
 
@@ -228,7 +227,7 @@ contains
       type(fragility_type) :: curve
 
       curve = fitted(levels, collapses, histories, status)
-      call check_text(trim(curve%status), status, 'status')
+      call check_text(trim(fit_status_names(curve%status)), status, 'status')
       call check(.not. curve%has_fit(), status//' has no curve')
       call check(curve%theta == 0.0_wp .and. curve%beta == 0.0_wp, status//' has no number')
       call check_close(curve%bracket(1), below, 0.0_wp, status//': bracket below')
@@ -363,14 +362,14 @@ contains
       end do
       call fit_ordinal(curves, x, z, n, error)
       call check_ok(error, 'fit')
-      call check_text(curves(1)%status, 'all_collapse', 'every history reaches the first')
-      call check_text(curves(6)%status, 'no_collapse', 'none reaches the last')
+      call check_text(trim(fit_status_names(curves(1)%status)), 'all_collapse', 'every history reaches the first')
+      call check_text(trim(fit_status_names(curves(6)%status)), 'no_collapse', 'none reaches the last')
       do k = 1, 4
          call check_close(curves(k + 1)%theta, theta(k), 1.0e-12_wp, 'theta of state '//achar(48 + k))
          call check_close(curves(k + 1)%beta, 0.45_wp, 1.0e-12_wp, 'beta of state '//achar(48 + k))
       end do
-      call check_text(curves(4)%status, 'ok', 'status')
-      call check_text(curves(5)%status, 'extrapolated', 'theta beyond the levels')
+      call check_text(trim(fit_status_names(curves(4)%status)), 'ok', 'status')
+      call check_text(trim(fit_status_names(curves(5)%status)), 'extrapolated', 'theta beyond the levels')
       call check(curves(3)%theta >= curves(4)%theta .and. curves(3)%theta <= curves(4)%theta, 'states that share a curve')
 
       ! Each cluster a tenth of all: nothing differs between clusters, so that there is no error at all.

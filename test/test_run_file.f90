@@ -9,7 +9,6 @@ program test_run_file
    use dondolo_base_lines, only : lines_type
    use dondolo_case_echo, only : echo_type
    use dondolo_case_warning, only : warning_type, warnings_type
-   use dondolo_case_warning_sentence, only : warning_objects, warning_sentences
    implicit none
 
    character(len=*), parameter :: lf = new_line('a'), scratch = 'build/test_run_file'
@@ -135,7 +134,7 @@ contains
          & '"atol": 1e-10, "estimate_error": false}, "stripes": {"levels": [0.5, 1]}}}', 'JSON')
    end subroutine test_settings
 
-   !> One set of facts gives the sentence and the object; more warnings than there is room at first
+   !> The sentence and the object of a warning; more warnings than there is room at first
    subroutine test_warnings()
       type(warning_type) :: warning
       type(warnings_type) :: warnings
@@ -143,7 +142,7 @@ contains
       integer :: i
 
       call suite('warnings')
-      warning%code = 'scale_factors_large'
+      warning = warning_type('scale_factors_large')
       call warning%about('record', 'r "1"')
       call warning%with('limit', 10.0_wp)
       call warning%with('histories_beyond', 3)
@@ -151,17 +150,15 @@ contains
       call warning%with('largest', 12.34567_wp)
       call warning%with('level', 0.5_wp)
       do i = 1, 20
-         call warnings%add(warning)
+         call warnings%add(warning, 'scale factors above 10 (record ''r "1"'' at level 0.5)')
       end do
-      call warning_sentences(warnings, sentences)
-      call warning_objects(warnings, objects)
+      call warnings%put_sentences(sentences)
+      call warnings%put_objects(objects)
       call check(sentences%count == 20 .and. objects%count == 20, 'all')
-      call check_text(sentences%line(20)%text, 'scale factors above 10 in 3 of 3000000000 histories, the largest 12.35 '// &
-         & '(record ''r "1"'' at level 0.5)', 'sentence')
+      call check_text(sentences%line(20)%text, 'scale factors above 10 (record ''r "1"'' at level 0.5)', 'sentence')
       call check_text(objects%line(20)%text, '{"code": "scale_factors_large", "subject": {"record": "r \"1\""}, '// &
          & '"numbers": {"limit": 10, "histories_beyond": 3, "histories": 3000000000, "largest": 12.34567, "level": 0.5}, '// &
-         & '"sentence": "scale factors above 10 in 3 of 3000000000 histories, the largest 12.35 '// &
-         & '(record ''r \"1\"'' at level 0.5)"}', 'object')
+         & '"sentence": "scale factors above 10 (record ''r \"1\"'' at level 0.5)"}', 'object')
    end subroutine test_warnings
 
 end program test_run_file

@@ -10,6 +10,7 @@ program test_run_population
    use dondolo_base_system, only : remove_file
    use dondolo_base_text, only : to_text
    use dondolo_case, only : case_type
+   use dondolo_case_motion_warnings, only : scale_warnings_type
    use dondolo_case_population_case, only : find_start, merge_population, store_path
    use dondolo_case_read_case, only : read_case
    use dondolo_case_reports, only : write_reports
@@ -17,8 +18,6 @@ program test_run_population
    use dondolo_case_result_tables, only : table_suffixes
    use dondolo_case_results, only : results_type
    use dondolo_case_run_case, only : plan_case, run_case
-   use dondolo_case_warning_sentence, only : make_sentence
-   use dondolo_case_warnings, only : scale_warning_type
    use dondolo_fragility_study, only : study_type
    use dondolo_motion_work, only : work_type
    use dondolo_population_member, only : member_type
@@ -237,7 +236,7 @@ contains
       type(case_type) :: case
       type(results_type) :: alone, several
       type(error_type), allocatable :: error
-      character(len=:), allocatable :: found, expected
+      type(lines_type) :: found, expected
       integer :: threads, i
 
       call suite('threads')
@@ -250,6 +249,7 @@ contains
       call check(size(alone%typologies, 2) == 2, 'a typology for each threshold')
       call test_states(case, alone)
       call write_tables(case, alone, 'whole')
+      call alone%warnings%put_sentences(expected)
       do threads = 2, 9
          last_done = 0
          is_monotonic = .true.
@@ -259,10 +259,10 @@ contains
          call check(is_monotonic, 'the work never goes back')
          call check(all(several%work%counts() == alone%work%counts()), 'counts of work')
          call check(several%warnings%count == alone%warnings%count .and. alone%warnings%count > 0, 'warnings')
-         do i = 1, alone%warnings%count
-            call make_sentence(several%warnings%item(i), found)
-            call make_sentence(alone%warnings%item(i), expected)
-            call check_text(found, expected, 'warning '//to_text(i))
+         found = lines_type()
+         call several%warnings%put_sentences(found)
+         do i = 1, expected%count
+            call check_text(found%line(i)%text, expected%line(i)%text, 'warning '//to_text(i))
          end do
          call write_tables(case, several, 'threads')
          call compare_tables('threads', to_text(threads)//' threads')
@@ -545,7 +545,7 @@ contains
       type(row_result_type), allocatable :: rows(:)
       type(member_type), allocatable :: members(:)
       type(work_type) :: work, planned
-      type(scale_warning_type) :: scales
+      type(scale_warnings_type) :: scales
       type(error_type), allocatable :: error
       character(len=:), allocatable :: whole, path
       logical :: exists

@@ -4,7 +4,7 @@ program test_typology
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : to_text
-   use dondolo_fragility, only : fit_fragility, fragility_type
+   use dondolo_fragility, only : fit_fragility, fit_separated, fit_no_collapse, fit_status_names, fragility_type
    use dondolo_fragility_stripes, only : stripes_type
    use dondolo_fragility_study, only : check_thresholds
    use dondolo_population, only : part_type, population_type
@@ -149,7 +149,7 @@ contains
 
       call suite('all that can')
       wall = wall_of([5], ['one_sided'], 1.0_wp)
-      call check(wall%curve(1)%status == 'separated', 'one mechanism')
+      call check(wall%curve(1)%status == fit_separated, 'one mechanism')
       do i = 1, 200
          p_occ = 0.005_wp*real(i, wp)
          wall = wall_of([5], ['one_sided'], 1.0_wp + p_occ, [p_occ])
@@ -157,7 +157,8 @@ contains
          call check_ok(error, 'population')
          if (allocated(error)) return
          do k = 1, size(curves)
-            call check(curves(k)%fit%status == 'separated', 'p_occ = '//to_text(p_occ)//': '//curves(k)%fit%status)
+            call check(curves(k)%fit%status == fit_separated, 'p_occ = '//to_text(p_occ)//': '// &
+               & fit_status_names(curves(k)%fit%status))
          end do
       end do
    end subroutine test_all_that_can
@@ -318,7 +319,7 @@ contains
       call check_close(curves(2)%mean_fraction(3), 10.0_wp/44.0_wp, 1.0e-15_wp, 'all in all')
       curves = combined([wall_of([1], ['one_sided'], 1.0_wp, [0.0_wp])])
       call check_text(names_of(curves), ':all ', 'a mechanism that never occurs')
-      call check(curves(1)%fit%status == 'no_collapse' .and. .not. curves(1)%fitted > 0.0_wp, &
+      call check(curves(1)%fit%status == fit_no_collapse .and. .not. curves(1)%fitted > 0.0_wp, &
          & 'and never makes collapse')
 
       ! Three mechanisms

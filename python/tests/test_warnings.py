@@ -2,6 +2,7 @@
 
 import ast
 import json
+import re
 import warnings
 
 import numpy as np
@@ -50,6 +51,17 @@ def test_first_collapses(stripes):
     with pytest.warns(dd.DondoloWarning, match="no curve of first collapses") as caught:
         none.fit()
     assert (caught[0].message.code, caught[0].message.subject) == ("no_collapse", {"wall": "parapet"})
+
+
+def test_codes_of_the_library_are_documented(root):
+    """A constant has the name of its code, and the page has them all."""
+    page = (root / "docs/files.md").read_text()
+    files = (root / "src/dondolo/case/warnings").glob("*_warnings.f90")
+    heads = [re.search(r"(?s)   !> Codes.*?\n\n", path.read_text())[0] for path in files]
+    codes = dict(re.findall(r"(\w+) = '(.*?)'", "".join(heads)))
+    assert len(codes) >= 29
+    assert list(codes) == list(codes.values())
+    assert [code for code in codes if f"`{code}`" not in page] == []
 
 
 def test_codes_are_documented(root):

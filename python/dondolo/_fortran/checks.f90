@@ -4,9 +4,8 @@ module checks
    use dondolo_base_error, only : error_type, problems_type
    use dondolo_base_settings, only : group_settings_type, new_settings
    use dondolo_boundary, only : next_line
-   use dondolo_case_plausibility, only : wall_warning_type
+   use dondolo_case_wall_warnings, only : wall_warnings_type
    use dondolo_case_warning, only : warnings_type
-   use dondolo_case_warning_sentence, only : warning_objects
    use dondolo_check_code_spectrum, only : elastic_spectrum_type
    use dondolo_check_floor_spectrum, only : floor_spectrum_type, new_floor_spectrum
    use dondolo_check_input, only : check_input_type, check_properties, take_check
@@ -104,7 +103,7 @@ contains
       type(check_input_type) :: input
       type(kinematic_type) :: kinematic
       type(sheet_type) :: sheet
-      type(wall_warning_type) :: oddities
+      type(wall_warnings_type) :: wall_warnings
       type(warnings_type) :: warnings
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
@@ -115,9 +114,9 @@ contains
       if (.not. allocated(error)) then
          call check_by_ntc(sheet, kinematic, input)
          call pack_sheet(sheet, parcel)
-         call oddities%look(people(1))
-         call oddities%warn(warnings)
-         call warning_objects(warnings, parcel%lines)
+         call wall_warnings%look(people(1))
+         call wall_warnings%warn(warnings)
+         call warnings%put_objects(parcel%lines)
       end if
       call send(parcel, error, sent)
    end subroutine check_ntc

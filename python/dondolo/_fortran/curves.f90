@@ -5,10 +5,9 @@ module curves
    use dondolo_base_lines, only : lines_type
    use dondolo_base_student, only : quantile => student_quantile
    use dondolo_boundary, only : check_room, split_lines
+   use dondolo_case_result_warnings, only : fit_warnings_type, warn_of_fit, warn_of_the_union => warn_of_union
    use dondolo_case_warning, only : warnings_type
-   use dondolo_case_warning_sentence, only : warning_objects
-   use dondolo_case_warnings, only : fit_warning_type, warn_of_fit, warn_of_the_union => warn_of_union
-   use dondolo_fragility, only : error_names, fit_fragility, fragility_type, status_names
+   use dondolo_fragility, only : error_names, fit_fragility, fit_ok, fragility_type
    use dondolo_fragility_clustered, only : cluster_errors
    use dondolo_fragility_ordinal, only : ordinal_fit => fit_ordinal, ordinal_errors
    use dondolo_fragility_stripes, only : stripes_type
@@ -57,7 +56,7 @@ contains
             end if
             !$omp end critical (first_error)
          else
-            statuses(i) = status_code(curve)
+            statuses(i) = curve%status
          end if
          curves(:, i) = pack_curve(curve)
       end do
@@ -90,7 +89,7 @@ contains
       !$omp & shared(k, h, levels, collapses, histories, curves, statuses, covariances) &
       !$omp & shared(errors, clusters)
       do i = 1, k
-         curve = fragility_type(status=status_names(statuses(i)), theta=curves(1, i), beta=curves(2, i))
+         curve = fragility_type(status=statuses(i), theta=curves(1, i), beta=curves(2, i))
          call cluster_errors(curve, levels, collapses(:, :, i), histories(:, :, min(i, h)), changes)
          covariances(:, i) = [curve%covariance(1, 1), curve%covariance(1, 2), curve%covariance(2, 2)]
          errors(i) = findloc(error_names, curve%errors, dim=1)
@@ -114,7 +113,7 @@ contains
       call check_room(error, reals=40.0_c_double*m)
       call report(error, failure)
       if (allocated(error)) return
-      curve = fragility_type(status='ok', theta=theta, beta=beta)
+      curve = fragility_type(status=fit_ok, theta=theta, beta=beta)
       call cluster_errors(curve, levels, collapses, histories, changes)
       errors = findloc(error_names, curve%errors, dim=1)
    end subroutine cluster_changes
@@ -140,7 +139,7 @@ contains
       if (.not. allocated(error)) then
          do i = 1, k
             curves(:, i) = pack_curve(curve(i))
-            statuses(i) = status_code(curve(i))
+            statuses(i) = curve(i)%status
          end do
          call ordinal_errors(curve, levels, reached, histories, changes)
          errors = [(findloc(error_names, curve(i)%errors, dim=1), i=1, k)]
@@ -204,7 +203,7 @@ contains
       if (walls /= 0) call find_walls(walls, people, error)
       if (.not. allocated(error)) then
          if (walls /= 0) wall => people(1)
-         fragility%status = status_names(status)
+         fragility%status = status
          fragility%theta = curve(1)
          fragility%beta = curve(2)
          fragility%bracket = curve(7:8)
@@ -213,7 +212,7 @@ contains
          allocate (stripes%response(1, 1))
          stripes%response%edp = largest_edp
          call warn_of_fit(wall, stripes, fragility, warnings)
-         call warning_objects(warnings, parcel%lines)
+         call warnings%put_objects(parcel%lines)
       end if
       call send(parcel, error, sent)
    end subroutine warn_of_curve
@@ -229,10 +228,10 @@ contains
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
 
-      fragility%status = status_names(status)
+      fragility%status = status
       fragility%theta = theta
       call warn_of_the_union(name, fragility, warnings)
-      call warning_objects(warnings, parcel%lines)
+      call warnings%put_objects(parcel%lines)
       call send(parcel, error, sent)
    end subroutine warn_of_union
 
@@ -250,7 +249,7 @@ contains
       integer(c_int64_t), intent(out) :: sent(5)
       type(population_type) :: population
       type(typology_type), allocatable :: groups(:)
-      type(fit_warning_type) :: fits
+      type(fit_warnings_type) :: fits
       type(lines_type) :: words
       type(warnings_type) :: warnings
       type(parcel_type) :: parcel
@@ -266,8 +265,8 @@ contains
          do i = 1, r
             call fits%look(population%curve(1, i), words%line(i)%text)
          end do
-         parcel%integers = [size(groups), (status_code(population%curve(1, i)), i=1, r + w), &
-            & (status_code(groups(i)%fit), i=1, size(groups)), (groups(i)%walls, i=1, size(groups))]
+         parcel%integers = [size(groups), (population%curve(1, i)%status, i=1, r + w), &
+            & (groups(i)%fit%status, i=1, size(groups)), (groups(i)%walls, i=1, size(groups))]
          parcel%reals = [(pack_curve(population%curve(1, i)), i=1, r + w), (population%fraction(r + i, 1), i=1, w), &
             & (groups(i)%weight, groups(i)%beta_walls, groups(i)%beta_records, groups(i)%fitted, &
             & groups(i)%saturation, groups(i)%histories, groups(i)%mean_fraction, groups(i)%mean_curve, groups(i)%fractile, &
@@ -282,7 +281,7 @@ contains
          else
             call fits%warn(groups, warnings)
          end if
-         call warning_objects(warnings, parcel%lines)
+         call warnings%put_objects(parcel%lines)
       end if
       call send(parcel, error, sent)
    end subroutine fit_walls
@@ -383,7 +382,7 @@ contains
       integer :: i
 
       do i = 1, size(statuses)
-         population%curve(1, i)%status = status_names(statuses(i))
+         population%curve(1, i)%status = statuses(i)
          population%curve(1, i)%theta = curves(1, i)
          population%curve(1, i)%beta = curves(2, i)
       end do
@@ -399,15 +398,5 @@ contains
       numbers = [curve%theta, curve%beta, curve%covariance(1, 1), curve%covariance(1, 2), curve%covariance(2, 2), &
          & curve%log_likelihood, curve%bracket]
    end function pack_curve
-
-   !> Place of a status among the names
-   pure function status_code(curve) result(code)
-      !> The curve
-      type(fragility_type), intent(in) :: curve
-      !> From 1
-      integer(c_int) :: code
-
-      code = findloc(status_names, curve%status, dim=1)
-   end function status_code
 
 end module curves

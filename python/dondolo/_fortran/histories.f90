@@ -7,11 +7,10 @@ module histories
    use dondolo_base_threads, only : check_threads
    use dondolo_boundary, only : as_solver, check_room, unpack_response
    use dondolo_building_floors, only : floors_type
-   use dondolo_case_plausibility, only : wall_warning_type
+   use dondolo_case_motion_warnings, only : scale_warnings_type, warn_of_fall, warn_of_records
+   use dondolo_case_result_warnings, only : sentence => warn_of_error, sentences => warn_of_errors
+   use dondolo_case_wall_warnings, only : wall_warnings_type
    use dondolo_case_warning, only : warnings_type
-   use dondolo_case_warning_sentence, only : warning_objects
-   use dondolo_case_warnings, only : scale_warning_type, sentence => warn_of_error, sentences => warn_of_errors, warn_of_fall, &
-      & warn_of_records
    use dondolo_fragility_stripes, only : stripes_type
    use dondolo_interface_felt_motions, only : check_scale, find_motions
    use dondolo_interface_handles, only : find_suite, find_walls
@@ -205,7 +204,7 @@ contains
       integer(c_int64_t), intent(out) :: sent(5)
       type(wall_type), pointer :: people(:)
       type(suite_type), pointer :: records
-      type(wall_warning_type) :: oddities
+      type(wall_warnings_type) :: wall_warnings
       type(warnings_type) :: warnings
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
@@ -214,11 +213,11 @@ contains
       if (.not. allocated(error)) call find_suite(suite, records, error)
       if (.not. allocated(error)) call check_scale(records, number, scale, error)
       if (.not. allocated(error)) then
-         call oddities%look(people(1))
-         call oddities%warn(warnings)
+         call wall_warnings%look(people(1))
+         call wall_warnings%warn(warnings)
          call warn_of_records(records, people(1)%gravity, warnings, number)
          call warn_of_fall(records%records(number), scale, people(1)%gravity, warnings)
-         call warning_objects(warnings, parcel%lines)
+         call warnings%put_objects(parcel%lines)
       end if
       call send(parcel, error, sent)
    end subroutine warn_of_motion
@@ -229,14 +228,14 @@ contains
       character(len=*), intent(in) :: im
       real(c_double), intent(in) :: levels(n)
       integer(c_int64_t), intent(out) :: sent(5)
-      type(scale_warning_type) :: scales
+      type(scale_warnings_type) :: scales
       type(warnings_type) :: warnings
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
 
       call scales%look_at_levels(im, levels)
       call scales%warn(warnings)
-      call warning_objects(warnings, parcel%lines)
+      call warnings%put_objects(parcel%lines)
       call send(parcel, error, sent)
    end subroutine warn_of_levels
 
@@ -267,7 +266,7 @@ contains
          else
             call sentences(stripes, records, edp_limit, warnings)
          end if
-         call warning_objects(warnings, parcel%lines)
+         call warnings%put_objects(parcel%lines)
       end if
       call send(parcel, error, sent)
    end subroutine warn_of_errors

@@ -17,7 +17,7 @@ module library
    use dondolo_base_threads, only : threads_here => available_threads
    use dondolo_base_version, only : dondolo_version_text
    use dondolo_case_property_tables, only : property_table, table_names
-   use dondolo_fragility, only : error_names, least_ratio, status_names, statuses_with_curve
+   use dondolo_fragility, only : error_names, least_ratio, fit_status_names, statuses_with_curve
    use dondolo_fragility_clustered, only : fewest_clusters
    use dondolo_fragility_study, only : same_level
    use dondolo_interface_handles, only : release
@@ -53,8 +53,8 @@ contains
          & least_ratio]
       version = dondolo_version_text
       statuses = ''
-      do i = 1, size(status_names)
-         statuses = trim(statuses)//' '//status_names(i)
+      do i = 1, size(fit_status_names)
+         statuses = trim(statuses)//' '//fit_status_names(i)
       end do
       errors = ''
       do i = 1, size(error_names)

@@ -6,10 +6,9 @@ module stripes
    use dondolo_base_text, only : to_text
    use dondolo_base_threads, only : check_threads, team_of
    use dondolo_boundary, only : as_solver, check_room, unpack_response
-   use dondolo_case_plausibility, only : wall_warning_type
+   use dondolo_case_motion_warnings, only : scale_warnings_type, warn_of_events, warn_of_records
+   use dondolo_case_wall_warnings, only : wall_warnings_type
    use dondolo_case_warning, only : warnings_type
-   use dondolo_case_warning_sentence, only : warning_objects
-   use dondolo_case_warnings, only : scale_warning_type, warn_of_events, warn_of_records
    use dondolo_fragility_even_levels, only : settle_levels
    use dondolo_fragility_scaling, only : new_scaling, scaling_type, unscaled
    use dondolo_fragility_stripes, only : histories_of, plan_stripes, run_part, stripes_type
@@ -136,8 +135,8 @@ contains
       type(study_type), pointer :: chosen
       type(wall_type), pointer :: people(:)
       type(stripes_type) :: stripes
-      type(scale_warning_type) :: scales
-      type(wall_warning_type) :: oddities
+      type(scale_warnings_type) :: scales
+      type(wall_warnings_type) :: wall_warnings
       type(warnings_type) :: warnings
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
@@ -164,10 +163,10 @@ contains
          end if
          histories(i) = size(stripes%record)
          call scales%look(stripes, chosen, people(i))
-         call oddities%look(people(i))
+         call wall_warnings%look(people(i))
       end do
       if (.not. allocated(error)) then
-         call oddities%warn(warnings)
+         call wall_warnings%warn(warnings)
          of_walls = warnings%count
          call warn_of_records(chosen%suite, people(1)%gravity, warnings)
          ! Histories of one stripe whose level is the factor are points, not counts of clusters
@@ -179,7 +178,7 @@ contains
          do i = 1, size(stripes%scale, 2)
             parcel%reals((i - 1)*size(stripes%scale, 1) + 1:i*size(stripes%scale, 1)) = stripes%scale(:, i)
          end do
-         call warning_objects(warnings, parcel%lines)
+         call warnings%put_objects(parcel%lines)
       end if
       call send(parcel, error, sent)
    end subroutine plan
@@ -190,7 +189,7 @@ contains
       integer(c_int64_t), intent(out) :: sent(5)
       type(study_type), pointer :: chosen
       type(wall_type), pointer :: people(:)
-      type(wall_warning_type) :: oddities
+      type(wall_warnings_type) :: wall_warnings
       type(warnings_type) :: warnings
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
@@ -199,9 +198,9 @@ contains
       if (.not. allocated(error)) call find_walls(walls, people, error)
       if (.not. allocated(error)) call chosen%check(people(1), error)
       if (.not. allocated(error)) then
-         call oddities%look(people(1))
-         call oddities%warn(warnings)
-         call warning_objects(warnings, parcel%lines)
+         call wall_warnings%look(people(1))
+         call wall_warnings%warn(warnings)
+         call warnings%put_objects(parcel%lines)
       end if
       call send(parcel, error, sent)
    end subroutine check_wall

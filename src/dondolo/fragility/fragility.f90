@@ -13,13 +13,18 @@ module dondolo_fragility
    implicit none
    private
 
-   public :: fragility_type, fit_fragility, status_names, statuses_with_curve
+   public :: fragility_type, fit_fragility
+   public :: fit_ok, fit_extrapolated, fit_nearly_flat, fit_no_collapse, fit_all_collapse, fit_separated, fit_single_level, &
+      & fit_decreasing, fit_not_converged, fit_status_names, statuses_with_curve
    public :: error_names, is_flat, least_ratio, log_normal_cdf, mills, normal_cdf
 
-   !> Outcomes of a fit; the first three have a curve
-   character(len=13), parameter :: status_names(9) = [character(len=13) :: 'ok', 'extrapolated', 'nearly_flat', &
+   !> Statuses of a fit, and their names in files. The first three have a curve: `extrapolated` has its theta outside the levels,
+   !> `nearly_flat` a slope that is not significant
+   integer, parameter :: fit_ok = 1, fit_extrapolated = 2, fit_nearly_flat = 3, fit_no_collapse = 4, fit_all_collapse = 5, &
+      & fit_separated = 6, fit_single_level = 7, fit_decreasing = 8, fit_not_converged = 9
+   character(len=13), parameter :: fit_status_names(9) = [character(len=13) :: 'ok', 'extrapolated', 'nearly_flat', &
       & 'no_collapse', 'all_collapse', 'separated', 'single_level', 'decreasing', 'not_converged']
-   integer, parameter :: statuses_with_curve = 3
+   integer, parameter :: statuses_with_curve = fit_nearly_flat
 
    !> Likelihood ratio against no slope from which on a slope is significant: the 95 % quantile of chi-square with one
    !> degree of freedom
@@ -33,8 +38,8 @@ module dondolo_fragility
 
    !> A fitted fragility curve, or why there is none
    type :: fragility_type
-      !> One of status_names; 'extrapolated' is a theta outside the levels, 'nearly_flat' a slope that is not significant
-      character(len=len(status_names)) :: status = 'no_collapse'
+      !> Whether there is a curve, or why there is none
+      integer :: status = fit_no_collapse
       !> Median, in the unit of the levels
       real(wp) :: theta = 0.0_wp
       !> Dispersion: standard deviation of the logarithm
@@ -93,7 +98,7 @@ contains
       if (allocated(error)) return
       call set_bracket(fragility, levels, collapses, histories)
       fragility%status = status_without_fit(levels, collapses, histories)
-      if (fragility%status /= 'ok') return
+      if (fragility%status /= fit_ok) return
 
       ! ln x centred and scaled, so that the equations are well conditioned
       x = log(levels)
@@ -103,7 +108,7 @@ contains
       call maximise(x, collapses, histories, b, information, ok)
       if (ok) call invert_symmetric(information, covariance, ok)
       if (.not. ok) then
-         fragility%status = 'not_converged'
+         fragility%status = fit_not_converged
          return
       end if
 
@@ -112,13 +117,13 @@ contains
       if (.not. abs(logarithm) < 0.5_wp*log(huge(logarithm))) then
          ! Flat but for rounding: the median is no number any more
          fragility%beta = 0.0_wp
-         fragility%status = 'decreasing'
+         fragility%status = fit_decreasing
          return
       end if
       fragility%theta = exp(logarithm)
       height = log_likelihood(b, x, collapses, histories)
-      if (is_flat(height - log_likelihood_of_share(collapses, histories))) fragility%status = 'nearly_flat'
-      if (fragility%theta < minval(levels) .or. fragility%theta > maxval(levels)) fragility%status = 'extrapolated'
+      if (is_flat(height - log_likelihood_of_share(collapses, histories))) fragility%status = fit_nearly_flat
+      if (fragility%theta < minval(levels) .or. fragility%theta > maxval(levels)) fragility%status = fit_extrapolated
       fragility%log_likelihood = height &
          & + sum(log_gamma(histories + 1.0_wp) - log_gamma(collapses + 1.0_wp) &
          & - log_gamma(histories - collapses + 1.0_wp))
@@ -270,16 +275,14 @@ contains
       end if
    end function mills
 
-   !> 'ok' if the likelihood has a finite maximum with b1 > 0, else why not
-   pure function status_without_fit(levels, z, n) result(status)
+   !> `fit_ok` if the likelihood has a finite maximum with b1 > 0, else why not
+   pure integer function status_without_fit(levels, z, n) result(status)
       !> Levels of intensity
       real(wp), intent(in) :: levels(:)
       !> Collapses
       real(wp), intent(in) :: z(:)
       !> Histories
       real(wp), intent(in) :: n(:)
-      !> The status
-      character(len=len(status_names)) :: status
 
       real(wp) :: score, x(size(levels))
       logical :: counted(size(levels))
@@ -288,17 +291,17 @@ contains
       x = log(levels)
       ! Derivative of the likelihood with respect to the slope where the slope is zero: it has the sign of b1.
       score = sum((x - sum(n*x)/sum(n))*(z - n*sum(z)/sum(n)))
-      status = 'ok'
+      status = fit_ok
       if (.not. any(z > 0.0_wp)) then
-         status = 'no_collapse'
+         status = fit_no_collapse
       else if (.not. any(z < n)) then
-         status = 'all_collapse'
+         status = fit_all_collapse
       else if (minval(levels, counted) == maxval(levels, counted)) then
-         status = 'single_level'
+         status = fit_single_level
       else if (score <= 16.0_wp*epsilon(score)*sum(n)) then
-         status = 'decreasing'
+         status = fit_decreasing
       else if (minval(levels, z > 0.0_wp) >= maxval(levels, z < n)) then
-         status = 'separated'
+         status = fit_separated
       end if
    end function status_without_fit
 
@@ -366,7 +369,7 @@ contains
       !> True if theta, beta and what follows from them have values
       logical :: has_fit
 
-      has_fit = any(self%status == status_names(:statuses_with_curve))
+      has_fit = self%status <= statuses_with_curve
    end function has_fit
 
    !> Whether the curve has standard errors

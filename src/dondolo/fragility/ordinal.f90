@@ -11,7 +11,8 @@ module dondolo_fragility_ordinal
    use dondolo_base_kinds, only : wp
    use dondolo_base_lapack, only : invert_symmetric, solve_symmetric
    use dondolo_base_text, only : to_text
-   use dondolo_fragility, only : fit_fragility, fragility_type, is_flat, log_normal_cdf, mills
+   use dondolo_fragility, only : fit_all_collapse, fit_decreasing, fit_extrapolated, fit_fragility, fit_nearly_flat, &
+      & fit_no_collapse, fit_not_converged, fit_ok, fit_separated, fit_single_level, fragility_type, is_flat, log_normal_cdf, mills
    use dondolo_fragility_clustered, only : cluster_errors, fewest_clusters
    implicit none
    private
@@ -44,10 +45,10 @@ contains
          call fit_fragility(curves(k), levels, reached(:, k), histories, error)
          if (allocated(error)) return
       end do
-      call choose_states(reached, curves%status /= 'no_collapse' .and. curves%status /= 'all_collapse', of)
+      call choose_states(reached, curves%status /= fit_no_collapse .and. curves%status /= fit_all_collapse, of)
       last = maxval(of)
       if (last < 2) return
-      if (all(curves%status == 'separated' .or. curves%status == 'single_level' .or. of == 0)) return
+      if (all(curves%status == fit_separated .or. curves%status == fit_single_level .or. of == 0)) return
 
       call between(reached, histories, of, counts)
       x = log(levels)
@@ -60,20 +61,20 @@ contains
       if (.not. b(last + 1) > 0.0_wp) ok = .false.
       do k = 1, size(curves)
          if (of(k) == 0) cycle
-         curves(k) = fragility_type(bracket=curves(k)%bracket, status=trim(merge('decreasing   ', 'not_converged', &
-            & .not. b(last + 1) > 0.0_wp)))
+         curves(k) = fragility_type(bracket=curves(k)%bracket, status=merge(fit_decreasing, fit_not_converged, &
+            & .not. b(last + 1) > 0.0_wp))
          if (.not. ok) cycle
          associate (curve => curves(k), cut => b(of(k)), slope => b(last + 1))
             curve%beta = spread/slope
             if (.not. abs(centre + curve%beta*cut) < 0.5_wp*log(huge(cut))) then
                curve%beta = 0.0_wp
-               curve%status = 'decreasing'
+               curve%status = fit_decreasing
                cycle
             end if
             curve%theta = exp(centre + curve%beta*cut)
-            curve%status = 'ok'
-            if (is_flat(height - flat)) curve%status = 'nearly_flat'
-            if (curve%theta < minval(levels) .or. curve%theta > maxval(levels)) curve%status = 'extrapolated'
+            curve%status = fit_ok
+            if (is_flat(height - flat)) curve%status = fit_nearly_flat
+            if (curve%theta < minval(levels) .or. curve%theta > maxval(levels)) curve%status = fit_extrapolated
             curve%log_likelihood = height + sum(log_gamma(histories + 1.0_wp)) - sum(log_gamma(counts + 1.0_wp))
             jacobian = 0.0_wp
             jacobian(1, of(k)) = curve%beta

@@ -6,10 +6,10 @@ module dondolo_interface_c_history
    use dondolo_base_lines, only : lines_type
    use dondolo_base_text, only : to_text
    use dondolo_building_floors, only : floors_type
-   use dondolo_case_plausibility, only : wall_warning_type
+   use dondolo_case_motion_warnings, only : warn_of_fall, warn_of_records
+   use dondolo_case_result_warnings, only : warn_of_error
+   use dondolo_case_wall_warnings, only : wall_warnings_type
    use dondolo_case_warning, only : warnings_type
-   use dondolo_case_warning_sentence, only : warning_sentences
-   use dondolo_case_warnings, only : warn_of_error, warn_of_fall, warn_of_records
    use dondolo_interface_c_error, only : failure_type, is_ready
    use dondolo_interface_c_settings, only : solver_of
    use dondolo_interface_c_text, only : as_handle, as_pointer, check_finite
@@ -94,15 +94,15 @@ contains
          !> Number of the record, from 1
          integer, intent(in) :: record
 
-         type(wall_warning_type) :: oddities
+         type(wall_warnings_type) :: wall_warnings
          type(warnings_type) :: warnings
 
-         call oddities%look(wall)
-         call oddities%warn(warnings)
+         call wall_warnings%look(wall)
+         call wall_warnings%warn(warnings)
          call warn_of_records(suite, wall%gravity, warnings, record)
          call warn_of_fall(suite%records(record), real(scale, wp), wall%gravity, warnings)
          call warn_of_error(held%response, how%edp_limit, warnings)
-         call warning_sentences(warnings, held%warnings)
+         call warnings%put_sentences(held%warnings)
       end subroutine warn
 
    end function c_run_history

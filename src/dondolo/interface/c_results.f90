@@ -9,6 +9,7 @@ module dondolo_interface_c_results
    use dondolo_base_spelling, only : say_allowed
    use dondolo_base_text, only : to_text
    use dondolo_base_version, only : dondolo_version_text
+   use dondolo_fragility, only : fit_status_names
    use dondolo_interface_c_error, only : failure_type, is_ready, status_without_handle
    use dondolo_interface_c_history, only : c_history_type
    use dondolo_interface_c_settings, only : c_settings_type
@@ -411,7 +412,7 @@ contains
          if (.not. is_one_of([character(len=longest) :: 'status', 'errors', 'warnings'], 'curve')) return
          select case (what)
          case ('status')
-            call lines%add(trim(content%fragility%status))
+            call lines%add(trim(fit_status_names(content%fragility%status)))
          case ('errors')
             call lines%add(trim(content%fragility%errors))
          case default

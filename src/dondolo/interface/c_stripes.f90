@@ -10,10 +10,10 @@ module dondolo_interface_c_stripes
    use dondolo_base_settings_check, only : check_settings
    use dondolo_base_text, only : to_text
    use dondolo_base_threads, only : check_threads
-   use dondolo_case_plausibility, only : wall_warning_type
+   use dondolo_case_motion_warnings, only : scale_warnings_type, warn_of_events, warn_of_records
+   use dondolo_case_result_warnings, only : warn_of_errors, warn_of_fit
+   use dondolo_case_wall_warnings, only : wall_warnings_type
    use dondolo_case_warning, only : warnings_type
-   use dondolo_case_warning_sentence, only : warning_sentences
-   use dondolo_case_warnings, only : scale_warning_type, warn_of_errors, warn_of_events, warn_of_fit, warn_of_records
    use dondolo_fragility, only : fit_fragility, fragility_type
    use dondolo_fragility_even_levels, only : settle_levels
    use dondolo_fragility_scaling, only : new_scaling, scaling_type
@@ -142,18 +142,18 @@ contains
       type(c_stripes_type), intent(inout) :: held
       type(study_type), intent(in) :: study
 
-      type(wall_warning_type) :: oddities
-      type(scale_warning_type) :: scales
+      type(wall_warnings_type) :: wall_warnings
+      type(scale_warnings_type) :: scales
       type(warnings_type) :: warnings
 
-      call oddities%look(held%wall)
-      call oddities%warn(warnings)
+      call wall_warnings%look(held%wall)
+      call wall_warnings%warn(warnings)
       call warn_of_records(study%suite, held%wall%gravity, warnings)
       call warn_of_events(study%suite, warnings)
       call scales%look(held%stripes, study, held%wall)
       call scales%warn(warnings)
       call warn_of_errors(held%stripes, study%suite%records, held%edp_limit, warnings)
-      call warning_sentences(warnings, held%warnings)
+      call warnings%put_sentences(held%warnings)
    end subroutine warn
 
    !> Fit a fragility curve to stripes
@@ -237,7 +237,7 @@ contains
 
       allocate (held)
       held%fragility = fragility
-      call warning_sentences(warnings, held%warnings)
+      call warnings%put_sentences(held%warnings)
       content => held
       call hold(content, handle)
       made = as_pointer(handle)

@@ -7,8 +7,8 @@ module dondolo_case_survey
    use dondolo_base_limits, only : most_groups
    use dondolo_base_lines, only : lines_type
    use dondolo_base_text, only : to_text
-   use dondolo_case_plausibility, only : wall_warning_type
-   use dondolo_case_warnings, only : scale_warning_type
+   use dondolo_case_motion_warnings, only : scale_warnings_type
+   use dondolo_case_wall_warnings, only : wall_warnings_type
    use dondolo_fragility_stripes, only : plan_stripes, stripes_type
    use dondolo_fragility_study, only : study_type
    use dondolo_motion_ensemble, only : check_engine
@@ -42,9 +42,9 @@ module dondolo_case_survey
       !> Its rows, without histories
       type(population_type) :: population
       !> What there is to say of scale factors
-      type(scale_warning_type) :: scales
+      type(scale_warnings_type) :: scales
       !> What there is to say of values that no masonry has
-      type(wall_warning_type) :: oddities
+      type(wall_warnings_type) :: wall_warnings
       !> Fingerprint of the walls
       type(fingerprint_type) :: walls_fingerprint
       !> How many values each property of a wall has at most
@@ -109,7 +109,7 @@ contains
                return
             end if
             call survey%scales%look(plan, study, member%wall)
-            call survey%oddities%look(member%wall)
+            call survey%wall_warnings%look(member%wall)
             if (reader%row >= rows(1) .and. reader%row <= rows(2)) then
                survey%histories = survey%histories + count(plan%ran)
             end if

@@ -3,6 +3,7 @@ module dondolo_case_design_rows
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : rounded
    use dondolo_case_table, only : table_type
+   use dondolo_fragility, only : fit_status_names
    use dondolo_population_designs, only : design_type
    implicit none
    private
@@ -30,7 +31,7 @@ contains
       call table%put('theta', design%curve%theta, has_fit)
       call table%put('beta', design%curve%beta, has_fit)
       call table%put('se_ln_theta', design%curve%se_ln_theta(), has_fit .and. design%curve%has_errors())
-      call table%put('status', trim(design%curve%status))
+      call table%put('status', trim(fit_status_names(design%curve%status)))
       call table%put('ratio', design%ratio, design%is_compared)
       call table%put('ratio_low', design%low, design%is_compared)
       call table%put('ratio_high', design%high, design%is_compared)

@@ -3,7 +3,7 @@ module dondolo_case_report_rows
    use dondolo_base_kinds, only : wp
    use dondolo_base_property, only : column_name, is_many, is_text, is_words, property_type, word_of
    use dondolo_case_table, only : table_type
-   use dondolo_fragility, only : fragility_type
+   use dondolo_fragility, only : fit_status_names, fragility_type
    use dondolo_fragility_clustered, only : parameter_intervals
    use dondolo_motion_certificate, only : certified_type, status_names
    use dondolo_motion_response, only : response_type
@@ -148,7 +148,7 @@ contains
       call table%put('se_ln_theta', curve%se_ln_theta(), has_errors)
       call table%put('se_beta', curve%se_beta(), has_errors)
       call table%put('log_likelihood', curve%log_likelihood, has_fit)
-      call table%put('status', trim(curve%status))
+      call table%put('status', trim(fit_status_names(curve%status)))
       call put_bound(table, 'bracket_low', curve%bracket(1))
       call put_bound(table, 'bracket_high', curve%bracket(2))
       call table%put('edp_threshold', threshold)
@@ -229,7 +229,7 @@ contains
          call table%put('mean_curve', typology%mean_curve(level))
          call table%put('theta', fit%theta, fit%has_fit())
          call table%put('beta', fit%beta, fit%has_fit())
-         call table%put('status', trim(fit%status))
+         call table%put('status', trim(fit_status_names(fit%status)))
          call table%put('group', typology%group)
          call table%put('fractile_16', typology%fractile(1, level))
          call table%put('fractile_50', typology%fractile(2, level))
@@ -272,7 +272,7 @@ contains
          call table%put('edp_threshold', threshold)
          call table%put('theta', curve%theta, curve%has_fit())
          call table%put('beta', curve%beta, curve%has_fit())
-         call table%put('status', trim(curve%status))
+         call table%put('status', trim(fit_status_names(curve%status)))
          call put_errors(table, '', curve, is_wall)
          call table%put('independent_theta', other%theta, other%has_fit())
          call table%put('independent_beta', other%beta, other%has_fit())

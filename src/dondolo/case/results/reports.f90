@@ -12,7 +12,6 @@ module dondolo_case_reports
    use dondolo_case_result_tables, only : list_tables, table_kind_type
    use dondolo_case_results, only : results_type
    use dondolo_case_run_file, only : make_run, shape_names, shape_of
-   use dondolo_case_warning_sentence, only : warning_sentences
    use dondolo_motion_work, only : work_names
    implicit none
    private
@@ -132,7 +131,7 @@ contains
       do i = 1, case%notes%count
          call files%line('# note: '//case%notes%line(i)%text)
       end do
-      call warning_sentences(results%warnings, warnings)
+      call results%warnings%put_sentences(warnings)
       do i = 1, warnings%count
          call files%line('# warning: '//warnings%line(i)%text)
       end do

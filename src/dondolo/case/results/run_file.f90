@@ -13,7 +13,6 @@ module dondolo_case_run_file
    use dondolo_case_result_files, only : written_type
    use dondolo_case_results, only : results_type
    use dondolo_case_tie_rows, only : put_tie
-   use dondolo_case_warning_sentence, only : put_warnings
    use dondolo_fragility_clustered, only : confidence, correction, fewest_clusters
    use dondolo_motion_certificate, only : status_names
    use dondolo_motion_work, only : work_names
@@ -71,7 +70,7 @@ contains
          call put_counts(case, results, json)
       end if
       call put_notes(case, json)
-      call put_warnings(results%warnings, json)
+      call results%warnings%put_array(json)
       call json%close_object()
       call json%get(text)
    end subroutine make_run

@@ -5,7 +5,7 @@ module dondolo_case_source_rows
    use dondolo_case, only : case_type
    use dondolo_case_results, only : results_type
    use dondolo_case_table, only : table_type
-   use dondolo_fragility, only : fragility_type
+   use dondolo_fragility, only : fit_status_names, fragility_type
    use dondolo_population_typology, only : whole_population
    implicit none
    private
@@ -83,7 +83,7 @@ contains
             curve = collapse_of(results, wall%row_of_end(source, i))
             line = line//trim(merge(' from', ' to  ', i == 1))//' '
             if (curve%has_fit()) line = line//rounded(curve%theta)
-            if (.not. curve%has_fit()) line = line//'('//trim(curve%status)//')'
+            if (.not. curve%has_fit()) line = line//'('//trim(fit_status_names(curve%status))//')'
          end do
       end associate
       line = line//case%stripes%scaling%unit_after_blank()

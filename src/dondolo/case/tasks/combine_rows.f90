@@ -4,8 +4,9 @@ module dondolo_case_combine_rows
    use dondolo_base_kinds, only : wp
    use dondolo_base_memory, only : check_room
    use dondolo_case, only : case_type
+   use dondolo_case_motion_warnings, only : warn_of_events, warn_of_records
+   use dondolo_case_result_warnings, only : fit_warnings_type, warn_of_union
    use dondolo_case_results, only : results_type, shown_rows
-   use dondolo_case_warnings, only : fit_warning_type, warn_of_events, warn_of_records, warn_of_union
    use dondolo_fragility_clustered, only : cluster_errors
    use dondolo_fragility_study, only : runs_of, study_type
    use dondolo_population_designs, only : compare_designs
@@ -34,7 +35,7 @@ contains
 
       type(study_type) :: study
       type(typology_type), allocatable :: typologies(:)
-      type(fit_warning_type) :: fits
+      type(fit_warnings_type) :: fits
       integer :: k, states
 
       states = size(case%stripes%thresholds)
@@ -57,7 +58,7 @@ contains
       if (allocated(error)) return
       if (case%designs) call compare_designs(results%designs)
       if (allocated(case%uncertainty)) call find_sensitivity(case, results)
-      call case%survey%oddities%warn(results%warnings)
+      call case%survey%wall_warnings%warn(results%warnings)
       call warn_of_records(case%suite, case%solver%gravity, results%warnings)
       call warn_of_events(case%suite, results%warnings)
       call case%survey%scales%warn(results%warnings)
@@ -123,7 +124,7 @@ contains
       type(results_type), intent(inout) :: results
       type(study_type), intent(in) :: study
       !> What there is to say of the curves
-      type(fit_warning_type), intent(inout) :: fits
+      type(fit_warnings_type), intent(inout) :: fits
       !> A store has changed, counts that cannot be fitted, or lack of memory
       type(error_type), allocatable, intent(out) :: error
 

@@ -8,12 +8,12 @@ module dondolo_case_run_case
    use dondolo_case, only : case_type
    use dondolo_case_check_case, only : check_stripes
    use dondolo_case_check_rows, only : check_wall
-   use dondolo_case_plausibility, only : wall_warning_type
+   use dondolo_case_motion_warnings, only : scale_warnings_type, warn_of_events, warn_of_fall, warn_of_records
    use dondolo_case_population_case, only : run_population_case
+   use dondolo_case_result_warnings, only : warn_of_error, warn_of_errors, warn_of_fit
    use dondolo_case_results, only : results_type
    use dondolo_case_survey, only : check_size
-   use dondolo_case_warnings, only : scale_warning_type, warn_of_error, warn_of_errors, warn_of_events, &
-      & warn_of_fall, warn_of_fit, warn_of_records
+   use dondolo_case_wall_warnings, only : wall_warnings_type
    use dondolo_fragility_certified, only : bound_states, certify_stripes
    use dondolo_fragility_stripes, only : find_lifts, multiple_stripe, plan_stripes, planned_work, stripes_type
    use dondolo_fragility_study, only : study_type
@@ -45,7 +45,7 @@ contains
       !> Does the store of a population stay in memory, and not in a file from which a killed run goes on?
       logical, intent(in), optional :: in_memory
 
-      type(wall_warning_type) :: oddities
+      type(wall_warnings_type) :: wall_warnings
       type(record_type) :: floor
       integer :: team
       logical :: stays
@@ -55,8 +55,8 @@ contains
       stays = .false.
       if (present(in_memory)) stays = in_memory
       if (case%job%task /= 'typology') then
-         call oddities%look(case%wall)
-         call oddities%warn(results%warnings)
+         call wall_warnings%look(case%wall)
+         call wall_warnings%warn(results%warnings)
       end if
       select case (case%job%task)
       case ('history')
@@ -91,7 +91,7 @@ contains
       !> Work of all walls, see planned_work; a second run to estimate errors is not counted
       type(work_type), intent(out) :: work
       !> What there is to say of scale factors
-      type(scale_warning_type), intent(out) :: scales
+      type(scale_warnings_type), intent(out) :: scales
       !> What cannot be run
       type(error_type), allocatable, intent(out) :: error
 
@@ -144,7 +144,7 @@ contains
 
       type(study_type) :: study
       type(stripes_type) :: stripes
-      type(scale_warning_type) :: scales
+      type(scale_warnings_type) :: scales
       logical, allocatable :: lifts(:, :)
 
       call case%make_study(study, team)

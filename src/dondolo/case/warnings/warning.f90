@@ -1,13 +1,14 @@
-!> Warnings as facts: a code, what it is about, and numbers. Sentences are made of them at the end, in
-!> dondolo_case_warning_sentence.
+!> Warnings: results that are correct but may mislead. A warning is a code and numbers for programs, and a sentence for people.
+!> The procedure that raises it has all three.
 module dondolo_case_warning
    use, intrinsic :: iso_fortran_env, only : int64
+   use dondolo_base_json, only : json_type
    use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : lines_type
    implicit none
    private
 
    public :: warning_type, warnings_type
-   public :: word_type, number_type
 
    !> A name that a warning is about
    type :: word_type
@@ -22,36 +23,39 @@ module dondolo_case_warning
       real(wp) :: value = 0.0_wp
    end type number_type
 
-   !> A warning
+   !> A warning, made by `warning_type(code)`
    type :: warning_type
-      !> What it is, such as `scale_factors_large`
-      character(len=32) :: code = ''
+      character(len=32) :: code
       !> What it is about
-      integer :: words = 0
-      type(word_type) :: word(4) = word_type()
+      integer, private :: words = 0
+      type(word_type), private :: word(4) = word_type()
       !> Its numbers
-      integer :: numbers = 0
-      type(number_type) :: number(6) = number_type()
+      integer, private :: numbers = 0
+      type(number_type), private :: number(6) = number_type()
+      !> Sentence without a full stop
+      character(len=:), allocatable, private :: sentence
    contains
-      !> Say what it is about
+      !> Name what it is about
       procedure :: about
       !> Add a number
       generic :: with => with_real, with_integer, with_count
       procedure, private :: with_real, with_integer, with_count
-      !> Value of a number
-      procedure :: value
-      !> Get a name, empty if there is none of this kind
-      procedure :: get_word
    end type warning_type
 
    !> Warnings in the order in which they were added
    type :: warnings_type
       integer :: count = 0
       !> The warnings; those beyond `count` are room
-      type(warning_type), allocatable :: item(:)
+      type(warning_type), allocatable, private :: item(:)
    contains
-      !> Add a warning
+      !> Add a warning with its sentence
       procedure :: add
+      !> Put the sentences into lines
+      procedure :: put_sentences
+      !> Put JSON objects into lines, one each
+      procedure :: put_objects
+      !> Put an array `warnings` into a JSON object
+      procedure :: put_array
    end type warnings_type
 
 contains
@@ -91,35 +95,11 @@ contains
       call self%with(name, real(value, wp))
    end subroutine with_count
 
-   !> Value of a number; 0 if there is none of this name
-   pure real(wp) function value(self, name)
-      class(warning_type), intent(in) :: self
-      character(len=*), intent(in) :: name
-
-      integer :: i
-
-      value = 0.0_wp
-      do i = 1, self%numbers
-         if (self%number(i)%name == name) value = self%number(i)%value
-      end do
-   end function value
-
-   subroutine get_word(self, name, text)
-      class(warning_type), intent(in) :: self
-      character(len=*), intent(in) :: name
-      character(len=:), allocatable, intent(out) :: text
-
-      integer :: i
-
-      text = ''
-      do i = 1, self%words
-         if (self%word(i)%name == name) text = self%word(i)%text
-      end do
-   end subroutine get_word
-
-   subroutine add(self, warning)
+   subroutine add(self, warning, sentence)
       class(warnings_type), intent(inout) :: self
       type(warning_type), intent(in) :: warning
+      !> Sentence without a full stop
+      character(len=*), intent(in) :: sentence
 
       type(warning_type), allocatable :: more(:)
 
@@ -131,6 +111,73 @@ contains
       end if
       self%count = self%count + 1
       self%item(self%count) = warning
+      self%item(self%count)%sentence = sentence
    end subroutine add
+
+   subroutine put_sentences(self, lines)
+      class(warnings_type), intent(in) :: self
+      !> Lines to add to
+      type(lines_type), intent(inout) :: lines
+
+      integer :: i
+
+      do i = 1, self%count
+         call lines%add(self%item(i)%sentence)
+      end do
+   end subroutine put_sentences
+
+   subroutine put_objects(self, lines)
+      class(warnings_type), intent(in) :: self
+      !> Lines to add to
+      type(lines_type), intent(inout) :: lines
+
+      type(json_type) :: json
+      character(len=:), allocatable :: text
+      integer :: i
+
+      do i = 1, self%count
+         json = json_type(is_compact=.true.)
+         call put_warning(self%item(i), json)
+         call json%get(text)
+         call lines%add(text)
+      end do
+   end subroutine put_objects
+
+   subroutine put_array(self, json)
+      class(warnings_type), intent(in) :: self
+      !> JSON, in an object
+      type(json_type), intent(inout) :: json
+
+      integer :: i
+
+      call json%open_array('warnings')
+      do i = 1, self%count
+         call put_warning(self%item(i), json)
+      end do
+      call json%close_array()
+   end subroutine put_array
+
+   !> Put one warning as an object
+   subroutine put_warning(warning, json)
+      type(warning_type), intent(in) :: warning
+      type(json_type), intent(inout) :: json
+
+      integer :: i
+
+      call json%open_object()
+      call json%put('code', trim(warning%code))
+      call json%open_object('subject')
+      do i = 1, warning%words
+         call json%put(trim(warning%word(i)%name), warning%word(i)%text)
+      end do
+      call json%close_object()
+      call json%open_object('numbers')
+      do i = 1, warning%numbers
+         call json%put(trim(warning%number(i)%name), warning%number(i)%value)
+      end do
+      call json%close_object()
+      call json%put('sentence', warning%sentence)
+      call json%close_object()
+   end subroutine put_warning
 
 end module dondolo_case_warning
