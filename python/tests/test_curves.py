@@ -104,6 +104,18 @@ def test_drawing(curves, kind):
     assert "peak ground" in axes.get_xlabel()
 
 
+@pytest.mark.parametrize("kind", KINDS)
+def test_drawing_with_a_name(curves, kind):
+    """Beside others: the curve itself, by its name, in the look that is asked for."""
+    axes = curves["discrete"].plot(label="first")
+    assert curves[kind].plot(axes, label="mine", color="black", linestyle=":") is axes
+    (line,) = (one for one in axes.lines if one.get_label() == "mine")
+    assert (line.get_color(), line.get_linestyle()) == ("black", ":")
+    x, y = (np.asarray(values, dtype=float) for values in line.get_data())
+    assert y[y > 0.0] == pytest.approx(curves[kind](x[y > 0.0]), abs=1e-12)
+    assert {"first", "mine"} <= {text.get_text() for text in axes.get_legend().get_texts()}
+
+
 def test_comparison(curves):
     """Only where there are standard errors; of a population those of the lognormal fitted to its mean."""
     found = curves["fitted"].compare(curves["population"])

@@ -64,7 +64,6 @@ from dondolo.analysis.work import Work
 from dondolo.curves.curve import Curve
 from dondolo.curves.regression import Logistic, Regression, logistic_regression, regress
 from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted
-from dondolo.figures import style
 from dondolo.records.record import Record
 from dondolo.records.record_set import scaled_records
 from dondolo.walls.wall import Wall, notes_on_supports
@@ -401,28 +400,10 @@ class CloudFragility(Curve, Shown, Saved):
         found = [ends[one] if one in ends else self.cloud._crossing(one, self.edp_threshold) for one in values.flat]
         return shaped(np.array(found), values)
 
-    def plot(
-        self, ax: Axes | None = None, *, label: str | None = None, color: str = style.BLUE, linestyle: str = "-"
-    ) -> Axes:
-        """Draw the curve.
-
-        Parameters
-        ----------
-        ax : Axes, optional
-            Where to draw; a new figure if left out.
-        label : str, optional
-            Name of the curve where several are drawn into the same axes.
-        color, linestyle : str
-            Of the curve, to distinguish several.
-
-        Returns
-        -------
-        Axes
-            Probability against intensity, up to the strongest record; without the gap that the data leave, if any.
-        """
-        from dondolo.curves.plots import draw_any
-
-        return draw_any(self, ax, label, color, linestyle, float(self.cloud.intensity.max()))
+    @property
+    def _drawn_to(self) -> float:
+        # The strongest record
+        return float(self.cloud.intensity.max())
 
     def _need_fit(self) -> None:
         for model, what in ((self.cloud.rocking, "rocking"), (self.cloud.collapse, "collapse")):

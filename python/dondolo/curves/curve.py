@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_probabilities, shaped
+from dondolo.figures import style
 from dondolo.hazard.hazard import HazardCurve
 
 if TYPE_CHECKING:
@@ -53,9 +54,40 @@ class Curve(ABC):
     def ppf(self, p: ArrayLike) -> Any:
         """Lowest levels at which the probability is p, infinite where it does not come to that."""
 
-    @abstractmethod
-    def plot(self, ax: Axes | None = None) -> Axes:
-        """Draw the probability against intensity."""
+    def plot(
+        self, ax: Axes | None = None, *, label: str | None = None, color: str = style.BLUE, linestyle: str = "-"
+    ) -> Axes:
+        """Draw the curve.
+
+        Parameters
+        ----------
+        ax : Axes, optional
+            Where to draw; a new figure if left out.
+        label : str, optional
+            Name of the curve where several are drawn into the same axes.
+        color, linestyle : str
+            Of the curve, to distinguish several.
+
+        Returns
+        -------
+        Axes
+            Probability against intensity.
+
+        Raises
+        ------
+        DondoloError
+            There is no curve.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> one, other = (dd.DiscreteFragility([0.2, 0.4], p) for p in ([0.1, 0.6], [0.2, 0.7]))
+        >>> axes = one.plot(label="as it stands")
+        >>> axes = other.plot(axes, label="weaker", color="black", linestyle="--")
+        """
+        from dondolo.curves.plots import draw_any
+
+        return draw_any(self, ax, label, color, linestyle)
 
     def risk(self, hazard: HazardCurve) -> Risk:
         """Mean annual frequency of collapse: the curve integrated over the hazard.
@@ -198,6 +230,17 @@ class Curve(ABC):
     def _corners(self) -> tuple[float, ...]:
         """Levels at which the curve has a jump or a kink, if it knows them."""
         return ()
+
+    @property
+    def _drawn_to(self) -> float:
+        """Level up to which the curve is drawn: to where little is left to come."""
+        far = float(self.ppf(0.98))
+        return far if np.isfinite(far) else float(self.ppf(0.5))
+
+    @property
+    def _marked(self) -> FloatArray:
+        """Levels at which the curve is drawn with a mark."""
+        return np.empty(0)
 
     @property
     def _end(self) -> float:

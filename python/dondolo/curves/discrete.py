@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -22,10 +22,6 @@ from dondolo._fortran.records import blank_unit, describe_measure
 from dondolo._storage.saved import Saved
 from dondolo.curves.curve import Curve
 from dondolo.errors import InputError
-from dondolo.figures import style
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 
 @dataclass(frozen=True, eq=False, init=False, repr=False)
@@ -147,28 +143,13 @@ class DiscreteFragility(Curve, Shown, Saved):
         level = np.where(flat <= 0.0, 0.0, level)
         return shaped(np.where(flat > y[-1], np.inf, level), values)
 
-    def plot(
-        self, ax: Axes | None = None, *, label: str | None = None, color: str = style.BLUE, linestyle: str = "-"
-    ) -> Axes:
-        """Draw the curve.
+    @property
+    def _drawn_to(self) -> float:
+        return float(self.levels[-1])
 
-        Parameters
-        ----------
-        ax : Axes, optional
-            Where to draw; a new figure if left out.
-        label : str, optional
-            Name of the curve where several are drawn into the same axes.
-        color, linestyle : str
-            Of the curve, to distinguish several.
-
-        Returns
-        -------
-        Axes
-            Probability against intensity.
-        """
-        from dondolo.curves.plots import draw_discrete
-
-        return draw_discrete(self, ax, label, color, linestyle)
+    @property
+    def _marked(self) -> FloatArray:
+        return self.levels
 
     @property
     def _least(self) -> float:

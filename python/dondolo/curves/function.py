@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import KW_ONLY, dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,10 +14,6 @@ from dondolo._base.shown import Shown
 from dondolo._fortran.records import describe_measure
 from dondolo.curves.curve import Curve, inverse
 from dondolo.errors import InputError
-from dondolo.figures import style
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 # Where the inverse is sought
 _ENDS = (1e-9, 1e9)
@@ -112,29 +108,6 @@ class FunctionFragility(Curve, Shown):
             A probability that is not between 0 and 1.
         """
         return inverse(self, p, _ENDS)
-
-    def plot(
-        self, ax: Axes | None = None, *, label: str | None = None, color: str = style.BLUE, linestyle: str = "-"
-    ) -> Axes:
-        """Draw the curve.
-
-        Parameters
-        ----------
-        ax : Axes, optional
-            Where to draw; a new figure if left out.
-        label : str, optional
-            Name of the curve where several are drawn into the same axes.
-        color, linestyle : str
-            Of the curve, to distinguish several.
-
-        Returns
-        -------
-        Axes
-            Probability against intensity.
-        """
-        from dondolo.curves.plots import draw_any
-
-        return draw_any(self, ax, label, color, linestyle)
 
     def _facts(self) -> list[tuple[str, str]]:
         name = getattr(self.function, "__name__", type(self.function).__name__)

@@ -9,7 +9,6 @@ import numpy as np
 from dondolo._base.arguments import tails
 from dondolo._fortran.records import blank_unit
 from dondolo.curves.curve import Curve
-from dondolo.curves.discrete import DiscreteFragility
 from dondolo.curves.fragility import Fragility
 from dondolo.figures import curves, style
 
@@ -83,31 +82,16 @@ def draw_fragility(
     return ax
 
 
-def draw_discrete(curve: DiscreteFragility, ax: Axes | None, label: str | None, color: str, linestyle: str) -> Axes:
-    """Draw the straight lines of a curve with a mark at each level, and the level part above the last."""
+def draw_any(curve: Curve, ax: Axes | None, label: str | None, color: str, linestyle: str) -> Axes:
+    """Draw a curve from 0, with all its corners, and marks where it knows the probability."""
     ax = style.axes(ax)
-    right = 1.05 * float(curve.levels[-1])
-    # Just above a limit the curve jumps.
-    x = np.unique(np.concatenate([curves.grid(right), *((one, np.nextafter(one, np.inf)) for one in curve._corners)]))
+    grid, marked = curves.grid(curve._drawn_to), curve._marked
+    # Just above a limit a curve may jump.
+    corners = [one for corner in curve._corners for one in (corner, np.nextafter(corner, np.inf))]
+    x = np.unique(np.concatenate([grid, [one for one in corners if one <= grid[-1]]]))
     ax.plot(x, curve(x), color=color, linestyle=linestyle, label=label)
-    ax.plot(curve.levels, curve(curve.levels), color=color, linestyle="none", marker="o", markersize=3)
-    ax.set_xlim(0.0, right)
-    ax.set_ylim(-0.02, 1.02)
-    ax.set_xlabel(style.im_label(curve.im))
-    ax.set_ylabel("probability")
-    if label is not None:
-        style.legend(ax, loc="lower right")
-    return ax
-
-
-def draw_any(
-    curve: Curve, ax: Axes | None, label: str | None, color: str, linestyle: str, right: float | None = None
-) -> Axes:
-    """Draw a curve from 0 to a level, or to where little is left to come."""
-    ax = style.axes(ax)
-    far = float(curve.ppf(0.98)) if right is None else right
-    x = curves.grid(far if np.isfinite(far) else float(curve.ppf(0.5)))
-    ax.plot(x, curve(x), color=color, linestyle=linestyle, label=label)
+    if len(marked):
+        ax.plot(marked, curve(marked), color=color, linestyle="none", marker="o", markersize=3)
     ax.set_xlim(0.0, float(x[-1]))
     ax.set_ylim(-0.02, 1.02)
     ax.set_xlabel(style.im_label(curve.im))

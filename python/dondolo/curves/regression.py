@@ -9,7 +9,7 @@ they are separated, and any steep enough curve fits (Albert and Anderson 1984, B
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -18,10 +18,6 @@ from dondolo._base.arguments import FloatArray, as_levels, as_probabilities, sha
 from dondolo._storage.saved import part_of_results
 from dondolo.curves.curve import Curve
 from dondolo.errors import DondoloError
-from dondolo.figures import style
-
-if TYPE_CHECKING:
-    from matplotlib.axes import Axes
 
 BoolArray = np.ndarray[Any, np.dtype[np.bool_]]
 
@@ -140,35 +136,6 @@ class Logistic(Curve):
         within = {"none": np.inf, "all": 0.0}.get(self.status, np.nan)
         high = self.bracket[1] if self.status == "separated" else within
         return shaped(np.where(flat <= 0.0, 0.0, np.where(flat >= 1.0, high, within)), values)
-
-    def plot(
-        self, ax: Axes | None = None, *, label: str | None = None, color: str = style.BLUE, linestyle: str = "-"
-    ) -> Axes:
-        """Draw the curve.
-
-        Parameters
-        ----------
-        ax : Axes, optional
-            Where to draw; a new figure if left out.
-        label : str, optional
-            Name of the curve where several are drawn into the same axes.
-        color, linestyle : str
-            Of the curve, to distinguish several.
-
-        Returns
-        -------
-        Axes
-            Probability against intensity.
-
-        Raises
-        ------
-        DondoloError
-            There is no curve.
-        """
-        from dondolo.curves.plots import draw_any
-
-        self._need_fit()
-        return draw_any(self, ax, label, color, linestyle)
 
     def _need_fit(self) -> None:
         if self.status != "ok":

@@ -20,7 +20,7 @@ from dondolo.curves.fragility import Fragility
 from dondolo.curves.mean_curve import MeanCurve
 from dondolo.curves.members import Members
 from dondolo.errors import DondoloError
-from dondolo.figures.style import mechanism_name
+from dondolo.figures import style
 from dondolo.populations.bootstrap import TypologyBootstrap, resample_population
 from dondolo.populations.flags import Flags
 from dondolo.populations.influence import changes
@@ -198,8 +198,14 @@ class PopulationCurve(Shown, Group, MeanCurve):
     def _at(self, x: FloatArray, q: FloatArray, members: bool = False) -> tuple[FloatArray, FloatArray, FloatArray]:
         return curve_of_population(*self._source._flat, (self.mechanism, self.group), x, q, members)
 
-    def plot(self, ax: Axes | None = None) -> Axes:
-        """Draw the curves of the walls, thin, with their weighted mean and fractiles.
+    @property
+    def _drawn_to(self) -> float:
+        return float(self.levels[-1])
+
+    def plot(
+        self, ax: Axes | None = None, *, label: str | None = None, color: str = style.RED, linestyle: str = "-"
+    ) -> Axes:
+        """Draw the curves of the walls, thin, with their weighted mean and fractiles; or the mean alone, with a name.
 
         Figure 5 of Nale et al.: the red line is the typological curve.
 
@@ -207,15 +213,21 @@ class PopulationCurve(Shown, Group, MeanCurve):
         ----------
         ax : Axes, optional
             Where to draw; a new figure if left out.
+        label : str, optional
+            Name of the curve where several are drawn into the same axes: only the mean is drawn.
+        color, linestyle : str
+            Of the mean.
 
         Returns
         -------
         Axes
             Probability of collapse against intensity.
         """
+        if label is not None:
+            return super().plot(ax, label=label, color=color, linestyle=linestyle)
         from dondolo.populations.plots import draw_curve
 
-        return draw_curve(self, ax)
+        return draw_curve(self, ax, color, linestyle)
 
     def bootstrap(
         self,
@@ -273,7 +285,7 @@ class PopulationCurve(Shown, Group, MeanCurve):
         """Mechanism and group."""
         grouped = any(self._source.population.groups)
         group = f", group {self.group}" if self.group else ", population" if grouped else ""
-        return mechanism_name(self.mechanism) + group
+        return style.mechanism_name(self.mechanism) + group
 
     def __repr__(self) -> str:
         where = f", group {self.group!r}" if self.group else ""

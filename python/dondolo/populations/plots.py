@@ -25,7 +25,7 @@ _FRACTILES = np.array([0.16, 0.5, 0.84])
 _FITTED = 0.6
 
 
-def draw_curve(curve: PopulationCurve, ax: Axes | None) -> Axes:
+def draw_curve(curve: PopulationCurve, ax: Axes | None, color: str, linestyle: str) -> Axes:
     """Draw the curves of the walls, thin, with their weighted mean and fractiles."""
     ax = curves.axes(ax, 3)
     grid = curves.grid(curve.levels)
@@ -37,7 +37,7 @@ def draw_curve(curve: PopulationCurve, ax: Axes | None) -> Axes:
     text = f"{len(drawn)} of {walls} walls" if len(drawn) < walls else style.counted(walls, "wall")
     ax.plot([], [], color=style.GREY, linewidth=0.5, label=text)
     _band(ax, grid, fractiles, style.BLUE)
-    ax.plot(grid, mean, color=style.RED, linewidth=2.4, label="weighted mean", zorder=4)
+    ax.plot(grid, mean, color=color, linestyle=linestyle, linewidth=2.4, label="weighted mean", zorder=4)
     if curve.fit.has_fit:
         fitted = f"lognormal, {parameters(curve.fit)}"
         ax.plot(grid, curve.fit(grid), color=style.BLACK, linewidth=1.2, linestyle="--", label=fitted, zorder=5)
