@@ -22,7 +22,7 @@ import dondolo as dd
 
 CATALOGUE = ROOT / "data" / "records" / "synthetic44.csv"
 LEVELS = np.linspace(0.05, 1.0, 20)
-VARIANTS = ("baseline", "avx2", "avx512")[: ("baseline", "avx2", "avx512", "native").index(dd.build_variant()) + 1]
+VARIANTS = ("baseline", "avx2", "avx512")[: ("baseline", "avx2", "avx512", "native").index(dd.Solver.variant()) + 1]
 WALL = dd.OneSidedWall(height=3.0, thickness=0.25)
 
 

@@ -67,7 +67,7 @@ def main(runs: int = 5, blocks: int = 8) -> None:
                 times[name].append(seconds(population, records, executor))
         print(f"load average after: {os.getloadavg()[0]:.2f}")
     histories = WALLS * blocks * len(records) * len(LEVELS)
-    print(f"{blocks} blocks, {histories} histories, {dd.build_variant()}, medians of {runs} runs")
+    print(f"{blocks} blocks, {histories} histories, {dd.Solver.variant()}, medians of {runs} runs")
     alone = statistics.median(times["this process"])
     print(f"{'':18}{'time [s]':>10}{'block [s]':>11}{'overhead':>10}   all runs [s]")
     for name, (_, workers) in kinds.items():

@@ -25,7 +25,7 @@ root = Path(__file__).resolve().parents[1]
 QUICK = "--quick" in sys.argv[1:]
 figures = root / ("out/quick" if QUICK else "docs/figures")
 out = root / ("out/quick/city" if QUICK else "out/city")
-centre = dd.read_population(root / "data/walls/historic_centre.csv")
+centre = dd.Population.from_csv(root / "data/walls/historic_centre.csv")
 if QUICK:
     chosen = list(dict.fromkeys(wall.name for wall in centre))[::8]
     kept = [i for i, wall in enumerate(centre) if wall.name in chosen]

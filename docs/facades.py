@@ -20,7 +20,7 @@ cases = {
     "the same, roof thrusts": {**floors, **house, **roof},
 }
 for name, more in cases.items():
-    found = dd.typology(dd.facade(dd.OneSidedWall(**storeys, **more)), records, levels, polarity="both")
+    found = dd.typology(dd.Population.of_facade(dd.OneSidedWall(**storeys, **more)), records, levels, polarity="both")
     union, product = found.unions["facade"], found.combined["facade"]
     thetas = " | ".join(f"{curve.theta:.3f}" for curve in found.curves)
     print(f"| {name} | {thetas} | {union.theta:.3f} | {union.beta:.3f} | {product.theta:.3f} | {product.beta:.3f} |")

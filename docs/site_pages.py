@@ -84,23 +84,17 @@ def _api() -> str:
         "",
         "`import dondolo as dd` gives all of these names; what begins with `results` are the types of what analyses",
         "and readers return. Angles are in radians, accelerations in g where they scale",
-        "records and in m/s2 where they are those of a motion; each page states its units. `dd.pulses` is described in",
-        "[its module](#pulses).",
+        "records and in m/s2 where they are those of a motion; each page states its units. `dd.pulses` and",
+        "`dd.distributions` are described in [their](#pulses) [modules](#distributions).",
         "",
     ]
     for room, names in rooms.items():
         lines += [f"## {ROOMS[room]}", "", "```{eval-rst}", ".. currentmodule:: dondolo", "", ".. autosummary::"]
         lines += ["   :toctree: api", "   :nosignatures:", "", *(f"   {name}" for name in names), "```", ""]
-    lines += [
-        "(pulses)=",
-        "## Pulses",
-        "",
-        "```{eval-rst}",
-        ".. automodule:: dondolo.records.pulses",
-        "   :members:",
-        "```",
-    ]
-    return "\n".join([*lines, ""])
+    for module, title in ((dd.pulses, "Pulses"), (dd.distributions, "Distributions")):
+        lines += [f"({title.lower()})=", f"## {title}", "", "```{eval-rst}", f".. automodule:: {module.__name__}"]
+        lines += ["   :members:", "```", ""]
+    return "\n".join(lines)
 
 
 def _write_examples(scripts: Path, folder: Path) -> None:
@@ -109,7 +103,7 @@ def _write_examples(scripts: Path, folder: Path) -> None:
     for script in sorted(scripts.glob("*.py")):
         page = folder / f"{script.stem}.md"
         # A page is newer than the package and the script that it comes from, or is made again.
-        newest = max(script.stat().st_mtime, Path(dd.build_variant.__code__.co_filename).stat().st_mtime)
+        newest = max(script.stat().st_mtime, Path(dd.Solver.variant.__code__.co_filename).stat().st_mtime)
         if page.exists() and page.stat().st_mtime > newest:
             continue
         _write(page, _example(script, folder))

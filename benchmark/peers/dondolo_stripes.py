@@ -56,7 +56,7 @@ def main():
 
     stripes = call()
     histories = watched("stripes", "run_block")
-    print("version dondolo", version("dondolo"), dd.build_variant())
+    print("version dondolo", version("dondolo"), dd.Solver.variant())
     # 0 repeats: one for each line of standard input
     for _ in range(int(repeats)) if int(repeats) else sys.stdin:
         start = time.perf_counter()

@@ -75,7 +75,7 @@ def p_folds(samples):
 
 def facades(group, n, seed, weight, storeys, storey, thickness, held, roof):
     """Facades of one type of building, with both mechanisms."""
-    return dd.sample_population(
+    return dd.Population.sample(
         {
             "one_sided": {"height": height_of_facade, "p_occ": p_overturns},
             "two_block": {
@@ -93,11 +93,11 @@ def facades(group, n, seed, weight, storeys, storey, thickness, held, roof):
         variables={
             "storeys": storeys,
             "storey": storey,
-            "held": dd.Choice((0, 1, 2), held),
-            "brickwork": dd.Normal(1800.0, 80.0, low=1600.0, high=2000.0),
+            "held": dd.distributions.Choice((0, 1, 2), held),
+            "brickwork": dd.distributions.Normal(1800.0, 80.0, low=1600.0, high=2000.0),
             "roof": roof,
-            "crack": dd.Triangular(0.5, 0.6, 0.75),
-            "factor": dd.Uniform(0.84, 0.90),
+            "crack": dd.distributions.Triangular(0.5, 0.6, 0.75),
+            "factor": dd.distributions.Uniform(0.84, 0.90),
         },
         correlation={("storeys", "thickness"): 0.5, ("storey", "thickness"): 0.3},
         weight=weight,
@@ -109,11 +109,11 @@ def facades(group, n, seed, weight, storeys, storey, thickness, held, roof):
 
 def free_parts(group, n, seed, weight, free, thickness):
     """What stands free above the roof: it overturns."""
-    return dd.sample_population(
+    return dd.Population.sample(
         "one_sided",
         n_walls=n,
         seed=seed,
-        variables={"free": free, "brickwork": dd.Normal(1800.0, 80.0, low=1600.0, high=2000.0)},
+        variables={"free": free, "brickwork": dd.distributions.Normal(1800.0, 80.0, low=1600.0, high=2000.0)},
         correlation={("free", "thickness"): 0.5},
         weight=weight,
         group=group,
@@ -131,49 +131,49 @@ def centre():
             n=90,
             seed=SEED,
             weight=12,
-            storeys=dd.Choice((2, 3), (0.6, 0.4)),
-            storey=dd.Lognormal(3.0, 0.06, low=2.8, high=3.5),
-            thickness=dd.Choice((0.25, 0.38), (0.45, 0.55)),
+            storeys=dd.distributions.Choice((2, 3), (0.6, 0.4)),
+            storey=dd.distributions.Lognormal(3.0, 0.06, low=2.8, high=3.5),
+            thickness=dd.distributions.Choice((0.25, 0.38), (0.45, 0.55)),
             held=(0.35, 0.45, 0.2),
-            roof=dd.Uniform(1000.0, 4000.0),
+            roof=dd.distributions.Uniform(1000.0, 4000.0),
         )
         + facades(
             "town houses",
             n=60,
             seed=SEED + 1,
             weight=6,
-            storeys=dd.Choice((3, 4), (0.7, 0.3)),
-            storey=dd.Lognormal(3.3, 0.08, low=2.9, high=4.0),
-            thickness=dd.Choice((0.38, 0.51), (0.6, 0.4)),
+            storeys=dd.distributions.Choice((3, 4), (0.7, 0.3)),
+            storey=dd.distributions.Lognormal(3.3, 0.08, low=2.9, high=4.0),
+            thickness=dd.distributions.Choice((0.38, 0.51), (0.6, 0.4)),
             held=(0.25, 0.45, 0.3),
-            roof=dd.Uniform(2000.0, 6000.0),
+            roof=dd.distributions.Uniform(2000.0, 6000.0),
         )
         + facades(
             "palaces",
             n=30,
             seed=SEED + 2,
             weight=2,
-            storeys=dd.Choice((2, 3), (0.5, 0.5)),
-            storey=dd.Uniform(3.8, 4.5),
-            thickness=dd.Choice((0.38, 0.51), (0.25, 0.75)),
+            storeys=dd.distributions.Choice((2, 3), (0.5, 0.5)),
+            storey=dd.distributions.Uniform(3.8, 4.5),
+            thickness=dd.distributions.Choice((0.38, 0.51), (0.25, 0.75)),
             held=(0.15, 0.45, 0.4),
-            roof=dd.Uniform(3000.0, 8000.0),
+            roof=dd.distributions.Uniform(3000.0, 8000.0),
         )
         + free_parts(
             "gables",
             n=30,
             seed=SEED + 3,
             weight=8,
-            free=dd.Triangular(1.2, 2.0, 3.5),
-            thickness=dd.Choice((0.25, 0.38), (0.7, 0.3)),
+            free=dd.distributions.Triangular(1.2, 2.0, 3.5),
+            thickness=dd.distributions.Choice((0.25, 0.38), (0.7, 0.3)),
         )
         + free_parts(
             "parapets",
             n=30,
             seed=SEED + 4,
             weight=10,
-            free=dd.Triangular(0.6, 0.9, 1.5),
-            thickness=dd.Choice((0.12, 0.25), (0.3, 0.7)),
+            free=dd.distributions.Triangular(0.6, 0.9, 1.5),
+            thickness=dd.distributions.Choice((0.12, 0.25), (0.3, 0.7)),
         )
     )
     return replace(population, origin=(*ORIGIN, *population.origin))

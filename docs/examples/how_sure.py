@@ -20,9 +20,9 @@ records = dd.read_catalogue(recorded if recorded.is_file() else data / "records"
 strip = dd.TwoBlockWall(3.0, 0.25, hinge=0.6, overburden=5000.0, overburden_inertia=0.0, name="strip")
 sources = {
     "restitution_factor": "graziotti_2016",
-    "hinge": dd.Triangular(0.5, 0.6, 0.75),
-    "hinge_depth": dd.Lognormal(0.01, 0.4, high=0.05),
-    "density": dd.Normal(1800.0, 90.0),
+    "hinge": dd.distributions.Triangular(0.5, 0.6, 0.75),
+    "hinge_depth": dd.distributions.Lognormal(0.01, 0.4, high=0.05),
+    "density": dd.distributions.Normal(1800.0, 90.0),
 }
 found = dd.uncertain_wall(strip, records, np.linspace(0.2, 3.0, 15), sources=sources, n_variants=400)
 print(found)

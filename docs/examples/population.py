@@ -12,7 +12,7 @@ out = Path("out/examples")
 out.mkdir(parents=True, exist_ok=True)
 
 # %% 24 types of walls of a fictitious historic centre; the weight is the number of walls of each type
-population = dd.read_population(data / "walls" / "population.csv")
+population = dd.Population.from_csv(data / "walls" / "population.csv")
 print(population)
 
 # %% Analysis of each wall under the synthetic suite

@@ -20,13 +20,13 @@ out.mkdir(parents=True, exist_ok=True)
 sa = [0.05, 0.1, 0.2, 0.4, 0.8, 1.6, 3.2, 6.4]
 mean = np.array([0.06, 0.025, 8e-3, 2e-3, 3.5e-4, 4e-5, 3e-6, 1.5e-7])
 hazard = dd.HazardCurve(sa, mean, im="sa(0.3)", fractiles={0.16: 0.5 * mean, 0.5: 0.85 * mean, 0.84: 1.5 * mean})
-code = dd.ntc_spectrum(0.26, 2.36, 0.35, soil="B", periods=np.geomspace(0.1, 2.0, 20))
+code = dd.Site(0.26, 2.36, 0.35, soil="B").spectrum(periods=np.geomspace(0.1, 2.0, 20))
 spectrum = dd.TargetSpectrum(code.periods, code.sa, dispersion=0.6)
 
 # %% Records of their own for each level, which match the spectrum conditional on it
 records = dd.RecordSet(dd.read_catalogue(data / "records" / "synthetic44.csv")).filter("magnitude >= 5.5")
 targets = {level: spectrum.conditional(0.3, level) for level in (0.6, 1.0, 1.4, 1.8, 2.4, 3.2)}
-chosen = {level: dd.select_records(records, target, 20, max_factor=40.0) for level, target in targets.items()}
+chosen = {level: dd.RecordSet(records).select(target, 20, max_factor=40.0) for level, target in targets.items()}
 for level, selection in chosen.items():
     print(f"Sa(0.3 s) = {level} g:", selection)
 

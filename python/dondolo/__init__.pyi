@@ -1,7 +1,6 @@
 """Public names, each with its home: read by type checkers, and by the package, which loads a name on its first use."""
 
 from dondolo import results as results
-from dondolo._fortran.library import build_variant as build_variant
 from dondolo._storage.saved import load as load
 from dondolo.analysis.cloud import cloud as cloud
 from dondolo.analysis.efficiency import compare_intensities as compare_intensities
@@ -35,26 +34,17 @@ from dondolo.populations.weakest_hinge import weakest_hinge as weakest_hinge
 from dondolo.records import pulses as pulses
 from dondolo.records.building import Building as Building
 from dondolo.records.codes import Site as Site
-from dondolo.records.codes import ec8_spectrum as ec8_spectrum
-from dondolo.records.codes import ntc_spectrum as ntc_spectrum
 from dondolo.records.examples import example_records as example_records
-from dondolo.records.intensity import intensity_table as intensity_table
 from dondolo.records.reading import read_catalogue as read_catalogue
 from dondolo.records.reading import read_record as read_record
 from dondolo.records.reading import read_records as read_records
 from dondolo.records.record import Record as Record
 from dondolo.records.record_set import RecordSet as RecordSet
-from dondolo.records.selection import select_records as select_records
 from dondolo.records.synthetic import synthetic_records as synthetic_records
 from dondolo.records.target import TargetSpectrum as TargetSpectrum
 from dondolo.reporting.page import report as report
 from dondolo.retrofit.designs import compare_designs as compare_designs
-from dondolo.walls.distributions import Choice as Choice
-from dondolo.walls.distributions import Lognormal as Lognormal
-from dondolo.walls.distributions import Normal as Normal
-from dondolo.walls.distributions import Triangular as Triangular
-from dondolo.walls.distributions import Uniform as Uniform
-from dondolo.walls.facade import facade as facade
+from dondolo.walls import distributions as distributions
 from dondolo.walls.mechanisms import FreeStandingWall as FreeStandingWall
 from dondolo.walls.mechanisms import OneSidedWall as OneSidedWall
 from dondolo.walls.mechanisms import TwoBlockWall as TwoBlockWall
@@ -68,7 +58,5 @@ from dondolo.walls.parts import Spring as Spring
 from dondolo.walls.parts import Thrust as Thrust
 from dondolo.walls.parts import Tie as Tie
 from dondolo.walls.population import Population as Population
-from dondolo.walls.population import read_population as read_population
-from dondolo.walls.sampling import sample_population as sample_population
 
 __version__: str

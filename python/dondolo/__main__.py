@@ -79,7 +79,7 @@ def _parser() -> argparse.ArgumentParser:
         description="dondolo: fragility of masonry walls that rock and overturn in earthquakes. "
         "Analyses are run by the executable, dondolo --help, or in Python.",
     )
-    parser.add_argument("--version", action="version", version=f"dondolo {dd.__version__} ({dd.build_variant()})")
+    parser.add_argument("--version", action="version", version=f"dondolo {dd.__version__} ({dd.Solver.variant()})")
     commands = parser.add_subparsers(title="commands", required=True, metavar="COMMAND")
     plot = commands.add_parser(
         "plot",

@@ -4,6 +4,5 @@ import dondolo as dd
 
 
 def public_things():
-    """Every public name with what it stands for: those at the top, and the types of results."""
-    top = {name: getattr(dd, name) for name in dd.__all__}
-    return top | {name: getattr(dd.results, name) for name in dd.results.__all__}
+    """Every public name with what it is: those at the top, types of results, and distributions."""
+    return {name: getattr(of, name) for of in (dd, dd.results, dd.distributions) for name in of.__all__}

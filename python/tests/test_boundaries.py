@@ -48,7 +48,7 @@ def test_characters_that_two_parts_of_a_file_share(tmp_path):
     for encoding, end in (("utf-8", "\n"), ("utf-16", "\r\n"), ("utf-8", "\r")):
         text = f"name,mechanism,height,thickness\n{rows}".replace("\n", end)
         (tmp_path / "walls.csv").write_bytes(text.encode(encoding))
-        assert [wall.name for wall in dd.read_population(tmp_path / "walls.csv").walls] == names
+        assert [wall.name for wall in dd.Population.from_csv(tmp_path / "walls.csv").walls] == names
 
 
 @pytest.mark.parametrize(
@@ -72,7 +72,7 @@ def test_limits(table, content, sentence, tmp_path):
     path = tmp_path / table
     path.write_text(content)
     readers = {
-        "walls.csv": dd.read_population,
+        "walls.csv": dd.Population.from_csv,
         "hazard.csv": dd.HazardCurve.from_csv,
         "records.csv": dd.read_catalogue,
         "case.nml": dd.read_case,
@@ -115,7 +115,7 @@ def test_names_that_spreadsheets_take_for_formulas(tmp_path):
     people = dd.Population(walls, groups=FORMULAS)
     for safe in (False, True):
         people.to_csv(tmp_path / "walls.csv", spreadsheet_safe=safe)
-        back = dd.read_population(tmp_path / "walls.csv")
+        back = dd.Population.from_csv(tmp_path / "walls.csv")
         assert [wall.name for wall in back.walls] == FORMULAS
         assert list(back.groups) == FORMULAS
         assert back.walls == people.walls

@@ -107,7 +107,7 @@ def test_a_building():
 def test_spectrum_of_a_site():
     several = dd.Site((0.08, 0.2, 0.26), 2.5, (0.3, 0.35, 0.36), soil="C", topography="T2")
     for state, ag, tc in (("SLD", 0.08, 0.3), ("SLV", 0.2, 0.35), ("SLC", 0.26, 0.36)):
-        alone = dd.ntc_spectrum(ag, 2.5, tc, soil="C", topography="T2")
+        alone = dd.Site(ag, 2.5, tc, soil="C", topography="T2").spectrum()
         np.testing.assert_array_equal(several.spectrum(limit_state=state).sa, alone.sa)
 
 

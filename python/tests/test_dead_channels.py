@@ -55,9 +55,9 @@ def test_every_analysis_refuses(dead, wall):
     several = [*LIVE[:2], dead, *LIVE[2:]]
     levels = [0.2, 0.8]
     upstairs = dd.OneSidedWall(1.5, 0.25, building=dd.Building([0.3], storeys=2, level=6.0, building_height=6.0))
-    target = dd.ec8_spectrum(0.25, soil="C", periods=[0.1, 0.5, 1.0])
+    target = dd.TargetSpectrum.ec8(0.25, soil="C", periods=[0.1, 0.5, 1.0])
     designs = {"present": wall, "thicker": dd.OneSidedWall(1.5, 0.3)}
-    sources = {"thickness": dd.Normal(0.25, 0.01)}
+    sources = {"thickness": dd.distributions.Normal(0.25, 0.01)}
     analyses = (
         lambda: dd.multiple_stripe(upstairs, several, levels, progress=False),
         lambda: dd.multiple_stripe(wall, several, levels, estimate_error=True, progress=False),
@@ -71,7 +71,7 @@ def test_every_analysis_refuses(dead, wall):
         lambda: dd.compare_intensities(wall, several, ["pga", "pgv"], progress=False),
         lambda: dd.cloud(wall, several, progress=False),
         lambda: dd.cloud(wall, dd.RecordSet(several, factor=0.5), progress=False),
-        lambda: dd.select_records(several, target, 3),
+        lambda: dd.RecordSet(several).select(target, 3),
         lambda: LIVE[0].rotate(dead, 30.0),
         lambda: dead.rotate(LIVE[0], 30.0),
         lambda: LIVE[0].rotd(dead),

@@ -145,7 +145,7 @@ def test_the_executable_compares(root, run, tmp_path):
     assert summary.returncode == 0, summary.stderr
     with (tmp_path / "out_designs.csv").open() as file:
         rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-    walls = dd.read_population(root / "data/walls/designs.csv").walls
+    walls = dd.Population.from_csv(root / "data/walls/designs.csv").walls
     records = dd.read_catalogue(root / "data/records/synthetic44.csv")
     levels = [0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.5, 2.0]
     found = dd.compare_designs({wall.name: wall for wall in walls}, records, levels, progress=False)

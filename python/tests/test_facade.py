@@ -48,7 +48,7 @@ def rows(path):
 
 def test_levels():
     """Section 7 of the mechanics: trigger with the masses, and capacity, at three hinges."""
-    found = dd.facade(whole())
+    found = dd.Population.of_facade(whole())
     assert [wall.name for wall in found] == ["front at 0 m", "front at 4 m", "front at 7.5 m"]
     assert found.wholes == ("front",) * 3
     assert list(found.first_rows) == [0]
@@ -64,7 +64,7 @@ def test_levels():
 def test_one_hinge():
     wall = whole(hinge_level=7.5)
     assert (wall.name, wall.height, wall.thickness, wall.building.level) == ("front", 3.0, 0.3, 7.5)
-    assert wall.terms(0.01) == dd.facade(whole(), hinge_level=[7.5])[0].terms(0.01)
+    assert wall.terms(0.01) == dd.Population.of_facade(whole(), hinge_level=[7.5])[0].terms(0.01)
 
 
 def test_leaves():
@@ -79,20 +79,29 @@ def test_leaves():
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: dd.facade(dd.FreeStandingWall(3.0, 0.5)), "no one-sided wall"),
-        (lambda: dd.facade(dd.OneSidedWall(3.0, 0.5)), "only with sections"),
-        (lambda: dd.facade(whole(), hinge_level="floors"), "must be heights or 'storeys'"),
-        (lambda: dd.facade(whole(), hinge_level=[]), "must be given"),
-        (lambda: dd.facade(whole(), hinge_level=[4.0, 4.0]), "must increase"),
-        (lambda: dd.facade(whole(), hinge_level=[12.0]), "must be less than the height of the wall, 10.5 m"),
+        (lambda: dd.Population.of_facade(dd.FreeStandingWall(3.0, 0.5)), "no one-sided wall"),
+        (lambda: dd.Population.of_facade(dd.OneSidedWall(3.0, 0.5)), "only with sections"),
+        (lambda: dd.Population.of_facade(whole(), hinge_level="floors"), "must be heights or 'storeys'"),
+        (lambda: dd.Population.of_facade(whole(), hinge_level=[]), "must be given"),
+        (lambda: dd.Population.of_facade(whole(), hinge_level=[4.0, 4.0]), "must increase"),
+        (
+            lambda: dd.Population.of_facade(whole(), hinge_level=[12.0]),
+            "must be less than the height of the wall, 10.5 m",
+        ),
         (lambda: whole(hinge_level=[0.0, 4.0]), "hinge_level: has 2 values"),
         (lambda: whole(leaves=2), "loads: not with leaves = 2"),
-        (lambda: dd.Population(tuple(dd.facade(whole())), facades=("f", "", "f")), "facade = 'f': another facade"),
         (
-            lambda: dd.facade(whole()) + dd.facade(whole(), hinge_level=[1.0]),
+            lambda: dd.Population(tuple(dd.Population.of_facade(whole())), facades=("f", "", "f")),
+            "facade = 'f': another facade",
+        ),
+        (
+            lambda: dd.Population.of_facade(whole()) + dd.Population.of_facade(whole(), hinge_level=[1.0]),
             "both populations have a facade of this name",
         ),
-        (lambda: dd.Population(tuple(dd.facade(whole())), [1, 2, 1], facades=("f",) * 3), "of one facade must have"),
+        (
+            lambda: dd.Population(tuple(dd.Population.of_facade(whole())), [1, 2, 1], facades=("f",) * 3),
+            "of one facade must have",
+        ),
     ],
 )
 def test_wrong(make, message):
@@ -159,10 +168,10 @@ def test_executable_and_python(ran, root):
 def test_population_of_facades(run, root, tmp_path, records):
     """Hinges as columns, mechanisms that may not occur, and walls of one mechanism, in the executable and in Python."""
     (tmp_path / "walls.csv").write_text(TABLE)
-    people = dd.read_population(tmp_path / "walls.csv")
+    people = dd.Population.from_csv(tmp_path / "walls.csv")
     assert people.wholes == ("a", "a", "b", "b", "c")
     people.to_csv(tmp_path / "again.csv")
-    again = dd.read_population(tmp_path / "again.csv")
+    again = dd.Population.from_csv(tmp_path / "again.csv")
     assert again.facades == ("a", "a", "", "", "")
     assert [wall.height for wall in again] == [6.0, 3.0, 3.0, 3.0, 3.0]
     levels = [0.2, 0.4, 0.6, 0.8, 1.2, 1.6]
@@ -224,7 +233,7 @@ def test_unions_of_files(ran, tmp_path):
 
 
 def test_saved(tmp_path, few):
-    result = dd.typology(dd.facade(whole()), few, [0.2, 0.3, 0.5], progress=False)
+    result = dd.typology(dd.Population.of_facade(whole()), few, [0.2, 0.3, 0.5], progress=False)
     result.save(tmp_path / "facade.npz")
     again = dd.load(tmp_path / "facade.npz")
     assert again.population.facades == ("front",) * 3

@@ -216,7 +216,7 @@ def test_a_missing_file_is_a_missing_file(tmp_path):
         (dd.read_records, missing),
         (dd.read_catalogue, missing),
         (dd.read_catalogue, catalogue),
-        (dd.read_population, missing),
+        (dd.Population.from_csv, missing),
         (dd.read_case, missing),
         (dd.read_results, tmp_path / "none"),
         (dd.HazardCurve.from_csv, missing),
@@ -259,7 +259,7 @@ def test_names_stand_on_one_line(character, wall, sine, tmp_path):
         ("walls.csv", "name,mechanism,height,thickness", f'"{name}",one_sided,3,0.25'),
     ):
         (tmp_path / table).write_bytes(f"{header}\n{row}\n".encode())
-        read = dd.read_catalogue if table == "records.csv" else dd.read_population
+        read = dd.read_catalogue if table == "records.csv" else dd.Population.from_csv
         refusal = "byte .* is NUL: this is no text" if character == "\0" else "name = .*: must be one line"
         with pytest.raises(dd.InputError, match=f"{table}: line 2: {refusal}"):
             read(tmp_path / table)

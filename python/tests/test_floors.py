@@ -92,7 +92,7 @@ def test_population(records, executable, tmp_path):
         "c,one_sided,1.5,0.25,0.3,,,,,3,9,9\n"
         "d,one_sided,1.5,0.25,0.3,0.05,0.1,1.2,-0.2,,,\n"
     )
-    people = dd.read_population(table)
+    people = dd.Population.from_csv(table)
     assert people[0].building == people[2].building == dd.Building(0.3, **HOUSE)
     assert people[1].building is None
     assert people[3].building == dd.Building([0.3, 0.1], participation=[1.2, -0.2])
@@ -118,7 +118,9 @@ def test_population(records, executable, tmp_path):
     assert [wall.building for wall in results.population] == [wall.building for wall in people]
     assert np.array_equal(results.typology.collapses, counts)
     people.to_csv(tmp_path / "again.csv")
-    assert [wall.building for wall in dd.read_population(tmp_path / "again.csv")] == [wall.building for wall in people]
+    assert [wall.building for wall in dd.Population.from_csv(tmp_path / "again.csv")] == [
+        wall.building for wall in people
+    ]
 
 
 @pytest.mark.parametrize(

@@ -154,15 +154,15 @@ def test_wrong_measures(record, wall):
 
 
 def test_table(few):
-    table = dd.intensity_table(few)
+    table = dd.RecordSet(few).intensity_table()
     assert list(table["record"]) == [record.name for record in few]
     assert "arias [m/s]" in table.columns
     assert table["pgv [m/s]"].iloc[3] == few[3].intensity("pgv")
-    assert list(dd.intensity_table(few[0], ["sa(0.50)"]).columns) == ["record", "sa(0.5) [g]"]
+    assert list(dd.RecordSet(few[0]).intensity_table(["sa(0.50)"]).columns) == ["record", "sa(0.5) [g]"]
     # A text is one measure, not its letters
-    assert list(dd.intensity_table(few, "pga").columns) == ["record", "pga [g]"]
+    assert list(dd.RecordSet(few).intensity_table("pga").columns) == ["record", "pga [g]"]
     with pytest.raises(dd.InputError, match="ims = 3: must be names"):
-        dd.intensity_table(few, 3)
+        dd.RecordSet(few).intensity_table(3)
 
 
 @pytest.mark.parametrize(

@@ -47,7 +47,7 @@ def facades(recordings, tmp_path_factory):
     table = tmp_path_factory.mktemp("facades") / "walls.csv"
     table.write_text(WALLS)
     levels = [0.1 * i for i in range(1, 16)]
-    walls, records = dd.read_population(table), dd.read_catalogue(recordings / "italy44.csv")
+    walls, records = dd.Population.from_csv(table), dd.read_catalogue(recordings / "italy44.csv")
     return dd.typology(walls, records, levels, polarity="both", edp_thresholds=[0.1, 0.4], progress=False)
 
 

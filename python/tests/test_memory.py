@@ -45,7 +45,7 @@ WORKS = {
     "spectrum": "long.spectrum([0.1, 0.2])",
     "fit": "dd.fit_fragility(np.linspace(0.1, 1.0, 400_000), np.arange(400_000) // 40_000, np.full(400_000, 10))",
     "catalogue": "dd.read_catalogue(FOLDER + '/records.csv')",
-    "population": "dd.read_population(FOLDER + '/walls.csv')",
+    "population": "dd.Population.from_csv(FOLDER + '/walls.csv')",
 }
 
 

@@ -59,7 +59,14 @@ def test_files_of_such_names(folder):
     """Whichever reader quotes them."""
     bad = folder / "bad"
     bad.write_text("nothing of use\n")
-    for read in (dd.read_record, dd.read_catalogue, dd.read_population, dd.HazardCurve.from_csv, dd.read_nrml, dd.load):
+    for read in (
+        dd.read_record,
+        dd.read_catalogue,
+        dd.Population.from_csv,
+        dd.HazardCurve.from_csv,
+        dd.read_nrml,
+        dd.load,
+    ):
         for path in (bad, folder / "none"):
             with pytest.raises(dd.InputError) as error:
                 read(path)

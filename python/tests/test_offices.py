@@ -34,7 +34,7 @@ def test_tables_with_decimal_commas(encoding, tmp_path):
     assert record.dt == 0.01
     assert np.allclose(record.acceleration, 3.0 * np.sin(0.2 * np.arange(400)), atol=1e-6, rtol=0.0)
     with pytest.warns(dd.DondoloWarning, match="semicolons, decimal commas"):
-        population = dd.read_population(tmp_path / "walls.csv")
+        population = dd.Population.from_csv(tmp_path / "walls.csv")
     first, second = population.walls
     assert (first.name, first.height, first.thickness) == ("sommità", 3.25, 0.25)
     assert (second.height, second.thickness) == (1.0, 0.5)
@@ -47,14 +47,14 @@ def test_what_is_ambiguous_is_refused(tmp_path):
     table = tmp_path / "walls.csv"
     table.write_text("name;mechanism;height;thickness\na;one_sided;1.800;1,800\n")
     with pytest.raises(dd.InputError, match="height"):
-        dd.read_population(table)
+        dd.Population.from_csv(table)
     # One thousand, or one?
     table.write_text("name;mechanism;height;thickness\na;one_sided;1.000;0,5\n")
     with pytest.raises(dd.InputError, match="with a decimal comma as elsewhere in the table and no point"):
-        dd.read_population(table)
+        dd.Population.from_csv(table)
     table.write_bytes("name;mechanism;height;thickness\nà;one_sided;3;0,25\n".encode("cp1252"))
     with pytest.raises(dd.InputError, match="save it as UTF-8"):
-        dd.read_population(table)
+        dd.Population.from_csv(table)
 
 
 @pytest.fixture

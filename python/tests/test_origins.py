@@ -152,7 +152,7 @@ def test_links_and_pipes_are_neither_followed_nor_waited_for(thing, start, folde
 def test_what_is_read_is_a_regular_file(thing, start, folder, root):
     path = folder / "out/input"
     put(thing, path)
-    reads = [dd.read_record, dd.read_catalogue, dd.read_population, dd.HazardCurve.from_csv, dd.load]
+    reads = [dd.read_record, dd.read_catalogue, dd.Population.from_csv, dd.HazardCurve.from_csv, dd.load]
     for read in (*reads, dd.read_nrml, dd.HazardCurve.from_openquake):
         with pytest.raises(dd.InputError, match=f"input: is {thing}, not a regular file"):
             read(path)

@@ -197,7 +197,7 @@ def test_table(tmp_path):
     )
     assert lines[2] == "a,one_sided,6.4,0.38,1800,,default,,1,,,,2,low,0.4"
     assert lines[4] == '"b, ""the"" #2",free_standing,1.8,0.4,2000,,constant,0.7,1,,,,5,"high, free",1'
-    back = dd.read_population(tmp_path / "walls.csv")
+    back = dd.Population.from_csv(tmp_path / "walls.csv")
     assert same(back, PEOPLE)
     assert back.origin == ("read from walls.csv",)
     with pytest.raises(dd.DondoloError, match="cannot be written"):
@@ -229,7 +229,7 @@ def test_tables_are_read_back_to_the_bit(tmp_path_factory, numbers, eccentricity
     people = dd.Population([wall], [weight], groups=[group], p_occ=[p_occ])
     path = tmp_path_factory.mktemp("tables") / "walls.csv"
     people.to_csv(path)
-    back = dd.read_population(path)
+    back = dd.Population.from_csv(path)
     assert same(back, people)
     assert math.copysign(1.0, back[0].eccentricity) == math.copysign(1.0, eccentricity)
 
@@ -244,7 +244,7 @@ def test_table_of_a_spreadsheet(encoding, end, tmp_path):
     path = tmp_path / "walls.csv"
     path.write_text(SPREADSHEET.replace("\r\n", end), encoding=encoding, newline="")
     with pytest.warns(dd.DondoloWarning) as caught:
-        (wall,) = dd.read_population(path)
+        (wall,) = dd.Population.from_csv(path)
     note = "read with columns separated by semicolons, decimal commas, line 1 is a title"
     assert [str(warning.message) for warning in caught] == [f"{path}: {note}"]
     assert (wall.name, wall.mechanism, wall.height, wall.thickness) == ("unità", "one_sided", 3.5, 0.25)
@@ -257,7 +257,7 @@ def test_table_that_is_no_utf8(encoding, tmp_path):
     with pytest.raises(
         dd.InputError, match=r"line \d: byte \d.* is .*: save it as UTF-8 \(in Excel: CSV UTF-8\)"
     ) as caught:
-        dd.read_population(path)
+        dd.Population.from_csv(path)
     assert "\n" not in str(caught.value)
 
 
@@ -265,7 +265,7 @@ def test_blanks_of_names_are_kept(tmp_path):
     people = dd.Population(ROWS[3:], groups=[" north"])
     people += dd.Population([dd.OneSidedWall(1.0, 0.25, name="  d")], groups=["south "])
     people.to_csv(tmp_path / "walls.csv")
-    back = dd.read_population(tmp_path / "walls.csv")
+    back = dd.Population.from_csv(tmp_path / "walls.csv")
     assert [wall.name for wall in back] == ["c", "  d"]
     assert back.groups == (" north", "south ")
 
@@ -287,7 +287,7 @@ def test_many_walls_take_linear_time(tmp_path):
     """Eight times as many cost about eight times as much, and not 64 times."""
 
     def work(count):
-        people = dd.read_population(tmp_path / f"{count}.csv")
+        people = dd.Population.from_csv(tmp_path / f"{count}.csv")
         assert (people[-1].name, people.groups[-1]) == (f"wall {count - 1}", f"g{(count - 1) % 7}")
         again = people + dd.Population([dd.OneSidedWall(3.0, 0.25, name="last")])
         again.to_csv(tmp_path / "again.csv")
@@ -302,7 +302,7 @@ def test_many_walls_take_linear_time(tmp_path):
     text = path.read_text()
     path.write_text(text + "wall 17,one_sided,3,0.25,\n")
     with pytest.raises(dd.InputError, match=f"line {count + 2}: name = 'wall 17': another wall has this name"):
-        dd.read_population(path)
+        dd.Population.from_csv(path)
 
 
 def test_figure(tmp_path):

@@ -482,7 +482,7 @@ def test_no_name_hides_a_module():
         ),
         (lambda wall, sine: sine.correct_baseline("Linear"), "'constant', 'linear', 'velocity'"),
         (lambda wall, sine: dd.synthetic_records(6.0, 10.0, "Rock"), "'rock', 'shallow', 'deep'"),
-        (lambda wall, sine: dd.sample_population("One_Sided", 2, 1), "'one_sided', 'free_standing', 'two_block'"),
+        (lambda wall, sine: dd.Population.sample("One_Sided", 2, 1), "'one_sided', 'free_standing', 'two_block'"),
     ],
 )
 def test_words_of_options_are_exact(call, words, wall, sine):

@@ -300,7 +300,7 @@ def test_columns_of_the_template_are_read(run, tmp_path):
     given = {"name": "a", "mechanism": "one_sided", "height": "1.5", "thickness": "0.25"}
     row = ",".join(given.get(name, "") for name in names)
     (tmp_path / "walls.csv").write_text(f"{','.join(names)}\n{row}\n")
-    assert dd.read_population(tmp_path / "walls.csv")[0] == dd.OneSidedWall(1.5, 0.25, name="a")
+    assert dd.Population.from_csv(tmp_path / "walls.csv")[0] == dd.OneSidedWall(1.5, 0.25, name="a")
 
 
 def test_parts_by_every_route(few, tmp_path):
@@ -324,7 +324,7 @@ def test_parts_by_every_route(few, tmp_path):
     curves.save(tmp_path / "walls.npz")
     curves.write_results(tmp_path / "set")
     others = [
-        dd.read_population(tmp_path / "walls.csv")[0],
+        dd.Population.from_csv(tmp_path / "walls.csv")[0],
         dd.load(tmp_path / "walls.npz").population[0],
         dd.read_results(tmp_path / "set").population[0],
         dataclasses.replace(wall),
@@ -333,4 +333,4 @@ def test_parts_by_every_route(few, tmp_path):
         assert other == wall
         assert {of: getattr(other, of) for of in KINDS} == {of: getattr(wall, of) for of in KINDS}
         assert other._properties() == wall._properties()
-    assert not any(getattr(dd.read_population(tmp_path / "walls.csv")[1], of) for of in KINDS)
+    assert not any(getattr(dd.Population.from_csv(tmp_path / "walls.csv")[1], of) for of in KINDS)

@@ -142,7 +142,7 @@ def test_bad_levels(records, parapet):
 
 def test_spectra_of_the_codes():
     # By hand: soil C, S_S = 1.7 - 0.6 2.4 0.2 = 1.412, T_C = 1.05 0.32^0.67 = 0.48940 s, T_D = 2.4 s
-    ntc = dd.ntc_spectrum(0.2, 2.4, 0.32, soil="C", periods=PERIODS)
+    ntc = dd.Site(0.2, 2.4, 0.32, soil="C").spectrum(periods=PERIODS)
     a, tc = 0.2 * 1.412, 1.05 * 0.32**0.67
     expected = [
         a * (1.0 + 0.3 / tc * 1.4),
@@ -151,14 +151,16 @@ def test_spectra_of_the_codes():
         a * 2.4 * tc * 2.4 / 9.0,
     ]
     np.testing.assert_allclose(ntc.sa, expected, rtol=1e-12)
-    np.testing.assert_allclose(dd.ntc_spectrum(0.2, 2.4, 0.32, topography="T4", periods=PERIODS).sa[1], 0.2 * 1.4 * 2.4)
+    np.testing.assert_allclose(
+        dd.Site(0.2, 2.4, 0.32, topography="T4").spectrum(periods=PERIODS).sa[1], 0.2 * 1.4 * 2.4
+    )
     # EC8, type 1, ground C: S = 1.15, T_B = 0.2, T_C = 0.6, T_D = 2 s
-    ec8 = dd.ec8_spectrum(0.25, soil="C", periods=PERIODS)
+    ec8 = dd.TargetSpectrum.ec8(0.25, soil="C", periods=PERIODS)
     np.testing.assert_allclose(
         ec8.sa[[0, 1, 3, 5]], 0.2875 * np.array([1.75, 2.5, 1.5, 2.5 * 0.6 * 2.0 / 9.0]), rtol=1e-12
     )
     with pytest.raises(dd.InputError, match=r"f0 = 2: must lie between 2\.2 and 5"):
-        dd.ntc_spectrum(0.2, 2.0, 0.3)
+        dd.Site(0.2, 2.0, 0.3)
 
 
 def test_conditional_spectrum():
@@ -174,8 +176,8 @@ def test_conditional_spectrum():
 
 
 def test_selection(records):
-    target = dd.ec8_spectrum(0.35, soil="B", periods=PERIODS)
-    found = dd.select_records(records, target, 5)
+    target = dd.TargetSpectrum.ec8(0.35, soil="B", periods=PERIODS)
+    found = dd.RecordSet(records).select(target, 5)
     assert len({record.name for record in found.records}) == 5
     scaled = found.records.spectra(PERIODS)
     np.testing.assert_allclose(found.sa, scaled, rtol=1e-12)
@@ -193,11 +195,11 @@ def test_selection(records):
             assert changed > cost * (1.0 - 1e-9)
     found.plot()
     at = dd.TargetSpectrum(PERIODS, target.sa, dispersion=0.5).conditional(0.5, 0.6)
-    chosen = dd.select_records(records, at, 4, max_factor=10.0)
+    chosen = dd.RecordSet(records).select(at, 4, max_factor=10.0)
     here = list(at.periods).index(0.5)
     np.testing.assert_allclose(chosen.sa[:, here], 0.6, rtol=1e-12)
     with pytest.raises(dd.InputError, match="records can be scaled"):
-        dd.select_records(records, dd.ec8_spectrum(30.0, periods=PERIODS), 5, max_factor=1.5)
+        dd.RecordSet(records).select(dd.TargetSpectrum.ec8(30.0, periods=PERIODS), 5, max_factor=1.5)
 
 
 @pytest.mark.parametrize(("im", "power"), [("pga", 1), ("arias", 2)])
@@ -236,7 +238,7 @@ def test_wrong_targets(more, sentence):
 
 def test_kinds_of_eurocode_8():
     with pytest.raises(dd.InputError, match=r"kind = \[1\]: must be 1 or 2"):
-        dd.ec8_spectrum(0.2, kind=[1])
+        dd.TargetSpectrum.ec8(0.2, kind=[1])
 
 
 def test_a_set_with_factors_is_heeded_or_refused(records, parapet):
@@ -255,19 +257,19 @@ def test_a_set_with_factors_is_heeded_or_refused(records, parapet):
     np.testing.assert_allclose(cloud.intensity, factors * plain.intensity, rtol=1e-12)
     assert not np.array_equal(cloud.edp, plain.edp)
     assert cloud.records[0].processing[-1] == "times 0.5"
-    table = dd.intensity_table(scaled, ("pga", "arias", "d5-95"))
-    as_they_stand = dd.intensity_table(records, ("pga", "arias", "d5-95"))
+    table = dd.RecordSet(scaled).intensity_table(("pga", "arias", "d5-95"))
+    as_they_stand = dd.RecordSet(records).intensity_table(("pga", "arias", "d5-95"))
     for name, power in (("pga [g]", 1), ("arias [m/s]", 2), ("d5-95 [s]", 0)):
         np.testing.assert_allclose(table[name], factors**power * as_they_stand[name], rtol=1e-12)
     at_levels = dd.RecordSet(records, level=0.5)
-    for run in (lambda one: dd.cloud(parapet, one, progress=False), dd.intensity_table):
+    for run in (lambda one: dd.cloud(parapet, one, progress=False), dd.RecordSet.intensity_table):
         with pytest.raises(dd.InputError, match="has a level and no factor"):
             run(at_levels)
-    target = dd.ec8_spectrum(0.25, soil="C", periods=PERIODS)
+    target = dd.TargetSpectrum.ec8(0.25, soil="C", periods=PERIODS)
     for one, what in ((scaled, "factor"), (at_levels, "level")):
         for run in (
             lambda one: dd.compare_intensities(parapet, one, ["pga"], progress=False),
-            lambda one: dd.select_records(one, target, 3),
+            lambda one: dd.RecordSet(one).select(target, 3),
         ):
             with pytest.raises(dd.InputError, match=f"records: have {what}s of their own"):
                 run(one)
@@ -277,7 +279,7 @@ def test_a_set_with_factors_is_heeded_or_refused(records, parapet):
 
 def test_a_record_of_several_rows(records, parapet):
     twice = dd.RecordSet([*records[:3], records[0]], factor=[1.0, 1.0, 1.0, 2.0])
-    pga = dd.intensity_table(twice, "pga")["pga [g]"]
+    pga = dd.RecordSet(twice).intensity_table("pga")["pga [g]"]
     assert pga[3] == 2.0 * pga[0]
     assert len(dd.cloud(parapet, twice, progress=False).edp) == 4
 
@@ -310,7 +312,7 @@ def test_designs_and_variants_run_the_records_of_a_set(sets, parapet):
             parapet,
             joined,
             [0.6, 0.8, 1.0],
-            sources={"density": dd.Uniform(1700.0, 1900.0)},
+            sources={"density": dd.distributions.Uniform(1700.0, 1900.0)},
             n_variants=10,
             progress=False,
         )
@@ -334,7 +336,7 @@ def test_conditions_say_what_is_wrong(records, condition, sentence):
 
 
 def test_a_selection_is_no_record(records, parapet):
-    selection = dd.select_records(records, dd.ec8_spectrum(0.25, soil="C", periods=PERIODS), 3)
+    selection = dd.RecordSet(records).select(dd.TargetSpectrum.ec8(0.25, soil="C", periods=PERIODS), 3)
     with pytest.raises(dd.InputError, match="Selection is no record: must be given as its attribute records"):
         dd.multiple_stripe(parapet, selection, [0.5], progress=False)
     site = dd.Site(ag=0.2, f0=2.5, tc_star=0.35, soil="B")

@@ -557,7 +557,7 @@ def test_no_state_is_said_to_cross(pages):
 
 def test_an_uncertain_wall_is_one_wall(few, tmp_path):
     wall = dd.OneSidedWall(1.5, 0.25, name="parapet")
-    sources = {"restitution_factor": dd.Uniform(0.95, 1.0)}
+    sources = {"restitution_factor": dd.distributions.Uniform(0.95, 1.0)}
     found = dd.uncertain_wall(wall, few, [0.3, 0.5, 0.7, 0.9, 1.2], sources=sources, n_variants=12, progress=False)
     dd.report(found, tmp_path / "report.html")
     page = read(tmp_path / "report.html")

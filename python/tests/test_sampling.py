@@ -11,8 +11,8 @@ from scipy import stats
 
 import dondolo as dd
 
-HEIGHT = dd.Lognormal(3.2, 0.15, low=2.4, high=4.5)
-BRICKS = dd.Choice((0.25, 0.38, 0.51), (0.2, 0.5, 0.3))
+HEIGHT = dd.distributions.Lognormal(3.2, 0.15, low=2.4, high=4.5)
+BRICKS = dd.distributions.Choice((0.25, 0.38, 0.51), (0.2, 0.5, 0.3))
 
 
 def sample(n=200, seed=1, **changes):
@@ -22,17 +22,17 @@ def sample(n=200, seed=1, **changes):
             "one_sided": {"p_occ": 0.6},
             "two_block": {
                 "p_occ": 0.4,
-                "hinge": dd.Triangular(0.5, 0.6, 0.75),
-                "overburden": dd.Uniform(0.0, 9e3),
+                "hinge": dd.distributions.Triangular(0.5, 0.6, 0.75),
+                "overburden": dd.distributions.Uniform(0.0, 9e3),
                 "overburden_inertia": 0.0,
             },
         },
         "height": HEIGHT,
         "thickness": BRICKS,
-        "density": dd.Normal(1800.0, 100.0),
+        "density": dd.distributions.Normal(1800.0, 100.0),
         "group": "facades",
     }
-    return dd.sample_population(n_walls=n, seed=seed, **{**arguments, **changes})
+    return dd.Population.sample(n_walls=n, seed=seed, **{**arguments, **changes})
 
 
 def column(population, what, mechanism="one_sided"):
@@ -52,15 +52,18 @@ def cut(distribution, low, high):
 
 # Distributions and, written down independently, their distribution functions
 DISTRIBUTIONS = [
-    (dd.Uniform(2.0, 5.0), lambda x: (x - 2.0) / 3.0),
-    (dd.Triangular(1.0, 2.0, 4.0), lambda x: np.where(x < 2.0, (x - 1.0) ** 2 / 3.0, 1.0 - (4.0 - x) ** 2 / 6.0)),
-    (dd.Triangular(1.0, 1.0, 4.0), lambda x: 1.0 - (4.0 - x) ** 2 / 9.0),
-    (dd.Normal(3.0, 0.5), stats.norm(3.0, 0.5).cdf),
-    (dd.Normal(3.0, 0.5, low=2.9, high=4.5), cut(stats.norm(3.0, 0.5), 2.9, 4.5)),
-    (dd.Normal(3.0, 0.5, high=2.0), cut(stats.norm(3.0, 0.5), -9.0, 2.0)),
-    (dd.Lognormal(3.0, 0.2), lambda x: stats.norm.cdf(np.log(x / 3.0) / 0.2)),
-    (dd.Lognormal(3.0, 0.2, low=2.8), cut(stats.lognorm(0.2, scale=3.0), 2.8, 99.0)),
-    (dd.Lognormal(3.0, 0.2, low=2.8, high=3.1), cut(stats.lognorm(0.2, scale=3.0), 2.8, 3.1)),
+    (dd.distributions.Uniform(2.0, 5.0), lambda x: (x - 2.0) / 3.0),
+    (
+        dd.distributions.Triangular(1.0, 2.0, 4.0),
+        lambda x: np.where(x < 2.0, (x - 1.0) ** 2 / 3.0, 1.0 - (4.0 - x) ** 2 / 6.0),
+    ),
+    (dd.distributions.Triangular(1.0, 1.0, 4.0), lambda x: 1.0 - (4.0 - x) ** 2 / 9.0),
+    (dd.distributions.Normal(3.0, 0.5), stats.norm(3.0, 0.5).cdf),
+    (dd.distributions.Normal(3.0, 0.5, low=2.9, high=4.5), cut(stats.norm(3.0, 0.5), 2.9, 4.5)),
+    (dd.distributions.Normal(3.0, 0.5, high=2.0), cut(stats.norm(3.0, 0.5), -9.0, 2.0)),
+    (dd.distributions.Lognormal(3.0, 0.2), lambda x: stats.norm.cdf(np.log(x / 3.0) / 0.2)),
+    (dd.distributions.Lognormal(3.0, 0.2, low=2.8), cut(stats.lognorm(0.2, scale=3.0), 2.8, 99.0)),
+    (dd.distributions.Lognormal(3.0, 0.2, low=2.8, high=3.1), cut(stats.lognorm(0.2, scale=3.0), 2.8, 3.1)),
 ]
 
 
@@ -74,9 +77,9 @@ def test_quantiles(distribution, function):
 def test_choice():
     p = np.array([1e-9, 0.2, 0.2000001, 0.7, 0.7000001, 1.0])
     assert BRICKS.ppf(p).tolist() == [0.25, 0.25, 0.38, 0.38, 0.51, 0.51]
-    assert dd.Choice((1.0, 2.0), (0.0, 1.0)).ppf(np.array([1e-300, 1.0])).tolist() == [2.0, 2.0]
-    assert dd.Choice([1, 2, 4]).probabilities == pytest.approx((1 / 3,) * 3)
-    assert dd.Choice((5.0,)).ppf(p).tolist() == [5.0] * 6
+    assert dd.distributions.Choice((1.0, 2.0), (0.0, 1.0)).ppf(np.array([1e-300, 1.0])).tolist() == [2.0, 2.0]
+    assert dd.distributions.Choice([1, 2, 4]).probabilities == pytest.approx((1 / 3,) * 3)
+    assert dd.distributions.Choice((5.0,)).ppf(p).tolist() == [5.0] * 6
 
 
 class Stuck:
@@ -90,44 +93,50 @@ class Stuck:
 
 
 def test_anything_with_quantiles_is_a_distribution():
-    mine = dd.sample_population("one_sided", 20, 1, height=dd.Normal(3.0, 0.2), thickness=0.3)
-    scipys = dd.sample_population("one_sided", 20, 1, height=stats.norm(3.0, 0.2), thickness=0.3)
+    mine = dd.Population.sample("one_sided", 20, 1, height=dd.distributions.Normal(3.0, 0.2), thickness=0.3)
+    scipys = dd.Population.sample("one_sided", 20, 1, height=stats.norm(3.0, 0.2), thickness=0.3)
     assert [wall.height for wall in scipys.walls] == pytest.approx([wall.height for wall in mine.walls], rel=1e-14)
     assert "height = norm(3.0, 0.2)" in scipys.origin[0]
-    own = dd.sample_population("one_sided", 20, 1, height=Stuck(None), thickness=0.3)
+    own = dd.Population.sample("one_sided", 20, 1, height=Stuck(None), thickness=0.3)
     assert all(2.0 < wall.height < 3.0 for wall in own.walls)
     for wrong in (1.0, np.full(20, np.nan), np.ones(19)):
         with pytest.raises(dd.InputError, match="height: its ppf must return 20 finite numbers"):
-            dd.sample_population("one_sided", 20, 1, height=Stuck(wrong), thickness=0.3)
+            dd.Population.sample("one_sided", 20, 1, height=Stuck(wrong), thickness=0.3)
 
 
 @pytest.mark.parametrize(
     ("make", "sentence"),
     [
-        (lambda: dd.Uniform(2.0, 2.0), "high = 2: must be greater than low = 2"),
-        (lambda: dd.Uniform("2", 3.0), "low = '2': must be a number"),
-        (lambda: dd.Uniform(2.0, math.inf), "high = inf: must be finite"),
-        (lambda: dd.Triangular(1.0, 5.0, 4.0), "mode = 5: must lie between 1 and 4"),
-        (lambda: dd.Normal(1.0, 0.0), "sd = 0: must be positive"),
-        (lambda: dd.Normal(1.0, 1.0, low=2.0, high=1.0), "high = 1: must be greater than low = 2"),
+        (lambda: dd.distributions.Uniform(2.0, 2.0), "high = 2: must be greater than low = 2"),
+        (lambda: dd.distributions.Uniform("2", 3.0), "low = '2': must be a number"),
+        (lambda: dd.distributions.Uniform(2.0, math.inf), "high = inf: must be finite"),
+        (lambda: dd.distributions.Triangular(1.0, 5.0, 4.0), "mode = 5: must lie between 1 and 4"),
+        (lambda: dd.distributions.Normal(1.0, 0.0), "sd = 0: must be positive"),
+        (lambda: dd.distributions.Normal(1.0, 1.0, low=2.0, high=1.0), "high = 1: must be greater than low = 2"),
         (
-            lambda: dd.Normal(1.0, 0.1, low=2.0),
+            lambda: dd.distributions.Normal(1.0, 0.1, low=2.0),
             "low, high: leave 0 of the distribution between them, must leave 1e-06 at least",
         ),
         (
-            lambda: dd.Lognormal(1.0, 0.1, high=0.5),
+            lambda: dd.distributions.Lognormal(1.0, 0.1, high=0.5),
             "low, high: leave 2.08e-12 of the distribution between them, must leave 1e-06 at least",
         ),
-        (lambda: dd.Lognormal(-1.0, 0.2), "theta = -1: must be positive"),
-        (lambda: dd.Lognormal(1.0, -0.2), "beta = -0.2: must be positive"),
-        (lambda: dd.Lognormal(1.0, 0.2, low=0.0), "low = 0: must be positive"),
-        (lambda: dd.Choice((1.0, 2.0), (0.5,)), "2 values, 1 probabilities: must be as many"),
-        (lambda: dd.Choice((1.0, 2.0), (0.5, 0.6)), "probabilities: must not be negative and have the sum 1, not 1.1"),
-        (lambda: dd.Choice((1.0, 2.0), (1.5, -0.5)), "probabilities: must not be negative and have the sum 1, not 1"),
-        (lambda: dd.Choice((2.0, 1.0)), "values: must rise from one to the next"),
-        (lambda: dd.Choice(()), "values: must be given"),
-        (lambda: dd.Choice((1, 2), 0.5), "2 values, 1 probabilities: must be as many"),
-        (lambda: dd.Choice((1, 2), ()), "probabilities: must be given"),
+        (lambda: dd.distributions.Lognormal(-1.0, 0.2), "theta = -1: must be positive"),
+        (lambda: dd.distributions.Lognormal(1.0, -0.2), "beta = -0.2: must be positive"),
+        (lambda: dd.distributions.Lognormal(1.0, 0.2, low=0.0), "low = 0: must be positive"),
+        (lambda: dd.distributions.Choice((1.0, 2.0), (0.5,)), "2 values, 1 probabilities: must be as many"),
+        (
+            lambda: dd.distributions.Choice((1.0, 2.0), (0.5, 0.6)),
+            "probabilities: must not be negative and have the sum 1, not 1.1",
+        ),
+        (
+            lambda: dd.distributions.Choice((1.0, 2.0), (1.5, -0.5)),
+            "probabilities: must not be negative and have the sum 1, not 1",
+        ),
+        (lambda: dd.distributions.Choice((2.0, 1.0)), "values: must rise from one to the next"),
+        (lambda: dd.distributions.Choice(()), "values: must be given"),
+        (lambda: dd.distributions.Choice((1, 2), 0.5), "2 values, 1 probabilities: must be as many"),
+        (lambda: dd.distributions.Choice((1, 2), ()), "probabilities: must be given"),
     ],
 )
 def test_wrong_distributions(make, sentence):
@@ -149,10 +158,10 @@ def test_walls_and_their_mechanisms():
     hinge = column(people, "hinge", "two_block")
     assert ((hinge > 0.5) & (hinge < 0.75)).all()
     assert len(set(hinge)) == 50
-    alone = dd.sample_population("two_block", 12345, 3, height=3.0, thickness=0.25, gravity=9.80665, name="strip")
+    alone = dd.Population.sample("two_block", 12345, 3, height=3.0, thickness=0.25, gravity=9.80665, name="strip")
     assert (alone[0].name, alone[-1].name, alone[0].gravity) == ("strip 00001", "strip 12345", 9.80665)
     assert alone.groups[0] == ""
-    both = dd.sample_population(["free_standing", "one_sided"], 1, 3, height=3.0, thickness=0.5)
+    both = dd.Population.sample(["free_standing", "one_sided"], 1, 3, height=3.0, thickness=0.5)
     assert [wall.mechanism for wall in both] == ["free_standing", "one_sided"]
 
 
@@ -183,7 +192,7 @@ def test_every_margin_is_stratified(correlation, n):
 def test_correlation():
     """Of the normal scores: the logarithm of a lognormal height is one, the density another."""
     wanted = {("height", "density"): 0.6, ("height", "two_block.overburden"): -0.4}
-    people = sample(n=2000, correlation=wanted, height=dd.Lognormal(3.2, 0.15))
+    people = sample(n=2000, correlation=wanted, height=dd.distributions.Lognormal(3.2, 0.15))
     scores = np.array(
         [
             np.log(column(people, "height")),
@@ -222,12 +231,12 @@ def test_pairs_that_are_not_named_have_no_correlation(correlation, n, off, seed)
 @pytest.mark.parametrize("seed", range(20))
 def test_few_walls(seed):
     """What three numbers can have is -1, -1/2, 1/2 and 1; the draws that give no choice are drawn again."""
-    few = {"height": dd.Normal(3.0, 0.1), "thickness": dd.Normal(0.3, 0.01)}
-    people = dd.sample_population("one_sided", 3, seed, **few, correlation={("height", "thickness"): 0.4})
+    few = {"height": dd.distributions.Normal(3.0, 0.1), "thickness": dd.distributions.Normal(0.3, 0.01)}
+    people = dd.Population.sample("one_sided", 3, seed, **few, correlation={("height", "thickness"): 0.4})
     ranks = stats.rankdata([column(people, what) for what in few], axis=1)
     assert np.corrcoef(ranks)[0, 1] == pytest.approx(0.5)
     for n in (1, 2):
-        assert len(dd.sample_population("one_sided", n, seed, **few)) == n
+        assert len(dd.Population.sample("one_sided", n, seed, **few)) == n
 
 
 @pytest.mark.slow
@@ -235,12 +244,12 @@ def test_few_walls(seed):
 @given(rho=st.floats(-0.99, 0.99), n=st.integers(100, 500), seed=st.integers(0, 1000))
 def test_any_correlation(rho, n, seed):
     """The error falls with the number of walls: its standard deviation over seeds is 1.4 / n at most."""
-    people = dd.sample_population(
+    people = dd.Population.sample(
         "one_sided",
         n,
         seed,
-        height=dd.Normal(3.0, 0.1),
-        thickness=dd.Normal(0.3, 0.01),
+        height=dd.distributions.Normal(3.0, 0.1),
+        thickness=dd.distributions.Normal(0.3, 0.01),
         correlation={("thickness", "height"): rho},
     )
     found = stats.pearsonr(column(people, "height"), column(people, "thickness")).statistic
@@ -249,11 +258,15 @@ def test_any_correlation(rho, n, seed):
 
 def test_functions():
     """Of variables and of each other, in their order; numbers for all walls are welcome."""
-    people = dd.sample_population(
+    people = dd.Population.sample(
         {"one_sided": {"height": lambda s: s["storeys"] * s["storey"]}, "two_block": {"height": lambda s: s["storey"]}},
         40,
         5,
-        variables={"storeys": dd.Choice((2, 3)), "storey": dd.Uniform(2.8, 3.6), "tied": dd.Choice((0, 1))},
+        variables={
+            "storeys": dd.distributions.Choice((2, 3)),
+            "storey": dd.distributions.Uniform(2.8, 3.6),
+            "tied": dd.distributions.Choice((0, 1)),
+        },
         correlation={("storeys", "thickness"): 0.5},
         thickness=BRICKS,
         density=lambda s: 1900.0,
@@ -272,24 +285,24 @@ def test_functions_do_not_change_what_they_get():
         samples["height"] *= 0.1
         return samples["height"]
 
-    for height in (3.0, dd.Uniform(2.0, 3.0), lambda samples: 3.0):
+    for height in (3.0, dd.distributions.Uniform(2.0, 3.0), lambda samples: 3.0):
         with pytest.raises(ValueError, match="read-only"):
-            dd.sample_population("one_sided", 4, 1, height=height, thickness=a_tenth)
+            dd.Population.sample("one_sided", 4, 1, height=height, thickness=a_tenth)
 
 
 def test_origin(tmp_path):
     def half_brick(samples):
         return np.full(20, 0.12)
 
-    people = dd.sample_population(
-        {"two_block": {"hinge": dd.Uniform(0.5, 0.6)}},
+    people = dd.Population.sample(
+        {"two_block": {"hinge": dd.distributions.Uniform(0.5, 0.6)}},
         20,
         9,
-        variables={"storey": dd.Uniform(2.0, 3.0)},
+        variables={"storey": dd.distributions.Uniform(2.0, 3.0)},
         correlation={("storey", "density"): 0.25},
         height=2.5,
         thickness=half_brick,
-        density=dd.Normal(1800.0, 50.0),
+        density=dd.distributions.Normal(1800.0, 50.0),
         weight=lambda samples: samples["density"],
         restitution="impulse",
     )
@@ -308,7 +321,7 @@ def test_origin(tmp_path):
     assert max(map(len, people.origin)) <= 110
     people.to_csv(tmp_path / "walls.csv")
     assert (tmp_path / "walls.csv").read_text().startswith("# wall: 20 walls")
-    assert dd.read_population(tmp_path / "walls.csv").walls == people.walls
+    assert dd.Population.from_csv(tmp_path / "walls.csv").walls == people.walls
 
 
 @pytest.mark.parametrize(
@@ -336,13 +349,13 @@ def test_origin(tmp_path):
         ({"height": lambda s: s["storeys"] * 3.0}, "height: its function asks for 'storeys'; known before it are: 'th"),
         ({"thickness": lambda s: np.ones(3)}, "thickness: its function must return 200 numbers or one"),
         ({"thickness": lambda s: "thick"}, "thickness: its function must return 200 numbers or one"),
-        ({"density": dd.Uniform(-2.0, -1.0)}, "must be positive"),
+        ({"density": dd.distributions.Uniform(-2.0, -1.0)}, "must be positive"),
         ({"name": "a\nb"}, r"name = 'a\nb': must be one line"),
         ({"group": "a\nb"}, r"group = 'a\nb': must be one line"),
         ({"name": 3}, "name = 3: must be a text"),
         ({"group": 3}, "group = 3: must be a text"),
-        ({"p_occ": dd.Uniform(1.5, 2.0), "mechanisms": "one_sided"}, "wall 'facades 0001': p_occ = "),
-        ({"weight": dd.Uniform(-2.0, -1.0)}, "wall 'facades 0001': weight = -"),
+        ({"p_occ": dd.distributions.Uniform(1.5, 2.0), "mechanisms": "one_sided"}, "wall 'facades 0001': p_occ = "),
+        ({"weight": dd.distributions.Uniform(-2.0, -1.0)}, "wall 'facades 0001': weight = -"),
         ({"correlation": {("height", "colour"): 0.5}}, "correlation: 'colour' is not sampled; these are: 'height', "),
         ({"correlation": {("height", "height"): 0.5}}, "correlation: ('height', 'height'): must be two names"),
         ({"correlation": {"height": 0.5}}, "correlation: 'height': must be two names"),
@@ -385,13 +398,22 @@ def test_errors(changes, sentence):
 @pytest.mark.parametrize(
     ("own", "sentence"),
     [
-        ({"eccentricity": dd.Uniform(0.2, 0.3)}, r"wall 'facades \d+': eccentricity = 0.2\d*: must lie between -0.125"),
-        ({"hinge": dd.Uniform(0.9, 1.1)}, r"wall 'facades \d+': hinge = [01].\d*: must lie between 0.01 and 0.99"),
         (
-            {"restitution": "constant", "restitution_value": dd.Uniform(0.9, 1.1)},
+            {"eccentricity": dd.distributions.Uniform(0.2, 0.3)},
+            r"wall 'facades \d+': eccentricity = 0.2\d*: must lie between -0.125",
+        ),
+        (
+            {"hinge": dd.distributions.Uniform(0.9, 1.1)},
+            r"wall 'facades \d+': hinge = [01].\d*: must lie between 0.01 and 0.99",
+        ),
+        (
+            {"restitution": "constant", "restitution_value": dd.distributions.Uniform(0.9, 1.1)},
             r"wall 'facades \d+': restitution_value = 1.0\d*: must be",
         ),
-        ({"restitution_factor": dd.Uniform(1.0, 2.0)}, r"wall 'facades \d+': restitution_factor = 1.*speed ratio"),
+        (
+            {"restitution_factor": dd.distributions.Uniform(1.0, 2.0)},
+            r"wall 'facades \d+': restitution_factor = 1.*speed ratio",
+        ),
     ],
 )
 def test_samples_that_no_wall_can_have(own, sentence):
@@ -401,7 +423,7 @@ def test_samples_that_no_wall_can_have(own, sentence):
 
 def test_a_bearing_follows_the_thickness():
     own = {"overburden": 5000.0, "overburden_inertia": 0.0, "bearing": "inner", "bearing_distance": 0.06}
-    walls = sample(mechanisms={"two_block": own}, thickness=dd.Uniform(0.25, 0.5))
+    walls = sample(mechanisms={"two_block": own}, thickness=dd.distributions.Uniform(0.25, 0.5))
     assert [wall.eccentricity for wall in walls] == pytest.approx([0.06 - 0.5 * wall.thickness for wall in walls])
     with pytest.raises(dd.InputError, match="bearing: one_sided walls have none"):
         sample(mechanisms=("one_sided", "two_block"), bearing="centre")
@@ -456,7 +478,7 @@ def test_the_historic_centre_is_sensible(root, few):
     """Facades that overturn as a whole are more vulnerable than strips that fold."""
     import warnings
 
-    people = dd.read_population(root / "data/walls/historic_centre.csv").group("row houses")
+    people = dd.Population.from_csv(root / "data/walls/historic_centre.csv").group("row houses")
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", dd.DondoloWarning)
         both = dd.typology(people, few, [0.3, 0.6, 0.9, 1.2, 1.6, 2.0], progress=False)

@@ -71,7 +71,7 @@ def results(stripes, few, wall):
             progress=False,
         ),
         "uncertain wall": dd.uncertain_wall(
-            strip, shaking, wide, sources={"hinge": dd.Uniform(0.5, 0.7)}, n_variants=10, progress=False
+            strip, shaking, wide, sources={"hinge": dd.distributions.Uniform(0.5, 0.7)}, n_variants=10, progress=False
         ),
         "hinges": dd.weakest_hinge(strip, shaking, wide, hinges=[0.5, 0.6, 0.7], progress=False),
         "bootstrap": curve.bootstrap(n_resamples=20),
@@ -82,7 +82,7 @@ def results(stripes, few, wall):
         "spectrum": few[0].spectrum([0.1, 0.5, 1.0]),
         "records": dd.RecordSet.of_levels({0.2: few, 0.4: dd.RecordSet(few[:1], factor=2.0)}),
         "target": dd.TargetSpectrum([0.1, 0.5, 1.0], [0.5, 0.4, 0.2], dispersion=0.6).conditional(0.5, 0.8),
-        "selection": dd.select_records(few, dd.ec8_spectrum(0.3, periods=[0.1, 0.5, 1.0]), 1, max_factor=100.0),
+        "selection": dd.RecordSet(few).select(dd.TargetSpectrum.ec8(0.3, periods=[0.1, 0.5, 1.0]), 1, max_factor=100.0),
         "discrete": dd.DiscreteFragility([0.1, 0.2, 0.4], [0.0, 0.25, 0.75]),
         "fragility model": dd.results.FragilityModel(
             functions={"a": {"c": dd.Fragility.of_parameters(0.5, 0.4, im="pga")}},

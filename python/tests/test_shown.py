@@ -54,7 +54,7 @@ def things(wall, stripes, few, records, root, tmp_path_factory):
     risk = curve.risk(hazard)
     two_block = dd.TwoBlockWall(3.0, 0.25)
     pulses = {"frequencies": [1.0, 2.0], "amplitudes": [0.2, 0.6]}
-    target = dd.ec8_spectrum(0.25, soil="C", periods=[0.1, 0.2, 0.5, 1.0, 2.0])
+    target = dd.TargetSpectrum.ec8(0.25, soil="C", periods=[0.1, 0.2, 0.5, 1.0, 2.0])
     prefix = tmp_path_factory.mktemp("results") / "people"
     people.write_results(prefix)
     nrml = prefix.with_suffix(".xml")
@@ -64,7 +64,7 @@ def things(wall, stripes, few, records, root, tmp_path_factory):
     house = dd.Building(0.3, storeys=3, level=9.0, building_height=9.0)
     found = [
         wall, dd.FreeStandingWall(1.5, 0.25), two_block, dd.Population([wall, other]), house,
-        records[0], dd.RecordSet(few), dd.select_records(records, target, 5), records[0].spectrum([0.1, 1.0]), site,
+        records[0], dd.RecordSet(few), dd.RecordSet(records).select(target, 5), records[0].spectrum([0.1, 1.0]), site,
         target, stripes, curve, curve.bootstrap(n_resamples=20), ida, ida.fit(), dd.cloud(wall, records),
         curve.compare(dd.multiple_stripe(other, records, levels, **quiet).fit()), people, people["all"],
         people["all"].bootstrap(n_resamples=20), hazard, risk, risk.uncertainty(n_draws=100),
@@ -73,7 +73,9 @@ def things(wall, stripes, few, records, root, tmp_path_factory):
         dd.compare_intensities(wall, records, ["pga", "pgv"], n_levels=6, n_resamples=20, **quiet),
         dd.overturning_spectrum(wall, dd.pulses.one_sine, **pulses, **quiet),
         dd.weakest_hinge(two_block, few, levels, hinges=[0.5, 0.7], **quiet),
-        dd.uncertain_wall(two_block, few, levels, sources={"hinge": dd.Uniform(0.5, 0.7)}, n_variants=10, **quiet),
+        dd.uncertain_wall(
+            two_block, few, levels, sources={"hinge": dd.distributions.Uniform(0.5, 0.7)}, n_variants=10, **quiet
+        ),
         dd.read_nrml(nrml), dd.cloud(wall, records, scale=3.0).fit(), dd.FunctionFragility(curve),
         dd.Study(few, levels), dd.DiscreteFragility([0.1, 0.2], [0.0, 0.25]),
         dd.read_results(prefix),

@@ -43,7 +43,7 @@ def test_lanes_outrun_rk45(wall, records):
     for _ in range(5):
         slow, fast = timed(wall, records, "rk45"), timed(wall, records, "lanes")
         ratios.append(slow / fast)
-    least = {"avx512": 7.0, "avx2": 5.5}.get(dd.build_variant(), 2.7)
+    least = {"avx512": 7.0, "avx2": 5.5}.get(dd.Solver.variant(), 2.7)
     assert statistics.median(ratios) > least, ratios
 
 
@@ -110,7 +110,7 @@ def test_arithmetic(executable):
     """The engine's operations a second against those of a loop of multiplications and additions in the same run."""
     printed = subprocess.run([executable, "--benchmark", "0.2", "--threads", "1"], capture_output=True, text=True)
     percent = float(re.search(r"operations a second, +(\S+) %", printed.stdout).group(1))
-    assert percent > {"avx512": 45.0, "avx2": 35.0}.get(dd.build_variant(), 15.0), printed.stdout
+    assert percent > {"avx512": 45.0, "avx2": 35.0}.get(dd.Solver.variant(), 15.0), printed.stdout
 
 
 def case(folder, levels="0.1", title="", job="", groups=""):

@@ -49,7 +49,7 @@ def execute(folder, *arguments):
 def run(folder, root, checkpoint, **options):
     """The same study in Python."""
     return dd.typology(
-        dd.read_population(folder / "walls.csv"),
+        dd.Population.from_csv(folder / "walls.csv"),
         dd.read_catalogue(root / "data/records/synthetic44.csv"),
         LEVELS,
         polarity="both",

@@ -77,7 +77,7 @@ def test_a_cut_facade_keeps_its_top():
     whole = dd.OneSidedWall(
         sections=[dd.Section(4.0, 0.6), dd.Section(3.5, 0.45), dd.Section(3.0, 0.3)], building=house(0.0)
     )
-    parts = dd.facade(whole, hinge_level=[0.0, 4.0]).walls
+    parts = dd.Population.of_facade(whole, hinge_level=[0.0, 4.0]).walls
     assert [part.building.level for part in parts] == [0.0, 4.0]
     above = dd.OneSidedWall(sections=[dd.Section(3.5, 0.45), dd.Section(3.0, 0.3)], building=house(4.0))
     # The building ends at 9 m: the upper part leans on 5 m of it
@@ -86,7 +86,7 @@ def test_a_cut_facade_keeps_its_top():
     held = dd.OneSidedWall(
         sections=[dd.Section(4.0, 0.6), dd.Section(3.5, 0.45), dd.Section(3.0, 0.3)], building=house(0.0, level_top=0.0)
     )
-    assert [part.support_share for part in dd.facade(held, hinge_level=[0.0, 4.0]).walls] == [0.0, 0.0]
+    assert [part.support_share for part in dd.Population.of_facade(held, hinge_level=[0.0, 4.0]).walls] == [0.0, 0.0]
 
 
 def test_tables_name_what_walls_feel():
@@ -222,7 +222,11 @@ def test_the_building_may_be_uncertain():
     """Period and damping of the building are sources: every variant moves with its own, to the bit."""
     wall = facade(house(0.0))
     records, levels = dd.example_records()[::4], np.arange(0.1, 1.01, 0.1)
-    sources = {"period": dd.Uniform(0.3, 0.45), "damping": dd.Uniform(0.05, 0.15), "level_top": dd.Uniform(6.0, 9.0)}
+    sources = {
+        "period": dd.distributions.Uniform(0.3, 0.45),
+        "damping": dd.distributions.Uniform(0.05, 0.15),
+        "level_top": dd.distributions.Uniform(6.0, 9.0),
+    }
     found = dd.uncertain_wall(wall, records, levels, sources=sources, n_variants=30, progress=False)
     variants = found.typology.walls
     assert len({variant.building.period for variant in variants[:30]}) == 30
@@ -242,7 +246,9 @@ def test_the_building_may_be_uncertain():
         stripes = dd.multiple_stripe(alone, records, levels, progress=False)
         assert np.array_equal(stripes.collapses, found.typology.exceedances[-1, :, number])
     with pytest.raises(dd.InputError, match="'period': must be one of height"):
-        dd.uncertain_wall(facade(None), records, levels, sources={"period": dd.Uniform(0.3, 0.45)}, n_variants=8)
+        dd.uncertain_wall(
+            facade(None), records, levels, sources={"period": dd.distributions.Uniform(0.3, 0.45)}, n_variants=8
+        )
 
 
 def test_a_cracked_building_pushes_less():

@@ -44,7 +44,7 @@ def written(executable, root, tmp_path_factory):
     )
     for name in (*CASES, "vertical"):
         subprocess.run([executable, "--quiet", f"{name}.nml"], cwd=folder, check=True, capture_output=True)
-    walls = dd.read_population(root / "data/walls/designs.csv")
+    walls = dd.Population.from_csv(root / "data/walls/designs.csv")
     typology = dd.typology(walls, dd.example_records()[:6], [0.3, 0.6, 0.9, 1.2], progress=False)
     typology.write_results(folder / "python")
     return folder

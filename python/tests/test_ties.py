@@ -104,7 +104,7 @@ def test_population(facade, record, tmp_path):
     assert list(frame["tie2_height_m"].fillna(0.0)) == [0.0, 0.0, 4.0]
     path = tmp_path / "walls.csv"
     population.to_csv(path)
-    again = dd.read_population(path)
+    again = dd.Population.from_csv(path)
     assert again.walls[2].ties == two.ties
     assert again.walls[1].ties == (TIE,)
     curves = dd.typology(population, [record], [0.2, 0.5], progress=False)

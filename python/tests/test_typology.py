@@ -23,7 +23,7 @@ LEVELS = [0.2, 0.4, 0.6, 0.9, 1.3]
 @pytest.fixture(scope="module")
 def population(root):
     """Some walls of both mechanisms."""
-    people = dd.read_population(root / "data/walls/population.csv")
+    people = dd.Population.from_csv(root / "data/walls/population.csv")
     return dd.Population(people.walls[::5], people.weights[::5])
 
 

@@ -20,10 +20,10 @@ CASE = """&job task = 'typology', output = 'out' /
 SOURCES = """restitution_factor = 'graziotti_2016', hinge = 'Triangular(0.5, 0.6, 0.75)',
    hinge_depth = 'lognormal(0.01, 0.4, 0.004, 0.03)', density = 'normal(1800, 90)'"""
 SAME = {
-    "restitution_factor": dd.Uniform(0.84, 0.90),
-    "hinge": dd.Triangular(0.5, 0.6, 0.75),
-    "hinge_depth": dd.Lognormal(0.01, 0.4, low=0.004, high=0.03),
-    "density": dd.Normal(1800.0, 90.0),
+    "restitution_factor": dd.distributions.Uniform(0.84, 0.90),
+    "hinge": dd.distributions.Triangular(0.5, 0.6, 0.75),
+    "hinge_depth": dd.distributions.Lognormal(0.01, 0.4, low=0.004, high=0.03),
+    "density": dd.distributions.Normal(1800.0, 90.0),
 }
 
 

@@ -16,11 +16,11 @@ import dondolo as dd
 LEVELS = np.arange(0.2, 2.6, 0.2)
 SOURCES = {
     "restitution_factor": "graziotti_2016",
-    "hinge": dd.Triangular(0.5, 0.6, 0.75),
-    "hinge_depth": dd.Uniform(0.005, 0.02),
+    "hinge": dd.distributions.Triangular(0.5, 0.6, 0.75),
+    "hinge_depth": dd.distributions.Uniform(0.005, 0.02),
 }
 
-SOFT = {"density": dd.Uniform(1600.0, 2000.0)}
+SOFT = {"density": dd.distributions.Uniform(1600.0, 2000.0)}
 
 
 @pytest.fixture(scope="module")
@@ -208,7 +208,7 @@ def test_one_sided_with_sections(motions):
 
 def test_variants_without_a_fit(wall, motions, found):
     """The levels end below the medians of some: it is said of how many variants theta and indices are."""
-    sources = {"thickness": dd.Uniform(0.15, 0.45)}
+    sources = {"thickness": dd.distributions.Uniform(0.15, 0.45)}
     levels = [0.3, 0.5, 0.7, 0.9]
     with pytest.warns(dd.DondoloWarning, match="variants that have a fit") as caught:
         few = dd.uncertain_wall(wall, motions, levels, sources=sources, n_variants=40, progress=False)
@@ -248,18 +248,18 @@ def test_plot(found):
     ("sources", "message"),
     [
         ({}, "sources: must be a mapping"),
-        ([("hinge", dd.Uniform(0.4, 0.6))], "sources: must be a mapping"),
-        ({"name": dd.Uniform(0.4, 0.6)}, "'name': must be one of height, thickness, density"),
-        ({"tie_area": dd.Uniform(0.4, 0.6)}, "'tie_area': must be one of"),
+        ([("hinge", dd.distributions.Uniform(0.4, 0.6))], "sources: must be a mapping"),
+        ({"name": dd.distributions.Uniform(0.4, 0.6)}, "'name': must be one of height, thickness, density"),
+        ({"tie_area": dd.distributions.Uniform(0.4, 0.6)}, "'tie_area': must be one of"),
         ({"hinge": 0.5}, "hinge = 0.5: must be a distribution"),
         (
             {"hinge": "graziotti_2016"},
             "hinge = 'graziotti_2016': must be a distribution; names are for",
         ),
         ({"restitution_factor": "nobody"}, "'nobody': must be a distribution; .*'graziotti_2016', 'elgawady_2010'"),
-        ({"hinge": dd.Uniform(0.5, 1.5)}, "wall 'strip 00.*: hinge = .*: must lie between 0.01 and 0.99"),
+        ({"hinge": dd.distributions.Uniform(0.5, 1.5)}, "wall 'strip 00.*: hinge = .*: must lie between 0.01 and 0.99"),
         (
-            {"hinge": dd.Uniform(0.5, 0.6), "density": dd.Uniform(1.6e3, 2e3)},
+            {"hinge": dd.distributions.Uniform(0.5, 0.6), "density": dd.distributions.Uniform(1.6e3, 2e3)},
             "n_variants = 12: must be an integer, between 16",
         ),
     ],
@@ -272,9 +272,9 @@ def test_refused(wall, motions, sources, message):
 @pytest.mark.parametrize(
     ("given", "told"),
     [
-        ("uniform(0.5, 0.6)", r"dd.Uniform\(0.5, 0.6\)"),
-        ("Triangular(0.5, 0.6, 0.75)", r"dd.Triangular\(0.5, 0.6, 0.75\)"),
-        ("lognormal(0.5, 0.1, 0.4, 0.7)", r"dd.Lognormal\(0.5, 0.1, low=0.4, high=0.7\)"),
+        ("uniform(0.5, 0.6)", r"dd.distributions.Uniform\(0.5, 0.6\)"),
+        ("Triangular(0.5, 0.6, 0.75)", r"dd.distributions.Triangular\(0.5, 0.6, 0.75\)"),
+        ("lognormal(0.5, 0.1, 0.4, 0.7)", r"dd.distributions.Lognormal\(0.5, 0.1, low=0.4, high=0.7\)"),
     ],
 )
 def test_texts_of_cases_are_refused_with_what_to_write(given, told):
@@ -320,7 +320,7 @@ def test_a_published_range_is_of_its_model(wall, name, message):
 def test_an_uncertain_load_changes_the_model():
     """The wall as given lifts nothing, all its variants do."""
     wall = dd.TwoBlockWall(2.7, 0.24, overburden_inertia=1.0)
-    sources = {"restitution_factor": "graziotti_2016", "overburden": dd.Uniform(4e3, 8e3)}
+    sources = {"restitution_factor": "graziotti_2016", "overburden": dd.distributions.Uniform(4e3, 8e3)}
     with pytest.raises(dd.InputError, match="for 'impulse', the model of a wall that lifts"):
         dd.uncertain_wall(wall, [], [0.5], sources=sources, n_variants=16)
 
@@ -362,15 +362,15 @@ def test_stripes_name_the_range_of_their_model(motions):
 
 def test_too_small_a_sample_is_refused_before_it_runs():
     wall = dd.TwoBlockWall(3.0, 0.25)
-    sources = {"hinge": dd.Uniform(0.5, 0.6), "density": dd.Normal(1800.0, 90.0)}
+    sources = {"hinge": dd.distributions.Uniform(0.5, 0.6), "density": dd.distributions.Normal(1800.0, 90.0)}
     with pytest.raises(dd.InputError, match="n_variants = 15: must be an integer, between 16 and 10000"):
         dd.uncertain_wall(wall, [], [0.5], sources=sources, n_variants=15)
 
 
 def test_ends_must_be_named():
     with pytest.raises(dd.InputError, match=r"must be named: low=0\.001, high=0\.05"):
-        dd.Lognormal(0.01, 0.4, 0.001, 0.05)
-    whole = dd.Lognormal(0.01, 0.4, low=0.001, high=0.05)
+        dd.distributions.Lognormal(0.01, 0.4, 0.001, 0.05)
+    whole = dd.distributions.Lognormal(0.01, 0.4, low=0.001, high=0.05)
     assert pickle.loads(pickle.dumps(whole)) == whole == dataclasses.replace(whole)
 
 

@@ -21,7 +21,7 @@ def available():
         for name in NAMES:
             patch.setenv("DONDOLO_VARIANT", name)
             with contextlib.suppress(dd.InputError):
-                assert dd.build_variant() == name
+                assert dd.Solver.variant() == name
                 found.append(name)
     return found
 
@@ -53,9 +53,9 @@ def test_the_best_is_taken(monkeypatch):
     names = available()
     assert ("baseline" in names) != ("native" in names)
     monkeypatch.delenv("DONDOLO_VARIANT", raising=False)
-    assert dd.build_variant() == names[-1]
+    assert dd.Solver.variant() == names[-1]
     monkeypatch.setenv("DONDOLO_VARIANT", "")
-    assert dd.build_variant() == names[-1]
+    assert dd.Solver.variant() == names[-1]
 
 
 @pytest.mark.parametrize("wrong", ["sse2", "AVX2", "baseline, avx2", *NAMES])
@@ -65,7 +65,7 @@ def test_no_other_is_taken(wrong, case, sine, monkeypatch):
     monkeypatch.setenv("DONDOLO_VARIANT", wrong)
     wall = case.population[0]
     for call in (
-        dd.build_variant,
+        dd.Solver.variant,
         lambda: run(case, threads=1),
         lambda: dd.simulate(wall, sine),
         lambda: dd.typology([wall], [sine], [0.1, 0.2], progress=False),
@@ -125,7 +125,7 @@ SLENDER, SQUAT = "slender,one_sided,3.0,0.25\n", "squat,two_block,1.0,0.6\n"
 )
 def test_the_engines_that_ran_are_told(executable, root, tmp_path, walls, engine, expected):
     names = available()
-    expected = expected.format(first=names[0], best=dd.build_variant())
+    expected = expected.format(first=names[0], best=dd.Solver.variant())
     (tmp_path / "walls.csv").write_text("name,mechanism,height,thickness\n" + walls)
     (tmp_path / "case.nml").write_text(
         "&job task = 'typology' output = 'result' /\n&population file = 'walls.csv' /\n"

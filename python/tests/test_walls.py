@@ -193,11 +193,11 @@ def test_rotations_that_a_wall_cannot_have(wall, rotation, sentence, of):
 
 
 def test_population(root):
-    population = dd.read_population(root / "data/walls/population.csv")
+    population = dd.Population.from_csv(root / "data/walls/population.csv")
     assert len(population) == len(population.walls) == len(population.weights) == 24
     assert {wall.mechanism for wall in population} == {"one_sided", "two_block"}
     assert not population.weights.flags.writeable
-    heavier = dd.read_population(root / "data/walls/population.csv", gravity=10.0)
+    heavier = dd.Population.from_csv(root / "data/walls/population.csv", gravity=10.0)
     assert all(wall.gravity == 10.0 for wall in heavier)
 
 
@@ -229,7 +229,7 @@ def test_loads_have_a_home_in_tables_and_archives(tmp_path):
     population.to_csv(tmp_path / "walls.csv")
     head = (tmp_path / "walls.csv").read_text().splitlines()[0]
     assert "load1,load2,load1_depth,load2_depth" in head
-    assert list(dd.read_population(tmp_path / "walls.csv")) == list(population)
+    assert list(dd.Population.from_csv(tmp_path / "walls.csv")) == list(population)
     for wall in population:
         assert pickle.loads(pickle.dumps(wall)) == wall
 
@@ -238,15 +238,15 @@ def test_a_table_says_which_load_is_missing(tmp_path):
     table = tmp_path / "walls.csv"
     table.write_text("mechanism,height,thickness,load1,load2\none_sided,3,0.25,,1000\n")
     with pytest.raises(dd.InputError, match="load2: only behind load1"):
-        dd.read_population(table)
+        dd.Population.from_csv(table)
 
 
 def test_sampled_loads():
     common = {"height": 3.0, "thickness": 0.25, "load_depth": 0.175, "load_height": 3.0, "load_inertia": "both"}
-    walls = dd.sample_population("one_sided", 4, 1, load=dd.Uniform(5e3, 10e3), **common)
+    walls = dd.Population.sample("one_sided", 4, 1, load=dd.distributions.Uniform(5e3, 10e3), **common)
     assert all(5e3 < wall.loads[0].force < 10e3 for wall in walls)
     common["load_height"] = [2.0, 3.0]
-    loads = dd.sample_population("one_sided", 2, 1, load=[1e3, 2e3], **common)[1].loads
+    loads = dd.Population.sample("one_sided", 2, 1, load=[1e3, 2e3], **common)[1].loads
     assert [(load.force, load.height) for load in loads] == [(1e3, 2.0), (2e3, 3.0)]
 
 

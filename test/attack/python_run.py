@@ -51,7 +51,7 @@ def run(what: str, folder: Path) -> None:
     """Run, and write."""
     warnings.simplefilter("ignore")
     records = dd.read_catalogue(folder / "new/records.csv")
-    people = dd.read_population(folder / "new/walls.csv")
+    people = dd.Population.from_csv(folder / "new/walls.csv")
     checkpoint = None if what == "save" else folder / "out/study.counts"
     given = {"levels": [0.1, 0.2, 0.3, 0.5, 0.9], "checkpoint": checkpoint, "block": 2, "progress": False}
     with executor(what) as workers:

@@ -176,25 +176,7 @@ def _raised(power: re.Match[str]) -> str:
 
 
 def build_variant() -> str:
-    """The build variant that the engine lanes runs here.
-
-    Returns
-    -------
-    str
-        "baseline", "avx2" or "avx512", the best that the processor can run, or what the environment variable
-        DONDOLO_VARIANT names; "native" in a build for one processor. Variants differ by rounding only.
-
-    Raises
-    ------
-    InputError
-        DONDOLO_VARIANT names none that this build and this processor have.
-
-    Examples
-    --------
-    >>> import dondolo as dd
-    >>> dd.build_variant() in ("baseline", "avx2", "avx512", "native")
-    True
-    """
+    """Name of the build variant: see `Solver.variant`."""
     name, failure = _core.library.variant()
     check(failure)
     return str(name.decode().strip())

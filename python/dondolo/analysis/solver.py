@@ -7,6 +7,7 @@ from typing import Literal
 
 from dondolo._base.arguments import FloatArray, instance_of
 from dondolo._fortran.histories import settings
+from dondolo._fortran.library import build_variant
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,6 +38,29 @@ class Solver:
     atol: float | None = None
     edp_limit: float | None = None
     engine: Literal["auto", "lanes", "rk45"] = "auto"
+
+    @staticmethod
+    def variant() -> str:
+        """The build variant that the engine lanes runs here.
+
+        Returns
+        -------
+        str
+            "baseline", "avx2" or "avx512", the best that the processor can run, or what the environment variable
+            DONDOLO_VARIANT names; "native" in a build for one processor. Variants differ by rounding only.
+
+        Raises
+        ------
+        InputError
+            DONDOLO_VARIANT names none that this build and this processor have.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> dd.Solver.variant() in ("baseline", "avx2", "avx512", "native")
+        True
+        """
+        return build_variant()
 
     def _settings(
         self, estimate_error: bool = False, collapses_only: bool = False, edp_limit: float | None = None

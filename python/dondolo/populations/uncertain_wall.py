@@ -275,7 +275,7 @@ def uncertain_wall(
     >>> import dondolo as dd
     >>> wall = dd.TwoBlockWall(3.0, 0.25, hinge=0.6)
     >>> records = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow", n_records=10)
-    >>> sources = {"restitution_factor": "graziotti_2016", "hinge": dd.Triangular(0.5, 0.6, 0.75)}
+    >>> sources = {"restitution_factor": "graziotti_2016", "hinge": dd.distributions.Triangular(0.5, 0.6, 0.75)}
     >>> levels = [0.5, 1.0, 1.5, 2.0, 3.0]
     >>> found = dd.uncertain_wall(wall, records, levels, sources=sources, n_variants=40, progress=False)
     >>> found.sources

@@ -178,50 +178,6 @@ class Site(Shown):
         ]
 
 
-def ntc_spectrum(
-    ag: float,
-    f0: float,
-    tc_star: float,
-    *,
-    soil: Soil = "A",
-    topography: Topography = "T1",
-    damping: float = 0.05,
-    periods: ArrayLike | None = None,
-) -> TargetSpectrum:
-    """Elastic horizontal spectrum of the Italian code, NTC 2018: ``Site(...).spectrum(...)`` in one call.
-
-    Parameters
-    ----------
-    ag, f0, tc_star : float
-        As those of `Site`.
-    soil : {'A', 'B', 'C', 'D', 'E'}
-        Class of soil.
-    topography : {'T1', 'T2', 'T3', 'T4'}
-        The factor of the table, which is that of the top of a slope.
-    damping : float
-        Damping ratio.
-    periods : array_like, optional
-        [s]; 60 from 0.05 to 4 s if left out.
-
-    Returns
-    -------
-    TargetSpectrum
-        Without a dispersion.
-
-    Raises
-    ------
-    InputError
-        Parameters that the code does not have.
-
-    Examples
-    --------
-    >>> import dondolo as dd
-    >>> dd.ntc_spectrum(0.2, 2.5, 0.35, soil="B", periods=[0.2, 0.6, 1.2]).sa.round(4).tolist()
-    [0.6, 0.4749, 0.2375]
-    """
-    return Site(ag, f0, tc_star, soil=soil, topography=topography).spectrum(periods=periods, damping=damping)
-
-
 def ec8_spectrum(
     ag: float,
     *,
@@ -230,37 +186,7 @@ def ec8_spectrum(
     damping: float = 0.05,
     periods: ArrayLike | None = None,
 ) -> TargetSpectrum:
-    """Elastic horizontal spectrum of Eurocode 8, EN 1998-1:2004, with the values that it recommends.
-
-    Parameters
-    ----------
-    ag : float
-        Design acceleration on ground of type A, the importance factor included [g].
-    soil : {'A', 'B', 'C', 'D', 'E'}
-        Ground type.
-    kind : {1, 2}
-        Type of the spectrum: 2 where the earthquakes that contribute most have surface-wave magnitudes up to 5.5.
-    damping : float
-        Damping ratio.
-    periods : array_like, optional
-        [s]; 60 from 0.05 to 4 s if left out. The code's formulas are for periods up to 4 s.
-
-    Returns
-    -------
-    TargetSpectrum
-        Without a dispersion.
-
-    Raises
-    ------
-    InputError
-        Parameters that the code does not have.
-
-    Examples
-    --------
-    >>> import dondolo as dd
-    >>> dd.ec8_spectrum(0.25, soil="C", periods=[0.2, 0.6, 1.2]).sa.round(5).tolist()
-    [0.71875, 0.71875, 0.35938]
-    """
+    """The spectrum of Eurocode 8: see `TargetSpectrum.ec8`."""
     a = as_number("ag", ag)
     if not 0.0 < a < np.inf:
         raise InputError(f"ag = {a:g}: must be positive")

@@ -25,10 +25,12 @@ from dondolo.records.suite import intensities
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from dondolo.records.selection import Selection
     from dondolo.records.target import TargetSpectrum
 
-# Measures that a table shows unless told otherwise
+# Measures that a table shows unless told otherwise, beside metadata and alone
 _MEASURES = ("pga", "pgv", "arias", "d5-95")
+_TABLE = ("pga", "pgv", "pgd", "arias", "cav", "d5-75", "d5-95", "hi", "sa(0.5)", "sa(1)", "saavg(0.2:2)")
 
 
 class LevelRows(NamedTuple):
@@ -79,9 +81,10 @@ class RecordSet(Shown, Saved):
     -----
     What takes records heeds the levels and factors of a set, or refuses them. Analyses at levels (`multiple_stripe`,
     `typology`, `compare_designs` ...) run each row at its level, with its factor; factors without levels they refuse.
-    What has no levels (`cloud`, `intensity_table`, `Building.plot`) takes each record times its factor, and refuses a
-    row whose factor would follow from its level. What chooses levels or factors by itself (`compare_intensities`,
-    `select_records`, `adaptive_stripes`) refuses both. The attribute `records` has the records as they stand.
+    What has no levels (`cloud`, `RecordSet.intensity_table`, `Building.plot`) takes each record times its factor, and
+    refuses a row whose factor would follow from its level. What chooses levels or factors by itself
+    (`compare_intensities`, `RecordSet.select`, `adaptive_stripes`) refuses both. The attribute `records` has the
+    records as they stand.
 
     Examples
     --------
@@ -307,6 +310,98 @@ class RecordSet(Shown, Saved):
             table[f"{measure.name} [{measure.unit}]"] = self._column(im)
         return tables.frame(table)
 
+    def intensity_table(self, ims: str | Iterable[str] = _TABLE, *, gravity: float | None = None) -> Any:
+        """Intensity measures of the rows, times their factors, without metadata.
+
+        Parameters
+        ----------
+        ims : str or iterable of str
+            Intensity measures, as for `Record.intensity`.
+        gravity : float, optional
+            What g is [m/s2]; 9.81 if left out.
+
+        Returns
+        -------
+        pandas.DataFrame
+            A row for each record; the columns are the record's name and the measures with their units, as 'pga [g]'.
+            pandas is no dependency of dondolo: the extra 'tables' installs it.
+
+        Raises
+        ------
+        InputError
+            No such measure; a row with a level and no factor.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> records = dd.RecordSet(dd.synthetic_records(6.5, 10.0, "shallow", n_records=3))
+        >>> list(records.intensity_table(["pga", "d5-95"]).columns)
+        ['record', 'pga [g]', 'd5-95 [s]']
+        """
+        factors = factors_of(self)
+        table: tables.Table = {"record": self._column("record")}
+        for im in as_measures(ims):
+            measure = describe_measure(im, of_record=True)
+            values = self._intensities(im, gravity)
+            if factors is not None:
+                values = values * factors**measure.power
+            table[f"{measure.name} [{measure.unit}]"] = values
+        return tables.frame(table)
+
+    def select(
+        self,
+        target: TargetSpectrum,
+        n_records: int,
+        *,
+        max_factor: float = 4.0,
+        weight: float | None = None,
+        seed: int | np.random.Generator | None = 0,
+    ) -> Selection:
+        """Select and scale records so that their spectra meet a target: its mean, or its mean and dispersion.
+
+        Parameters
+        ----------
+        target : TargetSpectrum
+            Of a code (`Site.spectrum`, `TargetSpectrum.ec8`), of a ground motion model with its dispersion, or
+            conditional on an ordinate (`TargetSpectrum.conditional`).
+        n_records : int
+            Number of records to select, each at most once.
+        max_factor : float
+            Records are scaled by factors between 1/max_factor and max_factor; 1: not at all.
+        weight : float, optional
+            Weight of the dispersion against the mean, not negative; 1 if left out, and 0.1 for a target without
+            dispersion.
+        seed : int, Generator or None
+            Of the spectra that are drawn from a target with a dispersion; None: different every time.
+
+        Returns
+        -------
+        Selection
+
+        Raises
+        ------
+        InputError
+            Fewer records than are asked for can be scaled to the target; arguments out of range; a record without
+            motion; records with levels or factors of their own.
+
+        Notes
+        -----
+        Jayaram, Lin and Baker (2011); the docstring of the module dondolo.records.selection has the steps. They find a
+        good selection, not the best of all.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> target = dd.TargetSpectrum.ec8(0.25, soil="C", periods=[0.1, 0.2, 0.5, 1.0, 2.0])
+        >>> records = dd.RecordSet(dd.synthetic_records(6.5, 10.0, "shallow", n_records=20))
+        >>> found = records.select(target, 7)
+        >>> len(found.records)
+        7
+        """
+        from dondolo.records.selection import select_records
+
+        return select_records(self, target, n_records, max_factor=max_factor, weight=weight, seed=seed)
+
     def to_catalogue(self, path: str | os.PathLike[str]) -> None:
         """Write a catalogue that the executable and `read_catalogue` read, and the accelerograms beside it.
 
@@ -376,14 +471,18 @@ class RecordSet(Shown, Saved):
         if any(name in record.metadata for record in self.records):
             return _numbers([record.metadata.get(name, "") for record in self.records])
         try:
-            # A record may have several rows, and a suite must not hold it twice.
-            places = {id(record): i for i, record in enumerate(dict.fromkeys(self.records))}
-            found = intensities(tuple(dict.fromkeys(self.records)), name)
+            return self._intensities(name)
         except InputError as error:
             raise InputError(
                 f"{name!r}: is neither a column ({', '.join(self.columns)}) nor a measure ({error})"
             ) from None
-        return found[[places[id(record)] for record in self.records]]
+
+    def _intensities(self, im: str, gravity: float | None = None) -> FloatArray:
+        """An intensity measure of the records as they stand."""
+        # A record may have several rows, and a suite must not hold it twice.
+        each = tuple(dict.fromkeys(self.records))
+        places = {id(record): i for i, record in enumerate(each)}
+        return intensities(each, im, gravity)[[places[id(record)] for record in self.records]]
 
     def _rows(self, rows: NDArray[np.int64]) -> RecordSet:
         if not len(rows):

@@ -131,47 +131,7 @@ def select_records(
     weight: float | None = None,
     seed: int | np.random.Generator | None = 0,
 ) -> Selection:
-    """Select and scale records so that their spectra meet a target: its mean, or its mean and dispersion.
-
-    Parameters
-    ----------
-    records : iterable of Record
-        The records to select from, without factors.
-    target : TargetSpectrum
-        Of a code (`ntc_spectrum`, `ec8_spectrum`), of a ground motion model with its dispersion, or conditional on an
-        ordinate (`TargetSpectrum.conditional`).
-    n_records : int
-        Number of records to select, each at most once.
-    max_factor : float
-        Records are scaled by factors between 1/max_factor and max_factor; 1: not at all.
-    weight : float, optional
-        Weight of the dispersion against the mean, not negative; 1 if left out, and 0.1 for a target without dispersion.
-    seed : int, Generator or None
-        Of the spectra that are drawn from a target with a dispersion; None: different every time.
-
-    Returns
-    -------
-    Selection
-
-    Raises
-    ------
-    InputError
-        Fewer records than are asked for can be scaled to the target; arguments out of range; a record without motion;
-        records with levels or factors of their own.
-
-    Notes
-    -----
-    Jayaram, Lin and Baker (2011); the docstring of the module dondolo.records.selection has the steps. They find a
-    good selection, not the best of all.
-
-    Examples
-    --------
-    >>> import dondolo as dd
-    >>> target = dd.ec8_spectrum(0.25, soil="C", periods=[0.1, 0.2, 0.5, 1.0, 2.0])
-    >>> found = dd.select_records(dd.synthetic_records(6.5, 10.0, "shallow", n_records=20), target, 7)
-    >>> len(found.records)
-    7
-    """
+    """Records that meet a target: see `RecordSet.select`."""
     if not isinstance(target, TargetSpectrum):
         raise InputError(f"target: {type(target).__name__} is no TargetSpectrum")
     several = tuple(dict.fromkeys(RecordSet(plain_records(records)).records))

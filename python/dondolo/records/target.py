@@ -17,6 +17,7 @@ selection algorithm for matching a target response spectrum mean and variance, E
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -25,6 +26,9 @@ from dondolo._base.arguments import FloatArray, as_array, as_number, increasing
 from dondolo._base.shown import Shown
 from dondolo._storage.saved import Saved
 from dondolo.errors import InputError
+
+if TYPE_CHECKING:
+    from dondolo.records.codes import Soil
 
 
 @dataclass(frozen=True, eq=False, repr=False, init=False)
@@ -103,6 +107,51 @@ class TargetSpectrum(Shown, Saved):
         pairs = {"periods": periods, "sa": sa, "damping": damping, "covariance": covariance, "anchor": anchor}
         for what, value in pairs.items():
             object.__setattr__(self, what, value)
+
+    @classmethod
+    def ec8(
+        cls,
+        ag: float,
+        *,
+        soil: Soil = "A",
+        kind: Literal[1, 2] = 1,
+        damping: float = 0.05,
+        periods: ArrayLike | None = None,
+    ) -> TargetSpectrum:
+        """Elastic horizontal spectrum of Eurocode 8, EN 1998-1:2004, with the values that it recommends.
+
+        Parameters
+        ----------
+        ag : float
+            Design acceleration on ground of type A, the importance factor included [g].
+        soil : {'A', 'B', 'C', 'D', 'E'}
+            Ground type.
+        kind : {1, 2}
+            Type of the spectrum: 2 where the earthquakes that contribute most have surface-wave magnitudes up to 5.5.
+        damping : float
+            Damping ratio.
+        periods : array_like, optional
+            [s]; 60 from 0.05 to 4 s if left out. The code's formulas are for periods up to 4 s.
+
+        Returns
+        -------
+        TargetSpectrum
+            Without a dispersion.
+
+        Raises
+        ------
+        InputError
+            Parameters that the code does not have.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> dd.TargetSpectrum.ec8(0.25, soil="C", periods=[0.2, 0.6, 1.2]).sa.round(5).tolist()
+        [0.71875, 0.71875, 0.35938]
+        """
+        from dondolo.records.codes import ec8_spectrum
+
+        return ec8_spectrum(ag, soil=soil, kind=kind, damping=damping, periods=periods)
 
     @property
     def dispersion(self) -> FloatArray:

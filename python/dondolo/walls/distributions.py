@@ -13,6 +13,12 @@ from dondolo._base.arguments import FloatArray, as_array, as_number
 from dondolo._fortran.library import constants
 from dondolo.errors import InputError
 
+__all__ = ["Choice", "Lognormal", "Normal", "Triangular", "Uniform"]
+
+
+def __dir__() -> list[str]:
+    return __all__
+
 
 @runtime_checkable
 class Distribution(Protocol):
@@ -51,7 +57,7 @@ class Uniform:
     Examples
     --------
     >>> import dondolo as dd
-    >>> dd.Uniform(2.4, 3.6).ppf(0.5)
+    >>> dd.distributions.Uniform(2.4, 3.6).ppf(0.5)
     3.0
     """
 
@@ -84,7 +90,7 @@ class Triangular:
     Examples
     --------
     >>> import dondolo as dd
-    >>> round(float(dd.Triangular(0.3, 0.38, 0.5).ppf(0.5)), 4)
+    >>> round(float(dd.distributions.Triangular(0.3, 0.38, 0.5).ppf(0.5)), 4)
     0.3905
     """
 
@@ -138,7 +144,7 @@ class Normal(_CutOff):
     Examples
     --------
     >>> import dondolo as dd
-    >>> float(dd.Normal(3.0, 0.2, low=2.5, high=3.5).ppf(0.5))
+    >>> float(dd.distributions.Normal(3.0, 0.2, low=2.5, high=3.5).ppf(0.5))
     3.0
     """
 
@@ -187,7 +193,7 @@ class Lognormal(_CutOff):
     Examples
     --------
     >>> import dondolo as dd
-    >>> float(dd.Lognormal(0.3, 0.1).ppf(0.5))
+    >>> float(dd.distributions.Lognormal(0.3, 0.1).ppf(0.5))
     0.3
     """
 
@@ -235,7 +241,7 @@ class Choice:
     Examples
     --------
     >>> import dondolo as dd
-    >>> dd.Choice((0.25, 0.38), (0.7, 0.3)).ppf([0.5, 0.8]).tolist()
+    >>> dd.distributions.Choice((0.25, 0.38), (0.7, 0.3)).ppf([0.5, 0.8]).tolist()
     [0.25, 0.38]
     """
 
@@ -309,5 +315,7 @@ def no_distribution(what: str, given: Any) -> InputError:
             ends = [f"{end}={value.strip()}" for end, value in zip(("low", "high"), values[2:], strict=False)]
             cut = name.strip().lower() in ("normal", "lognormal")
             told = [value.strip() for value in values[: 2 if cut else None]] + (ends if cut else [])
-            sentence += f", here dd.{kinds[name.strip().lower()]}({', '.join(told)}); such texts are for cases"
+            sentence += (
+                f", here dd.distributions.{kinds[name.strip().lower()]}({', '.join(told)}); such texts are for cases"
+            )
     return InputError(sentence)

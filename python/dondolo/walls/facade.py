@@ -15,39 +15,7 @@ from dondolo.walls.wall import described
 
 
 def facade(wall: OneSidedWall, *, hinge_level: Sequence[float] | Literal["storeys"] = "storeys") -> Population:
-    """Make the walls of a facade that can turn out about several hinges.
-
-    Parameters
-    ----------
-    wall : OneSidedWall
-        The whole facade, its hinge at the base.
-    hinge_level : sequence of float or 'storeys'
-        Heights of the hinges above the base [m]; 'storeys' for the bottom of each section.
-
-    Returns
-    -------
-    Population
-        One facade: for each hinge the wall 'NAME at Z m' of what is above it, with the sections, loads, thrusts and
-        springs there, on the floor of the building at its level. The walls are in series.
-
-    Raises
-    ------
-    InputError
-        A hinge that the wall does not have, or a wall that does not stand.
-
-    Notes
-    -----
-    docs/theory.md, section 2. `Typology.unions` has the curve of the facade counted in the same histories,
-    `Typology.combined` that of the product.
-
-    Examples
-    --------
-    >>> import dondolo as dd
-    >>> storeys = [dd.Section(4.0, 0.6), dd.Section(3.5, 0.45), dd.Section(3.0, 0.3)]
-    >>> whole = dd.OneSidedWall(sections=storeys, name="front")
-    >>> [wall.name for wall in dd.facade(whole)]
-    ['front at 0 m', 'front at 4 m', 'front at 7.5 m']
-    """
+    """The walls above the hinges of a facade: see `Population.of_facade`."""
     instance_of("wall", wall, OneSidedWall, "no one-sided wall")
     if isinstance(hinge_level, str):
         if hinge_level != "storeys":

@@ -6,7 +6,7 @@ import functools
 import math
 import os
 from collections import Counter
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, overload
@@ -29,6 +29,10 @@ from dondolo.walls.wall import Wall, property_of
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
+    from dondolo.walls.distributions import Distribution
+    from dondolo.walls.mechanisms import OneSidedWall
+    from dondolo.walls.sampling import Property
+
 # Name that Fortran gives a wall without one
 _UNNAMED = "wall"
 
@@ -42,8 +46,8 @@ class Population(Shown):
     """Walls and how many of the kind each stands for.
 
     Walls with the same name, one after the other, are mechanisms of one wall; those of the same facade are mechanisms
-    of the facade, which collapses if any of its walls does (`facade` makes them). Walls that were given no name are
-    called 'wall' with the number of their row, or the next that no other wall is called by.
+    of the facade, which collapses if any of its walls does (`Population.of_facade` makes them). Walls that were given
+    no name are called 'wall' with the number of their row, or the next that no other wall is called by.
 
     Attributes
     ----------
@@ -115,6 +119,194 @@ class Population(Shown):
         filled["origin"] = origin
         for name, value in filled.items():
             object.__setattr__(self, name, value)
+
+    @classmethod
+    def from_csv(cls, path: str | os.PathLike[str], *, gravity: float | None = None) -> Population:
+        r"""Read a table of walls.
+
+        Parameters
+        ----------
+        path : path
+            A CSV table: one row a mechanism of a wall, columns named as the parameters of the walls, and weight, group,
+            p_occ and facade. A row with hinge levels becomes a wall for each, all of one facade.
+        gravity : float, optional
+            [m/s2], 9.81 if left out.
+
+        Returns
+        -------
+        Population
+
+        Raises
+        ------
+        InputError
+            The table or one of its walls is wrong.
+
+        Examples
+        --------
+        >>> from pathlib import Path
+        >>> import dondolo as dd
+        >>> table = "name,mechanism,height,thickness\na,one_sided,1.5,0.25\nb,two_block,3.0,0.3\n"
+        >>> _ = Path("walls.csv").write_text(table)
+        >>> [wall.name for wall in dd.Population.from_csv("walls.csv")]
+        ['a', 'b']
+        """
+        walls, weights, groups, p_occ, facades = read_walls(path, gravity)
+        origin = (f"read from {Path(path).name}",)
+        people = tuple(wall_from(data) for data in walls)
+        return Population(people, weights, groups=tuple(groups), p_occ=p_occ, facades=tuple(facades), origin=origin)
+
+    @classmethod
+    def sample(
+        cls,
+        mechanisms: str | Iterable[str] | Mapping[str, Mapping[str, Property]],
+        n_walls: int,
+        seed: int,
+        *,
+        variables: Mapping[str, Distribution] | None = None,
+        correlation: Mapping[tuple[str, str], float] | None = None,
+        group: str = "",
+        name: str = "",
+        gravity: float | None = None,
+        **properties: Property,
+    ) -> Population:
+        """Make walls with sampled properties.
+
+        A property is a number (or a text, for `restitution` and `bearing`), a distribution, or a function of what was
+        sampled, which gets the samples by name, one array of `n_walls` numbers each, and returns such an array or a
+        number. A distribution is anything with a method `ppf`, such as `Lognormal` or a frozen distribution of
+        `scipy.stats`.
+
+        Parameters
+        ----------
+        mechanisms : str, iterable of str, or mapping
+            'one_sided', 'free_standing' or 'two_block', or several of them: each wall then has all of them. A mapping
+            gives each mechanism properties of its own, besides or instead of the common ones: ``{"one_sided": {"p_occ":
+            0.4}, "two_block": {"p_occ": 0.6, "hinge": Uniform(0.5, 0.7)}}``.
+        n_walls : int
+            Number of walls.
+        seed : int
+            Seed of the random numbers; the same seed gives the same walls.
+        variables : mapping, optional
+            Distributions of what is no property of a wall, but properties are functions of (the number of storeys).
+        correlation : mapping, optional
+            Pairs of names of sampled properties and variables, and the correlation of each pair; a property of one
+            mechanism is named as in "two_block.hinge". Pairs that are not named have none. Takes more walls than there
+            are properties and variables that are sampled.
+        group : str, optional
+            Group of all walls.
+        name : str, optional
+            Walls are called so with their number: 'facades 0001'. The name of the group if left out.
+        gravity : float, optional
+            [m/s2], 9.81 if left out.
+        **properties
+            Those of the walls - height, thickness, density, restitution, restitution_value, restitution_factor, for
+            'two_block' hinge, overburden, eccentricity or bearing and bearing_distance - and weight and p_occ.
+
+        Returns
+        -------
+        Population
+            Its rows go wall by wall, the mechanisms of a wall in their order; `origin` says what was sampled.
+
+        Raises
+        ------
+        InputError
+            What was asked for makes no sense; or a sample that no wall can have, with the names of the wall and the
+            property. Nothing is left out or moved: cut the distribution off, or make the property a function of the
+            others.
+
+        Notes
+        -----
+        A correlation is that of the normal scores (the Gaussian copula): of the values of two normal distributions, of
+        the logarithms of two lognormal ones. The rank correlation is 6/pi asin(rho/2). The correlation of the sample's
+        scores is the one asked for, and zero where none is, but for what the order of n numbers cannot give: of eight
+        properties the worst pair is off by some hundredths with 30 walls, by some thousandths with 300. That of the
+        values scatters more, since each lies somewhere in its part of the range. Of four properties of which one pair
+        was asked for 0.5, 200 seeds each, that pair was off by 0.02 (median; 0.08 at most) with 30 walls, 0.007 (0.04)
+        with 100 and 0.002 (0.01) with 300, and the worst of the six pairs by 0.06 (0.19), 0.02 (0.05) and 0.014 (0.04).
+        Against a `Choice` the correlation of the values is smaller than that of the scores, however many walls there
+        are: 0.45 instead of 0.5 for three values. Where there are no more walls than properties and variables that are
+        sampled, these are paired at random.
+
+        References
+        ----------
+        McKay, Beckman and Conover (1979), Technometrics 21, 239-245; Iman and Conover (1982), Communications in
+        Statistics: Simulation and Computation 11, 311-334.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> from dondolo import distributions
+        >>> facades = dd.Population.sample(
+        ...     {
+        ...         "one_sided": {"p_occ": 0.6},
+        ...         "two_block": {"p_occ": 0.4, "hinge": distributions.Triangular(0.5, 0.6, 0.75)},
+        ...     },
+        ...     n_walls=100,
+        ...     seed=1,
+        ...     height=distributions.Lognormal(3.2, 0.15, low=2.4, high=4.5),
+        ...     thickness=distributions.Choice((0.25, 0.38, 0.51), (0.2, 0.5, 0.3)),
+        ...     correlation={("height", "thickness"): 0.5},
+        ...     group="facades",
+        ... )
+        >>> facades
+        <Population: walls 100, mechanisms 200, sum of the weights 100, groups 'facades' (100)>
+        >>> facades[0].name
+        'facades 0001'
+        """
+        from dondolo.walls.sampling import sample_population
+
+        return sample_population(
+            mechanisms,
+            n_walls,
+            seed,
+            variables=variables,
+            correlation=correlation,
+            group=group,
+            name=name,
+            gravity=gravity,
+            **properties,
+        )
+
+    @classmethod
+    def of_facade(
+        cls, wall: OneSidedWall, *, hinge_level: Sequence[float] | Literal["storeys"] = "storeys"
+    ) -> Population:
+        """Make the walls of a facade that can turn out about several hinges.
+
+        Parameters
+        ----------
+        wall : OneSidedWall
+            The whole facade, its hinge at the base.
+        hinge_level : sequence of float or 'storeys'
+            Heights of the hinges above the base [m]; 'storeys' for the bottom of each section.
+
+        Returns
+        -------
+        Population
+            One facade: for each hinge the wall 'NAME at Z m' of what is above it, with the sections, loads, thrusts and
+            springs there, on the floor of the building at its level. The walls are in series.
+
+        Raises
+        ------
+        InputError
+            A hinge that the wall does not have, or a wall that does not stand.
+
+        Notes
+        -----
+        docs/theory.md, section 2. `Typology.unions` has the curve of the facade counted in the same histories,
+        `Typology.combined` that of the product.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> storeys = [dd.Section(4.0, 0.6), dd.Section(3.5, 0.45), dd.Section(3.0, 0.3)]
+        >>> whole = dd.OneSidedWall(sections=storeys, name="front")
+        >>> [wall.name for wall in dd.Population.of_facade(whole)]
+        ['front at 0 m', 'front at 4 m', 'front at 7.5 m']
+        """
+        from dondolo.walls.facade import facade
+
+        return facade(wall, hinge_level=hinge_level)
 
     def _stored(self) -> dict[str, Any]:
         """What a file has of it: the properties of its walls as columns."""
@@ -322,14 +514,15 @@ class Population(Shown):
         return tables.frame(self._table())
 
     def to_csv(self, path: str | os.PathLike[str], *, spreadsheet_safe: bool = False) -> None:
-        """Write the table that `read_population` and the executable read.
+        """Write the table that `Population.from_csv` and the executable read.
 
         Parameters
         ----------
         path : path
             The file; its folder must exist.
         spreadsheet_safe : bool
-            Put an apostrophe before names that a spreadsheet would take for formulas; `read_population` takes it away.
+            Put an apostrophe before names that a spreadsheet would take for formulas; `Population.from_csv` takes it
+            away.
 
         Raises
         ------
@@ -346,41 +539,6 @@ class Population(Shown):
 
     def _table(self) -> tables.Table:
         return walls_table(self.walls, self.weights, self.groups, self.p_occ, self.facades)
-
-
-def read_population(path: str | os.PathLike[str], *, gravity: float | None = None) -> Population:
-    r"""Read a population of walls.
-
-    Parameters
-    ----------
-    path : path
-        A CSV table: one row a mechanism of a wall, columns named as the parameters of the walls, and weight, group,
-        p_occ and facade. A row with hinge levels becomes a wall for each, all of one facade.
-    gravity : float, optional
-        [m/s2], 9.81 if left out.
-
-    Returns
-    -------
-    Population
-
-    Raises
-    ------
-    InputError
-        The table or one of its walls is wrong.
-
-    Examples
-    --------
-    >>> from pathlib import Path
-    >>> import dondolo as dd
-    >>> table = "name,mechanism,height,thickness\na,one_sided,1.5,0.25\nb,two_block,3.0,0.3\n"
-    >>> _ = Path("walls.csv").write_text(table)
-    >>> [wall.name for wall in dd.read_population("walls.csv")]
-    ['a', 'b']
-    """
-    walls, weights, groups, p_occ, facades = read_walls(path, gravity)
-    origin = (f"read from {Path(path).name}",)
-    people = tuple(wall_from(data) for data in walls)
-    return Population(people, weights, groups=tuple(groups), p_occ=p_occ, facades=tuple(facades), origin=origin)
 
 
 def _several(name: str, values: Any, what: str) -> tuple[Any, ...]:
