@@ -7,7 +7,7 @@ module dondolo_arguments
    use dondolo_base_spelling, only : meant
    use dondolo_base_text, only : join, replaced, to_text
    use dondolo_base_threads, only : largest_threads
-   use dondolo_case_job_group, only : task_names
+   use dondolo_case_job_group, only : stripes_task, task_names
    use dondolo_example, only : example_names
    use dondolo_front_door, only : python_commands
    implicit none
@@ -32,7 +32,7 @@ module dondolo_arguments
       !> Path of the case; of 'status' the output
       character(len=:), allocatable :: case_file
       !> Task of the template
-      character(len=:), allocatable :: task
+      integer :: task = stripes_task
       !> Name of the example, or of the shell of the completion
       character(len=:), allocatable :: name
       !> Words of a command that Python carries out
@@ -62,7 +62,7 @@ contains
       integer :: i
 
       arguments%action = 'run'
-      arguments%task = 'stripes'
+      arguments%task = stripes_task
       i = 1
       call get_argument(1, word)
       if (any(word == python_commands)) then
@@ -189,14 +189,13 @@ contains
       !> No such task
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: task
+      character(len=:), allocatable :: name
 
-      call take_value(word, i, task)
-      if (.not. allocated(task)) return
-      if (any(task == task_names)) then
-         arguments%task = task
-      else
-         call raise_input(error, '--template '//task//': the task must be one of '//join(task_names))
+      call take_value(word, i, name)
+      if (.not. allocated(name)) return
+      arguments%task = findloc(task_names == name, .true., dim=1)
+      if (arguments%task == 0) then
+         call raise_input(error, '--template '//name//': the task must be one of '//join(task_names))
       end if
    end subroutine take_task
 

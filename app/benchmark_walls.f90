@@ -3,6 +3,7 @@ module dondolo_benchmark_walls
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
    use dondolo_case, only : case_type
+   use dondolo_case_job_group, only : typology_task
    use dondolo_fragility_scaling, only : new_scaling
    use dondolo_motion_normal_form, only : new_normal_form, normal_form_type
    use dondolo_population_member, only : member_type
@@ -57,7 +58,7 @@ contains
             members(number)%group = ''
          end do
       end do
-      case%job%task = 'typology'
+      case%job%task = typology_task
       case%records_input%polarity = 'as_recorded'
       case%stripes%levels = levels
       case%stripes%thresholds = [case%solver%solver%edp_limit]

@@ -12,6 +12,7 @@ program dondolo_main
    use dondolo_base_version, only : dondolo_version_text
    use dondolo_benchmark, only : run_benchmark
    use dondolo_case, only : case_type
+   use dondolo_case_job_group, only : typology_task
    use dondolo_case_population_case, only : merge_population
    use dondolo_case_read_case, only : read_case
    use dondolo_case_replaced, only : describe_replaced, list_outdated
@@ -109,7 +110,7 @@ contains
          return
       end if
       ! The rows of a part go into a file of counts, which has a lock of its own.
-      has_results = .not. (case%job%task == 'typology' .and. case%survey%is_part)
+      has_results = .not. (case%job%task == typology_task .and. case%survey%is_part)
       if (has_results) call describe_replaced(case%job%output, replaced)
       call print_lines('note', replaced)
       threads = team(case%job%threads)
@@ -149,7 +150,7 @@ contains
       type(lines_type) :: paths, warnings, outdated
       integer :: i
 
-      if (case%job%task == 'typology' .and. case%survey%is_part) then
+      if (case%job%task == typology_task .and. case%survey%is_part) then
          call paths%add(results%stores(1)%path)
       else
          call write_reports(case, results, files, error)
@@ -158,7 +159,7 @@ contains
             call paths%add(files%prefix//trim(files%written(i)%suffix))
          end do
          ! The checkpoint of a whole population has served; parts are the user's
-         if (case%job%task == 'typology' .and. arguments%action == 'run') call results%remove_stores()
+         if (case%job%task == typology_task .and. arguments%action == 'run') call results%remove_stores()
       end if
       call results%warnings%put_sentences(warnings)
       call print_lines('warning', warnings)

@@ -8,6 +8,7 @@ module dondolo_plan
    use dondolo_base_text, only : counted, rounded, to_text
    use dondolo_case, only : case_type
    use dondolo_case_check_rows, only : check_wall
+   use dondolo_case_job_group, only : history_task, task_names, typology_task
    use dondolo_case_motion_warnings, only : scale_warnings_type, warn_of_events, warn_of_records
    use dondolo_case_population_case, only : find_start
    use dondolo_case_result_warnings, only : warn_of_plan
@@ -50,9 +51,9 @@ contains
       type(sheet_type) :: sheet
       integer :: i
 
-      if (case%job%task /= 'history') call plan_case(case, work, scales, error)
+      if (case%job%task /= history_task) call plan_case(case, work, scales, error)
       if (allocated(error)) return
-      if (case%job%task == 'typology') then
+      if (case%job%task == typology_task) then
          call find_start(case, store, error)
       else if (allocated(case%check)) then
          call check_wall(case, case%wall, sheet, error)
@@ -61,10 +62,10 @@ contains
       call find_warnings(case, work, scales, warnings)
       if (quiet) return
       write (output_unit, '(a)') visible(case%file)//': correct, nothing was run', ''
-      write (output_unit, '(a)') 'task: '//case%job%task
+      write (output_unit, '(a)') 'task: '//trim(task_names(case%job%task))
       if (len(case%job%title) > 0) write (output_unit, '(a)') 'title: '//case%job%title
       write (output_unit, '(a)') 'results: '//case%job%output//'_*.csv', ''
-      if (case%job%task == 'typology') then
+      if (case%job%task == typology_task) then
          call print_population(case, error)
          if (allocated(error)) return
       else
@@ -75,7 +76,7 @@ contains
          if (allocated(case%check)) call print_check(sheet, was_run=.false.)
       end if
       call print_records(case)
-      if (case%job%task == 'history') then
+      if (case%job%task == history_task) then
          write (output_unit, '(a)') 'one history: record '''//case%suite%records(case%history%record)%name// &
             & ''', scale '//rounded(case%history_scale())
       else
@@ -93,7 +94,7 @@ contains
       type(record_type), allocatable :: records(:)
 
       records = case%suite%records
-      if (case%job%task == 'history') records = [case%suite%records(case%history%record)]
+      if (case%job%task == history_task) records = [case%suite%records(case%history%record)]
    end function used_records
 
    !> Print which histories would run
@@ -156,13 +157,13 @@ contains
       type(wall_warnings_type) :: wall_warnings
       type(warnings_type) :: warnings
 
-      if (case%job%task == 'typology') then
+      if (case%job%task == typology_task) then
          wall_warnings = case%survey%wall_warnings
       else
          call wall_warnings%look(case%wall)
       end if
       call wall_warnings%warn(warnings)
-      if (case%job%task == 'history') then
+      if (case%job%task == history_task) then
          call warn_of_records(case%suite, case%solver%gravity, warnings, case%history%record)
       else
          call warn_of_records(case%suite, case%solver%gravity, warnings)

@@ -6,6 +6,7 @@ module dondolo_summary
    use dondolo_base_plain, only : visible
    use dondolo_base_text, only : counted, left, right, rounded, to_text
    use dondolo_case, only : case_type
+   use dondolo_case_job_group, only : history_task, stripes_task, typology_task
    use dondolo_case_results, only : results_type, row_counts_type
    use dondolo_case_source_rows, only : make_model_sentence, make_source_sentence
    use dondolo_case_tie_rows, only : make_tie_sentence
@@ -46,11 +47,11 @@ contains
 
       if (len(case%job%title) > 0) write (output_unit, '(a)') case%job%title, ''
       select case (case%job%task)
-      case ('history')
+      case (history_task)
          call print_wall(case%wall)
          write (output_unit, '(a)') ''
          call print_history(case, results)
-      case ('stripes')
+      case (stripes_task)
          call print_wall(case%wall)
          write (output_unit, '(a)') ''
          call print_stripes(case, results)
@@ -58,7 +59,7 @@ contains
             write (output_unit, '(a)') ''
             call print_check(results%check, was_run=.true.)
          end if
-      case ('typology')
+      case (typology_task)
          if (allocated(results%typologies)) then
             call print_curves(case, results)
             if (allocated(results%designs)) then
@@ -81,7 +82,7 @@ contains
                & '   dondolo --merge '//visible(case%file)//' '//case%job%output//'_walls_*.counts'
          end if
       end select
-      if (case%job%task /= 'typology') call print_restitution(case)
+      if (case%job%task /= typology_task) call print_restitution(case)
       if (case%suite%has_vertical) write (output_unit, '(a)') 'note: vertical ground motion is applied: the recorded '// &
          & 'components, scaled as their records'//trim(factor_note(case))
       call find_supports(case, supports)
@@ -90,12 +91,12 @@ contains
          do i = 1, notes%count
             write (output_unit, '(a)') 'note: '//notes%line(i)%text
          end do
-      else if (case%job%task /= 'typology' .or. allocated(results%typologies)) then
+      else if (case%job%task /= typology_task .or. allocated(results%typologies)) then
          write (output_unit, '(a)') 'note: records are applied at the base of the wall; ground records underestimate '// &
             & 'the demand on parapets, gables, pinnacles, upper storeys and facades that lean on a building'
       end if
       write (output_unit, '(a)') ''
-      if (case%job%task /= 'history') call print_work(case, results, seconds, threads)
+      if (case%job%task /= history_task) call print_work(case, results, seconds, threads)
       do i = 1, paths%count
          write (output_unit, '(a)') 'written: '//paths%line(i)%text
       end do
@@ -106,7 +107,7 @@ contains
       type(case_type), intent(in) :: case
       type(supports_type), intent(out) :: supports
 
-      if (case%job%task == 'typology') then
+      if (case%job%task == typology_task) then
          supports = case%survey%supports
       else
          call supports%look(case%wall)

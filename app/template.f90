@@ -4,7 +4,7 @@ module dondolo_template
    use, intrinsic :: iso_fortran_env, only : output_unit
    use dondolo_base_property, only : default_text, has_owner, is_many, is_text, item_name, number_of_choices, property_type
    use dondolo_base_text, only : join
-   use dondolo_case_job_group, only : task_names
+   use dondolo_case_job_group, only : history_task, task_names, typology_task
    use dondolo_case_property_tables, only : property_table
    use dondolo_wall_properties, only : mechanism_names
    implicit none
@@ -20,12 +20,12 @@ contains
    !> Print a template
    subroutine print_template(task)
       !> Task
-      character(len=*), intent(in) :: task
+      integer, intent(in) :: task
 
       call print_line('! A case of dondolo. What is not marked as required may be left out; its default is shown.')
       call print_line('! Lists of texts are what is allowed. An exclamation mark begins a comment.')
       call print_group('job', task)
-      if (task == 'typology') then
+      if (task == typology_task) then
          call print_group('population', task)
          call print_columns()
       else
@@ -36,8 +36,8 @@ contains
       call print_group('records', task)
       call print_group('stripes', task)
       call print_group('solver', task)
-      if (task == 'history') call print_group('history', task)
-      if (task /= 'history') call print_group('check', task)
+      if (task == history_task) call print_group('history', task)
+      if (task /= history_task) call print_group('check', task)
    end subroutine print_template
 
    !> Print a group
@@ -45,7 +45,7 @@ contains
       !> Name of the group
       character(len=*), intent(in) :: name
       !> Task
-      character(len=*), intent(in) :: task
+      integer, intent(in) :: task
       !> Given: all of it stands behind exclamation marks, and none of its variables must be given
       logical, intent(in), optional :: is_commented
 
@@ -76,16 +76,16 @@ contains
    logical function suits(property, task)
       type(property_type), intent(in) :: property
       !> Task
-      character(len=*), intent(in) :: task
+      integer, intent(in) :: task
 
-      suits = has_owner(property, task) .or. .not. any(property%owners(1) == task_names)
+      suits = has_owner(property, trim(task_names(task))) .or. .not. any(property%owners(1) == task_names)
    end function suits
 
    !> A property and its value; behind an exclamation mark where it is not for the wall or the task as it stands
    subroutine make_assignment(property, task, text)
       type(property_type), intent(in) :: property
       !> Task
-      character(len=*), intent(in) :: task
+      integer, intent(in) :: task
       !> `   name = value`
       character(len=:), allocatable, intent(out) :: text
 
@@ -93,9 +93,9 @@ contains
 
       select case (property%name)
       case ('task')
-         value = task
+         value = trim(task_names(task))
       case ('output')
-         value = 'out/'//task
+         value = 'out/'//trim(task_names(task))
       case default
          call default_text(property, value)
          if (len_trim(property%example) > 0) value = trim(property%example)
@@ -103,7 +103,7 @@ contains
       if (property%kind == is_text) value = ''''//value//''''
       text = trim(property%name)//' = '//value
       if ((property%optional .and. len_trim(property%instead) == 0) .or. &
-         & .not. (has_owner(property, 'one_sided') .or. has_owner(property, task))) text = '! '//text
+         & .not. (has_owner(property, 'one_sided') .or. has_owner(property, trim(task_names(task))))) text = '! '//text
       text = '   '//text
    end subroutine make_assignment
 
@@ -163,7 +163,7 @@ contains
       call print_line('! Rows with one name are mechanisms of one wall. A row with hinge_at, or hinge1_level, hinge2_level ...,')
       call print_line('! is a facade: a wall for each hinge, in series. One facade alone: &wall with either, not &population.')
       call print_line('! One wall that is not known for certain: &wall, not &population, and')
-      call print_group('uncertainty', 'typology', is_commented=.true.)
+      call print_group('uncertainty', typology_task, is_commented=.true.)
    end subroutine print_columns
 
    !> Print a line with a comment, which goes on in the lines below where it is long

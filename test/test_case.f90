@@ -9,6 +9,7 @@ program test_case
    use dondolo_case, only : case_type
    use dondolo_case_columns, only : columns_type, integer_column, real_column, text_column
    use dondolo_case_echo, only : echo_type
+   use dondolo_case_job_group, only : stripes_task
    use dondolo_case_motion_warnings, only : scale_warnings_type
    use dondolo_case_namelist, only : namelist_type, read_namelist
    use dondolo_case_namelist_group, only : group_type
@@ -156,7 +157,7 @@ contains
       call read_case(scratch//'/a.nml', case, error)
       call check_ok(error, 'a short case')
       if (allocated(error)) return
-      call check_text(case%job%task, 'stripes', 'task')
+      call check(case%job%task == stripes_task, 'task')
       call check_text(case%job%output, 'dondolo', 'output')
       call check_text(case%job%title, '', 'title')
       call check(case%job%threads == 0, 'threads')

@@ -4,6 +4,7 @@ module cases
    use dondolo_base_error, only : error_type
    use dondolo_boundary, only : check_room
    use dondolo_case, only : case_type
+   use dondolo_case_job_group, only : history_task, task_names, typology_task
    use dondolo_case_read_case, only : load_case => read_case
    use dondolo_case_result_tables, only : table_suffixes
    use dondolo_case_results, only : results_type
@@ -118,7 +119,7 @@ contains
       real(c_double) :: scale
       integer :: i
 
-      if (case%job%task == 'typology') then
+      if (case%job%task == typology_task) then
          call read_rows(case%table, members, error)
       else
          allocate (members(1))
@@ -130,13 +131,13 @@ contains
       if (.not. allocated(error)) then
          if (.not. allocated(case%stripes%levels)) allocate (case%stripes%levels(0))
          scale = 1
-         if (case%job%task == 'history') scale = case%history_scale()
+         if (case%job%task == history_task) scale = case%history_scale()
          parcel%integers = [size(members), size(case%stripes%levels), size(case%suite%records), &
             & size(case%stripes%thresholds), case%job%threads, case%history%record, 0, 0, 0, merge(1, 0, case%designs)]
          parcel%reals = [case%solver%solver%rtol, case%solver%solver%atol, case%solver%solver%edp_limit, &
             & count([case%solver%solver%estimate_error, case%solver%solver%certify])*1.0_c_double, scale, case%stripes%levels, &
             & case%stripes%thresholds]
-         call parcel%lines%add(case%job%task)
+         call parcel%lines%add(trim(task_names(case%job%task)))
          call parcel%lines%add(case%job%title)
          call parcel%lines%add(case%job%output)
          call parcel%lines%add(case%stripes%scaling%name)

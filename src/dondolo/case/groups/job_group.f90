@@ -11,19 +11,20 @@ module dondolo_case_job_group
    private
 
    public :: job_type, read_job
-   public :: task_names, job_properties
+   public :: history_task, stripes_task, typology_task, task_names, job_properties
 
-   !> Names of the tasks
-   character(len=choices_length), parameter :: task_names(*) = &
+   !> Tasks, and their names in cases
+   integer, parameter :: history_task = 1, stripes_task = 2, typology_task = 3
+   character(len=choices_length), parameter :: task_names(3) = &
       & [character(len=choices_length) :: 'history', 'stripes', 'typology']
 
    !> Tasks of populations
    character(len=choices_length), parameter :: typology(most_choices) = &
-      & reshape([character(len=choices_length) :: 'typology'], [most_choices], pad=blank)
+      & reshape(task_names(typology_task:typology_task), [most_choices], pad=blank)
 
    !> Variables of the group
    type(property_type), target, protected :: job_properties(6) = [ &
-      & property_type('task', is_text, word='stripes', choices=reshape(task_names, [most_choices], pad=blank), &
+      & property_type('task', is_text, word=task_names(stripes_task), choices=reshape(task_names, [most_choices], pad=blank), &
       &   meaning='what is to be done'), &
       & property_type('title', is_text, changes_results=.false., meaning='any text'), &
       & property_type('output', is_text, word='dondolo', changes_results=.false., meaning='what the names of the '// &
@@ -36,8 +37,8 @@ module dondolo_case_job_group
 
    !> What is to be done
    type :: job_type
-      !> Task, one of task_names
-      character(len=:), allocatable :: task
+      !> One of the tasks
+      integer :: task = stripes_task
       !> Title, for the reader of the results
       character(len=:), allocatable :: title
       !> Path prefix of the result files, relative to the current folder
@@ -71,7 +72,7 @@ contains
       call new_settings(settings, job_properties)
       call read_settings(group, settings, error)
       if (allocated(error)) return
-      job%task = settings%word('task')
+      job%task = findloc(task_names == settings%word('task'), .true., dim=1)
       job%title = settings%word('title')
       job%output = settings%word('output')
       job%histories = settings%holds('histories')
@@ -103,7 +104,7 @@ contains
       type(group_settings_type), intent(out) :: settings
 
       call new_settings(settings, job_properties)
-      call settings%set('task', self%task)
+      call settings%set('task', trim(task_names(self%task)))
       call settings%set('title', self%title)
       call settings%set('output', self%output)
       call settings%set('histories', self%histories)

@@ -6,7 +6,7 @@ module dondolo_case
    use dondolo_building_input, only : building_properties
    use dondolo_case_echo, only : echo_type
    use dondolo_case_history_group, only : history_input_type
-   use dondolo_case_job_group, only : job_type
+   use dondolo_case_job_group, only : history_task, job_type, stripes_task, task_names
    use dondolo_case_paths, only : beside
    use dondolo_case_population_group, only : put_population
    use dondolo_case_records_group, only : records_input_type
@@ -80,7 +80,7 @@ contains
    pure logical function is_scaled(self)
       class(case_type), intent(in) :: self
 
-      is_scaled = self%job%task /= 'history' .or. allocated(self%history%im_level)
+      is_scaled = self%job%task /= history_task .or. allocated(self%history%im_level)
    end function is_scaled
 
    !> What walls are tried with
@@ -99,7 +99,7 @@ contains
          & self%solver%solver, team)
       if (allocated(self%factor)) study%factor = self%factor
       study%thresholds = self%stripes%thresholds
-      study%keeps_histories = self%job%task == 'stripes' .or. self%job%histories
+      study%keeps_histories = self%job%task == stripes_task .or. self%job%histories
       study%solver%collapses_only = size(study%thresholds) == 1 .and. .not. study%keeps_histories
    end subroutine make_study
 
@@ -149,7 +149,7 @@ contains
       type(group_settings_type) :: settings
 
       call self%job%put(settings)
-      call echo_settings('job', settings, echoed, owner=self%job%task)
+      call echo_settings('job', settings, echoed, owner=trim(task_names(self%job%task)))
       if (allocated(self%population_file)) then
          call put_population(self%population_file, self%designs, settings)
          call echo_settings('population', settings, echoed)
@@ -178,7 +178,7 @@ contains
          call put_check(self%check, settings)
          call echo_settings('check', settings, echoed)
       end if
-      if (self%job%task /= 'history') return
+      if (self%job%task /= history_task) return
       call self%history%put(settings)
       call echo_settings('history', settings, echoed)
    end subroutine echo

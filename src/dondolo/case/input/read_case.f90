@@ -9,7 +9,7 @@ module dondolo_case_read_case
    use dondolo_case_building_group, only : read_building_group
    use dondolo_case_check_group, only : read_check_group
    use dondolo_case_history_group, only : find_record, read_history_group
-   use dondolo_case_job_group, only : read_job
+   use dondolo_case_job_group, only : history_task, read_job, stripes_task, task_names, typology_task
    use dondolo_case_namelist, only : namelist_type, read_namelist
    use dondolo_case_namelist_group, only : group_type
    use dondolo_case_paths, only : beside
@@ -86,14 +86,14 @@ contains
       if (.not. allocated(error)) call measure_case(namelist, case, error)
       if (.not. allocated(error)) call choose_records(namelist, case, runs, error)
       if (allocated(error)) return
-      if (case%job%task == 'stripes') then
+      if (case%job%task == stripes_task) then
          if (case%wall%mechanism%has_friction()) call note_friction(case, 'wall '''//case%wall%name()//''' has interlock_overlap')
          if (allocated(case%check) .and. case%records_input%polarity /= 'both' .and. .not. case%wall%mechanism%two_sided) then
             call case%notes%add('&check: the criterion for time histories takes each record in one direction only; the wall '// &
                & 'feels their sign, and polarity = ''both'' in &records takes both')
          end if
       end if
-      if (case%job%task == 'typology') then
+      if (case%job%task == typology_task) then
          call survey(case, rows, error)
       else if (present(rows)) then
          call raise_input(error, '--walls: only for task = ''typology''')
@@ -154,7 +154,7 @@ contains
    subroutine check_task(namelist, task, error)
       type(namelist_type), intent(in) :: namelist
       !> The task
-      character(len=*), intent(in) :: task
+      integer, intent(in) :: task
       !> A group too many or too few
       type(error_type), allocatable, intent(out) :: error
 
@@ -164,20 +164,20 @@ contains
 
       needed = 'wall'
       other = 'population'
-      if (task == 'typology') then
+      if (task == typology_task) then
          needed = 'population'
          other = 'wall'
       end if
       group = namelist%group('wall')
       variants = namelist%group('uncertainty')
-      if (variants%line > 0 .and. task /= 'typology') then
+      if (variants%line > 0 .and. task /= typology_task) then
          call raise_input(error, variants%place()//' (line '//to_text(variants%line)//'): only for task = ''typology''')
          return
       else if (variants%line > 0 .and. (group%has('hinge_level') .or. group%has('hinge_at'))) then
          call raise_input(error, variants%place()//' (line '//to_text(variants%line)//'): not with hinge_level or hinge_at')
          return
       end if
-      has_facade = task == 'typology' .and. (group%has('hinge_level') .or. group%has('hinge_at') .or. variants%line > 0)
+      has_facade = task == typology_task .and. (group%has('hinge_level') .or. group%has('hinge_at') .or. variants%line > 0)
       group = namelist%group(trim(needed))
       if (variants%line > 0 .and. group%line > 0) then
          call raise_input(error, variants%place()//' (line '//to_text(variants%line)//'): takes &wall in place of &population')
@@ -185,14 +185,14 @@ contains
       end if
       if (group%line == 0 .and. .not. has_facade) then
          group = namelist%group('job')
-         call raise_input(error, namelist%file//': &'//trim(needed)//': must be given for task = '''//task//''''// &
-            & group%in_line('task'))
+         call raise_input(error, namelist%file//': &'//trim(needed)//': must be given for task = '''// &
+            & trim(task_names(task))//''''//group%in_line('task'))
          return
       end if
       if (group%line > 0) group = namelist%group(trim(other))
       if (group%line > 0) call raise_input(error, group%place()//' (line '//to_text(group%line)// &
-         & '): not for task = '''//task//''', which takes &'//trim(needed))
-      if (allocated(error) .or. task /= 'typology' .or. has_facade) return
+         & '): not for task = '''//trim(task_names(task))//''', which takes &'//trim(needed))
+      if (allocated(error) .or. task /= typology_task .or. has_facade) return
       group = namelist%group('building')
       if (group%line > 0) call raise_input(error, group%place()//' (line '//to_text(group%line)// &
          & '): not for task = ''typology'', each wall of which has its own, in columns of &population')
@@ -211,11 +211,11 @@ contains
       type(group_type) :: group
 
       group = namelist%group('wall')
-      if (case%job%task == 'typology' .and. group%line > 0) then
+      if (case%job%task == typology_task .and. group%line > 0) then
          call make_facade(input, namelist%group('uncertainty'), case, error)
          if (.not. allocated(case%uncertainty)) call group%locate(error)
          return
-      else if (case%job%task == 'typology') then
+      else if (case%job%task == typology_task) then
          group = namelist%group('population')
          call read_population_group(group, case%population_file, case%designs, error)
          if (.not. allocated(error)) call check_file(group, 'file', case%population_file, error)
@@ -277,10 +277,10 @@ contains
       group = namelist%group('check')
       call read_check_group(group, case%check, error)
       if (allocated(error) .or. .not. allocated(case%check)) return
-      if (case%job%task == 'stripes') then
+      if (case%job%task == stripes_task) then
          call new_kinematic(kinematic, case%wall, error)
          call group%locate(error)
-      else if (case%job%task == 'history') then
+      else if (case%job%task == history_task) then
          call raise_input(error, group%place()//' (line '//to_text(group%line)//'): not for task = ''history''')
       end if
    end subroutine read_check
@@ -294,30 +294,30 @@ contains
 
       type(group_type) :: group
 
-      if (case%job%task /= 'stripes' .and. case%solver%solver%certify) then
+      if (case%job%task /= stripes_task .and. case%solver%solver%certify) then
          group = namelist%group('solver')
          call group%refuse('certify', 'only for task = ''stripes'': populations and single histories are not certified', error)
          return
       end if
-      if (case%job%task == 'typology' .and. case%solver%solver%estimate_error) then
+      if (case%job%task == typology_task .and. case%solver%solver%estimate_error) then
          group = namelist%group('solver')
          call group%refuse('estimate_error', 'only for task = ''stripes'' and ''history'', which keep every EDP', error)
          return
       end if
       group = namelist%group('stripes')
-      if (case%job%task == 'typology' .and. case%stripes%states == 'ordinal') then
+      if (case%job%task == typology_task .and. case%stripes%states == 'ordinal') then
          call group%refuse('states', 'must be ''separate'' for task = ''typology''', error)
          return
       end if
       call check_states(case%stripes, case%solver%solver%edp_limit, error)
       call group%locate(error)
       if (allocated(error)) return
-      if (case%job%histories .and. case%job%task /= 'typology') then
+      if (case%job%histories .and. case%job%task /= typology_task) then
          group = namelist%group('job')
          call group%refuse('histories', 'only for task = ''typology''; ''stripes'' writes all histories anyway', error)
          return
       end if
-      if (case%job%task == 'history' .or. allocated(case%stripes%levels)) return
+      if (case%job%task == history_task .or. allocated(case%stripes%levels)) return
       call raise_input(error, group%place()//': levels: must be given, such as levels = 0.1, 0.2, 0.3; or '// &
          & 'first, last and count'//group%in_line(''))
    end subroutine check_combinations
@@ -339,7 +339,7 @@ contains
 
       call check_file(group, 'catalogue', case%records_input%catalogue, error)
       if (allocated(error)) return
-      if (case%job%task == 'history' .and. case%records_input%polarity == 'both') then
+      if (case%job%task == history_task .and. case%records_input%polarity == 'both') then
          call group%refuse('polarity', 'must be ''as_recorded'' or ''reversed'' for task = ''history''', error)
          return
       end if
@@ -390,7 +390,7 @@ contains
       type(group_type) :: group
 
       group = namelist%group('history')
-      if (case%job%task == 'history' .or. group%line > 0) call find_record(group, case%history, case%suite%records, error)
+      if (case%job%task == history_task .or. group%line > 0) call find_record(group, case%history, case%suite%records, error)
       if (allocated(error)) return
       if (case%is_scaled()) call case%suite%measure(case%stripes%scaling%measure, case%job%threads)
    end subroutine measure_case
@@ -407,7 +407,7 @@ contains
       type(group_type) :: group
       type(study_type) :: study
 
-      if (case%job%task == 'history') return
+      if (case%job%task == history_task) return
       call case%make_study(study)
       call study%set_rows(rows, error)
       group = namelist%group('stripes')
@@ -431,7 +431,7 @@ contains
       type(error_type), allocatable :: problem
       real(wp) :: scale
 
-      if (case%job%task == 'history') then
+      if (case%job%task == history_task) then
          group = namelist%group('history')
          associate (record => case%suite%records(case%history%record))
             if (allocated(case%history%im_level)) call check_motion(record, problem)

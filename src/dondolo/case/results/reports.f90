@@ -8,6 +8,7 @@ module dondolo_case_reports
    use dondolo_case, only : case_type
    use dondolo_case_csv_table, only : csv_table_type
    use dondolo_case_echo, only : echo_type
+   use dondolo_case_job_group, only : history_task
    use dondolo_case_result_files, only : check_output, result_files_type, run_suffix, suffix_length
    use dondolo_case_result_tables, only : list_tables, table_kind_type
    use dondolo_case_results, only : results_type
@@ -121,7 +122,7 @@ contains
       do i = 1, lines%count
          call files%line('# '//lines%line(i)%text)
       end do
-      if (case%job%task /= 'history') then
+      if (case%job%task /= history_task) then
          unit = case%stripes%scaling%unit()
          if (len(unit) == 0) unit = '1'
          call files%line('# unit of im_level and theta: '//unit)

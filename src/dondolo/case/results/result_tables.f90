@@ -7,6 +7,7 @@ module dondolo_case_result_tables
    use dondolo_case, only : case_type
    use dondolo_case_check_rows, only : put_sheet_row
    use dondolo_case_design_rows, only : put_design
+   use dondolo_case_job_group, only : history_task, stripes_task, typology_task
    use dondolo_case_report_rows, only : put_typology, put_union
    use dondolo_case_result_files, only : suffix_length
    use dondolo_case_results, only : results_type
@@ -144,28 +145,28 @@ contains
    logical function is_history(case)
       type(case_type), intent(in) :: case
 
-      is_history = case%job%task == 'history'
+      is_history = case%job%task == history_task
    end function is_history
 
    !> Is the task another?
    logical function is_no_history(case)
       type(case_type), intent(in) :: case
 
-      is_no_history = case%job%task /= 'history'
+      is_no_history = case%job%task /= history_task
    end function is_no_history
 
    !> Are all histories kept?
    logical function keeps_histories(case)
       type(case_type), intent(in) :: case
 
-      keeps_histories = case%job%task == 'stripes' .or. (case%job%task == 'typology' .and. case%job%histories)
+      keeps_histories = case%job%task == stripes_task .or. (case%job%task == typology_task .and. case%job%histories)
    end function keeps_histories
 
    !> Is there a mean over walls?
    logical function has_means(case)
       type(case_type), intent(in) :: case
 
-      has_means = case%job%task == 'typology' .and. .not. case%designs
+      has_means = case%job%task == typology_task .and. .not. case%designs
    end function has_means
 
    !> Has a wall ties, whose histories are counted?
@@ -173,43 +174,43 @@ contains
       type(case_type), intent(in) :: case
 
       has_ties = .false.
-      if (case%job%task == 'stripes') has_ties = case%wall%mechanism%ties > 0
-      if (case%job%task == 'typology') has_ties = case%survey%lengths(find_property(wall_properties, 'tie_height')) > 0
+      if (case%job%task == stripes_task) has_ties = case%wall%mechanism%ties > 0
+      if (case%job%task == typology_task) has_ties = case%survey%lengths(find_property(wall_properties, 'tie_height')) > 0
    end function has_ties
 
    !> Has a wall several mechanisms?
    logical function has_unions(case)
       type(case_type), intent(in) :: case
 
-      has_unions = case%job%task == 'typology' .and. case%survey%walls < case%survey%rows
+      has_unions = case%job%task == typology_task .and. case%survey%walls < case%survey%rows
    end function has_unions
 
    !> Are the walls designs?
    logical function has_designs(case)
       type(case_type), intent(in) :: case
 
-      has_designs = case%job%task == 'typology' .and. case%designs
+      has_designs = case%job%task == typology_task .and. case%designs
    end function has_designs
 
    !> Is the one wall checked?
    logical function has_check(case)
       type(case_type), intent(in) :: case
 
-      has_check = case%job%task == 'stripes' .and. allocated(case%check)
+      has_check = case%job%task == stripes_task .and. allocated(case%check)
    end function has_check
 
    !> Are the walls of a population checked?
    logical function has_checks(case)
       type(case_type), intent(in) :: case
 
-      has_checks = case%job%task == 'typology' .and. allocated(case%check)
+      has_checks = case%job%task == typology_task .and. allocated(case%check)
    end function has_checks
 
    !> Is it a wall with variants?
    logical function has_sources(case)
       type(case_type), intent(in) :: case
 
-      has_sources = case%job%task == 'typology' .and. allocated(case%uncertainty)
+      has_sources = case%job%task == typology_task .and. allocated(case%uncertainty)
    end function has_sources
 
    !> Curves of the population

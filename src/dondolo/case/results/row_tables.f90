@@ -4,6 +4,7 @@ module dondolo_case_row_tables
    use dondolo_base_error, only : error_type
    use dondolo_case, only : case_type
    use dondolo_case_check_rows, only : put_check, verdicts_type
+   use dondolo_case_job_group, only : stripes_task, typology_task
    use dondolo_case_report_rows, only : put_certified, put_fragility, put_history, put_names, put_stripe, put_wall
    use dondolo_case_results, only : results_type, row_counts_type
    use dondolo_case_table, only : table_type
@@ -110,7 +111,7 @@ contains
       integer :: i
       logical :: found
 
-      if (case%job%task /= 'typology') then
+      if (case%job%task /= typology_task) then
          member%wall = case%wall
          member%group = ''
          member%facade = ''
@@ -191,7 +192,7 @@ contains
 
       integer, allocatable :: lengths(:)
 
-      if (case%job%task == 'typology') then
+      if (case%job%task == typology_task) then
          lengths = case%survey%lengths
       else
          lengths = case%wall%input%lengths()
@@ -236,7 +237,7 @@ contains
    pure logical function tells_uplift(case)
       type(case_type), intent(in) :: case
 
-      tells_uplift = case%job%task == 'stripes' .and. case%suite%has_vertical
+      tells_uplift = case%job%task == stripes_task .and. case%suite%has_vertical
    end function tells_uplift
 
    !> Histories of a row that reach each threshold at every level

@@ -9,6 +9,7 @@ module dondolo_case_run_file
    use dondolo_building, only : building_type
    use dondolo_case, only : case_type
    use dondolo_case_echo, only : echo_type
+   use dondolo_case_job_group, only : history_task, typology_task
    use dondolo_case_paths, only : beside
    use dondolo_case_result_files, only : written_type
    use dondolo_case_results, only : results_type
@@ -63,7 +64,7 @@ contains
       call put_shape(case, json)
       if (allocated(case%wall%building)) call put_floor(case%wall%building, case%suite%records%dt, json)
       call put_files(written, json)
-      if (case%job%task == 'history') then
+      if (case%job%task == history_task) then
          call put_history(case, results, json)
       else
          call put_records(case, json)
@@ -189,11 +190,11 @@ contains
       type(case_type), intent(in) :: case
       integer :: shape(size(shape_names))
 
-      if (case%job%task == 'history') then
+      if (case%job%task == history_task) then
          shape = [1, 0, 0, 1]
       else
          shape = [1, size(case%stripes%levels), size(case%stripes%thresholds), size(case%suite%records)]
-         if (case%job%task == 'typology') shape(1) = case%survey%rows
+         if (case%job%task == typology_task) shape(1) = case%survey%rows
       end if
    end function shape_of
 

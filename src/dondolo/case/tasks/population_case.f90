@@ -7,6 +7,7 @@ module dondolo_case_population_case
    use dondolo_building_floors, only : floors_type
    use dondolo_case, only : case_type
    use dondolo_case_combine_rows, only : combine_rows
+   use dondolo_case_job_group, only : typology_task
    use dondolo_case_result_files, only : make_folders
    use dondolo_case_results, only : results_type
    use dondolo_case_survey, only : check_size
@@ -74,7 +75,7 @@ contains
       logical, allocatable :: is_left(:)
       integer :: i, j, done
 
-      if (case%job%task /= 'typology') then
+      if (case%job%task /= typology_task) then
          call raise_input(error, '--merge: only for task = ''typology''')
          return
       end if

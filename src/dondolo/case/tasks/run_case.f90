@@ -8,6 +8,7 @@ module dondolo_case_run_case
    use dondolo_case, only : case_type
    use dondolo_case_check_case, only : check_stripes
    use dondolo_case_check_rows, only : check_wall
+   use dondolo_case_job_group, only : history_task, stripes_task, typology_task
    use dondolo_case_motion_warnings, only : scale_warnings_type, warn_of_events, warn_of_fall, warn_of_records
    use dondolo_case_population_case, only : run_population_case
    use dondolo_case_result_warnings, only : warn_of_error, warn_of_errors, warn_of_fit
@@ -54,12 +55,12 @@ contains
       if (present(threads)) team = threads
       stays = .false.
       if (present(in_memory)) stays = in_memory
-      if (case%job%task /= 'typology') then
+      if (case%job%task /= typology_task) then
          call wall_warnings%look(case%wall)
          call wall_warnings%warn(results%warnings)
       end if
       select case (case%job%task)
-      case ('history')
+      case (history_task)
          associate (one => case%history%record)
             call warn_of_records(case%suite, case%solver%gravity, results%warnings, one)
          end associate
@@ -77,9 +78,9 @@ contains
          end associate
          if (allocated(error)) return
          call warn_of_error(results%response, case%solver%solver%edp_limit, results%warnings)
-      case ('stripes')
+      case (stripes_task)
          call run_stripes(case, results, error, team, progress)
-      case ('typology')
+      case (typology_task)
          call run_population_case(case, results, error, team, stays, progress)
       end select
    end subroutine run_case
@@ -103,7 +104,7 @@ contains
 
       call case%make_study(study)
       study%floors => floors
-      if (case%job%task == 'stripes') then
+      if (case%job%task == stripes_task) then
          call plan_wall(case%wall)
          return
       end if
