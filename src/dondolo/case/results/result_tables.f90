@@ -11,7 +11,8 @@ module dondolo_case_result_tables
    use dondolo_case_report_rows, only : put_typology, put_union
    use dondolo_case_result_files, only : suffix_length
    use dondolo_case_results, only : results_type
-   use dondolo_case_row_tables, only : put_checks, put_fragilities, put_histories, put_stripes, put_ties, put_walls
+   use dondolo_case_row_tables, only : each_row, put_check_row, put_fragility_rows, put_history_rows, put_stripe_rows, &
+      & put_tie_rows, put_wall_row, row_interface
    use dondolo_case_source_rows, only : put_source
    use dondolo_case_table, only : table_type
    use dondolo_case_tie_rows, only : make_tie_comment
@@ -56,8 +57,12 @@ module dondolo_case_result_tables
       character(len=suffix_length) :: suffix = ''
       !> Has a case such a table? Null: every case has
       procedure(exists_interface), pointer, nopass, private :: exists => null()
-      !> Put its rows
+      !> Put its rows; null: they are of the rows of a population, or of the one wall, one after the other
       procedure(put_interface), pointer, nopass, private :: put => null()
+      !> Put those of one of these
+      procedure(row_interface), pointer, nopass, private :: put_row => null()
+      !> Whether these come with their histories and ties
+      logical, private :: is_stored = .false.
       !> List what is said above it, besides what all tables say; null: nothing
       procedure(facts_interface), pointer, nopass :: facts => null()
    contains
@@ -74,34 +79,38 @@ contains
       type(table_kind_type), allocatable, intent(out) :: kinds(:)
 
       allocate (kinds(0))
-      call add('_walls.csv', put_walls)
-      call add('_histories.csv', put_histories, keeps_histories)
-      call add('_history.csv', put_motion, is_history, list_motion)
-      call add('_stripes.csv', put_stripes, is_no_history)
-      call add('_fragility.csv', put_fragilities, is_no_history)
-      call add('_typology.csv', put_typologies, has_means)
-      call add('_ties.csv', put_ties, has_ties)
-      call add('_unions.csv', put_unions, has_unions)
-      call add('_designs.csv', put_designs, has_designs)
-      call add('_check.csv', put_sheet, has_check)
-      call add('_checks.csv', put_checks, has_checks)
-      call add('_sources.csv', put_sources, has_sources)
+      call add('_walls.csv', put_row=put_wall_row)
+      call add('_histories.csv', keeps_histories, put_row=put_history_rows, is_stored=.true.)
+      call add('_history.csv', is_history, put_motion, list_motion)
+      call add('_stripes.csv', is_no_history, put_row=put_stripe_rows)
+      call add('_fragility.csv', is_no_history, put_row=put_fragility_rows)
+      call add('_typology.csv', has_means, put_typologies)
+      call add('_ties.csv', has_ties, put_row=put_tie_rows, is_stored=.true.)
+      call add('_unions.csv', has_unions, put_unions)
+      call add('_designs.csv', has_designs, put_designs)
+      call add('_check.csv', has_check, put_sheet)
+      call add('_checks.csv', has_checks, put_row=put_check_row)
+      call add('_sources.csv', has_sources, put_sources)
 
    contains
 
       !> Add a kind
-      subroutine add(suffix, put, exists, facts)
+      subroutine add(suffix, exists, put, facts, put_row, is_stored)
          character(len=*), intent(in) :: suffix
-         procedure(put_interface) :: put
          procedure(exists_interface), optional :: exists
+         procedure(put_interface), optional :: put
          procedure(facts_interface), optional :: facts
+         procedure(row_interface), optional :: put_row
+         logical, intent(in), optional :: is_stored
 
          type(table_kind_type) :: kind
 
          kind%suffix = suffix
          if (present(exists)) kind%exists => exists
-         kind%put => put
+         if (present(put)) kind%put => put
          if (present(facts)) kind%facts => facts
+         if (present(put_row)) kind%put_row => put_row
+         if (present(is_stored)) kind%is_stored = is_stored
          kinds = [kinds, kind]
       end subroutine add
 
@@ -126,7 +135,11 @@ contains
       !> A file that is read again has changed; lack of memory; or its rows differ in their columns, an error of the program
       type(error_type), allocatable, intent(out) :: error
 
-      call self%put(case, results, table, error)
+      if (associated(self%put)) then
+         call self%put(case, results, table, error)
+      else
+         call each_row(case, results, self%put_row, self%is_stored, table, error)
+      end if
       if (.not. allocated(error) .and. allocated(table%error)) call move_alloc(table%error, error)
       if (.not. allocated(error) .and. .not. table%is_regular) call raise_failure(error, trim(self%suffix)// &
          & ': its rows differ in their columns')

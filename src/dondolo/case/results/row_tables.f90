@@ -18,89 +18,35 @@ module dondolo_case_row_tables
    implicit none
    private
 
-   public :: put_walls, put_histories, put_stripes, put_fragilities, put_ties, put_checks
+   public :: row_interface, each_row
+   public :: put_wall_row, put_history_rows, put_stripe_rows, put_fragility_rows, put_tie_rows, put_check_row
 
-   !> What there is of a row
-   integer, parameter :: of_walls = 1, of_histories = 2, of_stripes = 3, of_curves = 4, of_ties = 5, of_checks = 6
+   abstract interface
+
+      !> Put what a table has of a row of a population, or of the one wall of a case
+      subroutine row_interface(case, member, row, verdicts, table, error)
+         import :: case_type, member_type, row_counts_type, verdicts_type, table_type, error_type
+         type(case_type), intent(in), target :: case
+         type(member_type), intent(in) :: member
+         type(row_counts_type), intent(in) :: row
+         !> Counts of what came of the checks
+         type(verdicts_type), intent(inout) :: verdicts
+         class(table_type), intent(inout) :: table
+         type(error_type), allocatable, intent(out) :: error
+      end subroutine row_interface
+
+   end interface
 
 contains
 
-   !> Walls
-   subroutine put_walls(case, results, table, error)
-      type(case_type), intent(in), target :: case
-      type(results_type), intent(inout) :: results
-      class(table_type), intent(inout) :: table
-      !> A store has changed
-      type(error_type), allocatable, intent(out) :: error
-
-      call each_row(case, results, of_walls, table, error)
-   end subroutine put_walls
-
-   !> All histories
-   subroutine put_histories(case, results, table, error)
-      type(case_type), intent(in), target :: case
-      type(results_type), intent(inout) :: results
-      class(table_type), intent(inout) :: table
-      !> A store has changed
-      type(error_type), allocatable, intent(out) :: error
-
-      call each_row(case, results, of_histories, table, error)
-   end subroutine put_histories
-
-   !> Histories that reach each threshold at every level
-   subroutine put_stripes(case, results, table, error)
-      type(case_type), intent(in), target :: case
-      type(results_type), intent(inout) :: results
-      class(table_type), intent(inout) :: table
-      !> A store has changed
-      type(error_type), allocatable, intent(out) :: error
-
-      call each_row(case, results, of_stripes, table, error)
-   end subroutine put_stripes
-
-   !> Curves
-   subroutine put_fragilities(case, results, table, error)
-      type(case_type), intent(in), target :: case
-      type(results_type), intent(inout) :: results
-      class(table_type), intent(inout) :: table
-      !> A store has changed
-      type(error_type), allocatable, intent(out) :: error
-
-      call each_row(case, results, of_curves, table, error)
-   end subroutine put_fragilities
-
-   !> What the histories do to the ties of each wall
-   subroutine put_ties(case, results, table, error)
-      type(case_type), intent(in), target :: case
-      type(results_type), intent(inout) :: results
-      class(table_type), intent(inout) :: table
-      !> A store has changed
-      type(error_type), allocatable, intent(out) :: error
-
-      call each_row(case, results, of_ties, table, error)
-   end subroutine put_ties
-
-   !> Checks by a building code of a population
-   subroutine put_checks(case, results, table, error)
-      type(case_type), intent(in), target :: case
-      !> Its verdicts are counted
-      type(results_type), intent(inout) :: results
-      class(table_type), intent(inout) :: table
-      !> A store has changed
-      type(error_type), allocatable, intent(out) :: error
-
-      type(verdicts_type) :: none_yet
-
-      results%verdicts = none_yet
-      call each_row(case, results, of_checks, table, error)
-   end subroutine put_checks
-
    !> Put each row of a population, or the one wall of a case
-   subroutine each_row(case, results, what, table, error)
+   subroutine each_row(case, results, put_row, is_stored, table, error)
       type(case_type), intent(in), target :: case
+      !> Its verdicts are counted, if the table has any
       type(results_type), intent(inout) :: results
-      !> What is put of it, such as of_walls
-      integer, intent(in) :: what
+      procedure(row_interface) :: put_row
+      !> Whether the rows need more than counts and curves: their histories, or what happens to their ties
+      logical, intent(in) :: is_stored
       class(table_type), intent(inout) :: table
       !> A store has changed, or histories cannot be chosen again
       type(error_type), allocatable, intent(out) :: error
@@ -108,6 +54,7 @@ contains
       type(population_reader_type) :: reader
       type(member_type) :: member
       type(row_counts_type) :: row
+      type(verdicts_type) :: verdicts
       integer :: i
       logical :: found
 
@@ -115,7 +62,7 @@ contains
          member%wall = case%wall
          member%group = ''
          member%facade = ''
-         call put_row(case, member, results%row, what, results%verdicts, table, error)
+         call put_row(case, member, results%row, verdicts, table, error)
          return
       end if
       reader%names%is_checked = .false.
@@ -125,13 +72,12 @@ contains
          row%histories = results%population%histories(:, i)
          row%reached = results%population%reached(:, :, i)
          row%curve = results%population%curve(:, i)
-         if (what == of_histories .or. (what == of_ties .and. member%wall%mechanism%ties > 0)) then
-            call read_stored(results, i, row, error)
-         end if
-         if (.not. allocated(error)) call put_row(case, member, row, what, results%verdicts, table, error)
+         if (is_stored) call read_stored(results, i, row, error)
+         if (.not. allocated(error)) call put_row(case, member, row, verdicts, table, error)
          if (allocated(error)) exit
       end do
       call results%stores%close()
+      if (verdicts%checked + verdicts%others > 0) results%verdicts = verdicts
    end subroutine each_row
 
    !> What a store has of a row of a population
@@ -153,42 +99,14 @@ contains
       if (allocated(stored%response)) call move_alloc(stored%response, row%response)
    end subroutine read_stored
 
-   !> Put a row
-   subroutine put_row(case, member, row, what, verdicts, table, error)
+   !> A wall
+   subroutine put_wall_row(case, member, row, verdicts, table, error)
       type(case_type), intent(in), target :: case
       type(member_type), intent(in) :: member
       type(row_counts_type), intent(in) :: row
-      !> What is put of it
-      integer, intent(in) :: what
-      !> Counts of what came of the checks
       type(verdicts_type), intent(inout) :: verdicts
       class(table_type), intent(inout) :: table
-      !> Its histories cannot be chosen again
       type(error_type), allocatable, intent(out) :: error
-
-      select case (what)
-      case (of_walls)
-         call put_wall_row(case, member, table)
-      case (of_histories)
-         call put_history_rows(case, member, row, table, error)
-      case (of_stripes)
-         call put_stripe_rows(case, member, row, table)
-      case (of_curves)
-         call put_fragility_rows(case, member, row, table)
-      case (of_ties)
-         call put_tie_rows(case, member, row, table)
-      case (of_checks)
-         call put_names(table, member%wall)
-         call put_check(table, case, member, row%curve(size(row%curve)), verdicts)
-         call table%end_row()
-      end select
-   end subroutine put_row
-
-   !> A wall
-   subroutine put_wall_row(case, member, table)
-      type(case_type), intent(in) :: case
-      type(member_type), intent(in) :: member
-      class(table_type), intent(inout) :: table
 
       integer, allocatable :: lengths(:)
 
@@ -202,10 +120,11 @@ contains
    end subroutine put_wall_row
 
    !> All histories of a row
-   subroutine put_history_rows(case, member, row, table, error)
+   subroutine put_history_rows(case, member, row, verdicts, table, error)
       type(case_type), intent(in), target :: case
       type(member_type), intent(in) :: member
       type(row_counts_type), intent(in) :: row
+      type(verdicts_type), intent(inout) :: verdicts
       class(table_type), intent(inout) :: table
       !> They cannot be chosen again
       type(error_type), allocatable, intent(out) :: error
@@ -241,11 +160,13 @@ contains
    end function tells_uplift
 
    !> Histories of a row that reach each threshold at every level
-   subroutine put_stripe_rows(case, member, row, table)
-      type(case_type), intent(in) :: case
+   subroutine put_stripe_rows(case, member, row, verdicts, table, error)
+      type(case_type), intent(in), target :: case
       type(member_type), intent(in) :: member
       type(row_counts_type), intent(in) :: row
+      type(verdicts_type), intent(inout) :: verdicts
       class(table_type), intent(inout) :: table
+      type(error_type), allocatable, intent(out) :: error
 
       integer :: j, k
 
@@ -261,11 +182,13 @@ contains
    end subroutine put_stripe_rows
 
    !> Curves of a row
-   subroutine put_fragility_rows(case, member, row, table)
-      type(case_type), intent(in) :: case
+   subroutine put_fragility_rows(case, member, row, verdicts, table, error)
+      type(case_type), intent(in), target :: case
       type(member_type), intent(in) :: member
       type(row_counts_type), intent(in) :: row
+      type(verdicts_type), intent(inout) :: verdicts
       class(table_type), intent(inout) :: table
+      type(error_type), allocatable, intent(out) :: error
 
       integer :: k
 
@@ -277,11 +200,13 @@ contains
    end subroutine put_fragility_rows
 
    !> What the histories of a wall do to its ties
-   subroutine put_tie_rows(case, member, row, table)
-      type(case_type), intent(in) :: case
+   subroutine put_tie_rows(case, member, row, verdicts, table, error)
+      type(case_type), intent(in), target :: case
       type(member_type), intent(in) :: member
       type(row_counts_type), intent(in) :: row
+      type(verdicts_type), intent(inout) :: verdicts
       class(table_type), intent(inout) :: table
+      type(error_type), allocatable, intent(out) :: error
 
       integer :: i, j
 
@@ -294,5 +219,19 @@ contains
          end do
       end do
    end subroutine put_tie_rows
+
+   !> The check of a wall by a building code
+   subroutine put_check_row(case, member, row, verdicts, table, error)
+      type(case_type), intent(in), target :: case
+      type(member_type), intent(in) :: member
+      type(row_counts_type), intent(in) :: row
+      type(verdicts_type), intent(inout) :: verdicts
+      class(table_type), intent(inout) :: table
+      type(error_type), allocatable, intent(out) :: error
+
+      call put_names(table, member%wall)
+      call put_check(table, case, member, row%curve(size(row%curve)), verdicts)
+      call table%end_row()
+   end subroutine put_check_row
 
 end module dondolo_case_row_tables
