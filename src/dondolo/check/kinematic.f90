@@ -166,16 +166,16 @@ contains
       real(wp), intent(in) :: q
 
       class(mechanism_type), allocatable :: held
-      real(wp) :: j, c, g, l, load
+      real(wp) :: moment
 
       if (allocated(self%mechanism%restraints)) then
          allocate (held, source=self%mechanism)
          call hold_plastic(held, q)
-         call held%terms(q, j, c, g, l, load)
+         moment = held%moment(q)
       else
-         call self%mechanism%terms(q, j, c, g, l, load)
+         moment = self%mechanism%moment(q)
       end if
-      multiplier = (g - load)/(self%edge*self%weight + cos(q)*self%weight_f + sin(q)*self%weight_e)
+      multiplier = moment/(self%edge*self%weight + cos(q)*self%weight_f + sin(q)*self%weight_e)
    end function multiplier_at
 
    !> Rotation at which the multiplier vanishes [rad]

@@ -6,6 +6,7 @@
 !> survivals overlap and collapses become more frequent; otherwise there is a status and no number
 !> (docs/theory.md, section 6).
 module dondolo_fragility
+   use dondolo_base_bracket, only : bracket_type
    use dondolo_base_error, only : error_type, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_lapack, only : invert_symmetric, solve_symmetric
@@ -409,20 +410,13 @@ contains
       real(wp) :: level
 
       ! Phi is 0 and 1 to rounding at these
-      real(wp) :: below, above, middle
+      type(bracket_type) :: bracket
 
-      below = -40.0_wp
-      above = 40.0_wp
-      do
-         middle = 0.5_wp*(below + above)
-         if (middle <= below .or. middle >= above) exit
-         if (normal_cdf(middle) < probability) then
-            below = middle
-         else
-            above = middle
-         end if
+      bracket = bracket_type(-40.0_wp, 40.0_wp)
+      do while (bracket%is_divisible())
+         call bracket%halve(normal_cdf(bracket%middle()) < probability)
       end do
-      level = self%theta*exp(self%beta*middle)
+      level = self%theta*exp(self%beta*bracket%middle())
    end function level
 
    !> Probability of collapse at a level, equation (5) of Nale et al.

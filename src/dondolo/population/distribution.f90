@@ -1,5 +1,6 @@
 !> Distributions of an uncertain property, as a case says them: 'triangular(0.5, 0.6, 0.75)'.
 module dondolo_population_distribution
+   use dondolo_base_bracket, only : bracket_type
    use dondolo_base_error, only : error_type, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_numbers, only : parse_real
@@ -174,21 +175,16 @@ contains
 
       !> Beyond which there is nothing in double precision
       real(wp), parameter :: furthest = 40.0_wp
-      real(wp) :: below, above, tail
+      type(bracket_type) :: bracket
+      real(wp) :: tail
 
       ! The smaller tail keeps its digits
       tail = min(p, 1.0_wp - p)
-      below = -furthest
-      above = 0.0_wp
-      do
-         x = 0.5_wp*(below + above)
-         if (x <= below .or. x >= above) exit
-         if (normal_cdf(x) < tail) then
-            below = x
-         else
-            above = x
-         end if
+      bracket%first = -furthest
+      do while (bracket%is_divisible())
+         call bracket%halve(normal_cdf(bracket%middle()) < tail)
       end do
+      x = bracket%middle()
       if (p > 0.5_wp) x = -x
    end function normal_quantile
 

@@ -8,6 +8,7 @@
 !> things; only a thrust that decays is asked one by one. A tie is a thrust inwards and a spring, as long as it neither
 !> yields nor breaks nor becomes slack, and so is friction, whose spring pushes: `hold` changes those sums.
 module dondolo_wall_loaded_block
+   use dondolo_base_bracket, only : bracket_type
    use dondolo_base_error, only : error_type, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : rounded, to_text
@@ -67,8 +68,6 @@ module dondolo_wall_loaded_block
       procedure :: geometric_end
       procedure :: support
       procedure :: hold
-      !> Restoring moment G - Q
-      procedure, private :: moment
    end type loaded_block_type
 
 contains
@@ -362,18 +361,6 @@ contains
       end associate
    end function turning
 
-   !> Restoring moment G - Q
-   elemental real(wp) function moment(self, q)
-      class(loaded_block_type), intent(in) :: self
-      !> Rotation [rad]
-      real(wp), intent(in) :: q
-
-      real(wp) :: j, c, g, l, load
-
-      call self%terms(q, j, c, g, l, load)
-      moment = g - load
-   end function moment
-
    !> Check that the wall stands
    subroutine check_rest(mechanism, body, actions, error)
       type(loaded_block_type), intent(in) :: mechanism
@@ -403,7 +390,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       integer, parameter :: parts = 2000
-      real(wp) :: holding, below, above, end_of_all
+      type(bracket_type) :: bracket
+      real(wp) :: holding, end_of_all
       logical :: falls(0:parts)
       integer :: i
 
@@ -431,17 +419,11 @@ contains
             & 'two positions of rest are not covered')
          return
       end if
-      below = end_of_all*real(i - 1, wp)/real(parts, wp)
-      above = end_of_all*real(i, wp)/real(parts, wp)
-      do
-         mechanism%capacity = 0.5_wp*(below + above)
-         if (mechanism%capacity <= below .or. mechanism%capacity >= above) exit
-         if (mechanism%moment(mechanism%capacity) > 0.0_wp) then
-            below = mechanism%capacity
-         else
-            above = mechanism%capacity
-         end if
+      bracket = bracket_type(end_of_all*real(i - 1, wp)/real(parts, wp), end_of_all*real(i, wp)/real(parts, wp))
+      do while (bracket%is_divisible())
+         call bracket%halve(mechanism%moment(bracket%middle()) > 0.0_wp)
       end do
+      mechanism%capacity = bracket%middle()
    end subroutine find_capacity
 
    !> The rotation at which the first load loses its seat

@@ -47,6 +47,10 @@ module dondolo_wall_mechanism
       procedure :: hold
       !> Does friction hold it?
       procedure :: has_friction
+      !> Restoring moment G - Q
+      procedure :: moment
+      !> Ground acceleration that balances it at a rotation
+      procedure :: balancing_acceleration
       !> Ground acceleration at which it begins to rock
       procedure :: trigger_acceleration
       !> Frequency parameter p
@@ -125,16 +129,35 @@ contains
       if (allocated(self%restraints)) has_friction = any(self%restraints%is_friction)
    end function has_friction
 
-   !> Ground acceleration at which rocking begins: (G(0) - Q(0))/L(0) (docs/theory.md, section 2)
-   pure function trigger_acceleration(self) result(a)
+   !> Restoring moment G - Q, ties included [N m]
+   elemental real(wp) function moment(self, q)
       class(mechanism_type), intent(in) :: self
-      !> Trigger acceleration [m/s2]
-      real(wp) :: a
+      !> Rotation [rad]
+      real(wp), intent(in) :: q
 
       real(wp) :: j, c, g, l, load
 
-      call self%terms(0.0_wp, j, c, g, l, load)
+      call self%terms(q, j, c, g, l, load)
+      moment = g - load
+   end function moment
+
+   !> Ground acceleration that balances the wall at a rotation: (G - Q)/L [m/s2]
+   elemental real(wp) function balancing_acceleration(self, q) result(a)
+      class(mechanism_type), intent(in) :: self
+      !> Rotation [rad]
+      real(wp), intent(in) :: q
+
+      real(wp) :: j, c, g, l, load
+
+      call self%terms(q, j, c, g, l, load)
       a = (g - load)/l
+   end function balancing_acceleration
+
+   !> Ground acceleration at which rocking begins (docs/theory.md, section 2) [m/s2]
+   pure real(wp) function trigger_acceleration(self) result(a)
+      class(mechanism_type), intent(in) :: self
+
+      a = self%balancing_acceleration(0.0_wp)
    end function trigger_acceleration
 
    !> Frequency parameter of the wall without its ties, p^2 = (G(0) - Q(0))/(J(0) sin q_c), 3g/(4R) for one block

@@ -115,7 +115,7 @@ contains
       real(wp) :: a(0:parts), low, high, first, second
       integer :: i
 
-      a = [(acceleration_at(mechanism, from + (to - from)*real(i, wp)/real(parts, wp)), i=0, parts)]
+      a = mechanism%balancing_acceleration([(from + (to - from)*real(i, wp)/real(parts, wp), i=0, parts)])
       greatest = maxval(a)
       i = maxloc(a, dim=1) - 1
       if (i == 0 .or. i == parts) return
@@ -124,25 +124,13 @@ contains
       do i = 1, halvings
          first = high - golden*(high - low)
          second = low + golden*(high - low)
-         if (acceleration_at(mechanism, first) > acceleration_at(mechanism, second)) then
+         if (mechanism%balancing_acceleration(first) > mechanism%balancing_acceleration(second)) then
             high = second
          else
             low = first
          end if
       end do
-      greatest = max(greatest, acceleration_at(mechanism, 0.5_wp*(low + high)))
+      greatest = max(greatest, mechanism%balancing_acceleration(0.5_wp*(low + high)))
    end function greatest_between
-
-   !> Acceleration that holds the wall in balance at a rotation [m/s2]
-   pure real(wp) function acceleration_at(mechanism, q) result(a)
-      class(mechanism_type), intent(in) :: mechanism
-      !> Rotation [rad]
-      real(wp), intent(in) :: q
-
-      real(wp) :: j, c, g, l, load
-
-      call mechanism%terms(q, j, c, g, l, load)
-      a = (g - load)/l
-   end function acceleration_at
 
 end module dondolo_wall_tie_statics

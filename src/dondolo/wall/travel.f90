@@ -3,6 +3,7 @@
 !> A point e behind the hinge and f above it has the horizontal travel D = a q + f sin q + e (1 - cos q) and the lever
 !> X = dD/dq = a + f cos q + e sin q (docs/theory.md, section 2).
 module dondolo_wall_travel
+   use dondolo_base_bracket, only : bracket_type
    use dondolo_base_kinds, only : wp
    implicit none
    private
@@ -41,34 +42,30 @@ contains
 
       real(wp), parameter :: right_angle = acos(0.0_wp), near = 16.0_wp*epsilon(1.0_wp)
       integer, parameter :: most_iterations = 12
-      real(wp) :: below, above, change
+      type(bracket_type) :: bracket
+      real(wp) :: furthest, change
       integer :: i
 
       ! Beyond this rotation X < 0, and the point comes back.
-      above = atan2(e, f) + right_angle
+      furthest = atan2(e, f) + right_angle
       q = huge(q)
-      if (.not. travel(edge, e, f, above) > distance) return
-      below = 0.0_wp
-      q = 0.5_wp*above
+      if (.not. travel(edge, e, f, furthest) > distance) return
+      bracket%last = furthest
+      q = bracket%middle()
       if (lever(edge, e, f, 0.0_wp)*q > distance) q = distance/lever(edge, e, f, 0.0_wp)
       do i = 1, most_iterations
          change = (distance - travel(edge, e, f, q))/lever(edge, e, f, q)
-         if (.not. (q + change > below .and. q + change < above)) exit
+         if (.not. (q + change > bracket%first .and. q + change < bracket%last)) exit
          q = q + change
          if (abs(change) > near*q) cycle
-         if (.not. travel(edge, e, f, (1.0_wp - near)*q) > distance) below = (1.0_wp - near)*q
-         if (travel(edge, e, f, (1.0_wp + near)*q) > distance) above = (1.0_wp + near)*q
+         if (.not. travel(edge, e, f, (1.0_wp - near)*q) > distance) bracket%first = (1.0_wp - near)*q
+         if (travel(edge, e, f, (1.0_wp + near)*q) > distance) bracket%last = (1.0_wp + near)*q
          exit
       end do
-      do
-         q = 0.5_wp*(below + above)
-         if (q <= below .or. q >= above) exit
-         if (travel(edge, e, f, q) > distance) then
-            above = q
-         else
-            below = q
-         end if
+      do while (bracket%is_divisible())
+         call bracket%halve(.not. travel(edge, e, f, bracket%middle()) > distance)
       end do
+      q = bracket%middle()
    end function rotation_after
 
    !> 1 - cos q, without the cancellation of small rotations

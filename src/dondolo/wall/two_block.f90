@@ -4,6 +4,7 @@
 !> section 2). q is the rotation of the lower block; the hinges at base and top stay on one vertical line, so that
 !> sin(beta2) = R1 sin(beta1)/R2 with beta1 = alpha1 - q.
 module dondolo_wall_two_block
+   use dondolo_base_bracket, only : bracket_type
    use dondolo_base_error, only : error_type, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : rounded
@@ -236,22 +237,15 @@ contains
       !> Capacity rotation [rad]
       real(wp) :: root
 
-      real(wp) :: below, above, j, c, g, l, load
+      type(bracket_type) :: bracket
 
       root = mechanism%lower%alpha
       if (.not. (mechanism%overburden%weight > 0.0_wp .and. mechanism%load_lever > 0.0_wp)) return
-      below = 0.0_wp
-      above = root
-      do
-         root = 0.5_wp*(below + above)
-         if (root <= below .or. root >= above) exit
-         call mechanism%terms(root, j, c, g, l, load)
-         if (g - load > 0.0_wp) then
-            below = root
-         else
-            above = root
-         end if
+      bracket%last = root
+      do while (bracket%is_divisible())
+         call bracket%halve(mechanism%moment(bracket%middle()) > 0.0_wp)
       end do
+      root = bracket%middle()
    end function moment_root
 
    !> Equation (4) of Nale et al. with its lost term restored and centroidal inertias (docs/theory.md,

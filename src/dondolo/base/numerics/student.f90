@@ -1,5 +1,6 @@
 !> Quantiles of Student's t distribution.
 module dondolo_base_student
+   use dondolo_base_bracket, only : bracket_type
    use dondolo_base_kinds, only : wp
    implicit none
    private
@@ -28,22 +29,16 @@ contains
       !> Degrees of freedom, positive
       real(wp), intent(in) :: degrees
 
-      real(wp) :: below, above
+      type(bracket_type) :: bracket
 
-      below = 0.0_wp
-      above = 1.0_wp
-      do while (student_cdf(above, degrees) < p .and. above < 1.0e100_wp)
-         above = 2.0_wp*above
+      bracket%last = 1.0_wp
+      do while (student_cdf(bracket%last, degrees) < p .and. bracket%last < 1.0e100_wp)
+         bracket%last = 2.0_wp*bracket%last
       end do
-      do
-         t = 0.5_wp*(below + above)
-         if (t <= below .or. t >= above) exit
-         if (student_cdf(t, degrees) < p) then
-            below = t
-         else
-            above = t
-         end if
+      do while (bracket%is_divisible())
+         call bracket%halve(student_cdf(bracket%middle(), degrees) < p)
       end do
+      t = bracket%middle()
    end function student_quantile
 
    !> Regularized incomplete beta function I_x(a, b)

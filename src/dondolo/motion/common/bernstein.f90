@@ -4,6 +4,7 @@
 !> its coefficients and has no more roots than they have changes of sign. So a root that exists is never missed,
 !> however close two of them lie, and coefficients of one sign prove that there is none.
 module dondolo_motion_bernstein
+   use dondolo_base_bracket, only : bracket_type
    use dondolo_base_kinds, only : wp
    implicit none
    private
@@ -84,12 +85,12 @@ contains
       !> The root
       real(wp) :: x
 
-      real(wp) :: below, above, next, b(0:most_coefficients - 1), slope
+      type(bracket_type) :: bracket
+      real(wp) :: next, b(0:most_coefficients - 1), slope
       integer :: j, n, iteration
 
       n = ubound(c, 1)
-      below = 0.0_wp
-      above = 1.0_wp
+      bracket%last = 1.0_wp
       x = c(0)/(c(0) - c(n))
       do iteration = 1, 2*digits(x)
          b(:n) = c
@@ -98,16 +99,12 @@ contains
             if (j == 1) slope = real(n, wp)*(b(1) - b(0))
             b(:j - 1) = (1.0_wp - x)*b(:j - 1) + x*b(1:j)
          end do
-         if (b(0) > 0.0_wp) then
-            below = x
-         else
-            above = x
-         end if
-         next = 0.5_wp*(below + above)
+         call bracket%narrow(x, b(0) > 0.0_wp)
+         next = bracket%middle()
          if (slope < 0.0_wp) next = x - b(0)/slope
          if (abs(next - x) <= 2.0_wp*epsilon(x)*x) exit
-         if (.not. (next > below .and. next < above)) next = 0.5_wp*(below + above)
-         if (next <= below .or. next >= above) exit
+         if (.not. (next > bracket%first .and. next < bracket%last)) next = bracket%middle()
+         if (next <= bracket%first .or. next >= bracket%last) exit
          x = next
       end do
    end function single_root

@@ -4,6 +4,7 @@
 !> motion outwards that ends is followed by lower ones only, since ties give back at most what they took (docs/theory.md,
 !> section 4).
 module dondolo_motion_held_tail
+   use dondolo_base_bracket, only : bracket_type
    use dondolo_base_kinds, only : wp
    use dondolo_motion_grip, only : grip_type
    use dondolo_motion_tail, only : inertia, tail_type, time_between, turning_rotation, way_to_turn, work_between
@@ -40,7 +41,7 @@ contains
       at = q
       kinetic = 0.5_wp*inertia(wall, q)*v**2
       lively = kinetic
-      outwards = v > 0.0_wp .or. (.not. v < 0.0_wp .and. moment(wall, q) < 0.0_wp)
+      outwards = v > 0.0_wp .or. (.not. v < 0.0_wp .and. wall%moment(q) < 0.0_wp)
       has_struck = .false.
       do
          goal = max(0.0_wp, grip%below)
@@ -96,7 +97,7 @@ contains
          else
             ! The potential is monotone up to where the moment changes its sign.
             after = from + (goal - from)*real(i + 1, wp)/real(parts, wp)
-            if (moment(wall, next) > 0.0_wp .eqv. moment(wall, after) > 0.0_wp) cycle
+            if (wall%moment(next) > 0.0_wp .eqv. wall%moment(after) > 0.0_wp) cycle
             next = balance(wall, next, after)
          end if
          turns = wall%potential(next) > energy
@@ -120,39 +121,21 @@ contains
       if (turns) kinetic = 0.0_wp
    end subroutine go
 
-   !> Rotation at which the moment changes its sign, by bisection
+   !> Rotation between two others at which the moment changes its sign
    pure real(wp) function balance(wall, one, other) result(q)
       class(mechanism_type), intent(in) :: wall
       !> Rotations with moments of different signs [rad]
       real(wp), intent(in) :: one, other
 
-      real(wp) :: low, high
-      logical :: is_held
+      type(bracket_type) :: bracket
+      logical :: rights
 
-      low = one
-      high = other
-      is_held = moment(wall, low) > 0.0_wp
-      do
-         q = 0.5_wp*(low + high)
-         if (q == low .or. q == high) exit
-         if (moment(wall, q) > 0.0_wp .eqv. is_held) then
-            low = q
-         else
-            high = q
-         end if
+      bracket = bracket_type(one, other)
+      rights = wall%moment(one) > 0.0_wp
+      do while (bracket%is_divisible())
+         call bracket%halve(wall%moment(bracket%middle()) > 0.0_wp .eqv. rights)
       end do
+      q = bracket%middle()
    end function balance
-
-   !> Restoring moment G - Q, ties included [N m]
-   pure real(wp) function moment(wall, q)
-      class(mechanism_type), intent(in) :: wall
-      !> Rotation [rad]
-      real(wp), intent(in) :: q
-
-      real(wp) :: j, c, g, l, load
-
-      call wall%terms(q, j, c, g, l, load)
-      moment = g - load
-   end function moment
 
 end module dondolo_motion_held_tail

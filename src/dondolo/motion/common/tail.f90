@@ -3,6 +3,7 @@
 !> E = 1/2 J(q) q'^2 + V(q) is constant between impacts for every mechanism, since C = J'/2
 !> (docs/theory.md, section 4).
 module dondolo_motion_tail
+   use dondolo_base_bracket, only : bracket_type
    use dondolo_base_kinds, only : wp
    use dondolo_wall_mechanism, only : mechanism_type
    implicit none
@@ -116,7 +117,7 @@ contains
       end if
    end function fall_time
 
-   !> The rotation between two others at which the potential energy equals the energy, by bisection
+   !> The rotation between two others at which the potential energy equals the energy
    pure function turning_rotation(mechanism, energy, high, low) result(turn)
       class(mechanism_type), intent(in) :: mechanism
       !> Energy [J]
@@ -128,19 +129,13 @@ contains
       !> The rotation [rad]
       real(wp) :: turn
 
-      real(wp) :: above, below
+      type(bracket_type) :: bracket
 
-      above = high
-      below = low
-      do
-         turn = 0.5_wp*(above + below)
-         if (turn == above .or. turn == below) exit
-         if (mechanism%potential(turn) > energy) then
-            above = turn
-         else
-            below = turn
-         end if
+      bracket = bracket_type(low, high)
+      do while (bracket%is_divisible())
+         call bracket%halve(.not. mechanism%potential(bracket%middle()) > energy)
       end do
+      turn = bracket%middle()
    end function turning_rotation
 
    !> Way from a rotation to the next turning point. Where it is short the difference of two rotations, which the potentials know
@@ -157,16 +152,16 @@ contains
       ! More than rounding is not corrected: then the turn is next to an equilibrium.
       real(wp), parameter :: most = 1.0e-6_wp
       integer, parameter :: iterations = 4
-      real(wp) :: better, left, j, c, g, l, load
+      real(wp) :: better, left, moment
       integer :: i
 
       way = turn - from
       better = way
       do i = 1, iterations
-         call mechanism%terms(from + better, j, c, g, l, load)
+         moment = mechanism%moment(from + better)
          left = kinetic - work_between(mechanism, from, better)
-         if (.not. abs(left) < most*mechanism%capacity*abs(g - load)) return
-         better = better + left/(g - load)
+         if (.not. abs(left) < most*mechanism%capacity*abs(moment)) return
+         better = better + left/moment
       end do
       way = better
    end function way_to_turn
@@ -191,24 +186,12 @@ contains
          work = mechanism%potential(from + way) - mechanism%potential(from)
          return
       end if
-      work = 64.0_wp/225.0_wp*moment(0.5_wp)
+      work = 64.0_wp/225.0_wp*mechanism%moment(from + 0.5_wp*way)
       do i = 1, size(nodes)
-         work = work + weights(i)*(moment(0.5_wp*(1.0_wp - nodes(i))) + moment(0.5_wp*(1.0_wp + nodes(i))))
+         work = work + weights(i)*(mechanism%moment(from + 0.5_wp*(1.0_wp - nodes(i))*way) &
+            & + mechanism%moment(from + 0.5_wp*(1.0_wp + nodes(i))*way))
       end do
       work = work*way
-
-   contains
-
-      !> Restoring moment G - Q at a part of the way
-      pure real(wp) function moment(part)
-         real(wp), intent(in) :: part
-
-         real(wp) :: j, c, g, l, load
-
-         call mechanism%terms(from + part*way, j, c, g, l, load)
-         moment = g - load
-      end function moment
-
    end function work_between
 
    !> Time of the motion on a way, the integral of dq/q'; the motion is slowest where it begins, or ends.
@@ -261,12 +244,11 @@ contains
       !> 1/|q'| [s/rad]
       real(wp) :: inverse_speed
 
-      real(wp) :: drop, j, c, g, l, load
+      real(wp) :: drop
 
       if (abs(distance) < 1.0e-5_wp) then
          ! The difference of the potentials would be lost in their rounding.
-         call mechanism%terms(slow + 0.5_wp*distance, j, c, g, l, load)
-         drop = -(g - load)*distance
+         drop = -mechanism%moment(slow + 0.5_wp*distance)*distance
       else
          drop = mechanism%potential(slow) - mechanism%potential(slow + distance)
       end if

@@ -4,6 +4,7 @@
 !> Events - impact, turning point, limit, a level of the ties - are found on the dense output of a step; the step is then
 !> taken again so that it ends on the event, which thus has the accuracy of a step (docs/theory.md, section 5).
 module dondolo_motion_adaptive_step
+   use dondolo_base_bracket, only : bracket_type
    use dondolo_base_kinds, only : wp
    use dondolo_motion_dormand_prince, only : angular_acceleration, dense_rotation, dormand_prince_step, excitation_type, &
       & is_beyond, state_type
@@ -175,7 +176,8 @@ contains
 
       integer, parameter :: most_trials = 60
       type(state_type) :: start, whole
-      real(wp) :: whole_step, before, after, trial, gap, rate, change, sense, level, q_error, v_error
+      type(bracket_type) :: bracket
+      real(wp) :: whole_step, trial, gap, rate, change, sense, level, q_error, v_error
       logical :: crossed
       integer :: i
 
@@ -185,8 +187,7 @@ contains
       start = state_type(motion%q, motion%v, motion%f)
       whole = next
       whole_step = h
-      before = 0.0_wp
-      after = h
+      bracket%last = h
       trial = x*h
       crossed = .false.
       sense = 1.0_wp
@@ -209,21 +210,17 @@ contains
             gap = sense*next%v
             rate = sense*next%f
          end select
-         if (gap > 0.0_wp) then
-            before = trial
-         else
-            after = trial
-            crossed = .true.
-         end if
+         call bracket%narrow(trial, gap > 0.0_wp)
+         crossed = crossed .or. .not. gap > 0.0_wp
          change = huge(change)
          if (rate < 0.0_wp) change = -gap/rate
          if (abs(change) <= sqrt(epsilon(h))*trial) exit
-         if (after - before <= 2.0_wp*epsilon(h)*after) then
+         if (bracket%last - bracket%first <= 2.0_wp*epsilon(h)*bracket%last) then
             change = 0.0_wp
             exit
          end if
          trial = trial + change
-         if (.not. (trial > before .and. trial < after)) trial = 0.5_wp*(before + after)
+         if (.not. (trial > bracket%first .and. trial < bracket%last)) trial = bracket%middle()
       end do
       if (i > most_trials) change = 0.0_wp
       if (gap > 0.0_wp .and. change == 0.0_wp .and. .not. crossed) then

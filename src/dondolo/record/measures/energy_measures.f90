@@ -1,5 +1,6 @@
 !> Measures that grow while the ground shakes: integrals of the piecewise linear acceleration, exactly.
 module dondolo_record_energy_measures
+   use dondolo_base_bracket, only : bracket_type
    use dondolo_base_kinds, only : wp
    use dondolo_record, only : record_type
    implicit none
@@ -112,7 +113,8 @@ contains
       !> Time [s]
       real(wp) :: time
 
-      real(wp) :: rest, low, middle, high, slope
+      type(bracket_type) :: bracket
+      real(wp) :: rest, slope
       integer :: i, k
 
       rest = energy
@@ -122,20 +124,16 @@ contains
          rest = rest - step(i)
       end do
       ! Within a step the integral is a cubic that never falls: halving finds the part of the step to rounding
-      low = 0.0_wp
-      high = 1.0_wp
+      bracket%last = 1.0_wp
       associate (a => record%acceleration(i))
          slope = record%acceleration(i + 1) - a
-         do k = 1, digits(low)
-            middle = 0.5_wp*(low + high)
-            if (record%dt*middle*(a**2 + middle*slope*(a + middle*slope/3.0_wp)) < rest) then
-               low = middle
-            else
-               high = middle
-            end if
+         do k = 1, digits(slope)
+            associate (x => bracket%middle())
+               call bracket%halve(record%dt*x*(a**2 + x*slope*(a + x*slope/3.0_wp)) < rest)
+            end associate
          end do
       end associate
-      time = record%dt*(real(i - 1, wp) + high)
+      time = record%dt*(real(i - 1, wp) + bracket%last)
    end function time_of
 
 end module dondolo_record_energy_measures

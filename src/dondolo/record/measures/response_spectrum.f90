@@ -7,6 +7,7 @@
 !> samples may exceed the largest so far, the turning point is found. After the record the oscillator swings freely, and
 !> that counts too.
 module dondolo_record_response_spectrum
+   use dondolo_base_bracket, only : bracket_type
    use dondolo_base_kinds, only : pi, wp
    use dondolo_record, only : record_type
    implicit none
@@ -271,23 +272,19 @@ contains
       !> The zero
       real(wp) :: s
 
-      real(wp) :: low, high, at_low, at_high, at_s, next
+      type(bracket_type) :: bracket
+      real(wp) :: at_first, at_last, at_s, next
       integer :: k
 
-      low = from
-      high = to
-      at_low = value(c, low)
-      at_high = value(c, high)
-      s = low + (high - low)*at_low/(at_low - at_high)
+      bracket = bracket_type(from, to)
+      at_first = value(c, from)
+      at_last = value(c, to)
+      s = from + (to - from)*at_first/(at_first - at_last)
       do k = 1, digits(s)
          at_s = value(c, s)
-         if (at_s*at_low > 0.0_wp) then
-            low = s
-         else
-            high = s
-         end if
+         call bracket%narrow(s, at_s*at_first > 0.0_wp)
          next = s - at_s/value(derivative(c), s)
-         if (.not. (next >= low .and. next <= high)) next = 0.5_wp*(low + high)
+         if (.not. (next >= bracket%first .and. next <= bracket%last)) next = bracket%middle()
          ! A displacement is flat where its velocity vanishes, and the step after this one would be the square of it
          if (abs(next - s) < sqrt(epsilon(s))) exit
          s = next
