@@ -1,12 +1,12 @@
 !> What --check prints of walls: their static quantities, and for one wall what holds it and what ends its motion.
 module dondolo_plan_wall
    use, intrinsic :: iso_fortran_env, only : output_unit
-   use dondolo_base_error, only : error_type, problems_type
+   use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : lines_type
    use dondolo_base_text, only : left, rounded
    use dondolo_plan_building, only : building_summary
    use dondolo_wall, only : new_wall, wall_type
-   use dondolo_wall_body, only : read_wall_body, wall_body_type
    use dondolo_wall_properties, only : wall_input_type
    use dondolo_wall_tie_statics, only : greatest_acceleration, plastic_acceleration
    implicit none
@@ -77,7 +77,7 @@ contains
          if (input%number('leaves') > 1.0_wp) text = trim(text)//'  '//rounded(input%number('leaves'))//' leaves of '// &
             & rounded(input%number('thickness')/input%number('leaves'))//' m, one of which rocks'
          if (allocated(wall%building)) text = trim(text)//trim(building_summary(wall%building))
-         if (wall%hinge_depth > 0.0_wp) text = trim(text)//'  hinge '//rounded(wall%hinge_depth)//' m deep'
+         if (wall%model%hinge_depth > 0.0_wp) text = trim(text)//'  hinge '//rounded(wall%model%hinge_depth)//' m deep'
          if (wall%mechanism%unseating < wall%mechanism%capacity) text = trim(text)//'  unseating at '// &
             & rounded(wall%mechanism%unseating)//' rad'
       end associate
@@ -87,13 +87,17 @@ contains
    subroutine print_body(wall)
       type(wall_type), intent(in) :: wall
 
+      type(lines_type) :: lines
       real(wp) :: j, c, g, l, load
+      integer :: i, colon
 
-      if (wall%mechanism_name() == 'two_block') then
-         call print_two_blocks(wall)
-      else
-         call print_one_block(wall)
-      end if
+      call wall%model%describe(wall%input, wall%gravity, lines)
+      do i = 1, lines%count
+         associate (line => lines%line(i)%text)
+            colon = index(line, ': ')
+            call print_line(line(:colon - 1), line(colon + 2:))
+         end associate
+      end do
       call print_hinge(wall)
       if (allocated(wall%mechanism%restraints)) call print_ties(wall)
       call wall%mechanism%terms(0.0_wp, j, c, g, l, load)
@@ -108,33 +112,6 @@ contains
          end if
       end associate
    end subroutine print_body
-
-   !> Print the body of one block and what acts on it
-   subroutine print_one_block(wall)
-      type(wall_type), intent(in) :: wall
-
-      type(wall_body_type) :: whole
-      type(problems_type) :: problems
-      integer :: i
-
-      call read_wall_body(wall%input, wall%gravity, problems, whole)
-      associate (body => whole%body, actions => whole%actions)
-         call print_line('masonry', rounded(body%mass)//' kg/m, centroid '//rounded(body%depth)//' m behind the outer face, '// &
-            & rounded(body%height)//' m high, inertia about it '//rounded(body%inertia)//' kg m2/m')
-         do i = 1, size(actions%carried)
-            associate (thing => actions%carried(i))
-               if (thing%weight > 0.0_wp) call print_line('load', rounded(thing%weight)//' N/m at depth '// &
-                  & rounded(thing%depth)//' m, height '//rounded(thing%height)//' m; pushed '//rounded(thing%pushed)// &
-                  & ' kg/m, lifted '//rounded(thing%lifted)//' kg/m')
-               if (.not. thing%weight > 0.0_wp) call print_line('mass', rounded(thing%pushed)//' kg/m pushed at depth '// &
-                  & rounded(thing%depth)//' m, height '//rounded(thing%height)//' m')
-            end associate
-         end do
-         call print_line('moments', 'weights hold with '//rounded(wall%gravity*body%mass*(body%depth - actions%hinge) &
-            & + sum(actions%carried%weight*(actions%carried%depth - actions%hinge)))//' N m/m, thrusts push out with '// &
-            & rounded(sum(actions%thrusts%force*actions%thrusts%height))//' N m/m')
-      end associate
-   end subroutine print_one_block
 
    !> Print the ties of a wall and the accelerations that it withstands with them
    subroutine print_ties(wall)
@@ -172,24 +149,6 @@ contains
       if (q < huge(q)) text = rounded(q)//' rad'
    end function rotation
 
-   !> Print the blocks of a wall of two and its load
-   subroutine print_two_blocks(wall)
-      type(wall_type), intent(in) :: wall
-
-      real(wp) :: mass, load, inertia
-
-      associate (input => wall%input)
-         mass = input%number('density')*input%number('height')*input%number('thickness')
-         load = input%number('overburden')
-         inertia = input%number('overburden_inertia')
-         call print_line('masonry', rounded(mass)//' kg/m, '//rounded(input%number('hinge')*mass)//' below the hinge at '// &
-            & rounded(input%number('hinge')*input%number('height'))//' m, '//rounded((1.0_wp - input%number('hinge'))*mass)// &
-            & ' above; centroids half as deep as the blocks are thick')
-         if (load > 0.0_wp) call print_line('load', rounded(load)//' N/m, lifted '//rounded(inertia*load/wall%gravity)// &
-            & ' kg/m, dead '//rounded((1.0_wp - inertia)*load)//' N/m')
-      end associate
-   end subroutine print_two_blocks
-
    !> Print where the hinge is, and what its depth takes away
    subroutine print_hinge(wall)
       type(wall_type), intent(in) :: wall
@@ -198,17 +157,17 @@ contains
       type(wall_input_type) :: input
       type(error_type), allocatable :: error
 
-      if (.not. wall%hinge_depth > 0.0_wp) then
+      if (.not. wall%model%hinge_depth > 0.0_wp) then
          call print_line('hinge', 'at the face: geometry governs, no crushing')
       else if (.not. wall%input%has('compressive_strength')) then
-         call print_line('hinge', rounded(wall%hinge_depth)//' m behind the face, given')
+         call print_line('hinge', rounded(wall%model%hinge_depth)//' m behind the face, given')
       else
          input = wall%input
          call input%clear('compressive_strength')
          call input%clear('stress_block')
          call new_wall(uncrushed, input, error, wall%gravity)
          if (allocated(error)) return
-         call print_line('hinge', rounded(wall%hinge_depth)//' m behind the face: crushing governs, trigger and capacity '// &
+         call print_line('hinge', rounded(wall%model%hinge_depth)//' m behind the face: crushing governs, trigger and capacity '// &
             & 'are '//rounded(wall%mechanism%trigger_acceleration()/uncrushed%mechanism%trigger_acceleration())//' and '// &
             & rounded(wall%mechanism%capacity/uncrushed%mechanism%capacity)//' of those about the face')
       end if

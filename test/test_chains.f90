@@ -14,7 +14,7 @@ program test_chains
    use dondolo_record_random, only : new_random, random_type
    use dondolo_wall, only : wall_type
    use dondolo_wall_mechanism, only : mechanism_type
-   use dondolo_wall_one_sided, only : one_sided_restitution
+   use dondolo_wall_single_block, only : one_sided_restitution
    use linear_block, only : new_linear_block
    use motion_inputs, only : a_wall, accelerogram, made, stillness, tight
    implicit none

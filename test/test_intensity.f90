@@ -352,7 +352,7 @@ contains
          scaled = record_of(factors(1)*a, 0.01_wp)
          unit = scaling%measure%level_size(wall%gravity)
          if (name == 'pga/a0') unit = wall%mechanism%trigger_acceleration()
-         if (name == 'p*pgv/a0') unit = g*tan(wall%alpha)/sqrt(0.75_wp*g/sqrt(1.0_wp + 0.15_wp**2))
+         if (name == 'p*pgv/a0') unit = g*tan(wall%model%alpha)/sqrt(0.75_wp*g/sqrt(1.0_wp + 0.15_wp**2))
          call check_close(scaling%measure%of(scaled)/unit, level, 1.0e-12_wp, name)
          call check(scaling%needs_wall() .eqv. i > size(names), name//' needs a wall')
       end do

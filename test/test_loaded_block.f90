@@ -147,7 +147,7 @@ contains
       type(problems_type) :: problems
 
       wall = made(a_case(name))
-      call read_wall_body(wall%input, g, problems, read)
+      call read_wall_body(wall%input, g, .false., problems, read)
       associate (body => read%body)
          call check_close(body%mass, expected(1), exact, name//': mass')
          call check_close(body%depth, expected(2), exact, name//': depth of the centroid')

@@ -15,7 +15,7 @@ program test_motion
    use dondolo_record, only : record_type
    use dondolo_wall, only : wall_type
    use dondolo_wall_mechanism, only : mechanism_type
-   use dondolo_wall_one_sided, only : one_sided_restitution
+   use dondolo_wall_single_block, only : one_sided_restitution
    use linear_block, only : new_linear_block
    use motion_inputs, only : a_wall, accelerogram, made, stillness, tight
    implicit none
@@ -70,11 +70,11 @@ contains
          call check_close(wall%mechanism%frequency_parameter()*time, at_010(i), 1.0e-11_wp, 'p T/4, alpha = 0.10')
       end do
       wall = made('one_sided', 3.0_wp, 0.25_wp)
-      call fall(wall%mechanism, 0.5_wp*wall%alpha, time, speed)
+      call fall(wall%mechanism, 0.5_wp*wall%model%alpha, time, speed)
       call check_close(time, 0.595788073312152_wp, 1.0e-12_wp, 'H = 3: time of fall')
       call check_close(speed, 0.159132483304546_wp, 1.0e-12_wp, 'H = 3: speed')
       wall = made('one_sided', 6.0_wp, 0.4_wp)
-      call fall(wall%mechanism, 0.5_wp*wall%alpha, time, speed)
+      call fall(wall%mechanism, 0.5_wp*wall%model%alpha, time, speed)
       call check_close(time, 0.841986836828467_wp, 1.0e-12_wp, 'H = 6: time of fall')
       call check_close(speed, 0.0901612647250664_wp, 1.0e-12_wp, 'H = 6: speed')
    end subroutine test_free_fall

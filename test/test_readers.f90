@@ -227,8 +227,9 @@ contains
       is_sound = count > 0
       do i = 1, count
          associate (wall => members(i)%wall)
-            is_sound = is_sound .and. wall%radius > 0.0_wp .and. wall%radius < huge(1.0_wp) .and. wall%alpha > 0.0_wp &
-               & .and. wall%alpha < 1.6_wp .and. members(i)%weight >= 0.0_wp .and. members(i)%weight < huge(1.0_wp) &
+            is_sound = is_sound .and. wall%model%radius > 0.0_wp .and. wall%model%radius < huge(1.0_wp) &
+               & .and. wall%model%alpha > 0.0_wp .and. wall%model%alpha < 1.6_wp .and. members(i)%weight >= 0.0_wp &
+               & .and. members(i)%weight < huge(1.0_wp) &
                & .and. members(i)%p_occ >= 0.0_wp .and. members(i)%p_occ <= 1.0_wp .and. len(wall%name()) > 0
          end associate
       end do

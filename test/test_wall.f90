@@ -4,8 +4,7 @@ program test_wall
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
-   use dondolo_wall_free_standing, only : housner_restitution
-   use dondolo_wall_one_sided, only : one_sided_restitution
+   use dondolo_wall_single_block, only : housner_restitution, one_sided_restitution
    use dondolo_wall_two_block, only : two_block_impulse, two_block_sorrentino, two_block_type
    implicit none
 
@@ -60,16 +59,16 @@ contains
 
       call suite('one block, H = 3, t = 0.25')
       wall = made(parapet())
-      call check_close(wall%radius, 1.50519932234904_wp, tight, 'R')
-      call check_close(wall%alpha, 0.0831412318884412_wp, tight, 'alpha')
+      call check_close(wall%model%radius, 1.50519932234904_wp, tight, 'R')
+      call check_close(wall%model%alpha, 0.0831412318884412_wp, tight, 'alpha')
       call check_close(wall%mechanism%capacity, 0.0831412318884412_wp, tight, 'capacity')
       call check_close(wall%mechanism%frequency_parameter(), 2.21089505499269_wp, tight, 'p')
       call wall%mechanism%terms(0.0_wp, j, c, gravity, l, load)
       call check_close(j, 4078.125_wp, tight, 'I_0')
       call check_close(c, 0.0_wp, 0.0_wp, 'C')
-      call check_close(one_sided_restitution(wall%alpha), -0.479576776415597_wp, tight, 'equation (2)')
+      call check_close(one_sided_restitution(wall%model%alpha), -0.479576776415597_wp, tight, 'equation (2)')
       call check_close(wall%mechanism%restitution, 0.479576776415597_wp, tight, 'speed ratio')
-      call check_close(housner_restitution(wall%alpha), 0.989655172413793_wp, tight, 'Housner''s coefficient')
+      call check_close(housner_restitution(wall%model%alpha), 0.989655172413793_wp, tight, 'Housner''s coefficient')
       call check_close(wall%mechanism%trigger_acceleration()/g, 0.0833333333333333_wp, tight, 'trigger')
       call check(.not. wall%mechanism%two_sided, 'it rocks to one side')
       input = parapet()
@@ -95,10 +94,10 @@ contains
 
       call suite('two blocks, H = 3, t = 0.25, hinge 0.6')
       wall = made(strip(3.0_wp, 0.25_wp, 0.6_wp))
-      call check_close(wall%alpha, 0.138006023657519_wp, tight, 'alpha1')
+      call check_close(wall%model%alpha, 0.138006023657519_wp, tight, 'alpha1')
       call check_close(wall%mechanism%capacity, 0.138006023657519_wp, tight, 'capacity')
       call check_terms(wall, 0.0_wp, [1584.5625_wp, -717.5390625_wp, 3310.875_wp, 1215.0_wp])
-      call check_terms(wall, 0.5_wp*wall%alpha, &
+      call check_terms(wall, 0.5_wp*wall%model%alpha, &
          & [1510.62905152394_wp, -355.601934879061_wp, 1655.01450775168_wp, 1223.74360745925_wp])
       call check_close(wall%mechanism%trigger_acceleration()/g, 0.277777777777778_wp, tight, 'trigger')
       call check_two_block_restitution(wall, 0.957519116397621_wp, 0.85356762513312_wp)
@@ -111,7 +110,7 @@ contains
       wall = made(strip(3.0_wp, 0.25_wp, 0.7_wp))
       call check_close(wall%mechanism%restitution, 0.966_wp, 0.0_wp, 'hinge 0.7: sorrentino', 5.0e-4_wp)
       wall = made(strip(4.0_wp, 0.38_wp, 0.7_wp))
-      call check_terms(wall, 0.5_wp*wall%alpha, &
+      call check_terms(wall, 0.5_wp*wall%model%alpha, &
          & [7420.00158382046_wp, -2070.03401639077_wp, 5059.50054100952_wp, 3856.72544168463_wp])
       call check_two_block_restitution(wall, 0.955508082903683_wp, 0.840676102576809_wp)
    end subroutine test_two_block
@@ -227,7 +226,7 @@ contains
          & wall%mechanism%trigger_acceleration()*1215.0_wp/(1584.5625_wp*sin(wall%mechanism%capacity)), tight, 'p^2')
       call input%set('eccentricity', 0.125_wp)
       wall = made(input)
-      call check_close(wall%mechanism%capacity, wall%alpha, 0.0_wp, 'load on the hinge: capacity')
+      call check_close(wall%mechanism%capacity, wall%model%alpha, 0.0_wp, 'load on the hinge: capacity')
       call input%set('overburden', 0.0_wp)
       wall = made(input)
       call check_terms(wall, 0.0_wp, [1584.5625_wp, -717.5390625_wp, 3310.875_wp, 1215.0_wp])
@@ -252,7 +251,7 @@ contains
       call check_close(wall%input%number('eccentricity'), 0.065_wp, tight, 'outer face')
       call input%set('bearing_distance', 0.0_wp)
       wall = made(input)
-      call check_close(wall%mechanism%capacity, wall%alpha, 0.0_wp, 'on the outer edge: on the hinge')
+      call check_close(wall%mechanism%capacity, wall%model%alpha, 0.0_wp, 'on the outer edge: on the hinge')
       call input%set('eccentricity', 0.0_wp)
       call refuse(input, 'eccentricity = 0: give either eccentricity or bearing and bearing_distance')
       call input%clear('eccentricity')

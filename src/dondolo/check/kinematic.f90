@@ -15,11 +15,12 @@
 !>
 !> The masonry is one block: a point at its centroid C, as the Circolare has it.
 module dondolo_check_kinematic
-   use dondolo_base_error, only : error_type, problems_type, raise_input
+   use dondolo_base_error, only : error_type, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_wall, only : wall_type
-   use dondolo_wall_body, only : read_wall_body, wall_body_type
+   use dondolo_wall_body, only : wall_body_type
    use dondolo_wall_mechanism, only : mechanism_type
+   use dondolo_wall_one_block_model, only : one_block_model_type
    use dondolo_wall_tie_statics, only : hold_plastic
    implicit none
    private
@@ -76,18 +77,17 @@ contains
 
       real(wp), parameter :: right_angle = acos(0.0_wp)
       type(wall_body_type) :: body
-      type(problems_type) :: problems
       real(wp), allocatable :: weight(:), height(:), depth(:)
       real(wp) :: first, second
 
-      if (wall%mechanism_name() == 'two_block') then
-         call raise_input(error, 'mechanism = ''two_block'': the kinematic check is for one block that turns about its '// &
-            & 'base, mechanism = ''one_sided'' or ''free_standing''')
+      select type (model => wall%model)
+      type is (one_block_model_type)
+         body = model%body
+      class default
+         call raise_input(error, 'mechanism = '''//wall%mechanism_name()//''': the kinematic check is for one block that '// &
+            & 'turns about its base, mechanism = ''one_sided'' or ''free_standing''')
          return
-      end if
-      call read_wall_body(wall%input, wall%gravity, problems, body)
-      call problems%raise(error)
-      if (allocated(error)) return
+      end select
       if (.not. wall%mechanism%capacity < right_angle) then
          call raise_input(error, 'spring: holds the wall up to a rotation of 90 degrees; the kinematic check ends before')
          return

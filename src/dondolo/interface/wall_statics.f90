@@ -30,8 +30,9 @@ contains
          if (allocated(mechanism%restraints)) with_ties = [greatest_acceleration(mechanism), plastic_acceleration(mechanism)]
          support = 0.0_wp
          if (allocated(wall%building)) support = [wall%building%share, wall%building%tilt]
-         values = [wall%gravity, wall%radius, wall%alpha, mechanism%frequency_parameter(), mechanism%trigger_acceleration(), &
-            & mechanism%capacity, mechanism%restitution, wall%hinge_depth, with_ties, support]
+         values = [wall%gravity, wall%model%radius, wall%model%alpha, mechanism%frequency_parameter(), &
+            & mechanism%trigger_acceleration(), mechanism%capacity, mechanism%restitution, wall%model%hinge_depth, with_ties, &
+            & support]
       end associate
    end function statics_of
 

@@ -5,10 +5,10 @@
 module dondolo_wall_hinge_depth
    use dondolo_base_error, only : problems_type
    use dondolo_base_kinds, only : wp
-   use dondolo_base_property, only : find_property, hint_of, name_length
+   use dondolo_base_property, only : hint_of, name_length, property_type
+   use dondolo_base_settings, only : settings_type
    use dondolo_base_text, only : rounded, to_text
    use dondolo_base_unit_hint, only : unit_hint
-   use dondolo_wall_properties, only : wall_input_type, wall_properties
    implicit none
    private
 
@@ -19,7 +19,7 @@ contains
    !> The depth of the hinges, and the property that it follows from
    subroutine read_hinge_depth(input, weight, problems, depth, name)
       !> What is said of the wall, defaults filled in
-      type(wall_input_type), intent(in) :: input
+      class(settings_type), intent(in) :: input
       !> Weight on the base hinge, of the wall and all that it carries [N/m]
       real(wp), intent(in) :: weight
       !> Takes what is wrong
@@ -48,7 +48,7 @@ contains
    !> Check that a hinge is less deep than what it must hold
    subroutine check_hinge(input, problems, name, depth, limit, what)
       !> What is said of the wall
-      type(wall_input_type), intent(in) :: input
+      class(settings_type), intent(in) :: input
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
       !> Name of the property that the depth of the hinge follows from
@@ -60,6 +60,7 @@ contains
 
       ! So many times too deep it follows from a strength in another unit
       real(wp), parameter :: absurd = 10.0_wp
+      type(property_type), pointer :: table(:)
       character(len=:), allocatable :: hint
 
       if (depth < limit) return
@@ -68,7 +69,8 @@ contains
          if (name /= 'compressive_strength') then
             hint = trim(unit_hint('m', depth, 0.0_wp, limit, 0.2_wp*limit))
          else if (depth > absurd*limit) then
-            hint = trim(hint_of(wall_properties(find_property(wall_properties, name)), input%number(name)))
+            call input%get_table(table)
+            hint = trim(hint_of(table(input%find(name)), input%number(name)))
          end if
          if (len(hint) > 0) hint = ': '//hint
          call problems%note(trim(name)//': puts the hinge at depth '//rounded(depth)//' m, must be less deep than '// &

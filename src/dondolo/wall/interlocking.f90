@@ -10,8 +10,8 @@
 module dondolo_wall_interlocking
    use dondolo_base_error, only : problems_type
    use dondolo_base_kinds, only : wp
+   use dondolo_base_settings, only : settings_type
    use dondolo_base_text, only : to_text
-   use dondolo_wall_properties, only : absent_value, wall_input_type
    use dondolo_wall_rigid_body, only : faces_at, same, section_type
    use dondolo_wall_tie, only : new_friction, tie_type
    implicit none
@@ -28,7 +28,7 @@ contains
    !> Add the friction of the transverse walls to what holds a wall
    subroutine read_interlocking(input, sections, gravity, hinge, edge, problems, ties)
       !> What is said of the wall, ranges checked
-      type(wall_input_type), intent(in) :: input
+      class(settings_type), intent(in) :: input
       !> Its storeys
       type(section_type), intent(in) :: sections(:)
       !> Gravity [m/s2]
@@ -55,7 +55,7 @@ contains
       tall = sum(sections%height)
       if (input%number('interlock_course') > tall*(1.0_wp + same)) call problems%note('interlock_course = '// &
          & to_text(input%number('interlock_course'))//': must be at most '//to_text(tall)//' m, the height of the wall')
-      friction = absent_value('interlock_friction')
+      friction = input%absent('interlock_friction')
       if (input%has('interlock_friction')) friction = input%number('interlock_friction')
       force = friction_force(tall, input%number('interlock_course'), input%number('interlock_overlap'), &
          & input%number('interlock_thickness'), friction, gravity*input%number('density'))/input%number('interlock_spacing')

@@ -8,7 +8,7 @@ module dondolo_wall_restitution
    implicit none
    private
 
-   public :: restitution_type
+   public :: impact_models_type, restitution_type
    public :: restitution_models, published_factors, published_factor_type
 
    !> Names of the models
@@ -36,6 +36,14 @@ module dondolo_wall_restitution
       & published_factor_type('elgawady_2010', 0.90_wp, 1.00_wp, 'free_standing', 'impulse', 'blocks on concrete, '// &
       &   'ElGawady, Ma, Butterworth and Ingham (2010): 0.95 and 0.97 of Housner''s value; the width is an assumption')]
 
+   !> Speed ratio of the impacts of a wall by each model; not allocated: its mechanism does not have the model
+   type :: impact_models_type
+      real(wp), allocatable :: sorrentino, impulse
+   contains
+      !> Which of them 'default' is
+      procedure :: default
+   end type impact_models_type
+
    !> What the user asks of the impacts
    type :: restitution_type
       !> Model, one of restitution_models
@@ -51,38 +59,40 @@ module dondolo_wall_restitution
 
 contains
 
+   !> Name of the model that 'default' is: 'sorrentino' where there is one
+   pure function default(self) result(model)
+      class(impact_models_type), intent(in) :: self
+      !> One of restitution_models
+      character(len=choices_length) :: model
+
+      model = 'impulse'
+      if (allocated(self%sorrentino)) model = 'sorrentino'
+   end function default
+
    !> Speed after an impact / speed before it: the model's value times the factor. A coefficient of the
    !> wrong sign (squat walls) means a plastic impact (docs/theory.md, section 3). Ranges of value and factor are
    !> those of their properties (dondolo_wall_properties)
-   subroutine speed_ratio(self, ratio, error, sorrentino, impulse)
+   subroutine speed_ratio(self, models, ratio, error)
       !> What the user asks
       class(restitution_type), intent(in) :: self
+      !> What its mechanism has
+      type(impact_models_type), intent(in) :: models
       !> Speed ratio e, 0 <= e < 1
       real(wp), intent(out) :: ratio
       !> A model that the mechanism does not have; a ratio of 1 or more
       type(error_type), allocatable, intent(out) :: error
-      !> Speed ratio of the model 'sorrentino'; absent: the mechanism has no such model
-      real(wp), intent(in), optional :: sorrentino
-      !> Speed ratio of the model 'impulse'; absent: the mechanism has no such model.
-      !> The default is 'sorrentino' where there is one
-      real(wp), intent(in), optional :: impulse
 
-      real(wp) :: coefficient
-      logical :: known
+      character(len=:), allocatable :: model
+      real(wp), allocatable :: coefficient
 
       ratio = 0.0_wp
-      coefficient = 0.0_wp
-      known = any(self%model == restitution_models)
-      select case (self%model)
-      case ('default')
-         if (present(impulse)) coefficient = impulse
-         if (present(sorrentino)) coefficient = sorrentino
+      model = self%model
+      if (model == 'default') model = trim(models%default())
+      select case (model)
       case ('sorrentino')
-         known = present(sorrentino)
-         if (known) coefficient = sorrentino
+         if (allocated(models%sorrentino)) coefficient = models%sorrentino
       case ('impulse')
-         known = present(impulse)
-         if (known) coefficient = impulse
+         if (allocated(models%impulse)) coefficient = models%impulse
       case ('constant')
          if (.not. allocated(self%value)) then
             call raise_input(error, 'restitution_value: must be given with restitution = ''constant''')
@@ -90,9 +100,9 @@ contains
          end if
          coefficient = self%value
       end select
-      if (.not. known) then
+      if (.not. allocated(coefficient)) then
          call raise_input(error, 'restitution = '''//self%model//''': must be one of '// &
-            & join(pack(restitution_models, [.true., present(sorrentino), present(impulse), .true.])))
+            & join(pack(restitution_models, [.true., allocated(models%sorrentino), allocated(models%impulse), .true.])))
          return
       end if
       if (allocated(self%value) .and. self%model /= 'constant') then

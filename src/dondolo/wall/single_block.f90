@@ -1,4 +1,4 @@
-!> One block that rotates about its base corner: the terms shared by the one-sided and the free-standing wall.
+!> One rectangular block that rocks about the edge of its base, to one side or to both.
 !>
 !> Equation (1) of Nale et al. in the common form (docs/theory.md, section 2):
 !>
@@ -10,10 +10,11 @@ module dondolo_wall_single_block
    implicit none
    private
 
-   public :: single_block_type
+   public :: single_block_type, new_single_block, housner_restitution, one_sided_restitution
 
    !> One rocking block
    type, extends(mechanism_type) :: single_block_type
+      private
       !> Slenderness angle alpha [rad]
       real(wp) :: alpha
       !> Inertia about the corner I_0 [kg m2/m]
@@ -23,8 +24,6 @@ module dondolo_wall_single_block
       !> M g R [N]
       real(wp) :: weight_moment
    contains
-      !> Take geometry and gravity
-      procedure :: take_block
       procedure :: terms
       procedure :: potential
       procedure :: geometric_end
@@ -33,20 +32,24 @@ module dondolo_wall_single_block
 
 contains
 
-   !> Take the geometry of a block and the gravity it stands in
-   pure subroutine take_block(self, block, gravity)
-      class(single_block_type), intent(inout) :: self
+   !> Make the mechanism
+   pure subroutine new_single_block(mechanism, block, gravity, two_sided)
+      type(single_block_type), intent(out) :: mechanism
+      !> The wall as one block
       type(block_type), intent(in) :: block
       !> Gravity [m/s2]
       real(wp), intent(in) :: gravity
+      !> Does it rock to both sides?
+      logical, intent(in) :: two_sided
 
-      self%gravity = gravity
-      self%alpha = block%alpha
-      self%capacity = block%alpha
-      self%inertia = block%corner_inertia
-      self%lever = block%mass*block%radius
-      self%weight_moment = block%mass*gravity*block%radius
-   end subroutine take_block
+      mechanism%two_sided = two_sided
+      mechanism%gravity = gravity
+      mechanism%alpha = block%alpha
+      mechanism%capacity = block%alpha
+      mechanism%inertia = block%corner_inertia
+      mechanism%lever = block%mass*block%radius
+      mechanism%weight_moment = block%mass*gravity*block%radius
+   end subroutine new_single_block
 
    !> Terms of equation (1)
    pure subroutine terms(self, q, j, c, g, l, load)
@@ -108,5 +111,27 @@ contains
       share = self%inertia/(self%lever*cos(self%alpha))
       tilt = self%gravity
    end subroutine support
+
+   !> Ratio of the angular velocities after and before an impact of a block that rocks to both sides: balance of angular momentum
+   !> about the new corner (Housner 1963)
+   pure function housner_restitution(alpha) result(eta)
+      !> Slenderness angle [rad]
+      real(wp), intent(in) :: alpha
+      !> eta
+      real(wp) :: eta
+
+      eta = 1.0_wp - 1.5_wp*sin(alpha)**2
+   end function housner_restitution
+
+   !> The same of a block against transverse walls, equation (2) of Nale et al. (Sorrentino, AlShawa and Decanini 2011); negative:
+   !> it bounces off them
+   pure function one_sided_restitution(alpha) result(eta)
+      !> Slenderness angle [rad]
+      real(wp), intent(in) :: alpha
+      !> eta_1s
+      real(wp) :: eta
+
+      eta = (1.0_wp - 1.5_wp*sin(alpha)**2)**2*(1.0_wp - 1.5_wp*cos(alpha)**2)
+   end function one_sided_restitution
 
 end module dondolo_wall_single_block

@@ -10,7 +10,6 @@ module dondolo_wall_tested_restitution
    use dondolo_base_text, only : lower, rounded, to_text
    use dondolo_wall, only : wall_type
    use dondolo_wall_restitution, only : published_factors
-   use dondolo_wall_two_block, only : overburden_type, two_block_impulse, two_block_sorrentino, two_block_type
    implicit none
    private
 
@@ -23,13 +22,7 @@ contains
       type(wall_type), intent(in) :: wall
 
       model = wall%input%word('restitution')
-      if (model /= 'default') return
-      model = 'sorrentino'
-      if (wall%input%word('mechanism') == 'free_standing') model = 'impulse'
-      select type (mechanism => wall%mechanism)
-      type is (two_block_type)
-         if (mechanism%overburden%lifted > 0.0_wp) model = 'impulse'
-      end select
+      if (model == 'default') model = wall%impacts%default()
    end function model_of
 
    !> Limits of a published range as a ratio to the model of a wall
@@ -43,22 +36,18 @@ contains
       logical, intent(out) :: is_known
 
       character(len=choices_length) :: model
-      real(wp) :: impulse
 
-      associate (tests => published_factors(number))
+      associate (tests => published_factors(number), impacts => wall%impacts)
          low = tests%low
          high = tests%high
          model = model_of(wall)
-         is_known = wall%input%word('mechanism') == tests%mechanism .and. model == tests%model
-         if (is_known .or. model /= 'impulse') return
-         select type (mechanism => wall%mechanism)
-         type is (two_block_type)
-            impulse = two_block_impulse(mechanism%lower, mechanism%upper, overburden_type())
-            is_known = tests%mechanism == 'two_block' .and. impulse > 0.0_wp .and. .not. mechanism%overburden%lifted > 0.0_wp
-            if (.not. is_known) return
-            low = low*two_block_sorrentino(mechanism%lower, mechanism%upper)/impulse
-            high = high*two_block_sorrentino(mechanism%lower, mechanism%upper)/impulse
-         end select
+         is_known = wall%input%word('mechanism') == tests%mechanism
+         if (.not. is_known .or. model == tests%model) return
+         is_known = model == 'impulse' .and. allocated(impacts%impulse) .and. allocated(impacts%sorrentino)
+         if (is_known) is_known = impacts%impulse > 0.0_wp
+         if (.not. is_known) return
+         low = low*impacts%sorrentino/impacts%impulse
+         high = high*impacts%sorrentino/impacts%impulse
       end associate
    end subroutine tested_range
 

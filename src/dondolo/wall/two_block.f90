@@ -10,7 +10,6 @@ module dondolo_wall_two_block
    use dondolo_base_text, only : rounded
    use dondolo_wall_block, only : block_type
    use dondolo_wall_mechanism, only : mechanism_type
-   use dondolo_wall_restitution, only : restitution_type
    implicit none
    private
 
@@ -53,7 +52,7 @@ module dondolo_wall_two_block
 contains
 
    !> Make the mechanism of a two-block wall
-   subroutine new_two_block(mechanism, lower, upper, overburden, restitution, gravity, error)
+   subroutine new_two_block(mechanism, lower, upper, overburden, gravity, error)
       type(two_block_type), intent(out) :: mechanism
       !> Block below the intermediate hinge
       type(block_type), intent(in) :: lower
@@ -61,15 +60,10 @@ contains
       type(block_type), intent(in) :: upper
       !> Vertical load on the top, its eccentricity at most b
       type(overburden_type), intent(in) :: overburden
-      !> Model of restitution: 'default' and 'sorrentino' are equation (4) repaired; with a mass on the top there is
-      !> 'impulse' alone
-      type(restitution_type), intent(in) :: restitution
       !> Gravity [m/s2]
       real(wp), intent(in) :: gravity
-      !> It does not stand at rest, a model that does not exist for this mechanism, a speed ratio of 1 or more
+      !> It does not stand at rest
       type(error_type), allocatable, intent(out) :: error
-
-      real(wp) :: impulse
 
       mechanism%two_sided = .true.
       mechanism%lower = lower
@@ -84,13 +78,6 @@ contains
       if (upper%radius <= lower%radius) then
          mechanism%highest = mechanism%geometric_end()
          mechanism%lowest = 2.0_wp*lower%alpha - mechanism%highest
-      end if
-      impulse = two_block_impulse(lower, upper, overburden)
-      if (overburden%lifted > 0.0_wp) then
-         call restitution%speed_ratio(mechanism%restitution, error, impulse=impulse)
-      else
-         call restitution%speed_ratio(mechanism%restitution, error, sorrentino=two_block_sorrentino(lower, upper), &
-            & impulse=impulse)
       end if
    end subroutine new_two_block
 

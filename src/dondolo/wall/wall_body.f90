@@ -3,19 +3,19 @@ module dondolo_wall_body
    use dondolo_base_error, only : problems_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_property, only : name_length, number_of_words, word_of
+   use dondolo_base_settings, only : settings_type
    use dondolo_base_text, only : rounded, to_text
    use dondolo_base_unit_hint, only : unit_question
    use dondolo_wall_carried, only : actions_type, carried_type, spring_type, thrust_type
    use dondolo_wall_hinge_depth, only : check_hinge, read_hinge_depth
    use dondolo_wall_interlocking, only : read_interlocking
    use dondolo_wall_lists, only : take
-   use dondolo_wall_properties, only : is_beyond_bare, wall_input_type
    use dondolo_wall_rigid_body, only : body_of_sections, faces_at, rigid_body_type, same, section_type
    use dondolo_wall_ties, only : read_ties
    implicit none
    private
 
-   public :: wall_body_type, is_bare, take_sections, read_wall_body
+   public :: wall_body_type, take_sections, read_wall_body
 
    !> A wall of one block
    type :: wall_body_type
@@ -29,20 +29,12 @@ module dondolo_wall_body
 
 contains
 
-   !> Is a wall nothing but a rectangle that turns about its edge?
-   pure logical function is_bare(input)
-      !> What is said of the wall, defaults filled in
-      type(wall_input_type), intent(in) :: input
-
-      is_bare = .not. input%gives(is_beyond_bare)
-   end function is_bare
-
    !> Height and thickness of a wall of sections, and the mean density of a body whose mass is given
    subroutine take_sections(problems, input)
       !> Takes what does not agree
       type(problems_type), intent(inout) :: problems
       !> What is said of the wall
-      type(wall_input_type), intent(inout) :: input
+      class(settings_type), intent(inout) :: input
 
       real(wp), allocatable :: heights(:), thicknesses(:)
 
@@ -75,11 +67,13 @@ contains
    end subroutine take_sections
 
    !> Read sections, body and actions, and check what belongs together
-   subroutine read_wall_body(input, gravity, problems, wall)
+   subroutine read_wall_body(input, gravity, two_sided, problems, wall)
       !> What is said of the wall, defaults filled in, ranges checked
-      type(wall_input_type), intent(in) :: input
+      class(settings_type), intent(in) :: input
       !> Gravity [m/s2]
       real(wp), intent(in) :: gravity
+      !> Does it rock to both sides?
+      logical, intent(in) :: two_sided
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
       !> The wall; undefined if something is wrong
@@ -103,13 +97,13 @@ contains
       call read_interlocking(input, wall%sections, gravity, wall%actions%hinge, wall%actions%edge, problems, wall%actions%ties)
       if (problems%count > before) return
       if (input%has('mass')) call take_inertia(input, problems, wall)
-      if (input%word('mechanism') == 'free_standing') call check_symmetry(input, problems, wall)
+      if (two_sided) call check_symmetry(input, problems, wall)
    end subroutine read_wall_body
 
    !> The storeys
    subroutine read_sections(input, problems, sections)
       !> What is said of the wall
-      type(wall_input_type), intent(in) :: input
+      class(settings_type), intent(in) :: input
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
       !> From the bottom; one if none is given
@@ -143,7 +137,7 @@ contains
    !> Number of leaves; equal ones rock with nearly the same rotation, so that one of them is as good as all
    pure real(wp) function leaves_of(input)
       !> What is said of the wall
-      type(wall_input_type), intent(in) :: input
+      class(settings_type), intent(in) :: input
 
       leaves_of = 1.0_wp
       if (input%has('leaves')) leaves_of = input%number('leaves')
@@ -152,7 +146,7 @@ contains
    !> Check that several leaves carry nothing, which one of them would carry alone
    subroutine check_leaves(input, problems)
       !> What is said of the wall
-      type(wall_input_type), intent(in) :: input
+      class(settings_type), intent(in) :: input
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
 
@@ -174,7 +168,7 @@ contains
    !> Mass and centroid where they are given
    subroutine read_mass(input, problems, body)
       !> What is said of the wall
-      type(wall_input_type), intent(in) :: input
+      class(settings_type), intent(in) :: input
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
       !> The body of the sections; out: as given
@@ -198,7 +192,7 @@ contains
    !> The inertia of a body about its centroid from that about the hinge
    subroutine take_inertia(input, problems, wall)
       !> What is said of the wall
-      type(wall_input_type), intent(in) :: input
+      class(settings_type), intent(in) :: input
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
       !> The wall, its hinge known
@@ -217,7 +211,7 @@ contains
    !> Loads, and masses that are pushed alone
    subroutine read_loads(input, gravity, problems, carried)
       !> What is said of the wall
-      type(wall_input_type), intent(in) :: input
+      class(settings_type), intent(in) :: input
       !> Gravity [m/s2]
       real(wp), intent(in) :: gravity
       !> Takes what is wrong
@@ -279,7 +273,7 @@ contains
    !> Thrusts; their depth is that of the inner face unless it is given
    subroutine read_thrusts(input, sections, problems, thrusts)
       !> What is said of the wall
-      type(wall_input_type), intent(in) :: input
+      class(settings_type), intent(in) :: input
       !> Its storeys
       type(section_type), intent(in) :: sections(:)
       !> Takes what is wrong
@@ -309,7 +303,7 @@ contains
    !> Springs and beds
    subroutine read_springs(input, problems, springs)
       !> What is said of the wall
-      type(wall_input_type), intent(in) :: input
+      class(settings_type), intent(in) :: input
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
       !> Both
@@ -333,7 +327,7 @@ contains
    !> The hinge: its depth, given or from the strength of the masonry under all weights, or where the edge begins
    subroutine read_hinge(input, gravity, problems, wall)
       !> What is said of the wall
-      type(wall_input_type), intent(in) :: input
+      class(settings_type), intent(in) :: input
       !> Gravity [m/s2]
       real(wp), intent(in) :: gravity
       !> Takes what is wrong
@@ -368,7 +362,7 @@ contains
    !> Check that everything acts within the wall
    subroutine check_places(input, problems, wall)
       !> What is said of the wall
-      type(wall_input_type), intent(in) :: input
+      class(settings_type), intent(in) :: input
       !> Takes what does not
       type(problems_type), intent(inout) :: problems
       type(wall_body_type), intent(in) :: wall
@@ -425,7 +419,7 @@ contains
    !> Check that a wall that rocks to both sides is the same from both
    subroutine check_symmetry(input, problems, wall)
       !> What is said of the wall
-      type(wall_input_type), intent(in) :: input
+      class(settings_type), intent(in) :: input
       !> Takes what is not
       type(problems_type), intent(inout) :: problems
       type(wall_body_type), intent(in) :: wall

@@ -2,9 +2,9 @@
 module dondolo_wall_lists
    use dondolo_base_error, only : problems_type
    use dondolo_base_kinds, only : wp
-   use dondolo_base_property, only : find_property
+   use dondolo_base_property, only : property_type
+   use dondolo_base_settings, only : settings_type
    use dondolo_base_text, only : to_text
-   use dondolo_wall_properties, only : wall_input_type, wall_properties
    implicit none
    private
 
@@ -15,7 +15,7 @@ contains
    !> Values of a list that goes with another: one for each, or one for all where its property allows that
    subroutine take(input, problems, name, of, values, default)
       !> What is said of the wall
-      type(wall_input_type), intent(in) :: input
+      class(settings_type), intent(in) :: input
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
       !> Name of the list
@@ -27,13 +27,17 @@ contains
       !> Value where it is not given; absent: it must be given
       real(wp), intent(in), optional :: default
 
+      type(property_type), pointer :: table(:)
       real(wp), allocatable :: given(:)
+      logical :: one_each
       integer :: needed
 
+      call input%get_table(table)
+      one_each = table(input%find(name))%one_each
       needed = size(input%list(of))
       given = input%list(name)
       allocate (values(needed), source=0.0_wp)
-      if (size(given) == 1 .and. needed > 1 .and. wall_properties(find_property(wall_properties, name))%one_each) then
+      if (size(given) == 1 .and. needed > 1 .and. one_each) then
          call problems%note(name//' = '//to_text(given(1))//': is one value for '//to_text(needed)//' values of '//of// &
             & ', must be one for each, such as '//name//' = '//to_text(given(1))//', '//to_text(given(1)))
       else if (size(given) == 1 .and. needed > 0) then
@@ -44,7 +48,7 @@ contains
          values = given
       else if (size(given) > 0) then
          call problems%note(name//': has '//to_text(size(given))//' values, must have '//to_text(needed)//' as '//of// &
-            & trim(merge('                ', ', or one for all', wall_properties(find_property(wall_properties, name))%one_each)))
+            & trim(merge('                ', ', or one for all', one_each)))
       else if (present(default)) then
          values = default
       else

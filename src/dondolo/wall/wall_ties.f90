@@ -2,10 +2,10 @@
 module dondolo_wall_ties
    use dondolo_base_error, only : problems_type
    use dondolo_base_kinds, only : wp
+   use dondolo_base_settings, only : settings_type
    use dondolo_base_text, only : rounded, to_text
    use dondolo_base_unit_hint, only : unit_question
    use dondolo_wall_lists, only : take
-   use dondolo_wall_properties, only : absent_value, wall_input_type
    use dondolo_wall_rigid_body, only : faces_at, same, section_type
    use dondolo_wall_tie, only : new_tie, tie_input_type, tie_type
    implicit none
@@ -21,7 +21,7 @@ contains
    !> Read the ties, and check each
    subroutine read_ties(input, sections, hinge, edge, problems, ties)
       !> What is said of the wall
-      type(wall_input_type), intent(in) :: input
+      class(settings_type), intent(in) :: input
       !> Its storeys
       type(section_type), intent(in) :: sections(:)
       !> Depth of the hinge, and radius of the edge [m]
@@ -35,14 +35,14 @@ contains
       type(tie_input_type), allocatable :: given(:)
       integer :: i
 
-      call take(input, problems, 'tie_depth', 'tie_height', depth, absent_value('tie_depth'))
+      call take(input, problems, 'tie_depth', 'tie_height', depth, input%absent('tie_depth'))
       call take(input, problems, 'tie_area', 'tie_height', area)
       call take(input, problems, 'tie_length', 'tie_height', length)
-      call take(input, problems, 'tie_modulus', 'tie_height', modulus, absent_value('tie_modulus'))
-      call take(input, problems, 'tie_strength', 'tie_height', strength, absent_value('tie_strength'))
-      call take(input, problems, 'tie_preload', 'tie_height', preload, absent_value('tie_preload'))
-      call take(input, problems, 'tie_strain', 'tie_height', strain, absent_value('tie_strain'))
-      call take(input, problems, 'tie_anchor_force', 'tie_height', anchor, absent_value('tie_anchor_force'))
+      call take(input, problems, 'tie_modulus', 'tie_height', modulus, input%absent('tie_modulus'))
+      call take(input, problems, 'tie_strength', 'tie_height', strength, input%absent('tie_strength'))
+      call take(input, problems, 'tie_preload', 'tie_height', preload, input%absent('tie_preload'))
+      call take(input, problems, 'tie_strain', 'tie_height', strain, input%absent('tie_strain'))
+      call take(input, problems, 'tie_anchor_force', 'tie_height', anchor, input%absent('tie_anchor_force'))
       allocate (given(size(depth)), ties(size(depth)))
       given%depth = depth
       given%height = input%list('tie_height')

@@ -53,6 +53,8 @@ module dondolo_base_settings
       procedure :: has_word
       !> A list of numbers; empty where there is none
       procedure :: list
+      !> What stands in the place of a number that is not given beside the others of its kind
+      procedure :: absent
       !> Range of the values in a row of the table
       procedure :: find_range
       !> Set a value
@@ -292,6 +294,18 @@ contains
       if (i > 0) list = self%lists(i)%values
       if (i == 0) allocate (list(0))
    end function list
+
+   !> What stands in the place of a number that is not given beside the others of its kind
+   real(wp) function absent(self, name)
+      class(settings_type), intent(in) :: self
+      !> Name of the property, in lower case
+      character(len=*), intent(in) :: name
+
+      type(property_type), pointer :: table(:)
+
+      call self%get_table(table)
+      absent = table(self%find(name))%absent
+   end function absent
 
    !> Range of the values in a row of the table: of a number, or of a list
    pure subroutine find_range(self, row, least, most)

@@ -8,6 +8,7 @@ module dondolo_case_wall_warnings
    use dondolo_wall, only : wall_type
    use dondolo_wall_properties, only : gravity_property, wall_properties
    use dondolo_wall_rigid_body, only : same
+   use dondolo_wall_two_block_model, only : two_block_model_type
    implicit none
    private
 
@@ -56,7 +57,7 @@ contains
       type(wall_type), intent(in) :: wall
 
       real(wp) :: low, high
-      logical :: outside(n_pairs)
+      logical :: outside(n_pairs), bears
       integer :: i
 
       self%walls = self%walls + 1
@@ -72,9 +73,14 @@ contains
       associate (pull => wall%gravity, usual => gravity_property)
          call note(self, wall, gravity, [pull < usual%usual_least, pull > usual%usual_most], pull)
       end associate
+      bears = .false.
+      select type (model => wall%model)
+      type is (two_block_model_type)
+         bears = model%bears
+      end select
       associate (input => wall%input)
          outside(1) = input%number('height') < input%number('thickness')
-         outside(2) = (wall%bears .or. abs(input%number('eccentricity')) > 0.0_wp) &
+         outside(2) = (bears .or. abs(input%number('eccentricity')) > 0.0_wp) &
             & .and. .not. input%number('overburden') > 0.0_wp
          outside(3) = input%number('interlock_overlap') > thickest(wall)*(1.0_wp + same)
          call note(self, wall, pairs, outside, 0.0_wp)
