@@ -9,21 +9,24 @@ import numpy as np
 
 from dondolo.curves.fragility import Fragility
 from dondolo.populations.typology import Typology
+from dondolo.reporting.columns import chosen, shown
 from dondolo.reporting.content import (
-    BETA,
     THETA,
     Piece,
-    Symbol,
     Table,
     figure,
     level,
     level_head,
-    level_unit,
     state_name,
 )
-from dondolo.reporting.numerals import number, parameter, percent, probability
+from dondolo.reporting.numerals import number, probability
 from dondolo.retrofit.designs import DesignComparison
 
+# Columns of the comparison
+_COMPARED = (
+    "design", "theta", "beta", "ratio", "ratio_low", "ratio_high", "p_value", "steel", "gain_per_kg", "alpha_0",
+    "static_ratio",
+)  # fmt: skip
 # Designs of a table of levels: what fits across a page
 _ACROSS = 6
 
@@ -46,20 +49,6 @@ def summary(found: DesignComparison) -> dict[str, Any]:
 def designs(found: DesignComparison) -> dict[str, Any]:
     """What each design gains against the first."""
     low, high = found.ratio_interval.T
-    p_values = [np.nan if one is None else one.p_value for one in found.comparisons]
-    columns: dict[Piece, Sequence[Piece]] = {
-        "design": list(found.names),
-        (THETA, f" [{level_unit(found.im)}]"): [parameter(curve.theta) for curve in found.curves],
-        BETA: [parameter(curve.beta) for curve in found.curves],
-        "ratio of medians": [number(ratio, 3) for ratio in found.ratio],
-        "from": [number(value, 3) for value in low],
-        "to": [number(value, 3) for value in high],
-        "p of no difference": [number(value, 2) for value in p_values],
-        "steel [kg/m]": [number(mass, 3) for mass in found.steel],
-        "gain per kg/m": [percent(gain) if np.isfinite(gain) else number(gain) for gain in found.gain_per_kg],
-        (Symbol("α", "0"), " [g]"): [number(value) for value in found.alpha_0],  # noqa: RUF001
-        "its ratio": [number(ratio, 3) for ratio in found.static_ratio],
-    }
     pairs = zip(found.names, found.ratio, low, high, strict=True)
     words = "; ".join(f"{name}: {ratio:.3g} ({least:.3g} to {most:.3g})" for name, ratio, least, most in pairs)
     alt = f"Fragility curves of the designs, and the ratios of their medians to that of the first. {words}."
@@ -67,7 +56,7 @@ def designs(found: DesignComparison) -> dict[str, Any]:
         "first": found.names[0],
         "confidence": f"{100.0 * found.confidence:.4g}",
         "figure": figure(found.plot, alt),
-        "table": Table.of(columns),
+        "table": shown(chosen(found._table(), *_COMPARED), found.im),
         "has_checks": bool(found.checks) and found.im == "pga",
     }
 
@@ -87,21 +76,21 @@ def _curves_table(people: Typology) -> Table:
     curves = people.curves
     ends = [curve.parameter_interval() if curve.has_errors else None for curve in curves]
 
-    def interval(name: str, place: int) -> list[Piece]:
-        return [parameter(np.nan if one is None else one[name][place]) for one in ends]
+    def interval(name: str, place: int) -> list[float]:
+        return [np.nan if one is None else one[name][place] for one in ends]
 
-    columns: dict[Piece, Sequence[Piece]] = {
+    columns = {
         "design": [wall.name for wall in people.walls],
-        (THETA, f" [{level_unit(people.im)}]"): [parameter(curve.theta) for curve in curves],
-        (THETA, " from"): interval("theta", 0),
-        (THETA, " to"): interval("theta", 1),
-        BETA: [parameter(curve.beta) for curve in curves],
-        (BETA, " from"): interval("beta", 0),
-        (BETA, " to"): interval("beta", 1),
-        "standard errors": [_errors(curve) for curve in curves],
+        "theta": [curve.theta for curve in curves],
+        "theta_low": interval("theta", 0),
+        "theta_high": interval("theta", 1),
+        "beta": [curve.beta for curve in curves],
+        "beta_low": interval("beta", 0),
+        "beta_high": interval("beta", 1),
+        "errors": [_errors(curve) for curve in curves],
         "status": [curve.status for curve in curves],
     }
-    return Table.of(columns, ("standard errors", "status"))
+    return shown(columns, people.im)
 
 
 def _errors(curve: Fragility) -> str:

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
-from dondolo._fortran.records import blank_unit
-from dondolo.curves.fragility import Fragility
-from dondolo.figures.style import mechanism_name
+from dondolo.curves.table import fragility_table
 from dondolo.populations.typology import Typology
 from dondolo.reporting import wall
-from dondolo.reporting.content import BETA, THETA, Piece, Table, figure, level, level_head, level_unit, state_name
-from dondolo.reporting.numerals import number, parameter, percent, probability, whole
-from dondolo.reporting.statuses import crossings
+from dondolo.reporting.columns import chosen, of_curve, shown
+from dondolo.reporting.content import BETA, THETA, Piece, Table, figure, level, state_name
+from dondolo.reporting.numerals import number
+from dondolo.reporting.statuses import crossings, in_words
 
 # Mechanisms whose medians stand at the beginning
 _CARDS = 4
@@ -42,25 +40,18 @@ def curves(people: Typology) -> dict[str, Any]:
     alt = f"Curves of the mechanisms of {name}, and of any of them in the same histories. "
     found: dict[str, Any] = {
         "name": name,
-        "union": figure(people.plot_union, alt + _in_words(name, people.unions[name])),
+        "union": figure(people.plot_union, alt + f"{name}: {in_words(people.unions[name])}."),
         "states": None,
         "crossings": None,
     }
     if len(people.edp_thresholds) > 1:
         states = [people.at(float(edp)).unions[name] for edp in people.edp_thresholds]
-        words = "; ".join(_in_words(f"EDP {curve.edp_threshold:g}", curve) for curve in states)
+        words = "; ".join(f"EDP {curve.edp_threshold:g}: {in_words(curve)}." for curve in states)
         found["states"] = figure(people.plot_damage_states, f"Probability to reach each damage state. {words}")
         if all(curve.has_fit for curve in states):
             names = [state_name(float(edp), float(people.edp_thresholds[-1])) for edp in people.edp_thresholds]
             found["crossings"] = crossings({name: states}, names, people.levels, people.im)
     return found
-
-
-def _in_words(who: str, curve: Fragility) -> str:
-    """A curve in words, for those who cannot see it."""
-    if not curve.has_fit:
-        return f"{who}: no fit ({curve.status})."
-    return f"{who}: median {curve.theta:.3g}{blank_unit(curve.im)}, dispersion {curve.beta:.3g}."
 
 
 def numbers(people: Typology) -> dict[str, Any]:
@@ -80,42 +71,28 @@ def numbers(people: Typology) -> dict[str, Any]:
 def _curves_table(people: Typology) -> Table:
     """Parameters of a state: of the facade, and of each mechanism alone."""
     union = people.unions[people.facade]
-    rows = [(people.facade, "any of them", union)]
-    rows += [
-        (row.name, mechanism_name(row.mechanism), curve) for row, curve in zip(people.walls, people.curves, strict=True)
-    ]
-    fits = [curve for _, _, curve in rows]
-    columns: dict[Piece, Sequence[Piece]] = {
-        "curve": [name for name, _, _ in rows],
-        "mechanism": [kind for _, kind, _ in rows],
-        (THETA, f" [{level_unit(people.im)}]"): [parameter(one.theta) for one in fits],
-        ("standard error of ln ", THETA): [number(one.se_ln_theta, 3) for one in fits],
-        BETA: [parameter(one.beta) for one in fits],
-        ("standard error of ", BETA): [number(one.se_beta, 3) for one in fits],
-        "can occur": [percent(union.saturation), *(percent(p) for p in people.population.p_occ)],
-        "status": [one.status for one in fits],
+    curves = [union, *people.curves]
+    columns = {
+        "curve": [people.facade, *(row.name for row in people.walls)],
+        "mechanism": ["any of them", *(row.mechanism for row in people.walls)],
+        **chosen(fragility_table([None] * len(curves), curves), "theta", "se_ln_theta", "beta", "se_beta"),
+        "saturation": [union.saturation, *people.population.p_occ],
+        "status": [curve.status for curve in curves],
     }
-    return Table.of(columns, ("mechanism", "status"))
+    return shown(columns, people.im)
 
 
 def _levels_table(people: Typology) -> Table:
     """How many histories reach a state at each level, by any mechanism and by each."""
     union = people.unions[people.facade]
-    columns: dict[Piece, Sequence[Piece]] = {
-        level_head(people.im): [number(x) for x in people.levels],
-        "histories": [whole(n) for n in union.histories],
-        "reach it": [number(z) for z in union.saturation * union.collapses],
-        "fraction": [
-            probability(z / n) for z, n in zip(union.saturation * union.collapses, union.histories, strict=True)
-        ],
+    reached = union.saturation * union.collapses
+    columns: dict[str, Any] = {
+        "im_level": people.levels,
+        "histories": union.histories,
+        "reached": reached,
+        "fraction": reached / union.histories,
     }
-    if union.has_fit:
-        columns["curve"] = [probability(p) for p in union(people.levels)]
-    if union.has_errors:
-        low, high = union.interval(people.levels)
-        columns["95 % band from"] = [probability(p) for p in low]
-        columns["to"] = [probability(p) for p in high]
-    return Table.of(columns)
+    return shown(columns | of_curve(union, people.levels), people.im)
 
 
 def uncertainty(people: Typology) -> dict[str, Any]:

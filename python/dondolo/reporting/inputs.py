@@ -13,12 +13,12 @@ from dondolo._fortran.walls import WALL_EXTRAS, WALL_PROPERTIES
 from dondolo._storage.run_file import RECORD_FACTS, RunFile
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import Stripes
+from dondolo.curves.table import fragility_table
 from dondolo.figures.style import mechanism_name
 from dondolo.populations.typology import Typology
 from dondolo.records.record import Record
+from dondolo.reporting.columns import chosen, shown
 from dondolo.reporting.content import (
-    BETA,
-    THETA,
     Facts,
     Piece,
     Symbol,
@@ -28,10 +28,11 @@ from dondolo.reporting.content import (
     level_unit,
     state_name,
 )
-from dondolo.reporting.numerals import number, parameter, percent, whole
+from dondolo.reporting.numerals import number, percent, whole
 from dondolo.reporting.run import Run
 from dondolo.reporting.statuses import status_table
 from dondolo.walls.population import Population
+from dondolo.walls.table import walls_table
 from dondolo.walls.wall import Wall, effective_property, notes_on_supports
 
 # What stands behind properties of a wall in place of their units
@@ -223,21 +224,16 @@ def _set(value: Any, factor: float = 1.0) -> Piece:
 def _statics(run: Run) -> Table:
     """Statics and curves of the walls of a population."""
     walls, results = run.population.walls, run.results
-    columns: dict[Piece, Sequence[Piece]] = {
+    columns: dict[str, Sequence[Any]] = {
         "wall": [wall.name for wall in walls],
-        "mechanism": [mechanism_name(wall.mechanism) for wall in walls],
-        (Symbol("a", "0"), " [g]"): [number(wall.trigger_acceleration / wall.gravity) for wall in walls],
-        "capacity [rad]": [number(wall.capacity_angle) for wall in walls],
-        (Symbol("p"), " [rad/s]"): [number(wall.frequency_parameter) for wall in walls],
-        "speed ratio": [number(wall.restitution_coefficient) for wall in walls],
+        "mechanism": [wall.mechanism for wall in walls],
+        "trigger": [wall.trigger_acceleration / wall.gravity for wall in walls],
+        **chosen(walls_table(walls), "capacity_rad", "p_rad_s", "restitution"),
     }
-    if isinstance(results, Typology):
-        columns |= {
-            (THETA, f" [{level_unit(results.im)}]"): [parameter(curve.theta) for curve in results.curves],
-            BETA: [parameter(curve.beta) for curve in results.curves],
-            "status": [curve.status for curve in results.curves],
-        }
-    return Table.of(columns, ("mechanism", "status"))
+    if not isinstance(results, Typology):
+        return shown(columns)
+    curves = fragility_table(walls, results.curves)
+    return shown(columns | chosen(curves, "theta", "beta", "status"), results.im)
 
 
 def has_vertical(run: Run) -> bool | None:

@@ -51,8 +51,10 @@ def number(value: float | None, figures: int = 4, unit: str = "") -> Numeral:
     return Numeral(_signed(mantissa), _signed(str(int(power))) if power else "", unit)
 
 
-def parameter(value: float) -> Numeral:
+def parameter(value: float | None) -> Numeral:
     """A number with four significant figures, also where they are zeros: for columns of a kind."""
+    if value is None:
+        return NONE
     text = f"{value:#.4g}".removesuffix(".")
     return number(value) if "e" in text or not np.isfinite(value) else Numeral(_signed(text))
 
@@ -74,7 +76,9 @@ def probability(value: float) -> Numeral:
 
 
 def percent(share: float) -> Numeral:
-    """A share in per cent."""
+    """A share in per cent; a dash for none."""
+    if not np.isfinite(share):
+        return number(share)
     return Numeral("<0.1 %") if 0.0 < share < 0.0005 else number(100.0 * share, 3, " %")
 
 

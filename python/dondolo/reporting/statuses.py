@@ -9,6 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
+from dondolo._fortran.records import blank_unit
 from dondolo.curves.fragility import Fragility
 from dondolo.reporting.content import Piece, Table, level_head
 from dondolo.reporting.numerals import number, whole
@@ -27,6 +28,13 @@ STATUSES = {
     "decreasing": "the state does not become more frequent with the level: no curve",
     "not_converged": "the maximum of the likelihood was not found: no curve",
 }
+
+
+def in_words(curve: Fragility) -> str:
+    """A curve in words, for those who cannot see it."""
+    if not curve.has_fit:
+        return f"no fit ({curve.status})"
+    return f"median {curve.theta:.3g}{blank_unit(curve.im)}, dispersion {curve.beta:.3g}"
 
 
 def status_table(states: Mapping[str, Sequence[Fragility]]) -> Table:

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from dondolo._base.shown import shown_dispersion
-from dondolo._fortran.records import blank_unit
 from dondolo.curves.fragility import Fragility
+from dondolo.curves.table import fragility_table
 from dondolo.errors import DondoloError
 from dondolo.figures import style
 from dondolo.figures.style import counted, mechanism_name
 from dondolo.populations.curve import Group
 from dondolo.populations.typology import Typology
+from dondolo.reporting.columns import chosen, shown
 from dondolo.reporting.content import (
     BETA,
     THETA,
@@ -24,12 +25,11 @@ from dondolo.reporting.content import (
     Table,
     figure,
     level,
-    level_head,
     level_unit,
     state_name,
 )
-from dondolo.reporting.numerals import number, parameter, percent, probability, whole
-from dondolo.reporting.statuses import crossings
+from dondolo.reporting.numerals import number, parameter, percent
+from dondolo.reporting.statuses import crossings, in_words
 
 
 class Words(NamedTuple):
@@ -137,11 +137,9 @@ def _in_words(curves: Sequence[Group]) -> str:
 
 
 def _curve_in_words(who: str, fit: Fragility) -> str:
-    """A curve in words."""
-    if fit.edp_threshold is not None and fit.has_fit:
-        numbers = f"median {fit.theta:.3g}{blank_unit(fit.im)}, dispersion {fit.beta:.3g}"
-        return f"{who}, EDP {fit.edp_threshold:g}: {numbers}"
-    return f"{who}: no fit ({fit.status})"
+    """A curve of a damage state in words."""
+    state = "" if fit.edp_threshold is None or not fit.has_fit else f", EDP {fit.edp_threshold:g}"
+    return f"{who}{state}: {in_words(fit)}"
 
 
 def unions(people: Typology) -> dict[str, Fragility]:
@@ -154,17 +152,15 @@ def _unions_table(people: Typology) -> Table | None:
     if not (found := unions(people)):
         return None
     products = [people.combined[name] for name in found]
-    columns: dict[Piece, Sequence[Piece]] = {
-        "facade or wall": list(found),
-        "mechanisms": [whole(people.population.wholes.count(name)) for name in found],
-        (THETA, f" [{level_unit(people.im)}]"): [parameter(curve.theta) for curve in found.values()],
-        BETA: [parameter(curve.beta) for curve in found.values()],
-        "s.e. of ln θ": [parameter(curve.se_ln_theta) for curve in found.values()],
-        "status": [curve.status for curve in found.values()],
-        "θ, independent": [parameter(curve.theta) for curve in products],
-        "β, independent": [parameter(curve.beta) for curve in products],
+    table = fragility_table([None] * len(found), list(found.values()))
+    columns = {
+        "whole": list(found),
+        "mechanisms": [people.population.wholes.count(name) for name in found],
+        **chosen(table, "theta", "beta", "se_ln_theta", "status"),
+        "independent_theta": [curve.theta for curve in products],
+        "independent_beta": [curve.beta for curve in products],
     }
-    return Table.of(columns, ("facade or wall", "status"))
+    return shown(columns, people.im)
 
 
 def numbers(people: Typology, words: Words) -> dict[str, Any]:
@@ -199,36 +195,45 @@ def _curves_table(people: Typology, words: Words) -> Table:
             return np.nan
         return float(np.abs(curve.fit(people.levels) - curve.mean_fraction).max())
 
-    columns: dict[Piece, Sequence[Piece]] = {
+    columns = {
         "group": [curve.group or words.whole for curve in curves],
-        "mechanism": [mechanism_name(curve.mechanism) for curve in curves],
-        "walls": [whole(curve.n_walls) for curve in curves],
-        "weight": [number(curve.weight) for curve in curves],
-        (THETA, f" [{level_unit(people.im)}]"): [parameter(curve.fit.theta) for curve in curves],
-        ("standard error of ln ", THETA): [number(curve.fit.se_ln_theta, 3) for curve in curves],
-        BETA: [parameter(curve.fit.beta) for curve in curves],
-        ("standard error of ", BETA): [number(curve.fit.se_beta, 3) for curve in curves],
-        Symbol("β", "walls"): [parameter(shown_dispersion(curve.beta_walls)) for curve in curves],
-        Symbol("β", "records"): [parameter(curve.beta_records) for curve in curves],
-        Symbol("β", "total"): [parameter(curve.beta_total) for curve in curves],
-        "misfit": [number(misfit(curve), 2) for curve in curves],
-        "fitted": [percent(curve.fitted) for curve in curves],
+        "mechanism": [curve.mechanism for curve in curves],
+        "walls": [curve.n_walls for curve in curves],
+        "weight": [curve.weight for curve in curves],
+        **chosen(
+            fragility_table([None] * len(curves), [curve.fit for curve in curves]),
+            "theta", "se_ln_theta", "beta", "se_beta",
+        ),
+        "beta_walls": [curve.beta_walls for curve in curves],
+        "beta_records": [curve.beta_records for curve in curves],
+        "beta_total": [curve.beta_total for curve in curves],
+        "misfit": [misfit(curve) for curve in curves],
+        "fitted": [curve.fitted for curve in curves],
         "status": [curve.fit.status for curve in curves],
-    }
-    return Table.of(columns, ("mechanism", "status"))
+    }  # fmt: skip
+    return shown(columns, people.im)
 
 
 def _levels_table(people: Typology, curve: Group) -> Table:
     """Means and fractiles at the levels."""
-    columns: dict[Piece, Sequence[Piece]] = {
-        level_head(people.im): [number(x) for x in people.levels],
-        "mean of fractions": [probability(p) for p in curve.mean_fraction],
-        "mean of curves": [probability(p) for p in curve.mean_curve],
+    low, middle, high = curve.level_fractiles
+    columns = {
+        "im_level": people.levels,
+        "mean_fraction": curve.mean_fraction,
+        "mean_curve": curve.mean_curve,
+        "fractile_16": low,
+        "fractile_50": middle,
+        "fractile_84": high,
     }
-    for share, row in zip(("16 %", "50 %", "84 %"), curve.level_fractiles, strict=True):
-        columns[f"{share} fractile"] = [probability(p) for p in row]
-    if curve.fit.has_fit:
-        columns["lognormal"] = [probability(p) for p in curve.fit(people.levels)]
+    return shown(columns | ({"lognormal": curve.fit(people.levels)} if curve.fit.has_fit else {}), people.im)
+
+
+def _parameters(people: Typology, ends: Mapping[str, tuple[float, float]]) -> Table:
+    """Parameters of the whole population with their intervals, a row each."""
+    fit = people["all"].fit
+    rows = [(fit.theta, *ends["theta"]), (fit.beta, *ends["beta"])]
+    columns: dict[Piece, Sequence[Piece]] = {"parameter": [(THETA, f" [{level_unit(people.im)}]"), BETA]}
+    columns |= {head: [parameter(row[i]) for row in rows] for i, head in enumerate(("estimate", "from", "to"))}
     return Table.of(columns)
 
 
@@ -242,11 +247,11 @@ def _fitted(people: Typology) -> dict[str, Any]:
     fit = people["all"].fit
     if not fit.has_errors:
         return {"fitted": None}
-    ends = fit.parameter_interval()
-    rows = [(fit.theta, *ends["theta"]), (fit.beta, *ends["beta"])]
-    columns: dict[Piece, Sequence[Piece]] = {"parameter": [(THETA, f" [{level_unit(people.im)}]"), BETA]}
-    columns |= {head: [parameter(row[i]) for row in rows] for i, head in enumerate(("estimate", "from", "to"))}
-    return {"fitted": Table.of(columns), "clusters": fit._kind(), "over_walls": len(people.combined) > 1}
+    return {
+        "fitted": _parameters(people, fit.parameter_interval()),
+        "clusters": fit._kind(),
+        "over_walls": len(people.combined) > 1,
+    }
 
 
 def _drawn(people: Typology) -> dict[str, Any]:
@@ -259,21 +264,13 @@ def _drawn(people: Typology) -> dict[str, Any]:
     except DondoloError as error:
         return {"problem": str(error)}
     low, high = samples.mean_interval()
-    rows = [(curve.fit.theta, *intervals["theta"]), (curve.fit.beta, *intervals["beta"])]
-    parameters: dict[Piece, Sequence[Piece]] = {"parameter": [(THETA, f" [{level_unit(people.im)}]"), BETA]}
-    parameters |= {head: [parameter(row[i]) for row in rows] for i, head in enumerate(("estimate", "from", "to"))}
-    levels: dict[Piece, Sequence[Piece]] = {
-        level_head(people.im): [number(x) for x in people.levels],
-        "mean of fractions": [probability(p) for p in curve.mean_fraction],
-        "from": [probability(p) for p in low],
-        "to": [probability(p) for p in high],
-    }
+    levels = {"im_level": people.levels, "mean_fraction": curve.mean_fraction, "mean_low": low, "mean_high": high}
     return {
         "problem": "",
         "samples": _SAMPLES,
         "drawn": " and ".join(samples.over),
         "stored": stored,
         "without_fit": f"{100.0 * samples.without_fit:.3g} %" if samples.without_fit else "",
-        "parameters": Table.of(parameters),
-        "levels": Table.of(levels),
+        "parameters": _parameters(people, intervals),
+        "levels": shown(levels, people.im),
     }

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
 from dondolo.populations.uncertain_wall import UncertainWall
-from dondolo.reporting.content import BETA, THETA, Facts, Piece, Symbol, Table, figure, level, level_unit
-from dondolo.reporting.numerals import number, parameter, percent
+from dondolo.reporting.columns import shown
+from dondolo.reporting.content import BETA, THETA, Facts, Piece, Symbol, figure, level
+from dondolo.reporting.numerals import number
 
 
 def summary(found: UncertainWall) -> dict[str, Any]:
@@ -35,25 +35,12 @@ def model(found: UncertainWall) -> dict[str, Any]:
         ((THETA, " with all sources at their medians"), level(found.at_medians.theta, found.im)),
         ("variants", str(len(found.sample))),
     ]
-    columns: dict[Piece, Sequence[Piece]] = {"source": list(found.sources), "distribution": list(found.distributions)}
-    for place, share in enumerate(("5 %", "50 %", "95 %")):
-        columns[f"at {share}"] = [number(value) for value in found.values[:, place]]
-    for place, share in enumerate(("5 %", "95 %")):
-        head = (THETA, f" at {share} [{level_unit(found.im)}]")
-        columns[head] = [parameter(ends[place].theta) for ends in found.ends]
-    for name, index, interval in (
-        ("first-order", found.first, found.first_interval),
-        ("total", found.total, found.total_interval),
-    ):
-        columns[name] = [percent(share) if np.isfinite(share) else number(share) for share in index]
-        columns[f"{name}, from"] = [number(low, 2) for low in interval[:, 0]]
-        columns[f"{name}, to"] = [number(high, 2) for high in interval[:, 1]]
     spans = zip(found.sources, found.ends, strict=True)
     words = "; ".join(f"{name}: {low.theta:.3g} to {high.theta:.3g}" for name, (low, high) in spans)
     alt = f"Curves of the variants, and what moves their median, with each source at its fractiles: {words}."
     return {
         "facts": facts,
         "figure": figure(found.plot, alt),
-        "sources": Table.of(columns, ("distribution",)),
+        "sources": shown(found._table(), found.im),
         "has_indices": bool(np.isfinite(found.total).all()),
     }

@@ -14,6 +14,8 @@ from dondolo.analysis.plots_stripes import draw_damage_states
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import States, Stripes
 from dondolo.curves.fragility import Fragility
+from dondolo.curves.table import fragility_table
+from dondolo.reporting.columns import chosen, of_curve, shown
 from dondolo.reporting.content import (
     BETA,
     THETA,
@@ -22,11 +24,10 @@ from dondolo.reporting.content import (
     figure,
     level,
     level_head,
-    level_unit,
     state_name,
 )
-from dondolo.reporting.numerals import number, parameter, percent, probability, whole
-from dondolo.reporting.statuses import STATUSES, crossings
+from dondolo.reporting.numerals import number, percent, probability, whole
+from dondolo.reporting.statuses import STATUSES, crossings, in_words
 
 # Samples of the bootstrap
 _SAMPLES = 2000
@@ -55,15 +56,12 @@ def curves(stripes: Stripes, states: Sequence[Fragility]) -> dict[str, Any]:
     unit, curve = blank_unit(stripes.im), states[-1]
     counts = zip(stripes.levels, stripes.collapses, stripes.histories, strict=True)
     levels = ", ".join(f"{z} of {n} at {x:g}{unit}" for x, z, n in counts)
-    fit = f"no fit ({curve.status})"
-    if curve.has_fit:
-        fit = f"median {curve.theta:.3g}{unit}, dispersion {curve.beta:.3g}"
     return {
         "stripes": figure(
             stripes.plot,
             f"Largest rotation over capacity of every history at every level. Collapses: {levels}.",
         ),
-        "fragility": figure(curve.plot, f"Fractions of collapse and fitted fragility curve: {fit}."),
+        "fragility": figure(curve.plot, f"Fractions of collapse and fitted fragility curve: {in_words(curve)}."),
         "states": figure(
             lambda: draw_damage_states(stripes, None, states),
             f"Fragility curves of the damage states EDP {', '.join(f'{one.edp_threshold:g}' for one in states)}.",
@@ -76,33 +74,15 @@ def curves(stripes: Stripes, states: Sequence[Fragility]) -> dict[str, Any]:
 def numbers(stripes: Stripes, fits: Sequence[Fragility]) -> dict[str, Any]:
     """Tables of the damage states and of the stripes."""
     curve = fits[-1]
-    levels: dict[Piece, Sequence[Piece]] = {
-        level_head(stripes.im): [number(x) for x in stripes.levels],
-        "histories": [whole(n) for n in stripes.histories],
-        "collapses": [whole(z) for z in stripes.collapses],
-        "fraction": [probability(p) for p in stripes.fraction],
-    }
-    if curve.has_fit:
-        levels["fitted curve"] = [probability(p) for p in curve(stripes.levels)]
-    if curve.has_errors:
-        low, high = curve.interval(stripes.levels)
-        levels["95 % band from"] = [probability(p) for p in low]
-        levels["to"] = [probability(p) for p in high]
-    levels["median EDP"] = [number(value, 3) for value in np.median(stripes.edp, axis=1)]
+    levels = chosen(stripes._tables()["stripes"](), "im_level", "histories", "collapses", "fraction")
+    levels |= of_curve(curve, stripes.levels) | {"median_edp": np.median(stripes.edp, axis=1)}
     names = [state_name(float(one.edp_threshold or 0.0), stripes.edp_limit) for one in fits]
-    states: dict[Piece, Sequence[Piece]] = {
-        "damage state": names,
-        (THETA, f" [{level_unit(stripes.im)}]"): [parameter(one.theta) for one in fits],
-        ("standard error of ln ", THETA): [number(one.se_ln_theta, 3) for one in fits],
-        BETA: [parameter(one.beta) for one in fits],
-        ("standard error of ", BETA): [number(one.se_beta, 3) for one in fits],
-        "log likelihood": [parameter(one.log_likelihood) for one in fits],
-        "status": [one.status for one in fits],
-    }
+    kept = ("theta", "se_ln_theta", "beta", "se_beta", "log_likelihood", "status")
+    states = {"damage_state": names} | chosen(fragility_table([None] * len(fits), fits), *kept)
     crossed = None
     if all(one.has_fit for one in fits):
         crossed = crossings({stripes.wall.name: fits}, names, stripes.levels, stripes.im)
-    return {"states": Table.of(states, ("status",)), "crossings": crossed, "levels": Table.of(levels)}
+    return {"states": shown(states, stripes.im), "crossings": crossed, "levels": shown(levels, stripes.im)}
 
 
 def uncertainty(curve: Fragility) -> dict[str, Any]:
@@ -123,11 +103,12 @@ def uncertainty(curve: Fragility) -> dict[str, Any]:
         methods[f"bootstrap of the records, {_SAMPLES} samples"] = curve.bootstrap(
             n_resamples=_SAMPLES
         ).parameter_interval()
-    columns: dict[Piece, Sequence[Piece]] = {"method": list(methods)}
-    for letter, name in ((THETA, "theta"), (BETA, "beta")):
-        columns[letter, " from"] = [parameter(interval[name][0]) for interval in methods.values()]
-        columns[letter, " to"] = [parameter(interval[name][1]) for interval in methods.values()]
-    return {"intervals": Table.of(columns)}
+    ends = {
+        f"{name}_{side}": [interval[name][place] for interval in methods.values()]
+        for name in ("theta", "beta")
+        for place, side in enumerate(("low", "high"))
+    }
+    return {"intervals": shown({"method": list(methods), **ends})}
 
 
 def certificates(stripes: Stripes, curves: Sequence[Fragility], states: States) -> dict[str, Any]:
@@ -145,14 +126,14 @@ def certificates(stripes: Stripes, curves: Sequence[Fragility], states: States) 
             probability(low / n) if low == high else (probability(low / n), " to ", probability(high / n))
             for low, high, n in ends
         ]
-    medians: dict[Piece, Sequence[Piece]] = {
-        "damage state": [state_name(threshold, stripes.edp_limit) for threshold in thresholds],
-        (THETA, f" [{level_unit(stripes.im)}]"): [parameter(one.theta) for one in curves],
-        ("lowest ", THETA): [parameter(low) for low, _ in bounds],
-        ("greatest ", THETA): [parameter(high) for _, high in bounds],
+    medians = {
+        "damage_state": [state_name(threshold, stripes.edp_limit) for threshold in thresholds],
+        "theta": [one.theta for one in curves],
+        "theta_lowest": [low for low, _ in bounds],
+        "theta_greatest": [high for _, high in bounds],
     }
     counts = [(kind.name.lower(), whole(int(np.count_nonzero(stripes.status == kind)))) for kind in Certified]
-    return {"counts": counts, "levels": Table.of(columns), "medians": Table.of(medians)}
+    return {"counts": counts, "levels": Table.of(columns), "medians": shown(medians, stripes.im)}
 
 
 def motion_summary(motion: Response) -> dict[str, Any]:
