@@ -2,9 +2,11 @@
 module dondolo_check_lines
    use, intrinsic :: iso_fortran_env, only : output_unit
    use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : lines_type
    use dondolo_base_text, only : counted, right, rounded, to_text
    use dondolo_case_check_rows, only : check_methods, check_states, verdicts_type
    use dondolo_check_input, only : check_input_type, state_names
+   use dondolo_check_notes, only : make_check_notes
    use dondolo_check_sheet, only : sheet_type
    implicit none
    private
@@ -19,6 +21,7 @@ contains
       !> Have histories been run?
       logical, intent(in) :: was_run
 
+      type(lines_type) :: notes
       integer :: i, k
 
       write (output_unit, '(a)') 'check by NTC 2018 and Circolare 7/2019, C8.7.1.2.1: alpha_0 '// &
@@ -49,6 +52,10 @@ contains
          write (output_unit, '(a)') 'note: one hazard is given for all limit states; that of the code '// &
             & 'is lower for SLD, and higher for SLC'
       end if
+      call make_check_notes(sheet, notes)
+      do i = 1, notes%count
+         write (output_unit, '(a)') 'note: '//notes%line(i)%text
+      end do
       write (output_unit, '(a)') ''
 
    contains

@@ -284,9 +284,17 @@ run checked.nml
 check "checks of a population: rows" equal "$(rows out/people_checks.csv)" 2
 check "checks of a population: a_g S that a wall stands, nonlinear, SLV" equal \
    "$(grep '^a,' out/people_checks.csv | awk -F, '{ printf "%.10f", $11 / 1.2 }')" 0.0820616990
-check "checks of a population: why there is none" contains out/people_checks.csv "mechanism = 'two_block': the kinematic check is for one"
-check "checks of a population: summary" contains stdout 'C8.7.1.2.1, of 1 row'
+check "checks of a population: alpha_0 of a strip" equal \
+   "$(grep '^"b ' out/people_checks.csv | awk -F, '{ printf "%.10f", $4 }')" 0.2777777778
+check "checks of a population: summary" contains stdout 'C8.7.1.2.1, of 2 rows'
 check "checks of a population: verdicts" grep -qE '^nonlinear +SLV +0\.24 +0 +0\.4103$' stdout
+rm -rf out
+{ population_case; echo "&check ag = 0.2, f0 = 2.5, tc_star = 0.35, soil = 'B' /"; } >checked.nml
+population | sed '1s/$/,period1,damping1,participation1/; 2s/$/,0.3,0,1.2/; 3s/$/,,,/' >walls.csv
+run checked.nml
+check "checks of a population: why there is none" contains out/people_checks.csv 'damping = 0: must be positive for the spectrum of a floor'
+check "checks of a population: those left out" contains stdout 'not checked: 1 row'
+population >walls.csv
 rm checked.nml
 rm -rf out
 population | sed '1s/$/,p_occ/; 2s/$/,0.4/; 3s/$/,0/' >walls.csv

@@ -180,7 +180,6 @@ def test_lines_on_the_curve(stripes, tmp_path):
             lambda: dd.check_ntc(WALL, SITE, knowledge_factor=1.5),
             r"knowledge_factor = 1\.5: must lie between 1 and 1\.35",
         ),
-        (lambda: dd.check_ntc(dd.TwoBlockWall(3.0, 0.25), SITE), "mechanism = 'two_block': the kinematic check"),
         (lambda: dd.check_ntc(WALL, 0.2), "site: float is no site"),
     ],
 )
@@ -267,9 +266,9 @@ def test_hazard_of_rigid_ground(root, executable, tmp_path):
 def test_population(root, executable, tmp_path):
     """The rows of the executable are the checks of the walls, each with its own curve."""
     (tmp_path / "walls.csv").write_text(
-        "name,mechanism,height,thickness,period1,participation1,load1,load1_depth,load1_height,load1_inertia\n"
-        "a,one_sided,3.0,0.25,,,,,,\nb,one_sided,1.5,0.25,0.3,1.2,,,,\nc,two_block,3.0,0.25,,,,,,\n"
-        "d,free_standing,2.0,0.4,,,1e3,0.2,2.0,both\n"
+        "name,mechanism,height,thickness,period1,damping1,participation1,load1,load1_depth,load1_height,load1_inertia\n"
+        "a,one_sided,3.0,0.25,,,,,,,\nb,one_sided,1.5,0.25,0.3,,1.2,,,,\nc,one_sided,3.0,0.25,0.3,0,1.2,,,,\n"
+        "d,free_standing,2.0,0.4,,,,1e3,0.2,2.0,both\ne,two_block,3.0,0.25,,,,,,,\n"
     )
     (tmp_path / "case.nml").write_text(
         "&job task = 'typology', output = 'out' /\n&population file = 'walls.csv' /\n"
@@ -281,8 +280,9 @@ def test_population(root, executable, tmp_path):
     rows = list(csv.DictReader(lines))
     stored = dd.read_results(tmp_path / "out")
     site = dd.Site((0.08, 0.2, 0.26), 2.5, 0.35, soil="B")
-    assert [row["wall"] for row in rows] == ["a", "b", "c", "d"]
-    assert rows[2]["note"].startswith("mechanism = 'two_block': the kinematic check is for one block")
+    assert [row["wall"] for row in rows] == ["a", "b", "c", "d", "e"]
+    assert [bool(row["note"]) for row in rows] == [False, False, True, False, False]
+    assert rows[2]["note"].startswith("damping = 0: must be positive for the spectrum of a floor of the code")
     assert not rows[2]["alpha_0"]
     for row, wall, curve in zip(rows, stored.population, stored.typology.curves, strict=True):
         if row["note"]:

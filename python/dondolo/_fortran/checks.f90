@@ -2,6 +2,7 @@
 module checks
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_base_error, only : error_type, problems_type
+   use dondolo_base_lines, only : lines_type
    use dondolo_base_settings, only : group_settings_type, new_settings
    use dondolo_boundary, only : next_line
    use dondolo_case_wall_warnings, only : wall_warnings_type
@@ -11,6 +12,7 @@ module checks
    use dondolo_check_input, only : check_input_type, check_properties, take_check
    use dondolo_check_kinematic, only : kinematic_type, new_kinematic
    use dondolo_check_ntc_check, only : check_by_ntc => check_ntc, check_peaks => check_histories
+   use dondolo_check_notes, only : make_check_notes
    use dondolo_check_sheet, only : sheet_type
    use dondolo_interface_handles, only : find_walls
    use dondolo_parcel, only : parcel_type, report, send
@@ -18,7 +20,7 @@ module checks
    implicit none
    private
 
-   public :: ntc_parameters, code_spectrum, check_ntc, check_histories
+   public :: ntc_parameters, code_spectrum, check_ntc, check_histories, check_notes
 
 contains
 
@@ -141,6 +143,40 @@ contains
       end if
       call send(parcel, error, sent)
    end subroutine check_histories
+
+   !> Notes on a sheet, whose lines have a tab between method, limit state and name: lines, their sentences
+   subroutine check_notes(texts, values, n, sent)
+      character(len=*), intent(in) :: texts
+      integer(c_int), intent(in) :: n
+      real(c_double), intent(in) :: values(n)
+      integer(c_int64_t), intent(out) :: sent(5)
+      character(len=*), parameter :: tab = achar(9)
+      type(sheet_type) :: sheet
+      type(lines_type) :: notes
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+      character(len=:), allocatable :: line
+      integer :: i, at, first, second
+
+      allocate (sheet%rows(n))
+      at = 1
+      do i = 1, n
+         call next_line(texts, at, line)
+         first = index(line, tab)
+         second = first + index(line(first + 1:), tab)
+         associate (row => sheet%rows(i))
+            row%method = line(:first - 1)
+            row%state = line(first + 1:second - 1)
+            row%quantity%name = line(second + 1:)
+            row%value = values(i)
+         end associate
+      end do
+      call make_check_notes(sheet, notes)
+      do i = 1, notes%count
+         call parcel%lines%add(notes%line(i)%text)
+      end do
+      call send(parcel, error, sent)
+   end subroutine check_notes
 
    !> A sheet as lines, with a tab between method, limit state, name, symbol, unit, formula and meaning; reals: its values
    subroutine pack_sheet(sheet, parcel)

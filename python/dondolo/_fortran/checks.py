@@ -83,6 +83,13 @@ def dynamic_sheet(wall: Handle, state: str, pga: float, records: int, edp: Float
     return _rows(receive(_core.checks.check_histories(wall.number, STATES.index(state) + 1, pga, records, edp)))
 
 
+def check_notes(rows: Sequence[SheetRow]) -> tuple[str, ...]:
+    """What a reader of a sheet should know, a sentence each."""
+    lines = "\n".join(f"{row.method}\t{row.limit_state}\t{row.quantity}" for row in rows)
+    values = np.array([row.value for row in rows], float)
+    return tuple(receive(_core.checks.check_notes(lines.encode(), values)).lines)
+
+
 def _rows(parcel: Parcel) -> tuple[SheetRow, ...]:
     """Lines of a sheet."""
     rows = []

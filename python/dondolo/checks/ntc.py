@@ -14,7 +14,7 @@ import numpy as np
 
 from dondolo._base.arguments import instance_of
 from dondolo._base.shown import Shown
-from dondolo._fortran.checks import SheetRow, dynamic_sheet, kinematic_sheet
+from dondolo._fortran.checks import SheetRow, check_notes, dynamic_sheet, kinematic_sheet
 from dondolo._fortran.library import constants
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved, part_of_results
@@ -83,6 +83,11 @@ class CodeCheck(Shown, Saved):
             if (row.quantity, row.method) == (quantity, method) and row.limit_state in ("", limit_state):
                 return row.value
         raise InputError(f"quantity = {quantity!r}: the check has none for method {method!r}, state {limit_state!r}")
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What a reader should know: a strip whose hinge is not the weakest, a period beyond those of the spectrum."""
+        return check_notes(self.rows)
 
     @property
     def capacities(self) -> dict[tuple[str, str], float]:
@@ -252,7 +257,7 @@ def check_ntc(wall: Wall, site: Site, *, knowledge_factor: float = 1.35, behavio
     Parameters
     ----------
     wall : Wall
-        Of one block; on a `Building` the check is that at its floor.
+        On a `Building` the check is that at its floor, of a strip that at the mean of its two floors.
     site : Site
         The hazard.
     knowledge_factor : float
@@ -268,7 +273,7 @@ def check_ntc(wall: Wall, site: Site, *, knowledge_factor: float = 1.35, behavio
     Raises
     ------
     InputError
-        A wall of two blocks, factors that the code does not have, a mode without damping.
+        Factors that the code does not have, a mode without damping.
 
     Warns
     -----

@@ -48,6 +48,7 @@ def code_check(check: CodeCheck, curve: Fragility | None) -> dict[str, Any]:
         "figure": drawn,
         "site": ", ".join(f"{name} {text}" for name, text in check.site._facts()),
         "sheet": _sheet(check.rows),
+        "notes": check.notes,
         "one_hazard": _site(check, "SLD") >= _site(check, "SLC"),
     }
 

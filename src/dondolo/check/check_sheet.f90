@@ -37,6 +37,9 @@ module dondolo_check_sheet
       & quantity_type('mass_ratio', 'e*', '', 'the same / the whole mass'), &
       & quantity_type('a_0', 'a_0*', 'm/s2', 'spectral acceleration that starts the mechanism, alpha_0 g/(e* FC)'), &
       & quantity_type('d_0', 'd_0*', 'm', 'displacement at which the multiplier vanishes'), &
+      & quantity_type('weakest_hinge', 'r*', '', 'hinge of a strip, height / height of the wall, at which alpha_0 is least'), &
+      & quantity_type('weakest_alpha_0', 'alpha_0(r*)', '', 'multiplier there'), &
+      & quantity_type('level', 'z', 'm', 'level above the ground whose spectrum is the demand'), &
       & quantity_type('tie_fracture', '', 'm', 'displacement at which ties break that carry more than half'), &
       & quantity_type('capacity_ag', 'a_gC', 'g', 'a_g that the wall withstands'), &
       & quantity_type('capacity_pga', 'a_gC S', 'g', 'peak acceleration at the site that the wall withstands'), &

@@ -13,7 +13,14 @@
 !> Ties hold with their largest force up to the rotation at which they break, and friction of transverse walls with what is left
 !> of it; alpha vanishes at the capacity of the wall without them, since they do not act up to collapse.
 !>
-!> The masonry is one block: a point at its centroid C, as the Circolare has it.
+!> The masonry of a wall that turns about its base is one block: a point at its centroid C, as the Circolare has it.
+!>
+!> A strip between two floors bends: two blocks, with N on top, turn about three hinges (docs/theory.md, section 2). Its lower
+!> block turns by q, and of the whole strip C moves by R_1 [sin alpha_1 - sin(alpha_1 - q)] at most:
+!>
+!>     alpha(q) = (G - Q)/(g L)     M* = M_1 + M_2     e* = 1     d = R_1 [sin alpha_1 - sin(alpha_1 - q)]
+!>
+!> The floor holds N sideways, so that its horizontal force is none of the strip's: it is in G - Q alone.
 module dondolo_check_kinematic
    use dondolo_base_error, only : error_type, raise_input
    use dondolo_base_kinds, only : wp
@@ -22,12 +29,13 @@ module dondolo_check_kinematic
    use dondolo_wall_mechanism, only : mechanism_type
    use dondolo_wall_one_block_model, only : one_block_model_type
    use dondolo_wall_tie_statics, only : hold_plastic
+   use dondolo_wall_two_block, only : two_block_type
    implicit none
    private
 
    public :: kinematic_type, new_kinematic
 
-   !> The kinematic chain of a wall of one block
+   !> The kinematic chain of a wall
    type :: kinematic_type
       !> Multiplier that starts the mechanism alpha_0
       real(wp) :: multiplier = 0.0_wp
@@ -43,8 +51,12 @@ module dondolo_check_kinematic
       real(wp) :: tie_fracture = huge(1.0_wp)
       !> Gravity [m/s2]
       real(wp) :: gravity = 0.0_wp
+      !> Height of the hinge / height of a strip at which the multiplier is least, and that multiplier; -1: no strip
+      real(wp) :: weakest_hinge = -1.0_wp, weakest_multiplier = -1.0_wp
+      !> Level above the ground whose spectrum is the demand [m]; 0: the ground, or a level that is not known
+      real(wp) :: level = 0.0_wp
       !> Of each mode of the building that the wall stands on: period [s], damping ratio, and participation times shape at the
-      !> level of the wall; of size 0 on the ground
+      !> level of the wall, for a strip the mean of its floors; of size 0 on the ground
       real(wp), allocatable :: period(:), damping(:), participation(:)
       !> What gives the moments
       class(mechanism_type), allocatable, private :: mechanism
@@ -52,8 +64,8 @@ module dondolo_check_kinematic
       real(wp), private :: edge = 0.0_wp
       !> Sums of P + Q, and of their products with heights and depths from the hinge
       real(wp), private :: weight = 0.0_wp, weight_f = 0.0_wp, weight_e = 0.0_wp
-      !> Height of the centroid above the hinge [m], and d/d_C
-      real(wp), private :: centroid = 0.0_wp, travel = 0.0_wp
+      !> Height of the centroid above the hinge, and its depth behind it if that enters d_C [m]; d/d_C
+      real(wp), private :: centroid = 0.0_wp, centroid_depth = 0.0_wp, travel = 0.0_wp
    contains
       !> Displacement d at a rotation
       procedure :: displacement
@@ -72,45 +84,79 @@ contains
    subroutine new_kinematic(kinematic, wall, error)
       type(kinematic_type), intent(out) :: kinematic
       type(wall_type), intent(in) :: wall
-      !> A mechanism that the formulas are not for
+      !> A wall that the formulas are not for
       type(error_type), allocatable, intent(out) :: error
 
       real(wp), parameter :: right_angle = acos(0.0_wp)
-      type(wall_body_type) :: body
-      real(wp), allocatable :: weight(:), height(:), depth(:)
-      real(wp) :: first, second
 
-      select type (model => wall%model)
-      type is (one_block_model_type)
-         body = model%body
-      class default
-         call raise_input(error, 'mechanism = '''//wall%mechanism_name()//''': the kinematic check is for one block that '// &
-            & 'turns about its base, mechanism = ''one_sided'' or ''free_standing''')
-         return
-      end select
       if (.not. wall%mechanism%capacity < right_angle) then
          call raise_input(error, 'spring: holds the wall up to a rotation of 90 degrees; the kinematic check ends before')
          return
       end if
-      allocate (kinematic%period(0), kinematic%damping(0), kinematic%participation(0))
-      if (allocated(wall%building)) then
-         ! Modes that do not move the level are not there: at the base of a building the demand is that of the ground.
-         associate (building => wall%building)
-            kinematic%period = pack(building%period, abs(building%participation) > 0.0_wp)
-            kinematic%damping = pack(building%damping, abs(building%participation) > 0.0_wp)
-            kinematic%participation = pack(building%participation, abs(building%participation) > 0.0_wp)
-         end associate
-         if (.not. all(kinematic%damping > 0.0_wp)) then
-            call raise_input(error, 'damping = 0: must be positive for the spectrum of a floor of the code')
-            return
-         end if
-      end if
       kinematic%mechanism = wall%mechanism
       kinematic%gravity = wall%gravity
+      call take_building(kinematic, wall, error)
+      if (allocated(error)) return
+      select type (model => wall%model)
+      type is (one_block_model_type)
+         call take_block(kinematic, model%body)
+      class default
+         select type (mechanism => wall%mechanism)
+         type is (two_block_type)
+            call take_two_blocks(kinematic, mechanism)
+         class default
+            call raise_input(error, 'mechanism = '''//wall%mechanism_name()//''': the kinematic check is not for it')
+            return
+         end select
+      end select
+      kinematic%multiplier = kinematic%multiplier_at(0.0_wp)
+      kinematic%end_displacement = kinematic%displacement(wall%mechanism%capacity)
+      if (wall%mechanism%unseating < right_angle) kinematic%unseating = kinematic%displacement(wall%mechanism%unseating)
+      call find_tie_fracture(kinematic)
+   end subroutine new_kinematic
+
+   !> Take the modes of the building that a wall stands on; at the base of a building the demand is that of the ground
+   subroutine take_building(kinematic, wall, error)
+      type(kinematic_type), intent(inout) :: kinematic
+      type(wall_type), intent(in) :: wall
+      !> A mode that the spectrum of a floor is not for
+      type(error_type), allocatable, intent(out) :: error
+
+      real(wp), allocatable :: participation(:)
+
+      allocate (kinematic%period(0), kinematic%damping(0), kinematic%participation(0))
+      if (.not. allocated(wall%building)) return
+      associate (building => wall%building)
+         participation = building%participation
+         kinematic%level = building%level_top - building%height
+         ! Both floors move a strip: the code has the spectrum of one level, that between them
+         select type (mechanism => wall%mechanism)
+         type is (two_block_type)
+            if (building%height > 0.0_wp) participation = 0.5_wp*(participation + building%participation_top)
+            kinematic%level = building%level_top - 0.5_wp*building%height
+         end select
+         kinematic%level = max(0.0_wp, kinematic%level)
+         ! Modes that do not move the level are not there.
+         kinematic%period = pack(building%period, abs(participation) > 0.0_wp)
+         kinematic%damping = pack(building%damping, abs(participation) > 0.0_wp)
+         kinematic%participation = pack(participation, abs(participation) > 0.0_wp)
+      end associate
+      if (.not. all(kinematic%damping > 0.0_wp)) call raise_input(error, &
+         & 'damping = 0: must be positive for the spectrum of a floor of the code')
+   end subroutine take_building
+
+   !> Take weights and levers of a wall that turns about its base
+   pure subroutine take_block(kinematic, body)
+      type(kinematic_type), intent(inout) :: kinematic
+      type(wall_body_type), intent(in) :: body
+
+      real(wp), allocatable :: weight(:), height(:), depth(:)
+      real(wp) :: first, second
+
       kinematic%edge = body%actions%edge
       associate (carried => body%actions%carried, masonry => body%body)
-         weight = [wall%gravity*masonry%mass, carried%weight + &
-            & merge(0.0_wp, wall%gravity*carried%pushed, carried%weight > 0.0_wp)]
+         weight = [kinematic%gravity*masonry%mass, carried%weight + &
+            & merge(0.0_wp, kinematic%gravity*carried%pushed, carried%weight > 0.0_wp)]
          height = [masonry%height, carried%height]
          depth = [masonry%depth, carried%depth] - body%actions%hinge
          kinematic%centroid = masonry%height - kinematic%edge
@@ -120,14 +166,41 @@ contains
       kinematic%weight_e = sum(weight*depth)
       first = sum(weight*height)
       second = sum(weight*height**2)
-      kinematic%mass = first**2/second/wall%gravity
+      kinematic%mass = first**2/second/kinematic%gravity
       kinematic%mass_ratio = first**2/(kinematic%weight*second)
       kinematic%travel = second/(height(1)*first)
-      kinematic%multiplier = kinematic%multiplier_at(0.0_wp)
-      kinematic%end_displacement = kinematic%displacement(wall%mechanism%capacity)
-      if (wall%mechanism%unseating < right_angle) kinematic%unseating = kinematic%displacement(wall%mechanism%unseating)
-      call find_tie_fracture(kinematic)
-   end subroutine new_kinematic
+   end subroutine take_block
+
+   !> Take weights and levers of a strip that bends. Of all heights of the hinge the multiplier is least at
+   !>
+   !>     r* = 1/{1 + sqrt[n (w + e)/(2 w (1 + n))]}     alpha_0 = 4 w (1 + n)/(r H) + 2 n (w + e)/[H (1 - r)]     n = N/W
+   !>
+   !> with w the lever of the hinges
+   pure subroutine take_two_blocks(kinematic, mechanism)
+      type(kinematic_type), intent(inout) :: kinematic
+      type(two_block_type), intent(in) :: mechanism
+
+      real(wp) :: height, load, inner
+
+      associate (lower => mechanism%lower, upper => mechanism%upper, w => mechanism%lower%b, r => kinematic%weakest_hinge)
+         kinematic%mass = lower%mass + upper%mass
+         kinematic%mass_ratio = 1.0_wp
+         kinematic%travel = 1.0_wp
+         kinematic%centroid = lower%radius*cos(lower%alpha)
+         kinematic%centroid_depth = w
+         kinematic%weight = kinematic%gravity*kinematic%mass
+         kinematic%weight_f = kinematic%weight*kinematic%centroid
+         kinematic%weight_e = kinematic%weight*w
+         height = 2.0_wp*(kinematic%centroid + upper%radius*cos(upper%alpha))
+         load = mechanism%overburden%weight/kinematic%weight
+         inner = w + mechanism%overburden%eccentricity
+         r = 1.0_wp/(1.0_wp + sqrt(load*max(0.0_wp, inner)/(2.0_wp*w*(1.0_wp + load))))
+         kinematic%weakest_multiplier = 4.0_wp*w*(1.0_wp + load)/(r*height)
+         if (r < 1.0_wp) kinematic%weakest_multiplier = kinematic%weakest_multiplier + 2.0_wp*load*inner/(height*(1.0_wp - r))
+         ! Beyond the inner hinges a load folds the strip by itself if the hinge is high enough
+         if (load*inner < 0.0_wp) kinematic%weakest_multiplier = 0.0_wp
+      end associate
+   end subroutine take_two_blocks
 
    !> The displacement at which ties break that carry more than half of the greatest multiplier
    subroutine find_tie_fracture(kinematic)
@@ -191,11 +264,11 @@ contains
       !> Rotation, less than a right angle [rad]
       real(wp), intent(in) :: q
 
-      displacement = self%travel*(self%edge*q + self%centroid*sin(q))
+      displacement = self%travel*(self%edge*q + self%centroid*sin(q) + 2.0_wp*self%centroid_depth*sin(0.5_wp*q)**2)
    end function displacement
 
-   !> Rotation at a displacement, by Newton's method: the displacement grows with the rotation and its slope falls, so that
-   !> from below every step stays below
+   !> Rotation at a displacement, by Newton's method: the displacement grows with the rotation, and its slope falls throughout or
+   !> rises throughout, so that steps stay on one side
    pure real(wp) function rotation(self, d) result(q)
       class(kinematic_type), intent(in) :: self
       !> Displacement, 0 to d_0 [m]
@@ -207,9 +280,9 @@ contains
 
       q = 0.0_wp
       do i = 1, enough
-         step = (d - self%displacement(q))/(self%travel*(self%edge + self%centroid*cos(q)))
+         step = (d - self%displacement(q))/(self%travel*(self%edge + self%centroid*cos(q) + self%centroid_depth*sin(q)))
          q = q + step
-         if (abs(step) <= epsilon(q)*q) exit
+         if (abs(step) <= epsilon(q)*abs(q)) exit
       end do
    end function rotation
 

@@ -117,12 +117,17 @@ contains
       type(kinematic_type), intent(in) :: kinematic
       type(check_input_type), intent(in) :: input
 
-      call sheet%add('mechanism', '', 'knowledge_factor', input%knowledge_factor)
+      call sheet%add('mechanism', '', 'knowledge_factor', input%knowledge_factor, 'C8.7.1.2.1.3')
       call sheet%add('mechanism', '', 'alpha_0', kinematic%multiplier, 'C8.7.1.1')
       call sheet%add('mechanism', '', 'mass', kinematic%mass, 'C8.7.1.5')
       call sheet%add('mechanism', '', 'mass_ratio', kinematic%mass_ratio, 'C8.7.1.5')
       call sheet%add('mechanism', '', 'a_0', kinematic%capacity(0.0_wp, input%knowledge_factor), 'C8.7.1.3')
       call sheet%add('mechanism', '', 'd_0', kinematic%end_displacement, 'C8.7.1.4')
+      if (kinematic%level > 0.0_wp) call sheet%add('mechanism', '', 'level', kinematic%level)
+      if (kinematic%weakest_hinge > 0.0_wp) then
+         call sheet%add('mechanism', '', 'weakest_hinge', kinematic%weakest_hinge)
+         call sheet%add('mechanism', '', 'weakest_alpha_0', kinematic%weakest_multiplier, 'C8.7.1.1')
+      end if
       if (kinematic%tie_fracture < huge(1.0_wp)) call sheet%add('mechanism', '', 'tie_fracture', kinematic%tie_fracture, &
          & 'C8.7.1.4')
    end subroutine put_mechanism
@@ -143,7 +148,7 @@ contains
       factor = 1.0_wp
       if (state == 2) then
          factor = input%behaviour
-         call sheet%add('linear', name, 'behaviour', factor)
+         call sheet%add('linear', name, 'behaviour', factor, 'C8.7.1.2.1.7')
       end if
       call sheet%add('linear', name, 'floor_pga', spectrum%peak_acceleration(), merge('C8.7.1.8', 'C7.2.3  ', &
          & size(spectrum%period) == 0))
@@ -188,13 +193,13 @@ contains
       a = kinematic%capacity(d, input%knowledge_factor)
       period = period_factors(state)*pi*sqrt(d/a)
       demand = spectrum%displacement(period, dampings(state), kinematic%gravity)
-      call sheet%add('nonlinear', name, 'displacement', d)
+      call sheet%add('nonlinear', name, 'displacement', d, 'C8.7.1.2.1.6')
       call sheet%add('nonlinear', name, 'acceleration', a, 'C8.7.1.3')
       call sheet%add('nonlinear', name, 'period', period, merge('C8.7.1.10', 'C8.7.1.11', state == 2))
-      call sheet%add('nonlinear', name, 'damping', dampings(state))
+      call sheet%add('nonlinear', name, 'damping', dampings(state), 'C8.7.1.2.1.8')
       call sheet%add('nonlinear', name, 'spectral_demand', spectrum%acceleration(period, dampings(state)), &
          & merge('NTC 3.2.3.2.1', 'C7.2.3       ', size(spectrum%period) == 0))
-      call sheet%add('nonlinear', name, 'demand', demand, merge('NTC 3.2.3.2.2', 'C8.7.1.12    ', size(spectrum%period) == 0))
+      call sheet%add('nonlinear', name, 'demand', demand, merge('NTC 3.2.3.2.3', 'C8.7.1.12    ', size(spectrum%period) == 0))
       call put_capacity(sheet, 'nonlinear', name, max(d/demand, activation(kinematic, input, spectrum)), spectrum)
    end subroutine put_nonlinear
 
@@ -207,9 +212,15 @@ contains
       real(wp), intent(in) :: factor
       type(floor_spectrum_type), intent(in) :: spectrum
 
-      call sheet%add(method, state, 'capacity_ag', factor*spectrum%ground%pga/spectrum%ground%soil_factor)
+      character(len=13) :: place
+
+      place = ''
+      if (method == 'linear' .and. state == 'SLV') place = 'C8.7.1.2.1.7'
+      if (method == 'nonlinear') place = 'C8.7.1.2.1.8'
+      call sheet%add(method, state, 'capacity_ag', factor*spectrum%ground%pga/spectrum%ground%soil_factor, place)
       call sheet%add(method, state, 'capacity_pga', factor*spectrum%ground%pga)
-      call sheet%add(method, state, 'ratio', factor)
+      ! The ratio in a_g S is the zeta_E of the mechanism
+      call sheet%add(method, state, 'ratio', factor, merge('NTC 8.3, C8.3', '             ', state == 'SLV'))
       call sheet%add(method, state, 'verified', merge(1.0_wp, 0.0_wp, factor >= 1.0_wp))
    end subroutine put_capacity
 

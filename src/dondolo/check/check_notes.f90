@@ -1,0 +1,43 @@
+!> What a reader of a check by a building code should know of it.
+module dondolo_check_notes
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_text, only : rounded
+   use dondolo_check_sheet, only : sheet_type
+   implicit none
+   private
+
+   public :: make_check_notes
+
+   !> How much greater than at the weakest hinge alpha_0 may be, and the highest hinge of a strip that bends rather than overturns
+   !> from the floor below
+   real(wp), parameter :: close = 1.02_wp, highest_hinge = 0.9_wp
+   !> Period from which displacements of the spectrum fall on some soil [s]: NTC 2018, 3.2.3.2.3
+   real(wp), parameter :: long_period = 4.5_wp
+
+contains
+
+   !> Make the notes, a sentence each
+   subroutine make_check_notes(sheet, notes)
+      type(sheet_type), intent(in) :: sheet
+      type(lines_type), intent(out) :: notes
+
+      real(wp) :: alpha, hinge, least, period
+
+      alpha = sheet%value('mechanism', '', 'alpha_0')
+      hinge = sheet%value('mechanism', '', 'weakest_hinge')
+      least = sheet%value('mechanism', '', 'weakest_alpha_0')
+      if (hinge > highest_hinge .and. alpha > close*least) then
+         call notes%add('alpha_0 falls the higher the hinge of the strip is, down to '//rounded(least)//' at hinge = '// &
+            & rounded(hinge)//'; so high a hinge is rather a wall that overturns from the floor below')
+      else if (hinge > 0.0_wp .and. alpha > close*least) then
+         call notes%add('the check is not at the weakest hinge of the strip: alpha_0 is least, '//rounded(least)// &
+            & ', at hinge = '//rounded(hinge))
+      end if
+      period = max(sheet%value('nonlinear', 'SLV', 'period'), sheet%value('nonlinear', 'SLC', 'period'))
+      if (period > long_period) call notes%add('the equivalent period reaches '//rounded(period)//' s; beyond T_E, '// &
+         & rounded(long_period)//' s or more by the soil, the displacements of NTC 2018, 3.2.3.2.3 fall, and the demand '// &
+         & 'of the check does not')
+   end subroutine make_check_notes
+
+end module dondolo_check_notes
