@@ -12,9 +12,9 @@ module dondolo_benchmark
    use dondolo_machine, only : arithmetic_rate, processor_name, seconds_since, surroundings
    use dondolo_motion_ensemble, only : name_engines
    use dondolo_motion_work, only : work_type
-   use dondolo_population_member, only : member_type
    use dondolo_population_row_result, only : row_result_type
    use dondolo_population_run_rows, only : run_rows
+   use dondolo_population_wall_row, only : wall_row_type
    use dondolo_wall, only : mechanism_names
    implicit none
    private
@@ -61,7 +61,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(case_type) :: work
-      type(member_type), allocatable :: walls(:)
+      type(wall_row_type), allocatable :: walls(:)
       type(outcome_type) :: fingerprint
       type(measured_type) :: once, alone, strong, weak
       character(len=160) :: line
@@ -69,7 +69,7 @@ contains
       integer :: copies, team
 
       call make_work(work, walls, error)
-      if (.not. allocated(error)) call find_fingerprint(work, walls, fingerprint, error)
+      if (.not. allocated(error)) call compute_fingerprint(work, walls, fingerprint, error)
       if (.not. allocated(error)) call measure(work, walls, 1, 1, once, error)
       if (allocated(error)) return
       copies = max(1, nint(seconds/once%seconds))
@@ -105,9 +105,9 @@ contains
    end subroutine run_benchmark
 
    !> Run the work once, and keep what can be compared
-   subroutine find_fingerprint(case, walls, fingerprint, error)
+   subroutine compute_fingerprint(case, walls, fingerprint, error)
       type(case_type), intent(in), target :: case
-      type(member_type), intent(in) :: walls(:)
+      type(wall_row_type), intent(in) :: walls(:)
       !> What it gives
       type(outcome_type), intent(out) :: fingerprint
       !> It could not be run
@@ -130,12 +130,12 @@ contains
          fingerprint%histories(kind) = fingerprint%histories(kind) + size(stripes%response)
          fingerprint%edps = fingerprint%edps + sum(nint(1.0e6_wp*stripes%response%edp, int64))
       end do
-   end subroutine find_fingerprint
+   end subroutine compute_fingerprint
 
    !> Time that the work takes, several times over
    subroutine measure(case, walls, copies, threads, found, error)
       type(case_type), intent(in), target :: case
-      type(member_type), intent(in) :: walls(:)
+      type(wall_row_type), intent(in) :: walls(:)
       !> How many times over
       integer, intent(in) :: copies
       !> Number of threads
@@ -229,7 +229,7 @@ contains
    !> Measure the walls of each mechanism by themselves, and print it
    subroutine print_mechanisms(case, walls, copies, threads, limit, error)
       type(case_type), intent(in) :: case
-      type(member_type), intent(in) :: walls(:)
+      type(wall_row_type), intent(in) :: walls(:)
       !> How many times over
       integer, intent(in) :: copies
       !> Number of threads

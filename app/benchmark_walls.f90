@@ -6,7 +6,7 @@ module dondolo_benchmark_walls
    use dondolo_case_job_group, only : typology_task
    use dondolo_fragility_scaling, only : new_scaling
    use dondolo_motion_normal_form, only : new_normal_form, normal_form_type
-   use dondolo_population_member, only : member_type
+   use dondolo_population_wall_row, only : wall_row_type
    use dondolo_record, only : record_type
    use dondolo_record_suite, only : new_suite
    use dondolo_record_synthetic_suite, only : suite_record, synthetic44
@@ -28,11 +28,11 @@ module dondolo_benchmark_walls
 contains
 
    !> What the benchmark runs: three walls of each mechanism
-   subroutine make_work(case, members, error)
+   subroutine make_work(case, rows, error)
       !> The case, without walls
       type(case_type), intent(out) :: case
       !> The walls
-      type(member_type), allocatable, intent(out) :: members(:)
+      type(wall_row_type), allocatable, intent(out) :: rows(:)
       !> It could not be made
       type(error_type), allocatable, intent(out) :: error
 
@@ -40,7 +40,7 @@ contains
       type(record_type), allocatable :: records(:)
       integer :: i, j, number
 
-      allocate (records(2*size(synthetic44)), members(size(mechanism_names)*walls_of_each))
+      allocate (records(2*size(synthetic44)), rows(size(mechanism_names)*walls_of_each))
       do i = 1, size(records)
          call suite_record((i + 1)/2, 2 - modulo(i, 2), records(i), error)
          if (allocated(error)) return
@@ -53,9 +53,9 @@ contains
             call input%set('mechanism', trim(mechanism_names(i)))
             call input%set('height', heights(j))
             call input%set('thickness', thicknesses(j))
-            call new_wall(members(number)%wall, input, error)
+            call new_wall(rows(number)%wall, input, error)
             if (allocated(error)) return
-            members(number)%group = ''
+            rows(number)%group = ''
          end do
       end do
       case%job%task = typology_task
@@ -68,16 +68,16 @@ contains
    end subroutine make_work
 
    !> The same walls several times over
-   function repeat_walls(members, times) result(longer)
-      type(member_type), intent(in) :: members(:)
+   function repeat_walls(rows, times) result(longer)
+      type(wall_row_type), intent(in) :: rows(:)
       !> How many times they come
       integer, intent(in) :: times
       !> As many walls
-      type(member_type), allocatable :: longer(:)
+      type(wall_row_type), allocatable :: longer(:)
 
       integer :: i
 
-      longer = [(members(modulo(i, size(members)) + 1), i=0, times*size(members) - 1)]
+      longer = [(rows(modulo(i, size(rows)) + 1), i=0, times*size(rows) - 1)]
    end function repeat_walls
 
    !> Multiplications and additions of a step of the engine lanes, counted in its source (lane_step.inc); comparisons,

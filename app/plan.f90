@@ -22,9 +22,9 @@ module dondolo_plan
    use dondolo_name_column, only : name_width
    use dondolo_plan_building, only : print_building
    use dondolo_plan_wall, only : print_body, print_head, print_row, print_wall
-   use dondolo_population_member, only : member_type
    use dondolo_population_reader, only : population_reader_type
    use dondolo_population_store, only : store_type
+   use dondolo_population_wall_row, only : wall_row_type
    use dondolo_record, only : record_type
    use dondolo_record_clusters, only : cluster_label
    use dondolo_record_table, only : record_table
@@ -59,7 +59,7 @@ contains
          call check_wall(case, case%wall, sheet, error)
       end if
       if (allocated(error)) return
-      call find_warnings(case, work, scales, warnings)
+      call collect_warnings(case, work, scales, warnings)
       if (quiet) return
       write (output_unit, '(a)') visible(case%file)//': correct, nothing was run', ''
       write (output_unit, '(a)') 'task: '//trim(task_names(case%job%task))
@@ -145,7 +145,7 @@ contains
    end subroutine print_clusters
 
    !> What a run would warn of beforehand
-   subroutine find_warnings(case, work, scales, sentences)
+   subroutine collect_warnings(case, work, scales, sentences)
       type(case_type), intent(in) :: case
       !> Work of all histories
       type(work_type), intent(in) :: work
@@ -172,7 +172,7 @@ contains
       end if
       call scales%warn(warnings)
       call warnings%put_sentences(sentences)
-   end subroutine find_warnings
+   end subroutine collect_warnings
 
    !> Print the first rows of the population
    subroutine print_population(case, error)
@@ -181,7 +181,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(population_reader_type) :: reader
-      type(member_type) :: members(shown_rows)
+      type(wall_row_type) :: rows(shown_rows)
       logical :: found
       integer :: i, shown, longest
 
@@ -196,13 +196,13 @@ contains
             & to_text(survey%first)//' to '//to_text(survey%last)//' of '//to_text(survey%rows)
          longest = 0
          do i = 1, shown
-            call reader%next(case%table, members(i), found, error)
+            call reader%next(case%table, rows(i), found, error)
             if (allocated(error)) return
-            longest = max(longest, len(members(i)%wall%name()))
+            longest = max(longest, len(rows(i)%wall%name()))
          end do
          call print_head(name_width(longest))
          do i = 1, shown
-            call print_row(members(i)%wall, name_width(longest))
+            call print_row(rows(i)%wall, name_width(longest))
          end do
          associate (more => survey%last - survey%first + 1 - shown)
             if (more > 0) write (output_unit, '(a)') '... and '//to_text(more)//' more'

@@ -134,7 +134,7 @@ contains
 
       call make_model_sentence(case, results, line)
       write (output_unit, '(a)') '', line
-      do i = 1, size(case%table%facade%sources)
+      do i = 1, size(case%table%base_wall%sources)
          call make_source_sentence(case, results, i, line)
          write (output_unit, '(a)') line
       end do

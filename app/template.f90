@@ -144,7 +144,7 @@ contains
    !> Print the columns of a population as comments
    subroutine print_columns()
 
-      character(len=8), parameter :: tables(3) = [character(len=8) :: 'wall', 'building', 'member']
+      character(len=8), parameter :: tables(3) = [character(len=8) :: 'wall', 'building', 'row']
       type(property_type), allocatable :: table(:)
       character(len=:), allocatable :: name, comment
       integer :: i, k

@@ -39,10 +39,10 @@ module dondolo
    use dondolo_motion_simulate, only : simulate
    use dondolo_motion_solver, only : check_limit, check_solver, engine_names, solver_type
    use dondolo_population, only : population_type
-   use dondolo_population_member, only : member_type
    use dondolo_population_reader, only : population_reader_type, read_population
    use dondolo_population_table, only : population_table_type
    use dondolo_population_typology, only : combine_population, typology_type
+   use dondolo_population_wall_row, only : wall_row_type
    use dondolo_record, only : new_record, record_type
    use dondolo_record_catalogue, only : read_catalogue
    use dondolo_record_ground_motion, only : ground_displacement, ground_velocity
@@ -76,6 +76,6 @@ module dondolo
    public :: fragility_type, fit_fragility, typology_type, combine_population, population_type
    ! Cases
    public :: case_type, read_case, results_type, run_case, merge_population, check_reports, write_reports
-   public :: member_type, population_table_type, population_reader_type, read_population
+   public :: wall_row_type, population_table_type, population_reader_type, read_population
 
 end module dondolo

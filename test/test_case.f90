@@ -22,8 +22,8 @@ program test_case
    use dondolo_fragility_study, only : study_type
    use dondolo_motion_error_estimate, only : runs_of_estimate
    use dondolo_motion_work, only : work_type
-   use dondolo_population_member, only : member_type
    use dondolo_population_reader, only : read_population
+   use dondolo_population_wall_row, only : wall_row_type
    implicit none
 
    character(len=*), parameter :: scratch = 'build/test_case', lf = new_line('a')
@@ -201,24 +201,24 @@ contains
 
    !> A population
    subroutine test_population()
-      type(member_type), allocatable :: members(:)
+      type(wall_row_type), allocatable :: rows(:)
       type(error_type), allocatable :: error
 
       call suite('population')
-      call read_population(scratch//'/walls.csv', members, error)
+      call read_population(scratch//'/walls.csv', rows, error)
       call check_ok(error, 'a population')
       if (allocated(error)) return
-      call check(size(members) == 3, 'walls')
-      call check(all(members%weight == [2.0_wp, 1.0_wp, 0.0_wp]), 'weights')
-      call check(all(members%p_occ == 1.0_wp) .and. .not. any(members%continues), 'mechanisms that can occur')
-      call check_text(members(2)%wall%name(), 'wall 2', 'a name that is not given')
-      call check_text(members(3)%wall%name(), 'a, b', 'a name with a comma')
-      call check_text(members(3)%group, '', 'no group')
-      call check_close(members(2)%wall%input%number('hinge'), 0.6_wp, 0.0_wp, 'hinge')
-      call check(.not. members(1)%wall%input%has('hinge'), 'an empty cell was not given')
-      call check(members(2)%wall%mechanism%two_sided, 'mechanism')
-      call read_population(scratch//'/walls.csv', members, error, gravity=5.0_wp)
-      call check_close(members(1)%wall%mechanism%trigger_acceleration(), 5.0_wp/12.0_wp, 1.0e-14_wp, 'gravity')
+      call check(size(rows) == 3, 'walls')
+      call check(all(rows%weight == [2.0_wp, 1.0_wp, 0.0_wp]), 'weights')
+      call check(all(rows%p_occ == 1.0_wp) .and. .not. any(rows%continues), 'mechanisms that can occur')
+      call check_text(rows(2)%wall%name(), 'wall 2', 'a name that is not given')
+      call check_text(rows(3)%wall%name(), 'a, b', 'a name with a comma')
+      call check_text(rows(3)%group, '', 'no group')
+      call check_close(rows(2)%wall%input%number('hinge'), 0.6_wp, 0.0_wp, 'hinge')
+      call check(.not. rows(1)%wall%input%has('hinge'), 'an empty cell was not given')
+      call check(rows(2)%wall%mechanism%two_sided, 'mechanism')
+      call read_population(scratch//'/walls.csv', rows, error, gravity=5.0_wp)
+      call check_close(rows(1)%wall%mechanism%trigger_acceleration(), 5.0_wp/12.0_wp, 1.0e-14_wp, 'gravity')
    end subroutine test_population
 
    !> The echo of a case is a case with the same echo

@@ -3,7 +3,7 @@
 program test_decimals
    use, intrinsic :: iso_fortran_env, only : int64
    use checks, only : check, check_text, finish, skip, suite
-   use dondolo_base_decimals, only : find_figures
+   use dondolo_base_decimals, only : make_figures
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : brief, rounded, to_table, to_text
    implicit none
@@ -26,13 +26,13 @@ contains
       integer :: exponent
 
       call suite('decimals')
-      call find_figures(0.0_wp, figures, exponent)
+      call make_figures(0.0_wp, figures, exponent)
       call check(figures == '0000' .and. exponent == 0, 'zero is zero')
-      call find_figures(-9999.6_wp, figures, exponent)
+      call make_figures(-9999.6_wp, figures, exponent)
       call check(figures == '1000' .and. exponent == 4, 'a number next to a power of ten takes its exponent')
-      call find_figures(0.00012345_wp, figures, exponent)
+      call make_figures(0.00012345_wp, figures, exponent)
       call check(figures == '1234' .and. exponent == -4, 'a number below a tie is rounded down')
-      call find_figures(0.125_wp, figures(:2), exponent)
+      call make_figures(0.125_wp, figures(:2), exponent)
       call check(figures(:2) == '12' .and. exponent == -1, 'a tie is rounded to even')
       call check_text(to_text(-0.0625_wp**4), '-1.52587890625e-5', 'a power of two')
       call check_text(to_table(-1.0_wp/3.0_wp), merge('-3.3333333333333331E-01                   ', &

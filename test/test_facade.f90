@@ -5,10 +5,10 @@ program test_facade
    use checks, only : check, check_close, check_error, check_ok, finish, suite
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
-   use dondolo_population_member, only : member_type
    use dondolo_population_reader, only : population_reader_type, read_population
    use dondolo_population_table, only : population_table_type
-   use dondolo_population_variants, only : stated_wall_type
+   use dondolo_population_variants, only : base_wall_type
+   use dondolo_population_wall_row, only : wall_row_type
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    implicit none
 
@@ -331,31 +331,31 @@ contains
          & 'outer,one_sided,3,0.12,,,1,leaves,1', &
          & 'inner,one_sided,3,0.12,,,1,leaves,1', &
          & 'inner,two_block,3,0.12,,,1,leaves,0.5']
-      type(member_type), allocatable :: members(:)
+      type(wall_row_type), allocatable :: rows(:)
       type(population_table_type) :: walls
       type(population_reader_type) :: reader
-      type(member_type) :: member
+      type(wall_row_type) :: row
       type(error_type), allocatable :: error
       logical :: found
 
       call suite('rows of facades')
       call write_table(lines)
-      call read_population(table, members, error)
+      call read_population(table, rows, error)
       call check_ok(error, 'the table is right')
       if (allocated(error)) return
-      call check(size(members) == 6, 'a row with two hinges is two')
-      if (size(members) /= 6) return
-      call check(members(1)%wall%name() == 'a' .and. members(1)%facade == '', 'no facade')
-      call check(members(2)%wall%name() == 'b at 0 m' .and. members(2)%facade == 'b', 'its first hinge')
-      call check(members(3)%wall%name() == 'b at 2.5 m' .and. members(3)%facade == 'b', 'its second hinge')
-      call check_close(members(3)%wall%input%number('height'), 3.5_wp, exact, 'the wall above')
-      call check_close(members(3)%weight, 2.0_wp, exact, 'its weight')
-      call check(all(members%continues .eqv. [.false., .false., .true., .false., .true., .true.]), 'who goes on')
+      call check(size(rows) == 6, 'a row with two hinges is two')
+      if (size(rows) /= 6) return
+      call check(rows(1)%wall%name() == 'a' .and. rows(1)%facade == '', 'no facade')
+      call check(rows(2)%wall%name() == 'b at 0 m' .and. rows(2)%facade == 'b', 'its first hinge')
+      call check(rows(3)%wall%name() == 'b at 2.5 m' .and. rows(3)%facade == 'b', 'its second hinge')
+      call check_close(rows(3)%wall%input%number('height'), 3.5_wp, exact, 'the wall above')
+      call check_close(rows(3)%weight, 2.0_wp, exact, 'its weight')
+      call check(all(rows%continues .eqv. [.false., .false., .true., .false., .true., .true.]), 'who goes on')
       call walls%read(table, error)
       call check_ok(error, 'the table is read')
       call reader%skip(walls, 2, error)
-      call reader%next(walls, member, found, error)
-      call check(found .and. member%wall%name() == 'b at 2.5 m' .and. member%continues, 'rows can be passed over')
+      call reader%next(walls, row, found, error)
+      call check(found .and. row%wall%name() == 'b at 2.5 m' .and. row%continues, 'rows can be passed over')
    end subroutine test_rows
 
    !> Rows that do not go together
@@ -384,11 +384,11 @@ contains
       !> What the message says
       character(len=*), intent(in) :: part
 
-      type(member_type), allocatable :: members(:)
+      type(wall_row_type), allocatable :: rows(:)
       type(error_type), allocatable :: error
 
       call write_table(lines)
-      call read_population(table, members, error)
+      call read_population(table, rows, error)
       call check_error(error, part, part)
       if (allocated(error)) call check(index(error%message, new_line('a')) == 0, part//': once')
    end subroutine check_rows
@@ -396,10 +396,10 @@ contains
    !> A facade without a table
    subroutine test_given_facade()
 
-      type(stated_wall_type) :: input
+      type(base_wall_type) :: input
       type(population_table_type) :: table
       type(population_reader_type) :: reader
-      type(member_type) :: member
+      type(wall_row_type) :: row
       type(error_type), allocatable :: error
       logical :: found
       integer :: rows
@@ -409,14 +409,14 @@ contains
       call input%set('name', 'F')
       call input%set('hinge_at', 'storeys')
       table%file = 'case.nml'
-      table%facade = input
+      table%base_wall = input
       rows = 0
       do
-         call reader%next(table, member, found, error)
+         call reader%next(table, row, found, error)
          call check_ok(error, 'a row')
          if (.not. found .or. allocated(error)) exit
          rows = rows + 1
-         call check(member%facade == 'F' .and. (member%continues .eqv. rows > 1), 'one facade')
+         call check(row%facade == 'F' .and. (row%continues .eqv. rows > 1), 'one facade')
       end do
       call check(rows == 3, 'a hinge at each storey')
    end subroutine test_given_facade

@@ -23,7 +23,7 @@ program test_properties
    use dondolo_case_solver_group, only : read_solver_group, solver_input_type
    use dondolo_case_stripes_group, only : check_states, read_stripes_group, stripes_input_type
    use dondolo_case_uncertainty_group, only : read_uncertainty_group
-   use dondolo_population_variants, only : stated_wall_type
+   use dondolo_population_variants, only : base_wall_type
    use dondolo_wall, only : mechanism_names, new_wall, wall_type
    use dondolo_wall_properties, only : is_beyond_bare, wall_input_type
    implicit none
@@ -318,7 +318,7 @@ contains
       character(len=:), allocatable :: text, what, echo
       integer :: i, j
 
-      if (any(name == [character(len=8) :: 'wall', 'building', 'member'])) return
+      if (any(name == [character(len=8) :: 'wall', 'building', 'row'])) return
       call suite('way of '//name)
       table = property_table(name)
       do i = 1, size(table)
@@ -357,7 +357,7 @@ contains
       type(solver_input_type) :: solver
       type(history_input_type) :: history
       type(check_input_type), allocatable :: check_by_code
-      type(stated_wall_type) :: wall
+      type(base_wall_type) :: wall
       character(len=:), allocatable :: file
       logical :: designs
 

@@ -16,10 +16,10 @@ program test_readers
    use dondolo_base_text, only : to_text
    use dondolo_case, only : case_type
    use dondolo_case_read_case, only : read_case
-   use dondolo_population_member, only : member_type
    use dondolo_population_reader, only : read_population
    use dondolo_population_row_result, only : row_result_type
    use dondolo_population_store, only : look_into_store, store_type
+   use dondolo_population_wall_row, only : wall_row_type
    use dondolo_record, only : largest_acceleration, record_type
    use dondolo_record_catalogue, only : read_catalogue
    use dondolo_record_reader, only : read_records
@@ -218,19 +218,19 @@ contains
       integer, intent(inout) :: count
       logical, intent(inout) :: is_sound
       type(error_type), allocatable, intent(out) :: error
-      type(member_type), allocatable :: members(:)
+      type(wall_row_type), allocatable :: rows(:)
       integer :: i
 
-      call read_population(path, members, error)
+      call read_population(path, rows, error)
       if (allocated(error)) return
-      count = size(members)
+      count = size(rows)
       is_sound = count > 0
       do i = 1, count
-         associate (wall => members(i)%wall)
+         associate (wall => rows(i)%wall)
             is_sound = is_sound .and. wall%model%radius > 0.0_wp .and. wall%model%radius < huge(1.0_wp) &
-               & .and. wall%model%alpha > 0.0_wp .and. wall%model%alpha < 1.6_wp .and. members(i)%weight >= 0.0_wp &
-               & .and. members(i)%weight < huge(1.0_wp) &
-               & .and. members(i)%p_occ >= 0.0_wp .and. members(i)%p_occ <= 1.0_wp .and. len(wall%name()) > 0
+               & .and. wall%model%alpha > 0.0_wp .and. wall%model%alpha < 1.6_wp .and. rows(i)%weight >= 0.0_wp &
+               & .and. rows(i)%weight < huge(1.0_wp) &
+               & .and. rows(i)%p_occ >= 0.0_wp .and. rows(i)%p_occ <= 1.0_wp .and. len(wall%name()) > 0
          end associate
       end do
    end subroutine try_walls

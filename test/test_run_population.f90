@@ -20,12 +20,12 @@ program test_run_population
    use dondolo_case_run_case, only : plan_case, run_case
    use dondolo_fragility_study, only : study_type
    use dondolo_motion_work, only : work_type
-   use dondolo_population_member, only : member_type
    use dondolo_population_reader, only : read_population
    use dondolo_population_row_result, only : row_result_type
    use dondolo_population_run_rows, only : run_rows
    use dondolo_population_store, only : look_into_store, open_store, store_type
    use dondolo_population_store_format, only : make_head
+   use dondolo_population_wall_row, only : wall_row_type
    implicit none
 
    character(len=*), parameter :: scratch = 'build/test_run_population', lf = new_line('a')
@@ -91,7 +91,7 @@ contains
    !> Everything that is wrong with a population is said at once
    subroutine test_problems()
       type(case_type) :: case
-      type(member_type), allocatable :: members(:)
+      type(wall_row_type), allocatable :: table_rows(:)
       type(error_type), allocatable :: error
       integer :: i
 
@@ -102,7 +102,7 @@ contains
          & 'f,one_sided,3,0.25,,,1.5'//lf//'g,one_sided,3,0.25,2,x,'//lf//'g,two_block,3,0.25,3,x,'//lf// &
          & 'h,one_sided,3,0.25,,x,'//lf//'h,two_block,3,0.25,,y,'//lf//'a,two_block,3,0.25,,,'//lf// &
          & 'i,"o'//lf//'n",3,0.25,,,'//lf)
-      call read_population(scratch//'/walls.csv', members, error)
+      call read_population(scratch//'/walls.csv', table_rows, error)
       call check_problems(error)
       call read_case(scratch//'/a.nml', case, error)
       call check_problems(error)
@@ -120,7 +120,7 @@ contains
       call check_error(error, 'walls.csv: no walls under the header', 'no walls')
       call write_file('walls.csv', 'name,mechanism,height,thickness,group'//lf//'wall 2,one_sided,3,0.25,'//lf// &
          & ',two_block,3,0.25,'//lf//'"a'//achar(27)//'[1m",one_sided,3,0.25,'//lf//'b,one_sided,3,0.25,"c'//lf//'d"'//lf)
-      call read_population(scratch//'/walls.csv', members, error)
+      call read_population(scratch//'/walls.csv', table_rows, error)
       call check_error(error, 'line 3: name = ''wall 2'': another wall has this name (line 2)', &
          & 'a wall without a name is no mechanism of the one before')
       if (allocated(error)) then
@@ -129,27 +129,27 @@ contains
       end if
       call write_file('walls.csv', 'name,mechanism,height,thickness'//lf//',one_sided,3,0.25'//lf// &
          & 'wall 1,two_block,3,0.25'//lf)
-      call read_population(scratch//'/walls.csv', members, error)
+      call read_population(scratch//'/walls.csv', table_rows, error)
       call check_error(error, 'line 3: name = ''wall 1'': another wall has this name (line 2)', &
          & 'a wall called what one without a name is called')
       call write_file('walls.csv', 'name,mechanism,height,thickness'//lf//'a,one_sided,3,0.25'//lf// &
          & 'b,one_sided,x,0.25'//lf//'a,one_sided,3,0.25'//lf//'c,one_sided,3,0.25'//lf//'c,two_block,-3,0.25'//lf// &
          & 'c,free_standing,3,0.25'//lf)
-      call read_population(scratch//'/walls.csv', members, error)
+      call read_population(scratch//'/walls.csv', table_rows, error)
       call check_error(error, 'line 4: name = ''a'': another wall has this name (line 2)', 'behind a wall that is wrong')
       if (allocated(error)) call check(lines_of(error%message) == 3, 'a wall goes on behind a row that is wrong')
       call write_file('walls.csv', 'mechanism,height,thickness,p_occ,weight'//lf//'one_sided,3,0.25,-0.00,-0'//lf// &
          & 'one_sided,3,0.25,1,1'//lf)
-      call read_population(scratch//'/walls.csv', members, error)
+      call read_population(scratch//'/walls.csv', table_rows, error)
       call check_ok(error, 'zeros with a sign')
-      if (allocated(members)) call check(all(sign(1.0_wp, [members%p_occ, members%weight]) > 0.0_wp), 'lose it')
+      if (allocated(table_rows)) call check(all(sign(1.0_wp, [table_rows%p_occ, table_rows%weight]) > 0.0_wp), 'lose it')
       call write_file('walls.csv', 'mechanism,height,thickness,group'//lf//'one_sided,3,0.25,"  "'//lf)
-      call read_population(scratch//'/walls.csv', members, error)
+      call read_population(scratch//'/walls.csv', table_rows, error)
       call check_ok(error, 'a group of blanks')
-      if (allocated(members)) call check(len(members(1)%group) == 0, 'is none')
+      if (allocated(table_rows)) call check(len(table_rows(1)%group) == 0, 'is none')
       call write_file('walls.csv', 'name,mechanism,height,thickness,hinge,weight,p_occ,eccentricity'//lf// &
          & 'a,one_sided,-3,0,0.5,-1,2,'//lf//'b,two_block,3,0.3,1.5,y,1,4'//lf//'c,two_bloc,x,,,,,'//lf)
-      call read_population(scratch//'/walls.csv', members, error)
+      call read_population(scratch//'/walls.csv', table_rows, error)
       call check_row(error, 2, [character(len=60) :: 'height = -3: must be positive', &
          & 'thickness = 0: must be positive', 'hinge = 0.5: only for mechanism = ''two_block''', &
          & 'weight = -1: must lie between 0 and', 'p_occ = 2: must lie between 0 and 1'])
@@ -270,9 +270,9 @@ contains
    end subroutine test_threads
 
    !> Run rows of a case, on one thread unless another number is given; first is the number of the first of them
-   subroutine run_some_rows(case, members, first, rows, error, threads)
+   subroutine run_some_rows(case, table_rows, first, rows, error, threads)
       type(case_type), intent(in), target :: case
-      type(member_type), intent(in) :: members(:)
+      type(wall_row_type), intent(in) :: table_rows(:)
       integer, intent(in) :: first
       type(row_result_type), allocatable, intent(out) :: rows(:)
       type(error_type), allocatable, intent(out) :: error
@@ -283,7 +283,7 @@ contains
 
       call case%make_study(study, 1)
       if (present(threads)) study%threads = threads
-      call run_rows(study, members, rows, error, 0, 0)
+      call run_rows(study, table_rows, rows, error, 0, 0)
       rows%row = [(first + i - 1, i=1, size(rows))]
    end subroutine run_some_rows
 
@@ -292,25 +292,25 @@ contains
       type(case_type), intent(in) :: case
       type(results_type), intent(in) :: results
 
-      type(member_type), allocatable :: members(:)
+      type(wall_row_type), allocatable :: table_rows(:)
       type(row_result_type), allocatable :: rows(:)
       type(error_type), allocatable :: error
       integer :: reached(size(case%stripes%levels), 2)
       real(wp) :: fraction(size(case%stripes%levels)), weight
       integer :: i, k
 
-      call read_population(scratch//'/walls.csv', members, error)
-      call run_some_rows(case, members, 1, rows, error)
+      call read_population(scratch//'/walls.csv', table_rows, error)
+      call run_some_rows(case, table_rows, 1, rows, error)
       call check_ok(error, 'rows')
       if (allocated(error)) return
       do k = 1, 2
          fraction = 0.0_wp
          weight = 0.0_wp
          do i = 1, size(rows)
-            if (members(i)%wall%mechanism_name() /= results%typologies(1, k)%mechanism) cycle
-            weight = weight + members(i)%weight*members(i)%p_occ
+            if (table_rows(i)%wall%mechanism_name() /= results%typologies(1, k)%mechanism) cycle
+            weight = weight + table_rows(i)%weight*table_rows(i)%p_occ
             reached = count(rows(i)%flags, dim=1)
-            fraction = fraction + members(i)%weight*members(i)%p_occ*real(reached(:, k), wp)/real(rows(i)%histories, wp)
+            fraction = fraction + table_rows(i)%weight*table_rows(i)%p_occ*real(reached(:, k), wp)/real(rows(i)%histories, wp)
          end do
          call check(all(abs(results%typologies(1, k)%mean_fraction - fraction/weight) < 1.0e-12_wp), &
             & 'fractions of threshold '//to_text(k))
@@ -330,24 +330,24 @@ contains
    !> Of several rows that cannot be run, the first is named, whichever thread meets the others
    subroutine test_first_error()
       type(case_type) :: case
-      type(member_type), allocatable :: members(:)
+      type(wall_row_type), allocatable :: table_rows(:)
       type(row_result_type), allocatable :: rows(:)
       type(error_type), allocatable :: error
       integer :: threads, i
 
       call suite('first error')
       call read_case(scratch//'/a.nml', case, error)
-      call read_population(scratch//'/walls.csv', members, error)
+      call read_population(scratch//'/walls.csv', table_rows, error)
       call check_ok(error, 'population')
       if (allocated(error)) return
-      associate (bad => members(2)%wall%mechanism, good => members(1)%wall%mechanism)
+      associate (bad => table_rows(2)%wall%mechanism, good => table_rows(1)%wall%mechanism)
          case%solver%solver%edp_limit = 0.5_wp*(bad%geometric_end()/bad%capacity + good%geometric_end()/good%capacity)
       end associate
       ! The first row can be run, no other can.
-      members = members([1, (2, i=1, 7)])
-      call members(2)%wall%input%set('name', 'the first')
+      table_rows = table_rows([1, (2, i=1, 7)])
+      call table_rows(2)%wall%input%set('name', 'the first')
       do threads = 1, 4
-         call run_some_rows(case, members, 1, rows, error, threads)
+         call run_some_rows(case, table_rows, 1, rows, error, threads)
          call check_error(error, 'wall ''the first'': edp_limit', to_text(threads)//' threads')
       end do
    end subroutine test_first_error
@@ -355,7 +355,7 @@ contains
    !> A store gives back what was put in, in any order and in memory too, and anything else is refused
    subroutine test_file()
       type(case_type) :: case
-      type(member_type), allocatable :: members(:)
+      type(wall_row_type), allocatable :: table_rows(:)
       type(row_result_type), allocatable :: rows(:)
       type(store_type) :: file, memory
       type(error_type), allocatable :: error
@@ -366,8 +366,8 @@ contains
 
       call suite('store')
       call read_case(scratch//'/a.nml', case, error)
-      call read_population(scratch//'/walls.csv', members, error)
-      call run_some_rows(case, members, 1, rows, error)
+      call read_population(scratch//'/walls.csv', table_rows, error)
+      call run_some_rows(case, table_rows, 1, rows, error)
       call check_ok(error, 'rows')
       if (allocated(error)) return
       call make_part(case, path, 1, 7, [3, 4])
@@ -543,7 +543,7 @@ contains
       type(results_type) :: results
       type(store_type) :: file, other
       type(row_result_type), allocatable :: rows(:)
-      type(member_type), allocatable :: members(:)
+      type(wall_row_type), allocatable :: table_rows(:)
       type(work_type) :: work, planned
       type(scale_warnings_type) :: scales
       type(error_type), allocatable :: error
@@ -552,7 +552,7 @@ contains
 
       call suite('meddled')
       call read_case(scratch//'/a.nml', case, error)
-      call read_population(scratch//'/walls.csv', members, error)
+      call read_population(scratch//'/walls.csv', table_rows, error)
       call check_ok(error, 'population')
       if (allocated(error)) return
       path = trim(store_path(case))
@@ -560,7 +560,7 @@ contains
       call make_part(case, path, 1, 7, [2])
       call find_start(case, file, error)
       whole = contents(path)
-      call run_some_rows(case, members(3:4), 3, rows, error)
+      call run_some_rows(case, table_rows(3:4), 3, rows, error)
       call file%claim(error)
       call check_ok(error, 'one run')
       call find_start(case, other, error)
@@ -762,13 +762,13 @@ contains
       character(len=*), intent(in) :: path
       integer, intent(in) :: first, last, blocks(:)
 
-      type(member_type), allocatable :: members(:)
+      type(wall_row_type), allocatable :: table_rows(:)
       type(row_result_type), allocatable :: rows(:)
       type(store_type) :: whole, file
       type(error_type), allocatable :: error
       integer :: i, from
 
-      call read_population(scratch//'/walls.csv', members, error)
+      call read_population(scratch//'/walls.csv', table_rows, error)
       call remove_file(path)
       call remove_file(trim(store_path(case)))
       call find_start(case, whole, error)
@@ -778,7 +778,7 @@ contains
       call file%claim(error)
       from = first
       do i = 1, size(blocks)
-         call run_some_rows(case, members(from:from + blocks(i) - 1), from, rows, error)
+         call run_some_rows(case, table_rows(from:from + blocks(i) - 1), from, rows, error)
          call file%put(rows, error)
          from = from + blocks(i)
       end do

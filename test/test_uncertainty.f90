@@ -6,7 +6,7 @@ program test_uncertainty
    use dondolo_base_spelling, only : meant
    use dondolo_population_distribution, only : distribution_type, new_distribution
    use dondolo_population_sensitivity, only : new_sensitivity, sensitivity_type, smallest_sample
-   use dondolo_population_variants, only : sample_variants, stated_wall_type
+   use dondolo_population_variants, only : sample_variants, base_wall_type
    use dondolo_wall_properties, only : wall_input_type
    implicit none
 
@@ -83,7 +83,7 @@ contains
    !> Every part of equal probability holds one sample; the rows behind the sample
    subroutine test_variants()
       integer, parameter :: n = 50
-      type(stated_wall_type) :: wall, other
+      type(base_wall_type) :: wall, other
       type(wall_input_type) :: row
       integer :: hits(n), i, k
 

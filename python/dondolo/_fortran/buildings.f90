@@ -68,14 +68,14 @@ contains
       real(c_double), intent(in) :: acceleration(k), vertical(m), dt
       character(len=*), intent(in) :: what
       integer(c_int64_t), intent(out) :: sent(5)
-      type(wall_type), pointer :: people(:)
+      type(wall_type), pointer :: wall(:)
       type(building_type) :: building
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
 
-      call find_walls(walls, people, error)
+      call find_walls(walls, wall, error)
       if (.not. allocated(error)) then
-         building = people(1)%building
+         building = wall(1)%building
          building%refine = building%parts(dt)
          if (what == 'base') call building%lean(0.0_c_double, 0.0_c_double)
          if (what == 'top') call building%lean(building%height, 0.0_c_double)
@@ -88,16 +88,16 @@ contains
    subroutine support_notes(walls, sent)
       integer(c_int64_t), intent(in) :: walls
       integer(c_int64_t), intent(out) :: sent(5)
-      type(wall_type), pointer :: people(:)
+      type(wall_type), pointer :: wall(:)
       type(supports_type) :: supports
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
       integer :: i
 
-      call find_walls(walls, people, error)
+      call find_walls(walls, wall, error)
       if (.not. allocated(error)) then
-         do i = 1, size(people)
-            call supports%look(people(i))
+         do i = 1, size(wall)
+            call supports%look(wall(i))
          end do
          call supports%make_notes(parcel%lines)
       end if

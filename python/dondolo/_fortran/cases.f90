@@ -11,12 +11,12 @@ module cases
    use dondolo_case_run_case, only : run => run_case
    use dondolo_fragility_study, only : runs_of, study_type
    use dondolo_parcel, only : parcel_type, send
-   use dondolo_population_member, only : member_type
    use dondolo_population_reader, only : read_rows
+   use dondolo_population_wall_row, only : wall_row_type
    use dondolo_record_parcel, only : pack_records
    use dondolo_results_parcel, only : pack_results
    use dondolo_store_parcel, only : pack_store
-   use dondolo_wall_parcel, only : pack_members
+   use dondolo_wall_parcel, only : pack_rows
    implicit none
    private
 
@@ -115,24 +115,24 @@ contains
       !> Lack of memory, or the table of walls has changed
       type(error_type), allocatable, intent(out) :: error
 
-      type(member_type), allocatable :: members(:)
+      type(wall_row_type), allocatable :: rows(:)
       real(c_double) :: scale
       integer :: i
 
       if (case%job%task == typology_task) then
-         call read_rows(case%table, members, error)
+         call read_rows(case%table, rows, error)
       else
-         allocate (members(1))
-         members(1)%wall = case%wall
-         members(1)%group = ''
-         members(1)%facade = ''
+         allocate (rows(1))
+         rows(1)%wall = case%wall
+         rows(1)%group = ''
+         rows(1)%facade = ''
       end if
-      if (.not. allocated(error)) call check_room(error, walls=size(members))
+      if (.not. allocated(error)) call check_room(error, walls=size(rows))
       if (.not. allocated(error)) then
          if (.not. allocated(case%stripes%levels)) allocate (case%stripes%levels(0))
          scale = 1
          if (case%job%task == history_task) scale = case%history_scale()
-         parcel%integers = [size(members), size(case%stripes%levels), size(case%suite%records), &
+         parcel%integers = [size(rows), size(case%stripes%levels), size(case%suite%records), &
             & size(case%stripes%thresholds), case%job%threads, case%history%record, 0, 0, 0, merge(1, 0, case%designs)]
          parcel%reals = [case%solver%solver%rtol, case%solver%solver%atol, case%solver%solver%edp_limit, &
             & count([case%solver%solver%estimate_error, case%solver%solver%certify])*1.0_c_double, scale, case%stripes%levels, &
@@ -145,7 +145,7 @@ contains
          call parcel%lines%add(trim(case%solver%solver%engine))
          call parcel%lines%add(case%stripes%states)
          call pack_check(case, parcel)
-         call pack_members(members, parcel)
+         call pack_rows(rows, parcel)
          call pack_records(case%suite%records, parcel, error)
          do i = 1, case%notes%count
             call parcel%lines%add(case%notes%line(i)%text)

@@ -101,7 +101,7 @@ contains
       integer(c_int), intent(in) :: n, given(3)
       real(c_double), intent(in) :: numbers(n)
       integer(c_int64_t), intent(out) :: sent(5)
-      type(wall_type), pointer :: people(:)
+      type(wall_type), pointer :: wall(:)
       type(check_input_type) :: input
       type(kinematic_type) :: kinematic
       type(sheet_type) :: sheet
@@ -111,12 +111,12 @@ contains
       type(error_type), allocatable :: error
 
       call read_input(texts, numbers, given, input, error)
-      if (.not. allocated(error)) call find_walls(walls, people, error)
-      if (.not. allocated(error)) call new_kinematic(kinematic, people(1), error)
+      if (.not. allocated(error)) call find_walls(walls, wall, error)
+      if (.not. allocated(error)) call new_kinematic(kinematic, wall(1), error)
       if (.not. allocated(error)) then
          call check_by_ntc(sheet, kinematic, input)
          call pack_sheet(sheet, parcel)
-         call wall_warnings%look(people(1))
+         call wall_warnings%look(wall(1))
          call wall_warnings%warn(warnings)
          call warnings%put_objects(parcel%lines)
       end if
@@ -129,14 +129,14 @@ contains
       integer(c_int), intent(in) :: state, records, n
       real(c_double), intent(in) :: pga, edp(n)
       integer(c_int64_t), intent(out) :: sent(5)
-      type(wall_type), pointer :: people(:)
+      type(wall_type), pointer :: wall(:)
       type(kinematic_type) :: kinematic
       type(sheet_type) :: sheet
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
 
-      call find_walls(walls, people, error)
-      if (.not. allocated(error)) call new_kinematic(kinematic, people(1), error)
+      call find_walls(walls, wall, error)
+      if (.not. allocated(error)) call new_kinematic(kinematic, wall(1), error)
       if (.not. allocated(error)) then
          call check_peaks(sheet, kinematic, state, pga, records, edp)
          call pack_sheet(sheet, parcel)

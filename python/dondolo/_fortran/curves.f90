@@ -192,7 +192,7 @@ contains
       integer(c_int), intent(in) :: m, status
       real(c_double), intent(in) :: levels(m), largest_edp, curve(8)
       integer(c_int64_t), intent(out) :: sent(5)
-      type(wall_type), pointer :: people(:), wall
+      type(wall_type), pointer :: list(:), wall
       type(stripes_type) :: stripes
       type(fragility_type) :: fragility
       type(warnings_type) :: warnings
@@ -200,9 +200,9 @@ contains
       type(error_type), allocatable :: error
 
       wall => null()
-      if (walls /= 0) call find_walls(walls, people, error)
+      if (walls /= 0) call find_walls(walls, list, error)
       if (.not. allocated(error)) then
-         if (walls /= 0) wall => people(1)
+         if (walls /= 0) wall => list(1)
          fragility%status = status
          fragility%theta = curve(1)
          fragility%beta = curve(2)

@@ -45,7 +45,7 @@ contains
       real(c_double), intent(out) :: edp, time_of_peak, edp_error
       integer(c_int), intent(out) :: collapsed, impacts
       integer(c_int64_t), intent(out) :: sent(5)
-      type(wall_type), pointer :: people(:)
+      type(wall_type), pointer :: wall(:)
       type(suite_type), pointer :: records, motions
       type(floors_type), target :: own
       type(solver_type) :: solver
@@ -54,16 +54,16 @@ contains
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
 
-      call find_walls(walls, people, error)
+      call find_walls(walls, wall, error)
       if (.not. allocated(error)) call find_suite(suite, records, error)
       solver = as_solver(engine, settings)
       if (.not. allocated(error)) call check_scale(records, number, scale, error)
-      if (.not. allocated(error)) call find_motions(people(1), records, 1, own, motions, error)
+      if (.not. allocated(error)) call find_motions(wall(1), records, 1, own, motions, error)
       if (.not. allocated(error)) then
          if (history == 1) then
-            call simulate_wall(people(1)%mechanism, motions%records(number), scale, solver, response, error, trace)
+            call simulate_wall(wall(1)%mechanism, motions%records(number), scale, solver, response, error, trace)
          else
-            call simulate_wall(people(1)%mechanism, motions%records(number), scale, solver, response, error)
+            call simulate_wall(wall(1)%mechanism, motions%records(number), scale, solver, response, error)
          end if
       end if
       if (.not. allocated(error) .and. history == 1) call check_memory(bytes_of_row*real(trace%rows, c_double), error)
@@ -87,7 +87,7 @@ contains
       real(c_double), intent(out) :: edp(k), time_of_peak(k), edp_error(k)
       integer(c_int), intent(out) :: collapsed(k), impacts(k)
       integer(c_int64_t), intent(out) :: failure(5)
-      type(wall_type), pointer :: people(:)
+      type(wall_type), pointer :: wall(:)
       type(suite_type), pointer :: records, motions
       type(floors_type), target :: own
       type(solver_type) :: solver
@@ -103,20 +103,20 @@ contains
       solver = as_solver(engine, settings)
       call check_room(error, histories=real(k, c_double))
       if (.not. allocated(error)) call check_threads(threads, error)
-      if (.not. allocated(error)) call find_walls(walls, people, error)
+      if (.not. allocated(error)) call find_walls(walls, wall, error)
       if (.not. allocated(error)) call find_suite(suite, records, error)
       if (.not. allocated(error)) call check_solver(solver, error)
-      if (.not. allocated(error)) call check_limit(solver, people(1)%mechanism, error)
-      if (.not. allocated(error)) call check_engine(solver, people(1)%mechanism, error, records%has_vertical)
+      if (.not. allocated(error)) call check_limit(solver, wall(1)%mechanism, error)
+      if (.not. allocated(error)) call check_engine(solver, wall(1)%mechanism, error, records%has_vertical)
       do i = 1, k
          if (allocated(error)) exit
          call check_scale(records, record(i), scale(i), error)
       end do
-      if (.not. allocated(error)) call find_motions(people(1), records, threads, own, motions, error)
+      if (.not. allocated(error)) call find_motions(wall(1), records, threads, own, motions, error)
       if (.not. allocated(error)) then
          ensemble%record = record
          ensemble%scale = scale
-         call run_ensemble(ensemble, people(1)%mechanism, motions, solver, threads, error)
+         call run_ensemble(ensemble, wall(1)%mechanism, motions, solver, threads, error)
          call unpack_response(ensemble%response, edp, collapsed, impacts, time_of_peak, edp_error)
          if (.not. allocated(error)) call check_interrupt(error)
       end if
@@ -133,7 +133,7 @@ contains
       real(c_double), intent(out) :: edp(k), time_of_peak(k), edp_error(k), lowest(k), highest(k)
       integer(c_int), intent(out) :: status(k), collapsed(k), impacts(k)
       integer(c_int64_t), intent(out) :: failure(5)
-      type(wall_type), pointer :: people(:)
+      type(wall_type), pointer :: wall(:)
       type(suite_type), pointer :: records, motions
       type(floors_type), target :: own
       type(ensemble_type) :: ensemble
@@ -151,20 +151,20 @@ contains
       highest = 0
       call check_room(error, histories=real(k, c_double))
       if (.not. allocated(error)) call check_threads(threads, error)
-      if (.not. allocated(error)) call find_walls(walls, people, error)
+      if (.not. allocated(error)) call find_walls(walls, wall, error)
       if (.not. allocated(error)) call find_suite(suite, records, error)
-      if (.not. allocated(error)) call check_limit(solver_type(edp_limit=edp_limit), people(1)%mechanism, error)
+      if (.not. allocated(error)) call check_limit(solver_type(edp_limit=edp_limit), wall(1)%mechanism, error)
       do i = 1, k
          if (allocated(error)) exit
          call check_scale(records, record(i), scale(i), error)
       end do
-      if (.not. allocated(error)) call find_motions(people(1), records, threads, own, motions, error)
+      if (.not. allocated(error)) call find_motions(wall(1), records, threads, own, motions, error)
       if (.not. allocated(error)) then
          ensemble%record = record
          ensemble%scale = scale
          allocate (ensemble%response(k))
          ensemble%response%edp = double_edp
-         call certify_histories(certificates, people(1), motions%records, ensemble, edp_limit, threads, error)
+         call certify_histories(certificates, wall(1), motions%records, ensemble, edp_limit, threads, error)
       end if
       if (.not. allocated(error)) then
          status = certificates%status
@@ -202,21 +202,21 @@ contains
       integer(c_int), intent(in) :: number
       real(c_double), intent(in) :: scale
       integer(c_int64_t), intent(out) :: sent(5)
-      type(wall_type), pointer :: people(:)
+      type(wall_type), pointer :: wall(:)
       type(suite_type), pointer :: records
       type(wall_warnings_type) :: wall_warnings
       type(warnings_type) :: warnings
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
 
-      call find_walls(walls, people, error)
+      call find_walls(walls, wall, error)
       if (.not. allocated(error)) call find_suite(suite, records, error)
       if (.not. allocated(error)) call check_scale(records, number, scale, error)
       if (.not. allocated(error)) then
-         call wall_warnings%look(people(1))
+         call wall_warnings%look(wall(1))
          call wall_warnings%warn(warnings)
-         call warn_of_records(records, people(1)%gravity, warnings, number)
-         call warn_of_fall(records%records(number), scale, people(1)%gravity, warnings)
+         call warn_of_records(records, wall(1)%gravity, warnings, number)
+         call warn_of_fall(records%records(number), scale, wall(1)%gravity, warnings)
          call warnings%put_objects(parcel%lines)
       end if
       call send(parcel, error, sent)

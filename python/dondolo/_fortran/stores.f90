@@ -10,11 +10,11 @@ module stores
    use dondolo_interface_handles, only : find_store, find_study, find_walls, hold, release
    use dondolo_parcel, only : parcel_type, report, send
    use dondolo_population_identity, only : add_wall, study_identity
-   use dondolo_population_member, only : member_type
    use dondolo_population_row_result, only : row_result_type, shape_type
    use dondolo_population_run_rows, only : run_block => run_rows
    use dondolo_population_store, only : open_file => open_store, store_type
    use dondolo_population_store_format, only : bytes_of_entry, identity_type, pack_entry, unpack_entries
+   use dondolo_population_wall_row, only : wall_row_type
    use dondolo_store_parcel, only : pack_store
    use dondolo_wall, only : wall_type
    implicit none
@@ -34,7 +34,7 @@ contains
       integer(c_int64_t), intent(out) :: handle
       integer(c_int64_t), intent(out) :: failure(5)
       type(study_type), pointer :: chosen
-      type(wall_type), pointer :: people(:)
+      type(wall_type), pointer :: wall(:)
       type(study_type) :: own
       type(identity_type) :: identity
       type(store_type), pointer :: store
@@ -45,14 +45,14 @@ contains
 
       handle = 0
       call find_study(study, chosen, error)
-      if (.not. allocated(error)) call find_walls(walls, people, error)
+      if (.not. allocated(error)) call find_walls(walls, wall, error)
       if (.not. allocated(error)) then
          own = chosen
          own%thresholds = thresholds
-         do i = 1, size(people)
-            call add_wall(fingerprint, people(i))
+         do i = 1, size(wall)
+            call add_wall(fingerprint, wall(i))
          end do
-         call study_identity(own, fingerprint, size(people), 1, size(people), identity)
+         call study_identity(own, fingerprint, size(wall), 1, size(wall), identity)
          allocate (store)
          call open_file(store, path, identity, error)
          if (allocated(error)) then
@@ -107,28 +107,28 @@ contains
       real(c_double), intent(in) :: thresholds(k)
       integer(c_int64_t), intent(out) :: sent(5)
       type(study_type), pointer :: chosen
-      type(wall_type), pointer :: people(:)
+      type(wall_type), pointer :: wall(:)
       type(study_type) :: own
-      type(member_type), allocatable :: members(:)
-      type(row_result_type), allocatable :: rows(:)
+      type(wall_row_type), allocatable :: rows(:)
+      type(row_result_type), allocatable :: results(:)
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
       integer :: i
 
       call check_room(error, walls=w)
       if (.not. allocated(error)) call find_study(study, chosen, error)
-      if (.not. allocated(error)) call find_walls(walls, people, error)
+      if (.not. allocated(error)) call find_walls(walls, wall, error)
       if (.not. allocated(error)) then
          own = chosen
          own%thresholds = thresholds
-         allocate (members(w))
-         members%wall = people(:w)
-         call run_block(own, members, rows, error, 0, 0)
+         allocate (rows(w))
+         rows%wall = wall(:w)
+         call run_block(own, rows, results, error, 0, 0)
       end if
       if (.not. allocated(error)) call check_interrupt(error)
       if (.not. allocated(error)) then
-         rows%row = [(first + i - 1, i=1, w)]
-         call pack_block(rows, shape_type(size(own%levels), size(thresholds)), parcel%integers)
+         results%row = [(first + i - 1, i=1, w)]
+         call pack_block(results, shape_type(size(own%levels), size(thresholds)), parcel%integers)
       end if
       call send(parcel, error, sent)
    end subroutine run_rows

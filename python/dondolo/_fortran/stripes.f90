@@ -133,7 +133,7 @@ contains
       integer(c_int), intent(in) :: w
       integer(c_int64_t), intent(out) :: sent(5)
       type(study_type), pointer :: chosen
-      type(wall_type), pointer :: people(:)
+      type(wall_type), pointer :: wall(:)
       type(stripes_type) :: stripes
       type(scale_warnings_type) :: scales
       type(wall_warnings_type) :: wall_warnings
@@ -144,31 +144,31 @@ contains
       logical :: fresh
 
       call find_study(study, chosen, error)
-      if (.not. allocated(error)) call find_walls(walls, people, error)
+      if (.not. allocated(error)) call find_walls(walls, wall, error)
       if (.not. allocated(error)) call chosen%check_motions(error)
       do i = 1, w
          if (allocated(error)) exit
          ! Of a wall, sides and gravity alone count in most plans: most walls of a population share one.
          fresh = i == 1 .or. chosen%scaling%needs_wall()
-         if (.not. fresh) fresh = people(i)%gravity < people(i - 1)%gravity .or. people(i)%gravity > people(i - 1)%gravity &
-            & .or. (people(i)%mechanism%two_sided .neqv. people(i - 1)%mechanism%two_sided)
+         if (.not. fresh) fresh = wall(i)%gravity < wall(i - 1)%gravity .or. wall(i)%gravity > wall(i - 1)%gravity &
+            & .or. (wall(i)%mechanism%two_sided .neqv. wall(i - 1)%mechanism%two_sided)
          if (fresh) then
-            call plan_stripes(stripes, people(i), chosen, error)
+            call plan_stripes(stripes, wall(i), chosen, error)
          else
-            call check_limit(chosen%solver, people(i)%mechanism, error)
+            call check_limit(chosen%solver, wall(i)%mechanism, error)
          end if
          if (allocated(error)) then
-            if (w > 1) call add_place(error, 'wall '''//people(i)%name()//'''')
+            if (w > 1) call add_place(error, 'wall '''//wall(i)%name()//'''')
             exit
          end if
          histories(i) = size(stripes%record)
-         call scales%look(stripes, chosen, people(i))
-         call wall_warnings%look(people(i))
+         call scales%look(stripes, chosen, wall(i))
+         call wall_warnings%look(wall(i))
       end do
       if (.not. allocated(error)) then
          call wall_warnings%warn(warnings)
          of_walls = warnings%count
-         call warn_of_records(chosen%suite, people(1)%gravity, warnings)
+         call warn_of_records(chosen%suite, wall(1)%gravity, warnings)
          ! Histories of one stripe whose level is the factor are points, not counts of clusters
          if (len(chosen%scaling%name) > 0) call warn_of_events(chosen%suite, warnings)
          call scales%warn(warnings)
@@ -188,17 +188,17 @@ contains
       integer(c_int64_t), intent(in) :: study, walls
       integer(c_int64_t), intent(out) :: sent(5)
       type(study_type), pointer :: chosen
-      type(wall_type), pointer :: people(:)
+      type(wall_type), pointer :: wall(:)
       type(wall_warnings_type) :: wall_warnings
       type(warnings_type) :: warnings
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
 
       call find_study(study, chosen, error)
-      if (.not. allocated(error)) call find_walls(walls, people, error)
-      if (.not. allocated(error)) call chosen%check(people(1), error)
+      if (.not. allocated(error)) call find_walls(walls, wall, error)
+      if (.not. allocated(error)) call chosen%check(wall(1), error)
       if (.not. allocated(error)) then
-         call wall_warnings%look(people(1))
+         call wall_warnings%look(wall(1))
          call wall_warnings%warn(warnings)
          call warnings%put_objects(parcel%lines)
       end if
@@ -217,7 +217,7 @@ contains
       integer(c_int64_t), intent(out) :: work(8)
       integer(c_int64_t), intent(out) :: failure(5)
       type(study_type), pointer :: chosen
-      type(wall_type), pointer :: people(:)
+      type(wall_type), pointer :: wall(:)
       type(ensemble_type), allocatable :: part(:)
       type(work_type) :: total
       type(error_type), allocatable :: error, trouble
@@ -227,24 +227,24 @@ contains
       since = watched()
       call check_room(error, walls=last - one + 1, histories=real(count, c_double))
       if (.not. allocated(error)) call find_study(study, chosen, error)
-      if (.not. allocated(error)) call find_walls(walls, people, error)
+      if (.not. allocated(error)) call find_walls(walls, wall, error)
       if (.not. allocated(error)) then
          allocate (part(one:last), range(2, one:last))
          left = count
          range(1, :) = 1
          range(1, one) = first
          do i = one, last
-            range(2, i) = min(histories_of(chosen, people(i)), range(1, i) + left - 1)
+            range(2, i) = min(histories_of(chosen, wall(i)), range(1, i) + left - 1)
             left = left - (range(2, i) - range(1, i) + 1)
          end do
          ! As in run_rows: as many walls as go round evenly are shared out, all threads work on each of the others.
          crew = team_of(chosen%threads, huge(1))
          shared_out = last - modulo(last - one + 1, crew)
          !$omp parallel do schedule(dynamic) num_threads(crew) if(shared_out >= one) default(none) &
-         !$omp & shared(one, shared_out, chosen, people, range, part, since, error) private(trouble)
+         !$omp & shared(one, shared_out, chosen, wall, range, part, since, error) private(trouble)
          do i = one, shared_out
             call watch(since)
-            call run_part(part(i), people(i), chosen, 1, range(:, i), trouble)
+            call run_part(part(i), wall(i), chosen, 1, range(:, i), trouble)
             if (.not. allocated(trouble)) cycle
             !$omp critical (note_trouble)
             call move_alloc(trouble, error)
@@ -252,7 +252,7 @@ contains
          end do
          !$omp end parallel do
          do i = shared_out + 1, last
-            if (.not. allocated(error)) call run_part(part(i), people(i), chosen, chosen%threads, range(:, i), error)
+            if (.not. allocated(error)) call run_part(part(i), wall(i), chosen, chosen%threads, range(:, i), error)
          end do
       end if
       if (.not. allocated(error)) then

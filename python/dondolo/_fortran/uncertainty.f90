@@ -68,11 +68,11 @@ contains
       integer(c_int64_t), intent(in) :: walls
       character(len=*), intent(in) :: name
       integer(c_int64_t), intent(out) :: failure(5)
-      type(wall_type), pointer :: people(:)
+      type(wall_type), pointer :: wall(:)
       type(error_type), allocatable :: error
 
-      call find_walls(walls, people, error)
-      if (.not. allocated(error)) call check_published(name, people(1), error)
+      call find_walls(walls, wall, error)
+      if (.not. allocated(error)) call check_published(name, wall(1), error)
       call report(error, failure)
    end subroutine check_factor
 
@@ -80,14 +80,14 @@ contains
    subroutine restitution_sentence(walls, sent)
       integer(c_int64_t), intent(in) :: walls
       integer(c_int64_t), intent(out) :: sent(5)
-      type(wall_type), pointer :: people(:)
+      type(wall_type), pointer :: wall(:)
       character(len=:), allocatable :: line
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
 
-      call find_walls(walls, people, error)
+      call find_walls(walls, wall, error)
       if (.not. allocated(error)) then
-         call make_restitution_sentence(people(1), line)
+         call make_restitution_sentence(wall(1), line)
          call parcel%lines%add(line)
       end if
       call send(parcel, error, sent)

@@ -7,13 +7,13 @@ module dondolo_wall_parcel
    use dondolo_boundary, only : check_room, next_line
    use dondolo_interface_wall_statics, only : static_names, statics_of
    use dondolo_parcel, only : parcel_type
-   use dondolo_population_member, only : member_type
+   use dondolo_population_wall_row, only : wall_row_type
    use dondolo_wall, only : new_wall, wall_type
    use dondolo_wall_properties, only : wall_input_type, wall_numbers, wall_properties
    implicit none
    private
 
-   public :: set_walls, pack_walls, pack_members
+   public :: set_walls, pack_walls, pack_rows
 
 contains
 
@@ -122,27 +122,27 @@ contains
 
    !> Rows of a population: walls as they were understood, then reals: their weights and the probabilities of their
    !> mechanisms; text: their groups, then their facades
-   subroutine pack_members(members, parcel)
+   subroutine pack_rows(rows, parcel)
       !> The rows
-      type(member_type), intent(in) :: members(:)
+      type(wall_row_type), intent(in) :: rows(:)
       !> What was in it stays before them
       type(parcel_type), intent(inout) :: parcel
 
       type(wall_type), allocatable :: walls(:)
       integer :: i
 
-      allocate (walls(size(members)))
-      do i = 1, size(members)
-         walls(i) = members(i)%wall
+      allocate (walls(size(rows)))
+      do i = 1, size(rows)
+         walls(i) = rows(i)%wall
       end do
       call pack_walls(walls, parcel)
-      call parcel%add([members%weight, members%p_occ])
-      do i = 1, size(members)
-         call parcel%lines%add(members(i)%group)
+      call parcel%add([rows%weight, rows%p_occ])
+      do i = 1, size(rows)
+         call parcel%lines%add(rows(i)%group)
       end do
-      do i = 1, size(members)
-         call parcel%lines%add(members(i)%facade)
+      do i = 1, size(rows)
+         call parcel%lines%add(rows(i)%facade)
       end do
-   end subroutine pack_members
+   end subroutine pack_rows
 
 end module dondolo_wall_parcel

@@ -6,11 +6,11 @@ module walls
    use dondolo_boundary, only : check_room
    use dondolo_interface_handles, only : find_walls, hold, walls_type
    use dondolo_parcel, only : parcel_type, report, send
-   use dondolo_population_member, only : member_type
    use dondolo_population_reader, only : read_population
+   use dondolo_population_wall_row, only : wall_row_type
    use dondolo_wall, only : wall_type
    use dondolo_wall_mechanism, only : mechanism_type
-   use dondolo_wall_parcel, only : pack_members, pack_walls, set_walls
+   use dondolo_wall_parcel, only : pack_rows, pack_walls, set_walls
    use dondolo_wall_tie_statics, only : ties_after
    implicit none
    private
@@ -65,15 +65,15 @@ contains
       real(c_double), intent(in) :: rotation(n)
       real(c_double), intent(out) :: terms(n, 6)
       integer(c_int64_t), intent(out) :: failure(5)
-      type(wall_type), pointer :: people(:)
+      type(wall_type), pointer :: wall(:)
       type(error_type), allocatable :: error
       integer :: i
 
       terms = 0
-      call find_walls(walls, people, error)
-      if (.not. allocated(error)) call check_rotations(people(1)%mechanism, rotation, error)
+      call find_walls(walls, wall, error)
+      if (.not. allocated(error)) call check_rotations(wall(1)%mechanism, rotation, error)
       if (.not. allocated(error)) then
-         associate (mechanism => people(1)%mechanism)
+         associate (mechanism => wall(1)%mechanism)
             do i = 1, n
                call mechanism%terms(rotation(i), terms(i, 1), terms(i, 2), terms(i, 3), terms(i, 4), terms(i, 5))
                terms(i, 6) = mechanism%potential(rotation(i))
@@ -92,7 +92,7 @@ contains
       real(c_double), intent(out) :: elongation(k, n), energy(k, n)
       integer(c_int), intent(out) :: broken(k, n)
       integer(c_int64_t), intent(out) :: failure(5)
-      type(wall_type), pointer :: people(:)
+      type(wall_type), pointer :: wall(:)
       type(error_type), allocatable :: error
       logical :: is_broken(k)
       integer :: i
@@ -100,11 +100,11 @@ contains
       elongation = 0
       energy = 0
       broken = 0
-      call find_walls(walls, people, error)
+      call find_walls(walls, wall, error)
       if (.not. allocated(error)) then
          do i = 1, n
-            call ties_after(people(1)%mechanism, edp(i), elongation(:, i), is_broken)
-            energy(:, i) = people(1)%mechanism%restraints(:k)%strength*elongation(:, i)
+            call ties_after(wall(1)%mechanism, edp(i), elongation(:, i), is_broken)
+            energy(:, i) = wall(1)%mechanism%restraints(:k)%strength*elongation(:, i)
             broken(:, i) = merge(1, 0, is_broken)
          end do
       end if
@@ -138,14 +138,14 @@ contains
       character(len=*), intent(in) :: path
       real(c_double), intent(in) :: gravity
       integer(c_int64_t), intent(out) :: sent(5)
-      type(member_type), allocatable :: members(:)
+      type(wall_row_type), allocatable :: rows(:)
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
       character(len=:), allocatable :: note
 
-      call read_population(path, members, error, gravity, note)
-      if (.not. allocated(error)) call check_room(error, walls=size(members))
-      if (.not. allocated(error)) call pack_members(members, parcel)
+      call read_population(path, rows, error, gravity, note)
+      if (.not. allocated(error)) call check_room(error, walls=size(rows))
+      if (.not. allocated(error)) call pack_rows(rows, parcel)
       call parcel%add_note(note)
       call send(parcel, error, sent)
    end subroutine read_walls

@@ -13,7 +13,7 @@ module dondolo_building_floor_motion
    use dondolo_base_text, only : to_text
    use dondolo_building, only : building_type
    use dondolo_building_swing, only : swing_type
-   use dondolo_record, only : find_extremes, record_type
+   use dondolo_record, only : compute_extremes, record_type
    implicit none
    private
 
@@ -144,7 +144,7 @@ contains
             ! Equal supports move the wall as its floor does, to the bit
             if (abs(building%tilt) > 0.0_wp) call add(acceleration, -building%tilt, relative)
             if (.not. drifts_alone) then
-               call find_extremes(relative, lowest, highest)
+               call compute_extremes(relative, lowest, highest)
                largest = max(largest, -lowest, highest)
             end if
          end associate

@@ -112,7 +112,7 @@ contains
       kinematic%multiplier = kinematic%multiplier_at(0.0_wp)
       kinematic%end_displacement = kinematic%displacement(wall%mechanism%capacity)
       if (wall%mechanism%unseating < right_angle) kinematic%unseating = kinematic%displacement(wall%mechanism%unseating)
-      call find_tie_fracture(kinematic)
+      call compute_tie_fracture(kinematic)
    end subroutine new_kinematic
 
    !> Take the modes of the building that a wall stands on; at the base of a building the demand is that of the ground
@@ -203,7 +203,7 @@ contains
    end subroutine take_two_blocks
 
    !> The displacement at which ties break that carry more than half of the greatest multiplier
-   subroutine find_tie_fracture(kinematic)
+   subroutine compute_tie_fracture(kinematic)
       type(kinematic_type), intent(inout) :: kinematic
 
       !> Parts of the rotation up to the end at which the greatest multiplier is looked for
@@ -230,7 +230,7 @@ contains
             end associate
          end do
       end associate
-   end subroutine find_tie_fracture
+   end subroutine compute_tie_fracture
 
    !> Multiplier alpha at a rotation
    real(wp) function multiplier_at(self, q) result(multiplier)

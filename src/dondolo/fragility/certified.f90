@@ -100,13 +100,13 @@ contains
          bounds(k)%fewest = count(stripes%ran .and. stripes%certified%lowest >= thresholds(k), dim=1)
          bounds(k)%most = count(stripes%ran .and. stripes%certified%highest >= thresholds(k), dim=1)
       end do
-      call find_thetas(stripes%certified%highest, bounds%theta_lowest)
-      if (.not. allocated(error)) call find_thetas(stripes%certified%lowest, bounds%theta_highest)
+      call compute_thetas(stripes%certified%highest, bounds%theta_lowest)
+      if (.not. allocated(error)) call compute_thetas(stripes%certified%lowest, bounds%theta_highest)
 
    contains
 
       !> Theta of each threshold with other EDPs; 0 where there is no curve
-      subroutine find_thetas(edp, thetas)
+      subroutine compute_thetas(edp, thetas)
          !> EDPs (histories, levels)
          real(wp), intent(in) :: edp(:, :)
          !> Thetas
@@ -133,7 +133,7 @@ contains
          do j = 1, size(thresholds)
             if (curves(j)%has_fit()) thetas(j) = curves(j)%theta
          end do
-      end subroutine find_thetas
+      end subroutine compute_thetas
 
    end subroutine bound_states
 

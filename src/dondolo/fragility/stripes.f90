@@ -22,7 +22,7 @@ module dondolo_fragility_stripes
    private
 
    public :: stripes_type, multiple_stripe, plan_stripes, planned_work, run_histories, run_part, histories_of, take_motions, &
-      & find_lifts
+      & mark_lifts
 
    !> Memory that a history of the plan takes while it is run, once or three times [bytes]
    real(wp), parameter :: bytes_of_history = 114.0_wp, bytes_of_three_runs = 214.0_wp
@@ -308,7 +308,7 @@ contains
    end function collapses
 
    !> In which histories the ground accelerates downwards by g or more at some instant
-   pure subroutine find_lifts(stripes, falls, gravity, lifts)
+   pure subroutine mark_lifts(stripes, falls, gravity, lifts)
       type(stripes_type), intent(in) :: stripes
       !> Largest downward acceleration of the ground under each record [m/s2]
       real(wp), intent(in) :: falls(:)
@@ -323,7 +323,7 @@ contains
       do j = 1, size(stripes%levels)
          lifts(:, j) = stripes%ran(:, j) .and. stripes%scale(:, j)*falls(stripes%record) >= gravity
       end do
-   end subroutine find_lifts
+   end subroutine mark_lifts
 
    !> Histories that reach a threshold in each stripe
    pure function exceedances(self, threshold) result(counts)

@@ -14,9 +14,9 @@ module dondolo_population_reader
    use dondolo_base_settings, only : group_settings_type, new_settings
    use dondolo_base_settings_check, only : check_settings
    use dondolo_base_text, only : to_text
-   use dondolo_population_member, only : member_properties, member_type
    use dondolo_population_table, only : population_table_type
    use dondolo_population_wall_names, only : wall_names_type
+   use dondolo_population_wall_row, only : row_properties, wall_row_type
    use dondolo_wall, only : new_wall
    use dondolo_wall_hinge_level, only : find_hinge_levels, has_hinge_level
    use dondolo_wall_properties, only : wall_input_type, wall_properties
@@ -40,7 +40,7 @@ module dondolo_population_reader
       logical, private :: is_right = .true., has_weight = .false.
       !> What the row says, hinges that it has, and the number of the last that was given out
       type(wall_input_type), private :: input
-      type(member_type), private :: own
+      type(wall_row_type), private :: own
       real(wp), allocatable, private :: levels(:)
       integer, private :: level = 0
    contains
@@ -55,11 +55,11 @@ module dondolo_population_reader
 contains
 
    !> Read all of a population
-   subroutine read_population(file, members, error, gravity, note)
+   subroutine read_population(file, rows, error, gravity, note)
       !> Path of the table
       character(len=*), intent(in) :: file
       !> Its rows
-      type(member_type), allocatable, intent(out) :: members(:)
+      type(wall_row_type), allocatable, intent(out) :: rows(:)
       !> Everything that is wrong, or lack of memory
       type(error_type), allocatable, intent(out) :: error
       !> Gravity [m/s2], standard if absent
@@ -72,48 +72,48 @@ contains
       call table%read(file, error, gravity)
       if (allocated(error)) return
       if (present(note)) note = table%csv%note()
-      call read_rows(table, members, error)
+      call read_rows(table, rows, error)
    end subroutine read_population
 
    !> Read all rows of a table, or of what stands for it
-   subroutine read_rows(table, members, error)
+   subroutine read_rows(table, rows, error)
       type(population_table_type), intent(in) :: table
       !> Its rows
-      type(member_type), allocatable, intent(out) :: members(:)
+      type(wall_row_type), allocatable, intent(out) :: rows(:)
       !> Everything that is wrong, or lack of memory
       type(error_type), allocatable, intent(out) :: error
 
       type(population_reader_type) :: reader
       type(problems_type) :: problems
-      type(member_type), allocatable :: more(:)
+      type(wall_row_type), allocatable :: more(:)
       logical :: found
-      integer :: rows
+      integer :: n
 
-      allocate (members(64))
-      rows = 0
+      allocate (rows(64))
+      n = 0
       do
-         if (rows == size(members)) then
-            call check_room(2.0_wp*bytes_of_row*real(rows, wp), error)
+         if (n == size(rows)) then
+            call check_room(2.0_wp*bytes_of_row*real(n, wp), error)
             if (allocated(error)) return
-            allocate (more(2*rows))
-            more(:rows) = members
-            call move_alloc(more, members)
+            allocate (more(2*n))
+            more(:n) = rows
+            call move_alloc(more, rows)
          end if
-         call reader%next(table, members(rows + 1), found, error)
-         if (found .and. .not. allocated(error)) rows = rows + 1
+         call reader%next(table, rows(n + 1), found, error)
+         if (found .and. .not. allocated(error)) n = n + 1
          call problems%take(error)
          if (.not. found) exit
       end do
-      members = members(:rows)
+      rows = rows(:n)
       call problems%raise(error)
    end subroutine read_rows
 
    !> Read the next row; after an error the rows behind it can be read
-   subroutine next(self, table, member, found, error)
+   subroutine next(self, table, row, found, error)
       class(population_reader_type), intent(inout) :: self
       !> What is read, the same for all rows
       type(population_table_type), intent(in) :: table
-      type(member_type), intent(out) :: member
+      type(wall_row_type), intent(out) :: row
       !> Was there a row, right or wrong?
       logical, intent(out) :: found
       !> Everything that is wrong with it, or at the end with the table
@@ -133,19 +133,19 @@ contains
       end if
       self%is_right = self%is_right .and. .not. allocated(error)
       if (allocated(error)) return
-      call make_member(self, table, member, error)
+      call make_row(self, table, row, error)
       if (.not. allocated(error)) then
-         call self%names%place_row(self%cells%line, member, error)
+         call self%names%place_row(self%cells%line, row, error)
       else
-         call self%names%pass_over(member)
+         call self%names%pass_over(row)
       end if
-      if (.not. allocated(table%facade)) then
+      if (.not. allocated(table%base_wall)) then
          call add_place(error, self%place(table))
-      else if (table%facade%is_uncertain()) then
+      else if (table%base_wall%is_uncertain()) then
          call add_place(error, table%file//': &uncertainty: variant '''//trim(self%input%word('name'))//'''')
       end if
       self%is_right = self%is_right .and. .not. allocated(error)
-      self%has_weight = self%has_weight .or. member%weight > 0.0_wp
+      self%has_weight = self%has_weight .or. row%weight > 0.0_wp
    end subroutine next
 
    !> Read the next row of the table, or the facade once, or the next variant
@@ -159,19 +159,19 @@ contains
 
       self%level = 0
       self%levels = [real(wp) ::]
-      if (allocated(table%facade)) then
-         found = self%row < table%facade%rows()
+      if (allocated(table%base_wall)) then
+         found = self%row < table%base_wall%rows()
       else
          call table%csv%next(self%cells, found, error)
       end if
    end subroutine read_next
 
-   !> Make the next member: that of the row, or of the next hinge of the row before
-   subroutine make_member(self, table, member, error)
+   !> Make the next row: as the table has it, or of the next hinge of a facade
+   subroutine make_row(self, table, row, error)
       class(population_reader_type), intent(inout) :: self
       type(population_table_type), intent(in) :: table
-      !> The member: all but whether it continues the wall before
-      type(member_type), intent(inout) :: member
+      !> The row: all but whether it continues the wall before
+      type(wall_row_type), intent(inout) :: row
       !> Everything that is wrong with it
       type(error_type), allocatable, intent(out) :: error
 
@@ -192,15 +192,15 @@ contains
          call input%set('hinge_level', [self%levels(self%level)])
          call input%set('name', trim(input%word('name'))//' at '//to_text(anint(self%levels(self%level)*1.0e6_wp)/1.0e6_wp)//' m')
       end if
-      member = self%own
-      call member%wall%input%set('name', trim(input%word('name')))
-      if (problems%count == 0) call new_wall(member%wall, input, error, table%gravity)
+      row = self%own
+      call row%wall%input%set('name', trim(input%word('name')))
+      if (problems%count == 0) call new_wall(row%wall, input, error, table%gravity)
       ! What is wrong with a facade is wrong with all of its walls: the others are not tried
       if (allocated(error) .or. allocated(wrong) .or. problems%count > 0) self%levels = [real(wp) ::]
       call problems%take(error)
       call problems%take(wrong)
       call problems%raise(error)
-   end subroutine make_member
+   end subroutine make_row
 
    !> Find the hinges of the row; none if they are wrong, which is said where the wall is made
    subroutine find_levels(self)
@@ -221,7 +221,7 @@ contains
       type(population_table_type), intent(in) :: table
 
       place_length = len(table%file)
-      if (.not. allocated(table%facade)) place_length = len(table%csv%place(self%cells))
+      if (.not. allocated(table%base_wall)) place_length = len(table%csv%place(self%cells))
    end function place_length
 
    !> Where the row that was read last is
@@ -231,7 +231,7 @@ contains
       !> File and line; of a facade the file
       character(len=place_length(self, table)) :: place
 
-      if (allocated(table%facade)) then
+      if (allocated(table%base_wall)) then
          place = table%file
       else
          place = table%csv%place(self%cells)
@@ -262,14 +262,14 @@ contains
       !> One of them is no row, or the last is wrong; a table that ends before is none
       type(error_type), allocatable, intent(out) :: error
 
-      type(member_type) :: member
+      type(wall_row_type) :: row
       logical :: found
       integer :: i
 
       do i = 1, rows - 1
          if (table%has_hinges()) then
             ! How many rows a row becomes is known once it is read
-            call self%next(table, member, found, error)
+            call self%next(table, row, found, error)
          else
             call table%csv%next(self%cells, found, error)
             self%row = self%row + 1
@@ -277,7 +277,7 @@ contains
          if (allocated(error)) return
       end do
       ! The row after may go on with the wall of the last
-      if (rows > 0) call self%next(table, member, found, error)
+      if (rows > 0) call self%next(table, row, found, error)
    end subroutine skip
 
    !> Read what a row says of its wall
@@ -290,9 +290,9 @@ contains
 
       self%input = wall_input_type()
       self%own%has_name = .true.
-      if (allocated(table%facade)) then
-         self%input = table%facade%wall_input_type
-         if (table%facade%is_uncertain()) call table%facade%vary(self%row, self%input)
+      if (allocated(table%base_wall)) then
+         self%input = table%base_wall%wall_input_type
+         if (table%base_wall%is_uncertain()) call table%base_wall%vary(self%row, self%input)
          return
       end if
       call self%input%set('name', 'wall '//to_text(self%row))
@@ -312,13 +312,13 @@ contains
       type(group_settings_type) :: own
       type(problems_type) :: problems
 
-      call new_settings(own, member_properties)
-      if (.not. allocated(table%facade)) call table%read_cells(self%cells, table%member_columns, own, problems)
+      call new_settings(own, row_properties)
+      if (.not. allocated(table%base_wall)) call table%read_cells(self%cells, table%row_columns, own, problems)
       call own%fill()
       call check_settings(own, problems)
       ! Spreadsheets round to -0, whose bits do not stand in the order of its value.
       self%own%weight = abs(own%number('weight'))
-      if (allocated(table%facade)) self%own%weight = table%facade%weight(self%row)
+      if (allocated(table%base_wall)) self%own%weight = table%base_wall%weight(self%row)
       self%own%p_occ = abs(own%number('p_occ'))
       self%own%group = own%word('group')
       self%own%facade = trim(own%word('facade'))

@@ -11,8 +11,8 @@ module dondolo_population_table
    use dondolo_base_settings, only : settings_type
    use dondolo_base_spelling, only : say_allowed
    use dondolo_base_text, only : lower
-   use dondolo_population_member, only : member_properties
-   use dondolo_population_variants, only : stated_wall_type
+   use dondolo_population_variants, only : base_wall_type
+   use dondolo_population_wall_row, only : row_properties
    use dondolo_wall_properties, only : wall_input_type, wall_properties
    implicit none
    private
@@ -25,12 +25,12 @@ module dondolo_population_table
       character(len=:), allocatable :: file
       !> Gravity [m/s2]; not allocated: standard
       real(wp), allocatable :: gravity
-      !> A facade, or a wall with variants, that is the whole population; not allocated: there is a table
-      type(stated_wall_type), allocatable :: facade
+      !> The wall of whose hinges or variants the rows are made; not allocated: there is a table
+      type(base_wall_type), allocatable :: base_wall
       !> The table
       type(csv_table_type) :: csv
-      !> Its columns of the properties of walls and of members; 0 where it has none
-      integer :: wall_columns(size(wall_properties)) = 0, member_columns(size(member_properties)) = 0
+      !> Its columns of the properties of walls and of rows; 0 where it has none
+      integer :: wall_columns(size(wall_properties)) = 0, row_columns(size(row_properties)) = 0
       !> Columns of values of lists: place of each list among the properties of walls, number of the value and column, and
       !> in the order of the values of each list
       integer, allocatable :: items(:, :)
@@ -62,7 +62,7 @@ contains
       ! Properties of walls as columns: of a list its first value. An array, for gfortran 12 takes a wrong length for a text
       ! whose length follows from the result of a function.
       character(len=len(item_name(wall_properties(1)%name, 1))) :: shown(size(wall_properties))
-      character(len=len(shown)) :: of_members(size(member_properties))
+      character(len=len(shown)) :: of_rows(size(row_properties))
       character(len=:), allocatable :: allowed
       integer :: i, at, item, last
 
@@ -70,7 +70,7 @@ contains
          shown(i) = wall_properties(i)%name
          if (is_many(wall_properties(i)%kind)) shown(i) = item_name(trim(wall_properties(i)%name), 1)
       end do
-      of_members = member_properties%name
+      of_rows = row_properties%name
       self%file = file
       if (present(gravity)) self%gravity = gravity
       call self%csv%read(file, error)
@@ -80,11 +80,11 @@ contains
          associate (column => self%csv%columns(i)%text)
             call find_item(wall_properties, lower(column), at, item)
             if (at > 0) self%items = reshape([self%items, at, item, i], [3, size(self%items, 2) + 1])
-            if (at > 0 .or. any(lower(column) == shown) .or. any(lower(column) == of_members)) cycle
+            if (at > 0 .or. any(lower(column) == shown) .or. any(lower(column) == of_rows)) cycle
             ! A unit in brackets is no part of a name
             last = scan(column, '([') - 1
             if (last < 0) last = len(column)
-            call say_allowed(lower(trim(column(:last))), [shown, of_members], '--template typology', allowed)
+            call say_allowed(lower(trim(column(:last))), [shown, of_rows], '--template typology', allowed)
             if (len_trim(odd_character(column)) > 0) allowed = '; it has '//trim(odd_character(column))
             call raise_input(error, file//': column '''//column//''': no such column'//allowed)
          end associate
@@ -92,10 +92,10 @@ contains
       end do
       call sort_items(self%items)
       self%wall_columns = [(self%csv%column(trim(wall_properties(i)%name)), i=1, size(wall_properties))]
-      self%member_columns = [(self%csv%column(trim(member_properties(i)%name)), i=1, size(member_properties))]
+      self%row_columns = [(self%csv%column(trim(row_properties(i)%name)), i=1, size(row_properties))]
       call find_missing(self, file, error)
       if (.not. allocated(error)) call self%csv%find_decimal_mark([pack(self%wall_columns, wall_properties%kind /= is_text), &
-         & pack(self%member_columns, member_properties%kind /= is_text), &
+         & pack(self%row_columns, row_properties%kind /= is_text), &
          & pack(self%items(3, :), wall_properties(self%items(1, :))%kind == is_list)])
    end subroutine read_table
 
@@ -143,7 +143,7 @@ contains
    pure logical function has_hinges(self)
       class(population_table_type), intent(in) :: self
 
-      has_hinges = allocated(self%facade)
+      has_hinges = allocated(self%base_wall)
       if (.not. has_hinges) has_hinges = self%wall_columns(find_property(wall_properties, 'hinge_at')) > 0 &
          & .or. any(self%items(1, :) == find_property(wall_properties, 'hinge_level'))
    end function has_hinges

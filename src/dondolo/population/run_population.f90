@@ -7,12 +7,12 @@ module dondolo_population_run_population
    use dondolo_base_threads, only : team_of
    use dondolo_fragility_study, only : study_type
    use dondolo_motion_queue, only : progress_interface
-   use dondolo_population_member, only : member_type
    use dondolo_population_reader, only : population_reader_type
    use dondolo_population_row_result, only : row_result_type
    use dondolo_population_run_rows, only : run_rows
    use dondolo_population_store, only : store_type
    use dondolo_population_table, only : population_table_type
+   use dondolo_population_wall_row, only : wall_row_type
    implicit none
    private
 
@@ -42,17 +42,17 @@ contains
       procedure(progress_interface), optional :: progress
 
       type(population_reader_type) :: reader
-      type(member_type), allocatable :: members(:)
-      type(row_result_type), allocatable :: rows(:)
+      type(wall_row_type), allocatable :: rows(:)
+      type(row_result_type), allocatable :: results(:)
       integer, allocatable :: numbers(:)
       integer :: block
 
       block = block_size(study, histories, store%identity%last - store%identity%first + 1)
       reader%names%is_checked = .false.
       do while (.not. allocated(error))
-         call read_block(reader, table, store, block, members, numbers, error)
-         if (allocated(error) .or. size(members) == 0) exit
-         call run_rows(study, members, rows, error, int(store%work%histories), histories, progress)
+         call read_block(reader, table, store, block, rows, numbers, error)
+         if (allocated(error) .or. size(rows) == 0) exit
+         call run_rows(study, rows, results, error, int(store%work%histories), histories, progress)
          if (allocated(error)) exit
          call check_interrupt(error)
          if (allocated(error)) then
@@ -63,21 +63,21 @@ contains
                & '; the same command goes on from there'
             exit
          end if
-         rows%row = numbers
-         call store%put(rows, error)
+         results%row = numbers
+         call store%put(results, error)
       end do
       if (present(progress) .and. .not. allocated(error)) call progress(histories, histories)
    end subroutine run_population
 
    !> Read the next rows that a store lacks
-   subroutine read_block(reader, table, store, most, members, numbers, error)
+   subroutine read_block(reader, table, store, most, rows, numbers, error)
       type(population_reader_type), intent(inout) :: reader
       type(population_table_type), intent(in) :: table
       type(store_type), intent(in) :: store
       !> How many at most
       integer, intent(in) :: most
       !> The rows; none at the end
-      type(member_type), allocatable, intent(out) :: members(:)
+      type(wall_row_type), allocatable, intent(out) :: rows(:)
       !> Their numbers
       integer, allocatable, intent(out) :: numbers(:)
       !> A row that is wrong
@@ -95,10 +95,10 @@ contains
          numbers(i) = row
       end do
       numbers = numbers(:i)
-      allocate (members(i))
+      allocate (rows(i))
       do i = 1, size(numbers)
          call reader%skip(table, numbers(i) - 1 - reader%row, error)
-         if (.not. allocated(error)) call reader%next(table, members(i), found, error)
+         if (.not. allocated(error)) call reader%next(table, rows(i), found, error)
          if (allocated(error)) return
       end do
    end subroutine read_block

@@ -12,8 +12,8 @@ module dondolo_population_run_rows
    use dondolo_fragility_tie_tallies, only : tally_ties
    use dondolo_motion_queue, only : progress_interface
    use dondolo_motion_work, only : work_type
-   use dondolo_population_member, only : member_type
    use dondolo_population_row_result, only : row_result_type
+   use dondolo_population_wall_row, only : wall_row_type
    use dondolo_wall, only : wall_type
    implicit none
    private
@@ -23,12 +23,12 @@ module dondolo_population_run_rows
 contains
 
    !> Run some rows
-   subroutine run_rows(study, members, rows, error, done, total, progress)
+   subroutine run_rows(study, rows, results, error, done, total, progress)
       !> What their walls are tried with
       type(study_type), intent(in) :: study
-      type(member_type), intent(in) :: members(:)
+      type(wall_row_type), intent(in) :: rows(:)
       !> What came of them; their numbers in the population are not set
-      type(row_result_type), allocatable, intent(out) :: rows(:)
+      type(row_result_type), allocatable, intent(out) :: results(:)
       !> What cannot be run: of the first such row
       type(error_type), allocatable, intent(out) :: error
       !> Histories that are done already, and those of the whole work
@@ -40,10 +40,10 @@ contains
       integer :: i, threads, shared_out, failed, since
 
       since = watched()
-      allocate (rows(size(members)))
-      failed = size(members) + 1
+      allocate (results(size(rows)))
+      failed = size(rows) + 1
       threads = team_of(study%threads, huge(1))
-      shared_out = size(members) - modulo(size(members), threads)
+      shared_out = size(rows) - modulo(size(rows), threads)
       !$omp parallel do schedule(dynamic) num_threads(threads) if(shared_out > 0) default(none) &
       !$omp & shared(shared_out, since)
       do i = 1, shared_out
@@ -51,7 +51,7 @@ contains
          call one_row(i, 1)
       end do
       !$omp end parallel do
-      do i = shared_out + 1, size(members)
+      do i = shared_out + 1, size(rows)
          call one_row(i, threads)
       end do
 
@@ -70,10 +70,10 @@ contains
          !$omp atomic read
          first_failed = failed
          if (i > first_failed) return
-         call run_row(study, members(i)%wall, rows(i), trouble, crew)
+         call run_row(study, rows(i)%wall, results(i), trouble, crew)
          !$omp critical (gather_row)
          if (.not. allocated(trouble)) then
-            call work%add(rows(i)%work)
+            call work%add(results(i)%work)
          else if (i < failed) then
             !$omp atomic write
             failed = i

@@ -170,7 +170,7 @@ contains
       m = 1
       first = 0
       do k = 1, size(values, 2)
-         call find_ranks(values(:, k), rank)
+         call compute_ranks(values(:, k), rank)
          before = m
          do power = 1, degree
             polynomial = rank**power
@@ -213,7 +213,7 @@ contains
    end subroutine project
 
    !> Ranks of values, from -1 to 1; those that are equal share their mean rank
-   pure subroutine find_ranks(values, rank)
+   pure subroutine compute_ranks(values, rank)
       real(wp), intent(in) :: values(:)
       real(wp), intent(out) :: rank(:)
 
@@ -222,6 +222,6 @@ contains
       do i = 1, size(values)
          rank(i) = real(count(values < values(i)) - count(values > values(i)), wp)/real(size(values), wp)
       end do
-   end subroutine find_ranks
+   end subroutine compute_ranks
 
 end module dondolo_population_sensitivity

@@ -14,13 +14,13 @@ module dondolo_population_variants
    implicit none
    private
 
-   public :: stated_wall_type, sample_variants, ends_of_sources
+   public :: base_wall_type, sample_variants, ends_of_sources
 
    !> Fractiles at which one property alone is moved to its ends
    real(wp), parameter :: ends_of_sources(2) = [0.05_wp, 0.95_wp]
 
-   !> A wall that is the whole population
-   type, extends(wall_input_type) :: stated_wall_type
+   !> The wall of whose hinges or variants all rows are made
+   type, extends(wall_input_type) :: base_wall_type
       !> Its uncertain properties; none: it is a facade
       character(len=name_length), allocatable :: sources(:)
       !> Their values in each row (sources, rows); not a number in the row of the wall as it was given
@@ -40,14 +40,14 @@ module dondolo_population_variants
       procedure :: row_of_medians
       !> Row with one property at one of its ends
       procedure :: row_of_end
-   end type stated_wall_type
+   end type base_wall_type
 
 contains
 
    !> Sample the variants of a wall
    subroutine sample_variants(wall, sources, distributions, samples, seed)
       !> The wall: its variants are set
-      type(stated_wall_type), intent(inout) :: wall
+      type(base_wall_type), intent(inout) :: wall
       !> Its uncertain properties
       character(len=*), intent(in) :: sources(:)
       !> Their distributions
@@ -85,14 +85,14 @@ contains
 
    !> Is it a wall with variants?
    pure logical function is_uncertain(self)
-      class(stated_wall_type), intent(in) :: self
+      class(base_wall_type), intent(in) :: self
 
       is_uncertain = self%samples > 0
    end function is_uncertain
 
    !> How many rows it says: of a facade one, which becomes several
    pure integer function rows(self)
-      class(stated_wall_type), intent(in) :: self
+      class(base_wall_type), intent(in) :: self
 
       rows = 1
       if (self%is_uncertain()) rows = size(self%values, 2)
@@ -100,7 +100,7 @@ contains
 
    !> Weight of a row: those behind the sample take no part in its curve
    pure real(wp) function weight(self, row)
-      class(stated_wall_type), intent(in) :: self
+      class(base_wall_type), intent(in) :: self
       integer, intent(in) :: row
 
       weight = merge(0.0_wp, 1.0_wp, self%is_uncertain() .and. row > self%samples)
@@ -108,14 +108,14 @@ contains
 
    !> Row with all properties at their medians
    pure integer function row_of_medians(self) result(row)
-      class(stated_wall_type), intent(in) :: self
+      class(base_wall_type), intent(in) :: self
 
       row = self%samples + 2
    end function row_of_medians
 
    !> Row with one property at one of its ends
    pure integer function row_of_end(self, source, end)
-      class(stated_wall_type), intent(in) :: self
+      class(base_wall_type), intent(in) :: self
       !> Number of the property
       integer, intent(in) :: source
       !> 1 or 2, for the lower or the upper end
@@ -126,7 +126,7 @@ contains
 
    !> What a row says of its wall
    subroutine vary(self, row, input)
-      class(stated_wall_type), intent(in) :: self
+      class(base_wall_type), intent(in) :: self
       !> Number of the row
       integer, intent(in) :: row
       !> The wall as it is given; out: the variant, with a name of its own

@@ -5,7 +5,7 @@ module dondolo_population_wall_names
    use dondolo_base_memory, only : raise_shortage
    use dondolo_base_name_index, only : name_index_type
    use dondolo_base_text, only : to_text
-   use dondolo_population_member, only : member_type
+   use dondolo_population_wall_row, only : wall_row_type
    implicit none
    private
 
@@ -21,7 +21,7 @@ module dondolo_population_wall_names
       !> Names of the walls so far
       type(name_index_type), private :: names
       !> The wall of the row before, its first row
-      type(member_type), private :: wall
+      type(wall_row_type), private :: wall
       !> Name of the row before, and the mechanisms that it has had, with a blank after each
       character(len=:), allocatable, private :: name, mechanisms
    contains
@@ -34,45 +34,45 @@ module dondolo_population_wall_names
 contains
 
    !> Place a row among those before it: a further mechanism of the wall or the facade before, or a new one
-   subroutine place_row(self, line, member, error)
+   subroutine place_row(self, line, row, error)
       !> It remembers the wall
       class(wall_names_type), intent(inout) :: self
       !> Line of the row, for messages
       integer, intent(in) :: line
       !> The row: whether it continues the wall before is set
-      type(member_type), intent(inout) :: member
+      type(wall_row_type), intent(inout) :: row
       !> The name stands elsewhere too, or what is said of the wall differs
       type(error_type), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: name, mechanism, what
       logical :: repeats
 
-      name = member%wall%name()
-      mechanism = member%wall%mechanism_name()
+      name = row%wall%name()
+      mechanism = row%wall%mechanism_name()
       what = 'wall'
-      if (len(member%facade) > 0) what = 'facade'
+      if (len(row%facade) > 0) what = 'facade'
       repeats = .false.
-      if (self%wall%has_name .and. member%has_name) repeats = self%name == name
-      if (len(member%facade) > 0) then
-         if (self%wall%has_name) member%continues = self%wall%facade == member%facade
+      if (self%wall%has_name .and. row%has_name) repeats = self%name == name
+      if (len(row%facade) > 0) then
+         if (self%wall%has_name) row%continues = self%wall%facade == row%facade
       else if (repeats) then
-         member%continues = len(self%wall%facade) == 0
+         row%continues = len(self%wall%facade) == 0
       end if
-      if (.not. member%continues) then
-         if (len(member%facade) > 0) call note_name(self, 'facade', member%facade, line, error)
+      if (.not. row%continues) then
+         if (len(row%facade) > 0) call note_name(self, 'facade', row%facade, line, error)
          if (.not. allocated(error)) call note_name(self, 'name', name, line, error)
          if (allocated(error)) return
-         self%wall = member
-         self%wall%has_name = member%has_name .or. len(member%facade) > 0
+         self%wall = row
+         self%wall%has_name = row%has_name .or. len(row%facade) > 0
          self%name = name
          self%mechanisms = mechanism//' '
       else if (repeats .and. index(self%mechanisms, mechanism//' ') > 0) then
          call raise_input(error, 'name = '''//name//''': the row before gives this wall the same mechanism')
-      else if (abs(self%wall%weight - member%weight) > 0.0_wp) then
-         call raise_input(error, 'weight = '//to_text(member%weight)//': must be '//to_text(self%wall%weight)// &
+      else if (abs(self%wall%weight - row%weight) > 0.0_wp) then
+         call raise_input(error, 'weight = '//to_text(row%weight)//': must be '//to_text(self%wall%weight)// &
             & ' as in the row before, which is of the same '//what)
-      else if (self%wall%group /= member%group) then
-         call raise_input(error, 'group = '''//member%group//''': must be '''//self%wall%group// &
+      else if (self%wall%group /= row%group) then
+         call raise_input(error, 'group = '''//row%group//''': must be '''//self%wall%group// &
             & ''' as in the row before, which is of the same '//what)
       else if (repeats) then
          self%mechanisms = self%mechanisms//mechanism//' '
@@ -84,13 +84,13 @@ contains
    end subroutine place_row
 
    !> Note that a row was wrong: those behind it do not go on with the wall before it, unless it was of the same
-   pure subroutine pass_over(self, member)
+   pure subroutine pass_over(self, row)
       class(wall_names_type), intent(inout) :: self
       !> What is known of the row
-      type(member_type), intent(in) :: member
+      type(wall_row_type), intent(in) :: row
 
-      if (self%wall%has_name) self%wall%has_name = self%name == member%wall%name() .or. &
-         & (len(member%facade) > 0 .and. self%wall%facade == member%facade)
+      if (self%wall%has_name) self%wall%has_name = self%name == row%wall%name() .or. &
+         & (len(row%facade) > 0 .and. self%wall%facade == row%facade)
    end subroutine pass_over
 
    !> Note the name of a wall or a facade, which no other has; a wall may have that of its facade

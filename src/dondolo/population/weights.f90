@@ -3,7 +3,7 @@
 !> The fractile of a share q is the smallest number such that the numbers up to it have at least the share q of the weight.
 module dondolo_population_weights
    use dondolo_base_kinds, only : wp
-   use dondolo_base_order, only : find_order
+   use dondolo_base_order, only : make_order
    use dondolo_population, only : part_type, population_type
    implicit none
    private
@@ -97,7 +97,7 @@ contains
 
       ! In the order of the population: the fractiles do not depend on how the last digit of another sum is rounded.
       total = sum(weights)
-      call find_order(numbers, order)
+      call make_order(numbers, order)
       reached = weights(order)
       do k = 2, size(reached)
          reached(k) = reached(k - 1) + reached(k)

@@ -7,7 +7,7 @@ module dondolo_record_common_steps
    implicit none
    private
 
-   public :: find_parts, refine, same_step, most_parts
+   public :: compute_parts, refine, same_step, most_parts
 
    !> Steps that differ by this part are the same: files round them
    real(wp), parameter :: same_step = 1.0e-9_wp
@@ -18,7 +18,7 @@ module dondolo_record_common_steps
 contains
 
    !> Fewest parts of two steps that are equally long
-   pure subroutine find_parts(dt, other, parts, other_parts)
+   pure subroutine compute_parts(dt, other, parts, other_parts)
       !> The steps [s]
       real(wp), intent(in) :: dt, other
       !> Parts of each; 0: none of up to most_parts are
@@ -35,7 +35,7 @@ contains
       end do
       parts = 0
       other_parts = 0
-   end subroutine find_parts
+   end subroutine compute_parts
 
    !> Put the samples of a function on a finer grid
    pure subroutine refine(samples, parts, finer, ok)

@@ -6,7 +6,7 @@ module dondolo_record_dead_channel
    use dondolo_base_error, only : error_type, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : brief, to_text
-   use dondolo_record, only : find_extremes, record_type
+   use dondolo_record, only : compute_extremes, record_type
    implicit none
    private
 
@@ -63,7 +63,7 @@ contains
       character(len=:), allocatable :: reason
       real(wp) :: lowest, highest, peak
 
-      call find_extremes(samples, lowest, highest)
+      call compute_extremes(samples, lowest, highest)
       if (is_motion(lowest, highest)) return
       peak = max(-lowest, highest)
       if (.not. peak > 0.0_wp) then

@@ -7,12 +7,12 @@ module dondolo_record
    use dondolo_base_limits, only : most_samples
    use dondolo_base_plain, only : name_problem, shown
    use dondolo_base_text, only : to_text
-   use dondolo_record_common_steps, only : find_parts, most_parts, refine, same_step
+   use dondolo_record_common_steps, only : compute_parts, most_parts, refine, same_step
    use dondolo_record_metadata, only : metadata_type
    implicit none
    private
 
-   public :: record_type, new_record, move_to_record, find_extremes
+   public :: record_type, new_record, move_to_record, compute_extremes
    public :: largest_acceleration
 
    !> Largest ground acceleration that is taken for a measurement [m/s2]: a thousand times gravity
@@ -138,7 +138,7 @@ contains
 
       real(wp) :: lowest, highest
 
-      call find_extremes(self%acceleration, lowest, highest)
+      call compute_extremes(self%acceleration, lowest, highest)
       pga = max(-lowest, highest)
    end function pga
 
@@ -204,7 +204,7 @@ contains
       integer :: parts, other_parts, samples, had
       logical :: ok(2)
 
-      call find_parts(self%dt, dt, parts, other_parts)
+      call compute_parts(self%dt, dt, parts, other_parts)
       if (parts == 0) then
          call raise_input(error, 'vertical: has a time step of '//to_text(dt)//' s, which must be to '//to_text(self%dt)// &
             & ' s of the record as two whole numbers of up to '//to_text(most_parts))
@@ -254,7 +254,7 @@ contains
    end function largest_fall
 
    !> Smallest and largest sample: several chains at once, since one alone waits for itself
-   pure subroutine find_extremes(samples, lowest, highest)
+   pure subroutine compute_extremes(samples, lowest, highest)
       !> Samples [m/s2]
       real(wp), intent(in) :: samples(:)
       !> The smallest and the largest [m/s2]
@@ -278,6 +278,6 @@ contains
          lowest = min(lowest, samples(i))
          highest = max(highest, samples(i))
       end do
-   end subroutine find_extremes
+   end subroutine compute_extremes
 
 end module dondolo_record

@@ -2,7 +2,7 @@
 module dondolo_record_set
    use dondolo_base_kinds, only : wp
    use dondolo_base_threads, only : team_of
-   use dondolo_record, only : find_extremes, record_type
+   use dondolo_record, only : compute_extremes, record_type
    implicit none
    private
 
@@ -97,7 +97,7 @@ contains
          set%samples(before + n + 1:before + n + 2) = 0.0_wp
          do k = first + (n - 1)/block_size + 1, first + 1, -1
             j = (k - first - 1)*block_size + 1
-            call find_extremes(a(j:min(j + block_size - 1, n)), set%lowest(k), set%highest(k))
+            call compute_extremes(a(j:min(j + block_size - 1, n)), set%lowest(k), set%highest(k))
             set%lowest_left(k) = set%lowest(k)
             set%highest_left(k) = set%highest(k)
             if (j + block_size > n) cycle
@@ -139,7 +139,7 @@ contains
             if (allocated(records(i)%vertical)) set%verticals(before + 1:before + n) = records(i)%vertical
             do k = (n - 1)/block_size, 0, -1
                j = first + k + 1
-               call find_extremes(set%verticals(before + k*block_size + 1:before + min((k + 1)*block_size, n)), &
+               call compute_extremes(set%verticals(before + k*block_size + 1:before + min((k + 1)*block_size, n)), &
                   & set%lowest_vertical(j), ignored)
                set%lowest_vertical_left(j) = set%lowest_vertical(j)
                if (k < (n - 1)/block_size) set%lowest_vertical_left(j) = min(set%lowest_vertical(j), &

@@ -5,9 +5,9 @@
 !> others read.
 module dondolo_record_suite
    use dondolo_base_kinds, only : wp
-   use dondolo_base_order, only : find_order
+   use dondolo_base_order, only : make_order
    use dondolo_base_threads, only : team_of
-   use dondolo_record, only : find_extremes, record_type
+   use dondolo_record, only : compute_extremes, record_type
    use dondolo_record_clusters, only : cluster_records
    use dondolo_record_dead_channel, only : is_motion
    use dondolo_record_earthquake, only : find_earthquake
@@ -86,7 +86,7 @@ contains
             & suite%velocities(records), suite%falls(records))
       end associate
       do i = 1, size(suite%records)
-         call find_extremes(suite%records(i)%acceleration, lowest, highest)
+         call compute_extremes(suite%records(i)%acceleration, lowest, highest)
          suite%peaks(i) = max(-lowest, highest)
          suite%moves(i) = is_motion(lowest, highest)
          call find_earthquake(suite%records(i)%metadata, earthquake)
@@ -116,7 +116,7 @@ contains
          suite%has_vertical = suite%has_vertical .or. allocated(suite%records(i)%vertical)
       end do
       call new_record_set(suite%set, suite%records, threads)
-      call find_order([(real(suite%set%strong_blocks(i), wp), i=1, size(suite%records))], suite%by_duration)
+      call make_order([(real(suite%set%strong_blocks(i), wp), i=1, size(suite%records))], suite%by_duration)
    end subroutine new_motions
 
    !> Compute the values of a measure and keep them

@@ -4,12 +4,12 @@ module dondolo_base_order
    implicit none
    private
 
-   public :: find_order
+   public :: make_order
 
 contains
 
    !> Order of numbers, from the smallest; equal ones stay in the order they stand in (merge sort from the bottom up)
-   pure subroutine find_order(numbers, order)
+   pure subroutine make_order(numbers, order)
       !> The numbers
       real(wp), intent(in) :: numbers(:)
       !> Their places, from that of the smallest
@@ -46,6 +46,6 @@ contains
          order = merged
          width = 2*width
       end do
-   end subroutine find_order
+   end subroutine make_order
 
 end module dondolo_base_order

@@ -9,7 +9,7 @@ module dondolo_base_decimals
    implicit none
    private
 
-   public :: find_figures, find_shortest, rounded_to, put_digits, is_short
+   public :: make_figures, make_shortest, rounded_to, put_digits, is_short
 
    integer, parameter :: qp = real128
 
@@ -39,7 +39,7 @@ contains
    end function is_short
 
    !> The significant digits of a number
-   pure subroutine find_figures(value, figures, exponent)
+   pure subroutine make_figures(value, figures, exponent)
       !> Number, finite
       real(wp), intent(in) :: value
       !> As many digits as there is room for
@@ -50,16 +50,16 @@ contains
       integer(int64) :: whole
       logical :: is_sure
 
-      call find_digits(value, len(figures), whole, exponent, is_sure)
+      call make_digits(value, len(figures), whole, exponent, is_sure)
       if (is_sure) then
          call put_digits(whole, figures)
       else
          call write_figures(value, figures, exponent)
       end if
-   end subroutine find_figures
+   end subroutine make_figures
 
    !> Few digits that read back as a number: the nearest 15, 16 or 17 of real64; zeros may stand at their end
-   pure subroutine find_shortest(value, figures, exponent)
+   pure subroutine make_shortest(value, figures, exponent)
       !> Number, finite
       real(wp), intent(in) :: value
       !> Digits; blanks after them
@@ -74,7 +74,7 @@ contains
       logical :: is_sure, is_nearest
 
       do digits = precision(value), precision(value) + 2
-         call find_digits(value, digits, whole, exponent, is_sure)
+         call make_digits(value, digits, whole, exponent, is_sure)
          if (is_sure) call see_nearest(value, digits, whole, exponent, is_nearest, is_sure)
          if (.not. is_sure) exit
          if (.not. is_nearest) cycle
@@ -89,7 +89,7 @@ contains
          read (buffer, *, iostat=stat) again
          if (stat == 0 .and. again == abs(value)) exit
       end do
-   end subroutine find_shortest
+   end subroutine make_shortest
 
    !> The number that is nearest to some significant digits of another
    pure real(wp) function rounded_to(value, digits) result(nearest)
@@ -106,7 +106,7 @@ contains
 
       nearest = value
       if (.not. abs(value) <= huge(value)) return
-      call find_digits(value, digits, whole, exponent, is_sure)
+      call make_digits(value, digits, whole, exponent, is_sure)
       associate (power => exponent - digits + 1)
          if (is_sure .and. abs(power) <= exact_power) then
             ! One operation with exact numbers
@@ -114,7 +114,7 @@ contains
             if (power >= 0) nearest = nearest*real(powers(power), wp)
             if (power < 0) nearest = nearest/real(powers(-power), wp)
          else
-            call find_figures(value, figures(:digits), exponent)
+            call make_figures(value, figures(:digits), exponent)
             write (buffer, '(a, ''E'', i0)') figures(:digits), exponent - digits + 1
             read (buffer, *, iostat=stat) nearest
             ! Up from the largest number there is none.
@@ -146,7 +146,7 @@ contains
    end subroutine write_figures
 
    !> The significant digits of a number, by arithmetic
-   pure subroutine find_digits(value, digits, whole, exponent, is_sure)
+   pure subroutine make_digits(value, digits, whole, exponent, is_sure)
       !> Number
       real(wp), intent(in) :: value
       !> How many digits, at most most_digits
@@ -180,11 +180,11 @@ contains
          if (is_sure) return
          exponent = exponent + 1
       end do
-   end subroutine find_digits
+   end subroutine make_digits
 
    !> Is a number the one nearest to its digits?
    pure subroutine see_nearest(value, digits, whole, exponent, is_nearest, is_sure)
-      !> Number, and what find_digits has found, for sure
+      !> Number, and what make_digits has found, for sure
       real(wp), intent(in) :: value
       integer, intent(in) :: digits
       integer(int64), intent(in) :: whole

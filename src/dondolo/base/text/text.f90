@@ -4,7 +4,7 @@
 !> place for each call in the source, for all threads.
 module dondolo_base_text
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_base_decimals, only : find_figures, find_shortest, is_short, put_digits, rounded_to
+   use dondolo_base_decimals, only : make_figures, make_shortest, is_short, put_digits, rounded_to
    use dondolo_base_kinds, only : wp
    implicit none
    private
@@ -143,7 +143,7 @@ contains
       end if
       call make_short(value, text)
       if (allocated(text)) return
-      call find_shortest(value, figures, exponent)
+      call make_shortest(value, figures, exponent)
       call make_plain(sign(1.0_wp, value) < 0.0_wp, trim(figures), exponent, text)
    end subroutine make_real
 
@@ -264,7 +264,7 @@ contains
          text = real_to_text(value)
          return
       end if
-      call find_figures(value, figures, exponent)
+      call make_figures(value, figures, exponent)
       width = exponent_width(value)
       call put_digits(int(abs(exponent), int64), power(:width))
       text = figures(1:1)//'.'//figures(2:)//merge('E-', 'E+', exponent < 0)//power(:width)

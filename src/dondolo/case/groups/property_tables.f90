@@ -10,7 +10,7 @@ module dondolo_case_property_tables
    use dondolo_case_uncertainty_group, only : uncertainty_properties
    use dondolo_check_input, only : check_properties
    use dondolo_motion_solver, only : solver_properties
-   use dondolo_population_member, only : member_properties
+   use dondolo_population_wall_row, only : row_properties
    use dondolo_wall_properties, only : own_properties, wall_properties
    implicit none
    private
@@ -23,7 +23,7 @@ module dondolo_case_property_tables
       & 'population', 'records', 'stripes', 'solver', 'history', 'check', 'uncertainty']
 
    !> The same, and what rows of a population have besides the properties of a wall
-   character(len=11), parameter :: table_names(*) = [character(len=11) :: group_names, 'member']
+   character(len=11), parameter :: table_names(*) = [character(len=11) :: group_names, 'row']
 
 contains
 
@@ -55,8 +55,8 @@ contains
          table = history_properties
       case ('check')
          table = check_properties
-      case ('member')
-         table = member_properties
+      case ('row')
+         table = row_properties
       case default
          allocate (table(0))
       end select

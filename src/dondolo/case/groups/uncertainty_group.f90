@@ -9,7 +9,7 @@ module dondolo_case_uncertainty_group
    use dondolo_case_settings_group, only : read_settings
    use dondolo_population_distribution, only : distribution_type, new_distribution
    use dondolo_population_sensitivity, only : smallest_sample
-   use dondolo_population_variants, only : sample_variants, stated_wall_type
+   use dondolo_population_variants, only : sample_variants, base_wall_type
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    use dondolo_wall_tested_restitution, only : check_published
    implicit none
@@ -59,7 +59,7 @@ contains
       !> The group as it stands in the file
       type(group_type), intent(in) :: group
       !> The wall: its variants are set
-      type(stated_wall_type), intent(inout) :: wall
+      type(base_wall_type), intent(inout) :: wall
       !> What the group says
       type(group_settings_type), intent(out) :: settings
       !> What is wrong with it
@@ -105,7 +105,7 @@ contains
       !> What is given for the factor
       character(len=*), intent(in) :: text
       !> The wall with its variants
-      type(stated_wall_type), intent(in) :: wall
+      type(base_wall_type), intent(in) :: wall
       !> It is not
       type(error_type), allocatable, intent(out) :: error
 

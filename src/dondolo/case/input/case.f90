@@ -153,10 +153,10 @@ contains
       if (allocated(self%population_file)) then
          call put_population(self%population_file, self%designs, settings)
          call echo_settings('population', settings, echoed)
-      else if (allocated(self%table%facade)) then
-         call echo_settings('wall', self%table%facade, echoed, last='restitution_factor', &
+      else if (allocated(self%table%base_wall)) then
+         call echo_settings('wall', self%table%base_wall, echoed, last='restitution_factor', &
             & rows=wall_properties(:own_properties))
-         if (self%table%facade%gives(is_of_building)) call echo_settings('building', self%table%facade, echoed, &
+         if (self%table%base_wall%gives(is_of_building)) call echo_settings('building', self%table%base_wall, echoed, &
             & rows=building_properties)
          if (allocated(self%uncertainty)) call echo_settings('uncertainty', self%uncertainty, echoed)
       else

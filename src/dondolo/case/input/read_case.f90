@@ -26,8 +26,8 @@ module dondolo_case_read_case
    use dondolo_motion_ensemble, only : check_engine
    use dondolo_motion_lane_variants, only : check_variant
    use dondolo_motion_solver, only : check_limit
-   use dondolo_population_member, only : member_type
    use dondolo_population_reader, only : population_reader_type
+   use dondolo_population_wall_row, only : wall_row_type
    use dondolo_record, only : largest_acceleration, record_type
    use dondolo_record_catalogue, only : read_catalogue, record_rows_type
    use dondolo_record_dead_channel, only : check_motion
@@ -118,12 +118,12 @@ contains
       range = [1, huge(1)]
       if (present(rows)) range = rows
       call case%make_study(study)
-      if (.not. allocated(case%table%facade)) call case%table%read(case%population_path(), error, case%solver%gravity)
+      if (.not. allocated(case%table%base_wall)) call case%table%read(case%population_path(), error, case%solver%gravity)
       if (.not. allocated(error)) call survey_population(case%survey, case%table, study, range, error)
       if (allocated(error)) return
       if (len(case%survey%note) > 0) call case%notes%add(case%survey%note)
-      if (case%survey%rubbing > 0) call note_friction(case, to_text(case%survey%rubbing)//' of '// &
-         & to_text(case%survey%rows)//' rows have interlock_overlap, wall '''//case%survey%first_rubbing//''' the first')
+      if (case%survey%with_friction > 0) call note_friction(case, to_text(case%survey%with_friction)//' of '// &
+         & to_text(case%survey%rows)//' rows have interlock_overlap, wall '''//case%survey%first_with_friction//''' the first')
       if (case%designs .and. (case%survey%rows < 2 .or. case%survey%walls < case%survey%rows)) then
          call raise_input(error, case%population_path()//': has '//to_text(case%survey%walls)//' walls in '// &
             & to_text(case%survey%rows)//' rows: designs = .true. needs two designs at least, each a wall of one row')
@@ -160,7 +160,7 @@ contains
 
       character(len=10) :: needed, other
       type(group_type) :: group, variants
-      logical :: has_facade
+      logical :: is_of_wall
 
       needed = 'wall'
       other = 'population'
@@ -177,13 +177,13 @@ contains
          call raise_input(error, variants%place()//' (line '//to_text(variants%line)//'): not with hinge_level or hinge_at')
          return
       end if
-      has_facade = task == typology_task .and. (group%has('hinge_level') .or. group%has('hinge_at') .or. variants%line > 0)
+      is_of_wall = task == typology_task .and. (group%has('hinge_level') .or. group%has('hinge_at') .or. variants%line > 0)
       group = namelist%group(trim(needed))
       if (variants%line > 0 .and. group%line > 0) then
          call raise_input(error, variants%place()//' (line '//to_text(variants%line)//'): takes &wall in place of &population')
          return
       end if
-      if (group%line == 0 .and. .not. has_facade) then
+      if (group%line == 0 .and. .not. is_of_wall) then
          group = namelist%group('job')
          call raise_input(error, namelist%file//': &'//trim(needed)//': must be given for task = '''// &
             & trim(task_names(task))//''''//group%in_line('task'))
@@ -192,7 +192,7 @@ contains
       if (group%line > 0) group = namelist%group(trim(other))
       if (group%line > 0) call raise_input(error, group%place()//' (line '//to_text(group%line)// &
          & '): not for task = '''//trim(task_names(task))//''', which takes &'//trim(needed))
-      if (allocated(error) .or. task /= typology_task .or. has_facade) return
+      if (allocated(error) .or. task /= typology_task .or. is_of_wall) return
       group = namelist%group('building')
       if (group%line > 0) call raise_input(error, group%place()//' (line '//to_text(group%line)// &
          & '): not for task = ''typology'', each wall of which has its own, in columns of &population')
@@ -243,23 +243,23 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(population_reader_type) :: reader
-      type(member_type) :: member
+      type(wall_row_type) :: row
       logical :: found
 
       case%table%file = case%file
       case%table%gravity = case%solver%gravity
-      allocate (case%table%facade)
-      case%table%facade%wall_input_type = input
-      if (.not. case%table%facade%has('name')) call case%table%facade%set('name', trim(merge('wall  ', 'facade', &
+      allocate (case%table%base_wall)
+      case%table%base_wall%wall_input_type = input
+      if (.not. case%table%base_wall%has('name')) call case%table%base_wall%set('name', trim(merge('wall  ', 'facade', &
          & variants%line > 0)))
       if (variants%line > 0) then
          allocate (case%uncertainty)
-         call read_uncertainty_group(variants, case%table%facade, case%uncertainty, error)
+         call read_uncertainty_group(variants, case%table%base_wall, case%uncertainty, error)
          if (allocated(error)) return
       end if
       found = .true.
       do while (found .and. .not. allocated(error))
-         call reader%next(case%table, member, found, error)
+         call reader%next(case%table, row, found, error)
       end do
    end subroutine make_facade
 

@@ -15,9 +15,9 @@ module dondolo_case_survey
    use dondolo_motion_solver, only : check_limit
    use dondolo_population, only : population_type
    use dondolo_population_identity, only : add_wall
-   use dondolo_population_member, only : member_type
    use dondolo_population_reader, only : population_reader_type
    use dondolo_population_table, only : population_table_type
+   use dondolo_population_wall_row, only : wall_row_type
    use dondolo_wall_properties, only : wall_properties
    use dondolo_wall_support_notes, only : supports_type
    implicit none
@@ -52,8 +52,8 @@ module dondolo_case_survey
       !> What moves the walls
       type(supports_type) :: supports
       !> Rows of walls with friction, and the name of the first
-      integer :: rubbing = 0
-      character(len=:), allocatable :: first_rubbing
+      integer :: with_friction = 0
+      character(len=:), allocatable :: first_with_friction
       !> How the table was read, where there is something to say of it, else empty
       character(len=:), allocatable :: note
    end type survey_type
@@ -74,42 +74,43 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(population_reader_type) :: reader
-      type(member_type) :: member
+      type(wall_row_type) :: row
       type(stripes_type) :: plan
       type(problems_type) :: problems
       logical :: found
 
       survey%first = rows(1)
       survey%note = ''
-      if (.not. allocated(table%facade)) survey%note = table%csv%note()
+      if (.not. allocated(table%base_wall)) survey%note = table%csv%note()
       allocate (survey%lengths(size(wall_properties)), source=0)
       do
-         call reader%next(table, member, found, error)
+         call reader%next(table, row, found, error)
          if (.not. found) exit
          survey%rows = reader%row
          if (.not. allocated(error)) then
-            if (.not. member%continues) survey%walls = survey%walls + 1
-            survey%has_facades = survey%has_facades .or. len(member%facade) > 0
-            call survey%population%add(member%wall%mechanism_name(), member%group, member%weight, member%p_occ, &
-               & member%continues)
-            survey%lengths = max(survey%lengths, member%wall%input%lengths())
-            call survey%supports%look(member%wall)
-            call add_wall(survey%walls_fingerprint, member%wall)
-            if (member%wall%mechanism%has_friction()) survey%rubbing = survey%rubbing + 1
-            if (survey%rubbing == 1 .and. .not. allocated(survey%first_rubbing)) survey%first_rubbing = member%wall%name()
+            if (.not. row%continues) survey%walls = survey%walls + 1
+            survey%has_facades = survey%has_facades .or. len(row%facade) > 0
+            call survey%population%add(row%wall%mechanism_name(), row%group, row%weight, row%p_occ, &
+               & row%continues)
+            survey%lengths = max(survey%lengths, row%wall%input%lengths())
+            call survey%supports%look(row%wall)
+            call add_wall(survey%walls_fingerprint, row%wall)
+            if (row%wall%mechanism%has_friction()) survey%with_friction = survey%with_friction + 1
+            if (survey%with_friction == 1 .and. .not. allocated(survey%first_with_friction)) &
+               & survey%first_with_friction = row%wall%name()
             if (survey%population%groups%count > most_groups) call refuse_group(survey%population%groups, error)
-            if (.not. allocated(error)) call check_limit(study%solver, member%wall%mechanism, error)
-            if (.not. allocated(error)) call check_engine(study%solver, member%wall%mechanism, error)
+            if (.not. allocated(error)) call check_limit(study%solver, row%wall%mechanism, error)
+            if (.not. allocated(error)) call check_engine(study%solver, row%wall%mechanism, error)
             call add_place(error, reader%place(table))
          end if
          if (.not. allocated(error)) then
-            call plan_stripes(plan, member%wall, study, error)
+            call plan_stripes(plan, row%wall, study, error)
             if (allocated(error)) then
                call add_place(error, reader%place(table))
                return
             end if
-            call survey%scales%look(plan, study, member%wall)
-            call survey%wall_warnings%look(member%wall)
+            call survey%scales%look(plan, study, row%wall)
+            call survey%wall_warnings%look(row%wall)
             if (reader%row >= rows(1) .and. reader%row <= rows(2)) then
                survey%histories = survey%histories + count(plan%ran)
             end if

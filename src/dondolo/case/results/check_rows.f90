@@ -9,7 +9,7 @@ module dondolo_case_check_rows
    use dondolo_check_ntc_check, only : check_ntc
    use dondolo_check_sheet, only : sheet_type
    use dondolo_fragility, only : fragility_type
-   use dondolo_population_member, only : member_type
+   use dondolo_population_wall_row, only : wall_row_type
    use dondolo_wall, only : wall_type
    implicit none
    private
@@ -71,10 +71,10 @@ contains
    end subroutine check_wall
 
    !> The check of a row of a population; why there is none in its last cell
-   subroutine put_check(table, case, member, curve, verdicts)
+   subroutine put_check(table, case, row, curve, verdicts)
       class(table_type), intent(inout) :: table
       type(case_type), intent(in) :: case
-      type(member_type), intent(in) :: member
+      type(wall_row_type), intent(in) :: row
       !> Its curve of collapse
       type(fragility_type), intent(in) :: curve
       !> Counts the row
@@ -85,11 +85,11 @@ contains
       character(len=:), allocatable :: note, name
       integer :: i
 
-      call check_wall(case, member%wall, sheet, error, curve)
+      call check_wall(case, row%wall, sheet, error, curve)
       note = ''
       if (allocated(error)) note = error%message
-      call count_verdict(verdicts, member, sheet, .not. allocated(error))
-      call table%put('group', member%group)
+      call count_verdict(verdicts, row, sheet, .not. allocated(error))
+      call table%put('group', row%group)
       call put_value('alpha_0', 'mechanism', '', 'alpha_0')
       call put_value('mass_ratio', 'mechanism', '', 'mass_ratio')
       call put_value('d_0_m', 'mechanism', '', 'd_0')
@@ -121,9 +121,9 @@ contains
    end subroutine put_check
 
    !> Count the check of a row
-   subroutine count_verdict(verdicts, member, sheet, is_checked)
+   subroutine count_verdict(verdicts, row, sheet, is_checked)
       type(verdicts_type), intent(inout) :: verdicts
-      type(member_type), intent(in) :: member
+      type(wall_row_type), intent(in) :: row
       type(sheet_type), intent(in) :: sheet
       !> Can the wall be checked?
       logical, intent(in) :: is_checked
@@ -141,7 +141,7 @@ contains
       verdicts%least = min(verdicts%least, ratio)
       if (verdicts%checked > shown_verdicts) return
       associate (verdict => verdicts%first(verdicts%checked))
-         verdict%name = member%wall%name()
+         verdict%name = row%wall%name()
          verdict%multiplier = sheet%value('mechanism', '', 'alpha_0')
          verdict%ratio = ratio
          verdict%probability = sheet%value('site', 'SLV', 'probability')

@@ -7,9 +7,9 @@ module dondolo_case_report_rows
    use dondolo_fragility_clustered, only : parameter_intervals
    use dondolo_motion_certificate, only : certified_type, status_names
    use dondolo_motion_response, only : response_type
-   use dondolo_population_member, only : member_type
    use dondolo_population_typology, only : typology_type
    use dondolo_population_unions, only : union_type
+   use dondolo_population_wall_row, only : wall_row_type
    use dondolo_wall, only : wall_type
    use dondolo_wall_properties, only : is_extra, is_of_building, wall_properties
    implicit none
@@ -29,10 +29,10 @@ contains
    end subroutine put_names
 
    !> A wall: its properties, empty cells for those that it does not have, and what follows from them
-   subroutine put_wall(table, member, lengths, has_facades)
+   subroutine put_wall(table, row, lengths, has_facades)
       class(table_type), intent(inout) :: table
       !> The wall, one mechanism of it
-      type(member_type), intent(in) :: member
+      type(wall_row_type), intent(in) :: row
       !> How many values each property has at most; as many columns has a list
       integer, intent(in) :: lengths(:)
       !> Are there walls that are part of a facade?
@@ -42,20 +42,20 @@ contains
 
       do i = 1, size(wall_properties)
          if (wall_properties(i)%replaced .or. (is_extra(i) .and. lengths(i) == 0)) cycle
-         call put_property(table, member%wall, wall_properties(i), lengths(i))
+         call put_property(table, row%wall, wall_properties(i), lengths(i))
       end do
-      associate (wall => member%wall)
+      associate (wall => row%wall)
          call table%put('alpha_rad', wall%model%alpha)
          call table%put('p_rad_s', wall%mechanism%frequency_parameter())
          call table%put('trigger_acceleration_m_s2', wall%mechanism%trigger_acceleration())
          call table%put('capacity_rad', wall%mechanism%capacity)
          call table%put('restitution', wall%mechanism%restitution)
       end associate
-      call table%put('weight', member%weight)
-      call table%put('group', member%group)
-      call table%put('p_occ', member%p_occ)
-      if (any(lengths > 0 .and. is_of_building)) call put_support(table, member%wall)
-      if (has_facades) call table%put('facade', member%facade)
+      call table%put('weight', row%weight)
+      call table%put('group', row%group)
+      call table%put('p_occ', row%p_occ)
+      if (any(lengths > 0 .and. is_of_building)) call put_support(table, row%wall)
+      if (has_facades) call table%put('facade', row%facade)
    end subroutine put_wall
 
    !> A property of a wall, of a list all values

@@ -291,7 +291,7 @@ contains
 
       integer :: i
 
-      do i = 1, size(case%table%facade%sources)
+      do i = 1, size(case%table%base_wall%sources)
          call put_source(table, case, results, i)
          call table%end_row()
       end do

@@ -9,12 +9,12 @@ module dondolo_case_row_tables
    use dondolo_case_results, only : results_type, row_counts_type
    use dondolo_case_table, only : table_type
    use dondolo_case_tie_rows, only : put_tally
-   use dondolo_fragility_stripes, only : find_lifts, plan_stripes, stripes_type
+   use dondolo_fragility_stripes, only : mark_lifts, plan_stripes, stripes_type
    use dondolo_fragility_study, only : study_type
-   use dondolo_population_member, only : member_type
    use dondolo_population_reader, only : population_reader_type
    use dondolo_population_row_result, only : row_result_type
    use dondolo_population_store, only : read_result
+   use dondolo_population_wall_row, only : wall_row_type
    implicit none
    private
 
@@ -24,11 +24,11 @@ module dondolo_case_row_tables
    abstract interface
 
       !> Put what a table has of a row of a population, or of the one wall of a case
-      subroutine row_interface(case, member, row, verdicts, table, error)
-         import :: case_type, member_type, row_counts_type, verdicts_type, table_type, error_type
+      subroutine row_interface(case, row, counts, verdicts, table, error)
+         import :: case_type, wall_row_type, row_counts_type, verdicts_type, table_type, error_type
          type(case_type), intent(in), target :: case
-         type(member_type), intent(in) :: member
-         type(row_counts_type), intent(in) :: row
+         type(wall_row_type), intent(in) :: row
+         type(row_counts_type), intent(in) :: counts
          !> Counts of what came of the checks
          type(verdicts_type), intent(inout) :: verdicts
          class(table_type), intent(inout) :: table
@@ -52,28 +52,28 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(population_reader_type) :: reader
-      type(member_type) :: member
-      type(row_counts_type) :: row
+      type(wall_row_type) :: row
+      type(row_counts_type) :: counts
       type(verdicts_type) :: verdicts
       integer :: i
       logical :: found
 
       if (case%job%task /= typology_task) then
-         member%wall = case%wall
-         member%group = ''
-         member%facade = ''
-         call put_row(case, member, results%row, verdicts, table, error)
+         row%wall = case%wall
+         row%group = ''
+         row%facade = ''
+         call put_row(case, row, results%row, verdicts, table, error)
          return
       end if
       reader%names%is_checked = .false.
       do i = 1, results%population%rows
-         call reader%next(case%table, member, found, error)
+         call reader%next(case%table, row, found, error)
          if (allocated(error)) exit
-         row%histories = results%population%histories(:, i)
-         row%reached = results%population%reached(:, :, i)
-         row%curve = results%population%curve(:, i)
-         if (is_stored) call read_stored(results, i, row, error)
-         if (.not. allocated(error)) call put_row(case, member, row, verdicts, table, error)
+         counts%histories = results%population%histories(:, i)
+         counts%reached = results%population%reached(:, :, i)
+         counts%curve = results%population%curve(:, i)
+         if (is_stored) call read_stored(results, i, counts, error)
+         if (.not. allocated(error)) call put_row(case, row, counts, verdicts, table, error)
          if (allocated(error)) exit
       end do
       call results%stores%close()
@@ -81,12 +81,12 @@ contains
    end subroutine each_row
 
    !> What a store has of a row of a population
-   subroutine read_stored(results, number, row, error)
+   subroutine read_stored(results, number, counts, error)
       type(results_type), intent(inout) :: results
       !> Number of the row
       integer, intent(in) :: number
-      !> The row: what happens to its ties is set, and its histories if they are kept
-      type(row_counts_type), intent(inout) :: row
+      !> Counts and curves of the row: what happens to its ties is set, and its histories if they are kept
+      type(row_counts_type), intent(inout) :: counts
       !> A store has changed
       type(error_type), allocatable, intent(out) :: error
 
@@ -94,16 +94,16 @@ contains
 
       call read_result(results%stores, number, stored, error)
       if (allocated(error)) return
-      call move_alloc(stored%tallies, row%tallies)
-      if (allocated(row%response)) deallocate (row%response)
-      if (allocated(stored%response)) call move_alloc(stored%response, row%response)
+      call move_alloc(stored%tallies, counts%tallies)
+      if (allocated(counts%response)) deallocate (counts%response)
+      if (allocated(stored%response)) call move_alloc(stored%response, counts%response)
    end subroutine read_stored
 
    !> A wall
-   subroutine put_wall_row(case, member, row, verdicts, table, error)
+   subroutine put_wall_row(case, row, counts, verdicts, table, error)
       type(case_type), intent(in), target :: case
-      type(member_type), intent(in) :: member
-      type(row_counts_type), intent(in) :: row
+      type(wall_row_type), intent(in) :: row
+      type(row_counts_type), intent(in) :: counts
       type(verdicts_type), intent(inout) :: verdicts
       class(table_type), intent(inout) :: table
       type(error_type), allocatable, intent(out) :: error
@@ -115,15 +115,15 @@ contains
       else
          lengths = case%wall%input%lengths()
       end if
-      call put_wall(table, member, lengths, case%survey%has_facades)
+      call put_wall(table, row, lengths, case%survey%has_facades)
       call table%end_row()
    end subroutine put_wall_row
 
    !> All histories of a row
-   subroutine put_history_rows(case, member, row, verdicts, table, error)
+   subroutine put_history_rows(case, row, counts, verdicts, table, error)
       type(case_type), intent(in), target :: case
-      type(member_type), intent(in) :: member
-      type(row_counts_type), intent(in) :: row
+      type(wall_row_type), intent(in) :: row
+      type(row_counts_type), intent(in) :: counts
       type(verdicts_type), intent(inout) :: verdicts
       class(table_type), intent(inout) :: table
       !> They cannot be chosen again
@@ -135,17 +135,17 @@ contains
       integer :: i, j
 
       call case%make_study(study)
-      call plan_stripes(plan, member%wall, study, error)
+      call plan_stripes(plan, row%wall, study, error)
       if (allocated(error)) return
-      if (tells_uplift(case)) call find_lifts(plan, case%suite%falls, member%wall%gravity, lifts)
+      if (tells_uplift(case)) call mark_lifts(plan, case%suite%falls, row%wall%gravity, lifts)
       do j = 1, size(plan%levels)
          do i = 1, size(plan%record)
             if (.not. plan%ran(i, j)) cycle
-            call put_names(table, member%wall)
+            call put_names(table, row%wall)
             call put_history(table, case%suite%records(plan%record(i))%name, plan%polarity(i), plan%im, plan%levels(j), &
-               & plan%scale(i, j), row%response(i, j))
-            if (case%solver%solver%estimate_error) call table%put('edp_error', row%response(i, j)%edp_error)
-            if (case%solver%solver%certify) call put_certified(table, row%certified(i, j))
+               & plan%scale(i, j), counts%response(i, j))
+            if (case%solver%solver%estimate_error) call table%put('edp_error', counts%response(i, j)%edp_error)
+            if (case%solver%solver%certify) call put_certified(table, counts%certified(i, j))
             if (allocated(lifts)) call table%put('uplift', lifts(i, j))
             call table%end_row()
          end do
@@ -160,10 +160,10 @@ contains
    end function tells_uplift
 
    !> Histories of a row that reach each threshold at every level
-   subroutine put_stripe_rows(case, member, row, verdicts, table, error)
+   subroutine put_stripe_rows(case, row, counts, verdicts, table, error)
       type(case_type), intent(in), target :: case
-      type(member_type), intent(in) :: member
-      type(row_counts_type), intent(in) :: row
+      type(wall_row_type), intent(in) :: row
+      type(row_counts_type), intent(in) :: counts
       type(verdicts_type), intent(inout) :: verdicts
       class(table_type), intent(inout) :: table
       type(error_type), allocatable, intent(out) :: error
@@ -172,20 +172,20 @@ contains
 
       do k = 1, size(case%stripes%thresholds)
          do j = 1, size(case%stripes%levels)
-            call put_names(table, member%wall)
-            call put_stripe(table, case%stripes%scaling%name, case%stripes%levels(j), row%histories(j), row%reached(j, k), &
+            call put_names(table, row%wall)
+            call put_stripe(table, case%stripes%scaling%name, case%stripes%levels(j), counts%histories(j), counts%reached(j, k), &
                & case%stripes%thresholds(k))
-            if (allocated(row%uplift)) call table%put('uplift', row%uplift(j))
+            if (allocated(counts%uplift)) call table%put('uplift', counts%uplift(j))
             call table%end_row()
          end do
       end do
    end subroutine put_stripe_rows
 
    !> Curves of a row
-   subroutine put_fragility_rows(case, member, row, verdicts, table, error)
+   subroutine put_fragility_rows(case, row, counts, verdicts, table, error)
       type(case_type), intent(in), target :: case
-      type(member_type), intent(in) :: member
-      type(row_counts_type), intent(in) :: row
+      type(wall_row_type), intent(in) :: row
+      type(row_counts_type), intent(in) :: counts
       type(verdicts_type), intent(inout) :: verdicts
       class(table_type), intent(inout) :: table
       type(error_type), allocatable, intent(out) :: error
@@ -193,44 +193,44 @@ contains
       integer :: k
 
       do k = 1, size(case%stripes%thresholds)
-         call put_names(table, member%wall)
-         call put_fragility(table, case%stripes%scaling%name, row%curve(k), case%stripes%thresholds(k))
+         call put_names(table, row%wall)
+         call put_fragility(table, case%stripes%scaling%name, counts%curve(k), case%stripes%thresholds(k))
          call table%end_row()
       end do
    end subroutine put_fragility_rows
 
    !> What the histories of a wall do to its ties
-   subroutine put_tie_rows(case, member, row, verdicts, table, error)
+   subroutine put_tie_rows(case, row, counts, verdicts, table, error)
       type(case_type), intent(in), target :: case
-      type(member_type), intent(in) :: member
-      type(row_counts_type), intent(in) :: row
+      type(wall_row_type), intent(in) :: row
+      type(row_counts_type), intent(in) :: counts
       type(verdicts_type), intent(inout) :: verdicts
       class(table_type), intent(inout) :: table
       type(error_type), allocatable, intent(out) :: error
 
       integer :: i, j
 
-      if (member%wall%mechanism%ties == 0) return
+      if (row%wall%mechanism%ties == 0) return
       do j = 1, size(case%stripes%levels)
-         do i = 1, size(row%tallies, 1)
-            call put_names(table, member%wall)
-            call put_tally(table, case%stripes%scaling%name, case%stripes%levels(j), i, row%tallies(i, j), row%histories(j))
+         do i = 1, size(counts%tallies, 1)
+            call put_names(table, row%wall)
+            call put_tally(table, case%stripes%scaling%name, case%stripes%levels(j), i, counts%tallies(i, j), counts%histories(j))
             call table%end_row()
          end do
       end do
    end subroutine put_tie_rows
 
    !> The check of a wall by a building code
-   subroutine put_check_row(case, member, row, verdicts, table, error)
+   subroutine put_check_row(case, row, counts, verdicts, table, error)
       type(case_type), intent(in), target :: case
-      type(member_type), intent(in) :: member
-      type(row_counts_type), intent(in) :: row
+      type(wall_row_type), intent(in) :: row
+      type(row_counts_type), intent(in) :: counts
       type(verdicts_type), intent(inout) :: verdicts
       class(table_type), intent(inout) :: table
       type(error_type), allocatable, intent(out) :: error
 
-      call put_names(table, member%wall)
-      call put_check(table, case, member, row%curve(size(row%curve)), verdicts)
+      call put_names(table, row%wall)
+      call put_check(table, case, row, counts%curve(size(counts%curve)), verdicts)
       call table%end_row()
    end subroutine put_check_row
 

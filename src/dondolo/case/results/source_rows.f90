@@ -25,7 +25,7 @@ contains
       type(fragility_type) :: curve
       integer :: i
 
-      associate (wall => case%table%facade, name => case%table%facade%sources(source))
+      associate (wall => case%table%base_wall, name => case%table%base_wall%sources(source))
          call table%put('source', trim(name))
          call table%put('distribution', case%uncertainty%word(trim(name)))
          call table%put('value_5', wall%values(source, wall%row_of_end(source, 1)))
@@ -76,7 +76,7 @@ contains
       type(fragility_type) :: curve
       integer :: i
 
-      associate (wall => case%table%facade)
+      associate (wall => case%table%base_wall)
          line = '   '//trim(wall%sources(source))//' from '//rounded(wall%values(source, wall%row_of_end(source, 1)))// &
             & ' to '//rounded(wall%values(source, wall%row_of_end(source, 2)))//': theta'
          do i = 1, 2
@@ -105,19 +105,19 @@ contains
       integer :: i, last, fitted
 
       last = size(results%typologies, 2)
-      middle = collapse_of(results, case%table%facade%samples + 2)
+      middle = collapse_of(results, case%table%base_wall%samples + 2)
       associate (whole => results%typologies(whole_population(results%typologies(:, last)), last))
          line = 'beta of the model '//rounded(whole%beta_walls)//', of the records '//rounded(whole%beta_records)// &
             & ', in all '//rounded(hypot(whole%beta_walls, whole%beta_records))
       end associate
       fitted = 0
-      do i = 1, case%table%facade%samples
+      do i = 1, case%table%base_wall%samples
          given = collapse_of(results, i)
          if (given%has_fit()) fitted = fitted + 1
       end do
-      if (fitted < case%table%facade%samples) line = line//' (of the '//to_text(fitted)//' of '// &
-         & to_text(case%table%facade%samples)//' variants that have a fit)'
-      given = collapse_of(results, case%table%facade%samples + 1)
+      if (fitted < case%table%base_wall%samples) line = line//' (of the '//to_text(fitted)//' of '// &
+         & to_text(case%table%base_wall%samples)//' variants that have a fit)'
+      given = collapse_of(results, case%table%base_wall%samples + 1)
       if (given%has_fit()) line = line//'; theta of the wall as given '//rounded(given%theta)
       if (middle%has_fit()) line = line//', with all sources at their medians '//rounded(middle%theta)
       line = line//'; sources from their 5 to their 95 % fractiles:'

@@ -11,13 +11,13 @@ module dondolo_case_combine_rows
    use dondolo_fragility_study, only : runs_of, study_type
    use dondolo_population_designs, only : compare_designs
    use dondolo_population_errors, only : population_errors_type
-   use dondolo_population_member, only : member_type
    use dondolo_population_reader, only : population_reader_type
    use dondolo_population_row_result, only : row_result_type
    use dondolo_population_sensitivity, only : new_sensitivity
    use dondolo_population_store, only : read_result
    use dondolo_population_typology, only : combine_population, typology_type
    use dondolo_population_unions, only : mean_unions, union_builder_type, union_type, wall_union
+   use dondolo_population_wall_row, only : wall_row_type
    implicit none
    private
 
@@ -57,7 +57,7 @@ contains
       call look_at_rows(case, results, study, fits, error)
       if (allocated(error)) return
       if (case%designs) call compare_designs(results%designs)
-      if (allocated(case%uncertainty)) call find_sensitivity(case, results)
+      if (allocated(case%uncertainty)) call compute_sensitivity(case, results)
       call case%survey%wall_warnings%warn(results%warnings)
       call warn_of_records(case%suite, case%solver%gravity, results%warnings)
       call warn_of_events(case%suite, results%warnings)
@@ -72,7 +72,7 @@ contains
    end subroutine combine_rows
 
    !> What the scatter of the medians of a wall with variants is owed to
-   subroutine find_sensitivity(case, results)
+   subroutine compute_sensitivity(case, results)
       type(case_type), intent(in) :: case
       !> Its results: the curves are there; the indices are set
       type(results_type), intent(inout) :: results
@@ -81,8 +81,8 @@ contains
       logical, allocatable :: fitted(:)
       integer :: n, k, i
 
-      n = case%table%facade%samples
-      associate (curves => results%population%curve(size(case%stripes%thresholds), :n), values => case%table%facade%values)
+      n = case%table%base_wall%samples
+      associate (curves => results%population%curve(size(case%stripes%thresholds), :n), values => case%table%base_wall%values)
          fitted = [(curves(i)%has_fit(), i=1, n)]
          allocate (results%sensitivity)
          call new_sensitivity(results%sensitivity, reshape([(pack(values(k, :n), fitted), k=1, size(values, 1))], &
@@ -91,7 +91,7 @@ contains
       if (.not. allocated(error)) return
       deallocate (results%sensitivity)
       results%no_sensitivity = error%message
-   end subroutine find_sensitivity
+   end subroutine compute_sensitivity
 
    !> Counts of all rows
    subroutine gather(results, share, error)
@@ -102,15 +102,15 @@ contains
       !> A store has changed
       type(error_type), allocatable, intent(out) :: error
 
-      type(row_result_type) :: row
+      type(row_result_type) :: outcome
       integer :: i
 
       associate (population => results%population)
          do i = 1, population%rows
-            call read_result(results%stores, i, row, error)
+            call read_result(results%stores, i, outcome, error)
             if (allocated(error)) exit
-            population%histories(:, i) = nint(real(row%histories, wp)*share)
-            population%reached(:, :, i) = count(row%flags, dim=1)
+            population%histories(:, i) = nint(real(outcome%histories, wp)*share)
+            population%reached(:, :, i) = count(outcome%flags, dim=1)
          end do
       end associate
       call results%stores%close()
@@ -129,8 +129,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(population_reader_type) :: reader
-      type(member_type) :: member
-      type(row_result_type) :: row
+      type(wall_row_type) :: row
+      type(row_result_type) :: outcome
       type(population_errors_type) :: errors
       type(union_builder_type) :: builder
       type(union_type) :: union
@@ -154,28 +154,28 @@ contains
          reader%names%is_checked = .false.
          united = 0
          do i = 1, population%rows
-            call reader%next(case%table, member, found, error)
-            if (.not. allocated(error)) call read_result(results%stores, i, row, error)
+            call reader%next(case%table, row, found, error)
+            if (.not. allocated(error)) call read_result(results%stores, i, outcome, error)
             if (allocated(error)) exit
             wall = population%row(i)%wall
             rows = population%rows_of(population%rows + wall)
             if (i == rows(1)) then
-               name = member%wall%name()
-               if (len(member%facade) > 0) name = member%facade
+               name = row%wall%name()
+               if (len(row%facade) > 0) name = row%facade
                if (allocated(counts)) deallocate (counts)
                allocate (counts(size(share, 1), size(share, 2), states, rows(2) - rows(1) + 1))
             end if
-            call count_clusters(results, row, study%suite%clusters, runs, counts(:, :, :, i - rows(1) + 1))
+            call count_clusters(results, outcome, study%suite%clusters, runs, counts(:, :, :, i - rows(1) + 1))
             associate (curve => population%curve(states, i))
-               call fits%look(curve, member%wall%name())
-               if (case%designs) call results%designs(i)%take_wall(member%wall)
+               call fits%look(curve, row%wall%name())
+               if (case%designs) call results%designs(i)%take_wall(row%wall)
                if (i <= shown_rows) then
-                  results%shown(i)%name = member%wall%name()
-                  results%shown(i)%mechanism = member%wall%mechanism_name()
+                  results%shown(i)%name = row%wall%name()
+                  results%shown(i)%mechanism = row%wall%mechanism_name()
                   results%shown(i)%curve = curve
                end if
             end associate
-            if (population%is_several(wall)) call builder%add(row, population%row(i)%p_occ)
+            if (population%is_several(wall)) call builder%add(outcome, population%row(i)%p_occ)
             if (i < rows(2)) cycle
             call errors%add(population, wall, counts)
             if (.not. population%is_several(wall)) cycle
@@ -215,11 +215,11 @@ contains
    end subroutine share_clusters
 
    !> Count the histories of a row by clusters of records, and set the clustered standard errors of its curves
-   subroutine count_clusters(results, row, clusters, runs, counts)
+   subroutine count_clusters(results, outcome, clusters, runs, counts)
       !> Results: the errors of the row are set, and of a design its curve
       type(results_type), intent(inout) :: results
-      !> What came of the row
-      type(row_result_type), intent(in) :: row
+      !> What came of a row
+      type(row_result_type), intent(in) :: outcome
       !> Number of the cluster of each record
       integer, intent(in) :: clusters(:)
       !> Whether a record runs at a level (records, levels)
@@ -230,15 +230,15 @@ contains
       real(wp) :: histories(size(counts, 1), size(counts, 2)), changes(2, size(counts, 2))
       integer :: k
 
-      associate (curves => results%population%curve(:, row%row))
+      associate (curves => results%population%curve(:, outcome%row))
          do k = 1, size(counts, 3)
-            call row%by_cluster(k, clusters, runs, counts(:, :, k), histories)
+            call outcome%by_cluster(k, clusters, runs, counts(:, :, k), histories)
             call cluster_errors(curves(k), results%population%levels, counts(:, :, k), histories, changes)
-            counts(:, :, k) = counts(:, :, k)/real(row%histories, wp)
+            counts(:, :, k) = counts(:, :, k)/real(outcome%histories, wp)
          end do
          if (.not. allocated(results%designs)) return
-         results%designs(row%row)%curve = curves(size(curves))
-         results%designs(row%row)%change = changes(1, :)
+         results%designs(outcome%row)%curve = curves(size(curves))
+         results%designs(outcome%row)%change = changes(1, :)
       end associate
    end subroutine count_clusters
 

@@ -16,14 +16,14 @@ module dondolo_case_run_case
    use dondolo_case_survey, only : check_size
    use dondolo_case_wall_warnings, only : wall_warnings_type
    use dondolo_fragility_certified, only : bound_states, certify_stripes
-   use dondolo_fragility_stripes, only : find_lifts, multiple_stripe, plan_stripes, planned_work, stripes_type
+   use dondolo_fragility_stripes, only : mark_lifts, multiple_stripe, plan_stripes, planned_work, stripes_type
    use dondolo_fragility_study, only : study_type
    use dondolo_fragility_tie_tallies, only : tally_ties
    use dondolo_motion_queue, only : progress_interface
    use dondolo_motion_simulate, only : simulate
    use dondolo_motion_work, only : work_type
-   use dondolo_population_member, only : member_type
    use dondolo_population_reader, only : population_reader_type
+   use dondolo_population_wall_row, only : wall_row_type
    use dondolo_record, only : record_type
    use dondolo_wall, only : wall_type
    implicit none
@@ -99,7 +99,7 @@ contains
       type(study_type) :: study
       type(floors_type), target :: floors
       type(population_reader_type) :: reader
-      type(member_type) :: member
+      type(wall_row_type) :: row
       logical :: found
 
       call case%make_study(study)
@@ -112,8 +112,8 @@ contains
       reader%names%is_checked = .false.
       if (.not. allocated(error)) call reader%skip(case%table, case%survey%first - 1, error)
       do while (reader%row < case%survey%last .and. .not. allocated(error))
-         call reader%next(case%table, member, found, error)
-         if (.not. allocated(error)) call plan_wall(member%wall)
+         call reader%next(case%table, row, found, error)
+         if (.not. allocated(error)) call plan_wall(row%wall)
       end do
 
    contains
@@ -181,7 +181,7 @@ contains
       end if
       call tally_ties(case%wall%mechanism, stripes%response, stripes%ran, results%row%tallies)
       if (case%suite%has_vertical) then
-         call find_lifts(stripes, case%suite%falls, case%wall%gravity, lifts)
+         call mark_lifts(stripes, case%suite%falls, case%wall%gravity, lifts)
          results%row%uplift = count(lifts, dim=1)
       end if
       call move_alloc(stripes%response, results%row%response)

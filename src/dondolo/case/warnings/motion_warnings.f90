@@ -4,7 +4,7 @@ module dondolo_case_motion_warnings
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : rounded, to_text
    use dondolo_case_warning, only : warning_type, warnings_type
-   use dondolo_fragility_stripes, only : find_lifts, stripes_type
+   use dondolo_fragility_stripes, only : mark_lifts, stripes_type
    use dondolo_fragility_study, only : study_type
    use dondolo_record, only : record_type
    use dondolo_record_suite, only : suite_type
@@ -149,7 +149,7 @@ contains
       logical, allocatable :: lifts(:, :)
       integer :: j
 
-      call find_lifts(stripes, suite%falls, gravity, lifts)
+      call mark_lifts(stripes, suite%falls, gravity, lifts)
       do j = 1, size(stripes%levels)
          if (self%lifting == 0 .and. any(lifts(:, j))) then
             self%lifting_level = stripes%levels(j)

@@ -1,15 +1,15 @@
 !> A row of a population: one mechanism of a wall, with its weight, its group and its facade.
-module dondolo_population_member
+module dondolo_population_wall_row
    use dondolo_base_kinds, only : wp
    use dondolo_base_property, only : is_text, property_type
    use dondolo_wall, only : wall_type
    implicit none
    private
 
-   public :: member_type, member_properties
+   public :: wall_row_type, row_properties
 
    !> Columns besides the properties of a wall
-   type(property_type), target, protected :: member_properties(4) = [ &
+   type(property_type), target, protected :: row_properties(4) = [ &
       & property_type('weight', default=1.0_wp, smallest=0.0_wp, largest=1.0e12_wp, &
       &   meaning='weight of the wall in its population, such as the number of walls like it'), &
       & property_type('group', is_text, meaning='group of the wall, which gets curves of its own'), &
@@ -19,7 +19,7 @@ module dondolo_population_member
       &   'in series')]
 
    !> A row: one mechanism of a wall
-   type :: member_type
+   type :: wall_row_type
       !> The wall with this mechanism
       type(wall_type) :: wall
       !> Weight of the wall, >= 0
@@ -34,6 +34,6 @@ module dondolo_population_member
       logical :: continues = .false.
       !> Was its name given? A wall without one has one row
       logical :: has_name = .false.
-   end type member_type
+   end type wall_row_type
 
-end module dondolo_population_member
+end module dondolo_population_wall_row
