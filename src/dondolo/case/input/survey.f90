@@ -95,9 +95,10 @@ contains
             survey%lengths = max(survey%lengths, row%wall%input%lengths())
             call survey%supports%look(row%wall)
             call add_wall(survey%walls_fingerprint, row%wall)
-            if (row%wall%mechanism%has_friction()) survey%with_friction = survey%with_friction + 1
-            if (survey%with_friction == 1 .and. .not. allocated(survey%first_with_friction)) &
-               & survey%first_with_friction = row%wall%name()
+            if (row%wall%mechanism%has_friction()) then
+               if (survey%with_friction == 0) survey%first_with_friction = row%wall%name()
+               survey%with_friction = survey%with_friction + 1
+            end if
             if (survey%population%groups%count > most_groups) call refuse_group(survey%population%groups, error)
             if (.not. allocated(error)) call check_limit(study%solver, row%wall%mechanism, error)
             if (.not. allocated(error)) call check_engine(study%solver, row%wall%mechanism, error)
