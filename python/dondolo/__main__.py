@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 import dondolo as dd
-from dondolo._base.files import whole_file
+from dondolo._fortran.files import whole_file
 from dondolo._fortran.origins import check_replaced
 from dondolo._fortran.records import catalogue_table
 from dondolo.analysis.request import progress_bar

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 from costs import growth
 from dondolo._base.shown import html_of
-from dondolo._storage.transactions import described
+from dondolo._storage.run_file import described
 from dondolo.reporting import content
 from dondolo.reporting.page import _environment
 

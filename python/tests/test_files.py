@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import study
-from dondolo._base.files import whole_file
+from dondolo._fortran.files import whole_file
 from dondolo._fortran.library import build_variant
 from dondolo._storage import tables
 

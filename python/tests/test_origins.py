@@ -10,7 +10,7 @@ import warnings
 import numpy as np
 import pytest
 from dondolo.__main__ import main
-from dondolo._base.files import whole_file
+from dondolo._fortran.files import whole_file
 
 import dondolo as dd
 

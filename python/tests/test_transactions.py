@@ -14,8 +14,7 @@ import time
 from datetime import UTC, datetime, timedelta
 
 import pytest
-from dondolo._base.files import whole_file
-from dondolo._storage.transactions import TABLES, publishing
+from dondolo._fortran.files import TABLES, result_set, whole_file
 
 import dondolo as dd
 
@@ -120,7 +119,7 @@ def test_published_files_are_found_under_either_name(executable, folder):
     (folder / "out/x_walls.csv").write_text("# dondolo 0.1.0\n# run: 20260101T000000Z-0123456789abcdef\nwall\na\n")
     assert whose(folder) == "a"
     # The next run ends what it had begun.
-    with publishing(folder / "out/x"):
+    with result_set(folder / "out/x"):
         pass
     assert sorted(os.listdir(folder / "out")) == FILES
 
@@ -161,14 +160,14 @@ def test_nothing_of_the_user_is_replaced(mine, executable, folder):
     run = start(executable, folder, "a")
     assert "out/x.lock: exists, and is no lock of dondolo" in run.communicate()[1]
     assert run.returncode == 2
-    with pytest.raises(dd.InputError, match=r"x\.lock: exists, and is no lock"), publishing(folder / "out/x"):
+    with pytest.raises(dd.InputError, match=r"x\.lock: exists, and is no lock"), result_set(folder / "out/x"):
         pass
     assert os.listdir(folder / "out") == ["x.lock"]
     assert lock.read_text() == mine
     if not mine:
         # One that a run has made and not yet signed when it was killed has the sticky bit, and is taken.
         lock.chmod(0o1644)
-        with publishing(folder / "out/x"):
+        with result_set(folder / "out/x"):
             pass
         assert not os.listdir(folder / "out")
 
@@ -286,7 +285,7 @@ def test_signals_end_a_run_in_order(executable, folder, root, number):
     assert f"out/x: running: process {run.pid} on " in status.stdout
     with (
         pytest.raises(dd.InputError, match=rf"written by another run \(process {run.pid} on"),
-        publishing(folder / "out/x"),
+        result_set(folder / "out/x"),
     ):
         pass
     run.send_signal(number)
@@ -300,6 +299,9 @@ def test_all_files_are_written_by_one_layer(root):
     writing = re.compile(r"""\.write_(?:text|bytes)\(|\bopen\([^)]*["'][wax]""")
     for path in (root / "python/dondolo").rglob("*.py"):
         for line in filter(writing.search, path.read_text().splitlines()):
+            # An example writes what a user has.
+            if line.lstrip().startswith(">>>"):
+                continue
             assert re.search(r"\bpart\b|\bstaged\(|\barchive\.open", line), f"{path}: {line}"
     for path in (root / "src").rglob("*.[fF]90"):
         assert not re.search(r"(?i)action\s*=\s*'(?:read)?write'", path.read_text()), path

@@ -1,11 +1,10 @@
-!> Fragility curves of walls and populations.
+!> Fragility curves.
 module curves
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_base_error, only : error_type
-   use dondolo_base_lines, only : lines_type
    use dondolo_base_student, only : quantile => student_quantile
-   use dondolo_boundary, only : check_room, split_lines
-   use dondolo_case_result_warnings, only : fit_warnings_type, warn_of_fit, warn_of_the_union => warn_of_union
+   use dondolo_boundary, only : check_room
+   use dondolo_case_result_warnings, only : warn_of_fit, warn_of_the_union => warn_of_union
    use dondolo_case_warning, only : warnings_type
    use dondolo_fragility, only : error_names, fit_fragility, fit_ok, fragility_type
    use dondolo_fragility_clustered, only : cluster_errors
@@ -13,16 +12,13 @@ module curves
    use dondolo_fragility_stripes, only : stripes_type
    use dondolo_interface_handles, only : find_walls
    use dondolo_parcel, only : parcel_type, report, send
-   use dondolo_population, only : population_type
-   use dondolo_population_series, only : series => in_series
-   use dondolo_population_typology, only : combine_population, typology_type
-   use dondolo_population_weights, only : weights_of, weights_type
+   use dondolo_population_series, only : series => in_series, slopes_of => series_slopes
    use dondolo_wall, only : wall_type
    implicit none
    private
 
-   public :: fit_curves, cluster_curves, cluster_changes, fit_ordinal, probability, in_series, warn_of_curve, fit_walls
-   public :: curve_of_population, student_quantile, warn_of_union
+   public :: fit_curves, cluster_changes, fit_ordinal, probability, in_series, series_slopes, warn_of_curve, warn_of_union
+   public :: student_quantile
 
 contains
 
@@ -64,41 +60,8 @@ contains
       call report(first, failure)
    end subroutine fit_curves
 
-   !> Clustered covariances (var ln theta, covariance, var beta) of k fitted curves from the collapses and histories of each of
-   !> g clusters at each of m levels; the histories are the same for all curves if h is 1, else h is k. errors are places among
-   !> the names, and clusters count those that have histories
-   subroutine cluster_curves(levels, collapses, histories, curves, statuses, m, g, k, h, covariances, errors, clusters, failure)
-      !f2py threadsafe
-      integer(c_int), intent(in) :: m, g, k, h, statuses(k)
-      real(c_double), intent(in) :: levels(m), collapses(m, g, k), histories(m, g, h), curves(8, k)
-      real(c_double), intent(out) :: covariances(3, k)
-      integer(c_int), intent(out) :: errors(k), clusters(k)
-      integer(c_int64_t), intent(out) :: failure(5)
-      type(fragility_type) :: curve
-      type(error_type), allocatable :: error
-      real(c_double) :: changes(2, g)
-      integer :: i
-
-      covariances = 0
-      errors = 0
-      clusters = 0
-      call check_room(error, reals=40.0_c_double*m)
-      call report(error, failure)
-      if (allocated(error)) return
-      !$omp parallel do if(k > 1) default(none) private(curve, changes) &
-      !$omp & shared(k, h, levels, collapses, histories, curves, statuses, covariances) &
-      !$omp & shared(errors, clusters)
-      do i = 1, k
-         curve = fragility_type(status=statuses(i), theta=curves(1, i), beta=curves(2, i))
-         call cluster_errors(curve, levels, collapses(:, :, i), histories(:, :, min(i, h)), changes)
-         covariances(:, i) = [curve%covariance(1, 1), curve%covariance(1, 2), curve%covariance(2, 2)]
-         errors(i) = findloc(error_names, curve%errors, dim=1)
-         clusters(i) = curve%clusters
-      end do
-      !$omp end parallel do
-   end subroutine cluster_curves
-
-   !> Change of ln theta and beta of a fitted curve if each of g clusters is left out, to first order; errors as cluster_curves
+   !> Change of ln theta and beta of a fitted curve if each of g clusters is left out, to first order; errors are
+   !> places among the names
    subroutine cluster_changes(levels, collapses, histories, theta, beta, m, g, changes, errors, failure)
       integer(c_int), intent(in) :: m, g
       real(c_double), intent(in) :: levels(m), collapses(m, g), histories(m, g), theta, beta
@@ -185,6 +148,22 @@ contains
       end do
    end subroutine in_series
 
+   !> Derivative of the probability of each wall with respect to that of each of its rows if it can occur, of k probabilities
+   subroutine series_slopes(p_occ, p, k, r, rows, w, slopes)
+      !f2py threadsafe
+      integer(c_int), intent(in) :: k, r, w, rows(w)
+      real(c_double), intent(in) :: p_occ(r), p(k, r)
+      real(c_double), intent(out) :: slopes(k, r)
+      integer :: i, first, last
+
+      first = 1
+      do i = 1, w
+         last = first + rows(i) - 1
+         slopes(:, first:last) = slopes_of(p_occ(first:last), p(:, first:last))
+         first = last + 1
+      end do
+   end subroutine series_slopes
+
    !> Warnings of the executable for the curve of one wall, or for walls = 0 of counts without a wall; numbers and status
    !> as fit_curves has them
    subroutine warn_of_curve(walls, levels, m, largest_edp, curve, status, sent)
@@ -234,159 +213,6 @@ contains
       call warnings%put_objects(parcel%lines)
       call send(parcel, error, sent)
    end subroutine warn_of_union
-
-   !> Curves of rows (mechanisms of walls), of their walls and of the population. texts: mechanism and group of each row; names:
-   !> of its wall; shares: weight and probability of occurrence of each row; rows: how many each wall has. Integers: number of
-   !> the population's curves, statuses of the rows, of the walls and of the population's curves, and the number of walls in
-   !> each of these; reals: numbers of the curves of the rows and of the walls, fractions of collapse of the walls, then for
-   !> each of the population's curves weight, dispersions between walls and between records, share with a curve, saturation,
-   !> histories, mean fractions, mean curve, fractiles (3 a level), numbers; text: group and mechanism of the population's
-   !> curves, then warnings
-   subroutine fit_walls(texts, names, levels, collapses, m, r, histories, shares, rows, w, sent)
-      character(len=*), intent(in) :: texts, names
-      integer(c_int), intent(in) :: m, r, w, collapses(m, r), histories(m, r), rows(w)
-      real(c_double), intent(in) :: levels(m), shares(2, r)
-      integer(c_int64_t), intent(out) :: sent(5)
-      type(population_type) :: population
-      type(typology_type), allocatable :: groups(:)
-      type(fit_warnings_type) :: fits
-      type(lines_type) :: words
-      type(warnings_type) :: warnings
-      type(parcel_type) :: parcel
-      type(error_type), allocatable :: error
-      integer :: i
-
-      call check_room(error, r + w, reals=16.0_c_double*m*(real(r, c_double) + w))
-      if (.not. allocated(error)) call new_population(population, texts, levels, collapses, histories, shares, rows, error)
-      if (.not. allocated(error)) call population%fit(error)
-      if (.not. allocated(error)) call combine_population(groups, population, 1, error)
-      if (.not. allocated(error)) then
-         call split_lines(names, words)
-         do i = 1, r
-            call fits%look(population%curve(1, i), words%line(i)%text)
-         end do
-         parcel%integers = [size(groups), (population%curve(1, i)%status, i=1, r + w), &
-            & (groups(i)%fit%status, i=1, size(groups)), (groups(i)%walls, i=1, size(groups))]
-         parcel%reals = [(pack_curve(population%curve(1, i)), i=1, r + w), (population%fraction(r + i, 1), i=1, w), &
-            & (groups(i)%weight, groups(i)%beta_walls, groups(i)%beta_records, groups(i)%fitted, &
-            & groups(i)%saturation, groups(i)%histories, groups(i)%mean_fraction, groups(i)%mean_curve, groups(i)%fractile, &
-            & pack_curve(groups(i)%fit), i=1, size(groups))]
-         do i = 1, size(groups)
-            call parcel%lines%add(groups(i)%group)
-            call parcel%lines%add(groups(i)%mechanism)
-         end do
-         ! The number of one wall with several mechanisms is their union, of which warn_of_union says what there is to say.
-         if (w == 1 .and. r > 1) then
-            call fits%warn(groups(:0), warnings)
-         else
-            call fits%warn(groups, warnings)
-         end if
-         call warnings%put_objects(parcel%lines)
-      end if
-      call send(parcel, error, sent)
-   end subroutine fit_walls
-
-   !> A curve of a population at n levels x: its weighted mean, and its fractiles for k shares of the weight. curves and
-   !> statuses are those of the rows; mechanism 'all': the walls as a whole; group: empty for the whole population. With
-   !> probabilities = 1 a parcel has their number as integer and their probabilities as reals (rows or walls, n)
-   subroutine curve_of_population(texts, levels, collapses, m, r, histories, shares, rows, w, curves, statuses, mechanism, group, &
-         & x, n, q, k, probabilities, mean, fractiles, sent)
-      character(len=*), intent(in) :: texts, mechanism, group
-      integer(c_int), intent(in) :: m, r, w, n, k, probabilities, collapses(m, r), histories(m, r), rows(w), statuses(r)
-      real(c_double), intent(in) :: levels(m), shares(2, r), curves(8, r), x(n), q(k)
-      real(c_double), intent(out) :: mean(n), fractiles(k, n)
-      integer(c_int64_t), intent(out) :: sent(5)
-      ! Numbers that are held at a time: a few tens of MB
-      integer, parameter :: most = 2000000
-      type(population_type) :: population
-      type(weights_type) :: weights
-      type(parcel_type) :: parcel
-      type(error_type), allocatable :: error
-      real(c_double), allocatable :: p(:, :), all(:, :)
-      integer :: first, last, part
-
-      mean = 0
-      fractiles = 0
-      call check_room(error, r + w, reals=real(most, c_double))
-      if (.not. allocated(error)) call new_population(population, texts, levels, collapses, histories, shares, rows, error)
-      if (.not. allocated(error)) then
-         call set_curves(population, curves, statuses)
-         weights = weights_of(population, population%part(mechanism, group))
-         if (probabilities == 1) then
-            call check_room(error, reals=4.0_c_double*real(size(weights%column), c_double)*n)
-            if (.not. allocated(error)) allocate (all(size(weights%column), n))
-         end if
-      end if
-      part = max(1, most/(r + w))
-      do first = 1, n, part
-         if (allocated(error)) exit
-         last = min(first + part - 1, n)
-         call population%probabilities(1, x(first:last), p, error, weights%column)
-         if (allocated(error)) exit
-         mean(first:last) = weights%mean(p)
-         fractiles(:, first:last) = weights%fractiles(p, q)
-         if (probabilities == 1) all(:, first:last) = transpose(p(:, weights%column))
-      end do
-      if (.not. allocated(error) .and. probabilities == 1) then
-         parcel%integers = [size(weights%column)]
-         parcel%reals = reshape(all, [size(all)])
-      end if
-      call send(parcel, error, sent)
-   end subroutine curve_of_population
-
-   !> A population with the counts of one damage state, without curves
-   subroutine new_population(population, texts, levels, collapses, histories, shares, rows, error)
-      !> The population
-      type(population_type), intent(out) :: population
-      !> Two lines a row: mechanism and group
-      character(len=*), intent(in) :: texts
-      !> Levels of intensity
-      real(c_double), intent(in) :: levels(:)
-      !> Histories that reach the state (levels, rows)
-      integer(c_int), intent(in) :: collapses(:, :)
-      !> Histories of each stripe (levels, rows)
-      integer(c_int), intent(in) :: histories(:, :)
-      !> Weight of the wall and probability that the mechanism can occur (2, rows)
-      real(c_double), intent(in) :: shares(:, :)
-      !> How many rows each wall has
-      integer(c_int), intent(in) :: rows(:)
-      !> Lack of memory
-      type(error_type), allocatable, intent(out) :: error
-
-      type(lines_type) :: words
-      integer :: i, k, row
-
-      call split_lines(texts, words)
-      row = 0
-      do i = 1, size(rows)
-         do k = 1, rows(i)
-            row = row + 1
-            call population%add(words%line(2*row - 1)%text, words%line(2*row)%text, shares(1, row), shares(2, row), k > 1)
-         end do
-      end do
-      call population%begin(levels, 1, error)
-      if (allocated(error)) return
-      population%histories = histories
-      population%reached(:, 1, :) = collapses
-   end subroutine new_population
-
-   !> Set the curves of the rows of a population: those that were fitted to it before
-   subroutine set_curves(population, curves, statuses)
-      !> The population
-      type(population_type), intent(inout) :: population
-      !> Their numbers, of which theta and beta come first (8, rows)
-      real(c_double), intent(in) :: curves(:, :)
-      !> Places of their statuses among the names
-      integer(c_int), intent(in) :: statuses(:)
-
-      integer :: i
-
-      do i = 1, size(statuses)
-         population%curve(1, i)%status = statuses(i)
-         population%curve(1, i)%theta = curves(1, i)
-         population%curve(1, i)%beta = curves(2, i)
-      end do
-   end subroutine set_curves
 
    !> A curve as flat numbers: theta, beta, var ln theta, covariance, var beta, log likelihood, bracket
    pure function pack_curve(curve) result(numbers)

@@ -1,8 +1,7 @@
-"""Curves that Fortran fits and evaluates: of walls, and of populations."""
+"""Curves that Fortran fits and evaluates."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -20,48 +19,6 @@ class CurveData(NamedTuple):
 
     status: str
     numbers: FloatArray
-
-
-class FlatPopulation(NamedTuple):
-    """A population as Fortran takes it, with the counts of one damage state.
-
-    Attributes
-    ----------
-    texts : bytes
-        Mechanism and group of each row, a line each.
-    levels : ndarray, shape (levels,)
-    counts : ndarray of int, shape (levels, rows)
-    histories : ndarray of int, shape (levels, rows)
-    shares : ndarray, shape (2, rows)
-        Weight of the wall and probability of occurrence.
-    rows : ndarray of int, shape (walls,)
-        How many each wall has.
-    """
-
-    texts: bytes
-    levels: FloatArray
-    counts: NDArray[np.int32]
-    histories: NDArray[np.int32]
-    shares: FloatArray
-    rows: NDArray[np.int32]
-
-
-class GroupData(NamedTuple):
-    """A curve of a population, or of one of its groups: the values of a `Group`, and its curve with its histories."""
-
-    values: dict[str, Any]
-    histories: FloatArray
-    curve: CurveData
-
-
-class PopulationData(NamedTuple):
-    """Curves of mechanisms, of walls and of their population; fractions are those of the walls (walls, levels)."""
-
-    rows: list[CurveData]
-    walls: list[CurveData]
-    fractions: FloatArray
-    groups: list[GroupData]
-    warnings: list[DondoloWarning]
 
 
 def fit_curves(levels: FloatArray, collapses: FloatArray, histories: FloatArray) -> tuple[FloatArray, list[str]]:
@@ -103,81 +60,17 @@ def fit_ordinal(
     ]
 
 
-def coded(curves: Sequence[tuple[str, float, float]]) -> tuple[FloatArray, NDArray[np.int32]]:
-    """Numbers (8, curves) and codes (curves,) of curves that are known by status, theta and beta."""
-    names = constants().statuses
-    numbers = np.zeros((len(curves), 8))
-    numbers[:, :2] = [(theta, beta) for _, theta, beta in curves]
-    return numbers.T, np.array([names.index(status) + 1 for status, *_ in curves], dtype=np.int32)
-
-
-def cluster_curves(
-    levels: FloatArray, collapses: FloatArray, histories: FloatArray, curves: Sequence[tuple[str, float, float]]
-) -> tuple[FloatArray, list[str], NDArray[np.int32]]:
-    """Covariances (curves, 2, 2) of many curves, what standard errors each has, and its number of clusters.
-
-    Collapses are (curves, clusters, levels), histories, the same for all curves, (clusters, levels).
-    """
-    found = _core.curves.cluster_curves(levels, collapses.T, histories.T[..., None], *coded(curves))
-    covariances, errors, clusters, failure = found
-    check(failure)
-    known = constants().errors
-    return covariances[[[0, 1], [1, 2]]].transpose(2, 0, 1), [known[code - 1] for code in errors], clusters
-
-
-def fit_walls(names: bytes, population: FlatPopulation) -> PopulationData:
-    """Curves of the mechanisms of walls, of the walls and of their population, and warnings.
-
-    Names are those of the wall of each row, one a line.
-    """
-    parcel = receive(_core.curves.fit_walls(population.texts, names, *population[1:]))
-    rows = population.rows
-    m, r, w, number = len(population.levels), population.counts.shape[1], len(rows), int(parcel.integers[0])
-    known = ("", *constants().statuses)
-    status = [known[code] for code in parcel.integers[1 : 1 + r + w + number]]
-    walls = parcel.integers[1 + r + w + number :]
-    numbers, fractions, groups = np.split(parcel.reals, np.cumsum([8 * (r + w), m * w]))
-    curves = [CurveData(*pair) for pair in zip(status, numbers.reshape(r + w, 8), strict=False)]
-    together = []
-    for i, row in enumerate(groups.reshape(number, 5 + 6 * m + 8)):
-        single, histories, mean_fraction, mean_curve, fractiles, curve = np.split(row, np.cumsum([5, m, m, m, 3 * m]))
-        means = ("weight", "beta_walls", "beta_records", "fitted", "saturation")
-        values: dict[str, Any] = dict(zip(means, single.tolist(), strict=True))
-        values |= {"group": parcel.lines[2 * i], "mechanism": parcel.lines[2 * i + 1], "n_walls": int(walls[i])}
-        values |= {"mean_fraction": mean_fraction, "mean_curve": mean_curve}
-        values["level_fractiles"] = np.ascontiguousarray(fractiles.reshape(m, 3).T)
-        together.append(GroupData(values, histories, CurveData(status[r + w + i], curve)))
-    found = unpack_warnings(parcel.lines[2 * number :])
-    return PopulationData(curves[:r], curves[r:], fractions.reshape(w, m), together, found)
-
-
-def curve_of_population(
-    population: FlatPopulation,
-    curves: tuple[FloatArray, NDArray[np.int32]],
-    which: tuple[str, str],
-    x: FloatArray,
-    q: FloatArray,
-    members: bool = False,
-) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """A curve of a population at some levels: its mean, fractiles (q, x) and members' probabilities (members, x).
-
-    Curves are those of the rows, as `coded`; which: the mechanism, or 'all', and the group. The probabilities are
-    there with `members` only.
-    """
-    texts = (as_text("group", text) for text in which)
-    mean, fractiles, sent = _core.curves.curve_of_population(*population, *curves, *texts, x, q, int(members))
-    check(sent)
-    found = np.zeros((0, len(x)))
-    if members:
-        parcel = receive(sent)
-        found = parcel.reals.reshape(len(x), int(parcel.integers[0])).T
-    return mean, fractiles, found
-
-
 def rows_in_series(probabilities: FloatArray, rows: NDArray[np.integer[Any]]) -> FloatArray:
     """Probability that any mechanism of each wall happens (walls, n), from those of all rows (rows, n)."""
     whole: FloatArray = _core.curves.in_series(np.ascontiguousarray(probabilities).T, rows.astype(np.int32)).T
     return whole
+
+
+def slopes_in_series(p_occ: FloatArray, probabilities: FloatArray, rows: NDArray[np.integer[Any]]) -> FloatArray:
+    """Derivative (rows, n) of the probability of each wall with respect to that of each of its rows."""
+    p = np.ascontiguousarray(probabilities).T
+    slopes: FloatArray = _core.curves.series_slopes(p_occ, p, rows.astype(np.int32)).T
+    return slopes
 
 
 def warnings_of_curve(

@@ -7,12 +7,14 @@ from __future__ import annotations
 
 import functools
 import json
+import math
 import os
 import re
 import sys
 import threading
 import warnings
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -95,13 +97,25 @@ class Property(NamedTuple):
     absent: float | None
 
 
-class Parcel(NamedTuple):
-    """Contents that came from Fortran."""
+@dataclass(frozen=True, eq=False)
+class Parcel:
+    """Contents that came from Fortran; what was put in under a name is ``parcel[name]``."""
 
     integers: NDArray[np.int32]
     reals: FloatArray
     lines: list[str]
     address: int
+    names: Mapping[str, str] = field(default_factory=dict)
+
+    def __getitem__(self, name: str) -> Any:
+        """What has a name: an array in its shape, a list of texts, or a single value."""
+        kind, start, *shape = self.names[name].split()
+        lengths = tuple(int(length) for length in shape)
+        first, number = int(start), math.prod(lengths)
+        found = getattr(self, kind)[first : first + number]
+        if kind == "lines":
+            return found if shape else found[0]
+        return found.reshape(lengths) if shape else found[0].item()
 
     def series(self, length: int) -> FloatArray:
         """Its next series, an array of its own; all of them must be taken, each once."""
@@ -190,7 +204,7 @@ def available_threads() -> int:
 def check(sent: NDArray[np.int64]) -> None:
     """Raise the error that a procedure has sent in the place of a parcel, if it has."""
     kind = int(sent[-1])
-    if kind:
+    if kind > 0:
         sentence = "\n".join(_take(sent.tolist()).lines).strip()
         raise {2: InputError, 3: MissingFileError, 4: MemoryError}.get(kind, DondoloError)(sentence)
 
@@ -233,13 +247,15 @@ def receive(sent: NDArray[np.int64]) -> Parcel:
 
 
 def _take(sent: list[int]) -> Parcel:
-    """Take a parcel: its address, its numbers of integers, reals and characters, and the kind of an error."""
-    address, *sizes, _ = sent
+    """Take a parcel: its address, its numbers of integers, reals and characters, and how many lines are names."""
+    address, *sizes, kind = sent
     if not address:
         return _NOTHING
     integers, reals, words = _core.library.take_parcel(address, *sizes)
     text = words.tobytes()[: sizes[-1]].decode("utf-8", "replace")
-    return Parcel(integers, reals, text.split("\n")[:-1], address)
+    lines = text.split("\n")[:-1]
+    first = len(lines) + min(kind, 0)
+    return Parcel(integers, reals, lines[:first], address, dict(line.split(" ", 1) for line in lines[first:]))
 
 
 def unpack_warning(data: dict[str, Any]) -> DondoloWarning:

@@ -1,12 +1,14 @@
 !> Results whose size only the library knows, and errors, on their way to Python: f2py cannot pass them.
 !>
 !> A procedure sends a parcel and returns where it lies and how much it holds; `take` copies its contents into arrays of
-!> these sizes and frees it. Long series, as samples of records, are put in one by one without a copy; `take_series` takes
-!> them in the same order, after all else, and the parcel is freed with the last.
+!> these sizes and frees it. What is put in under a name is found by it, in its shape. Long series, as samples of records, are
+!> put in one by one without a copy; `take_series` takes them in the same order, after all else, and the parcel is freed with
+!> the last.
 module dondolo_parcel
    use, intrinsic :: iso_c_binding, only : c_double, c_f_pointer, c_int, c_int64_t, c_intptr_t, c_loc, c_ptr
    use dondolo_base_error, only : error_type
    use dondolo_base_lines, only : lines_type
+   use dondolo_base_text, only : to_text
    implicit none
    private
 
@@ -25,6 +27,9 @@ module dondolo_parcel
       real(c_double), allocatable :: reals(:)
       !> Lines of text
       type(lines_type) :: lines
+      !> What has a name, a line each: the name, its kind (integers, reals or lines), how many stand before it, and its shape,
+      !> the dimension that changes most slowly first; no shape: a single value
+      type(lines_type), private :: names
       !> Long series of reals
       type(series_type), allocatable, private :: series(:)
       !> How many of them have been put in, and taken
@@ -34,6 +39,9 @@ module dondolo_parcel
       procedure, private :: add_reals
       !> Add numbers after those that are there
       generic :: add => add_integers, add_reals
+      procedure, private :: put_integer, put_integers, put_real, put_reals, put_text, put_lines, name
+      !> Put something in under a name
+      generic :: put => put_integer, put_integers, put_real, put_reals, put_text, put_lines
       !> Make room for series
       procedure :: expect_series
       !> Put a series in
@@ -70,6 +78,125 @@ contains
       end if
    end subroutine add_reals
 
+   !> Put an integer in under a name
+   subroutine put_integer(self, name, value)
+      class(parcel_type), intent(inout) :: self
+      !> Its name
+      character(len=*), intent(in) :: name
+      integer(c_int), intent(in) :: value
+
+      call self%name(name, 'integers', size_of(self%integers), [integer ::])
+      call self%add([value])
+   end subroutine put_integer
+
+   !> Put integers in under a name
+   subroutine put_integers(self, name, values, shape)
+      class(parcel_type), intent(inout) :: self
+      !> Their name
+      character(len=*), intent(in) :: name
+      integer(c_int), intent(in) :: values(:)
+      !> Their shape, if they are more than a list
+      integer, intent(in), optional :: shape(:)
+
+      if (present(shape)) then
+         call self%name(name, 'integers', size_of(self%integers), shape)
+      else
+         call self%name(name, 'integers', size_of(self%integers), [size(values)])
+      end if
+      call self%add(values)
+   end subroutine put_integers
+
+   !> Put a real in under a name
+   subroutine put_real(self, name, value)
+      class(parcel_type), intent(inout) :: self
+      !> Its name
+      character(len=*), intent(in) :: name
+      real(c_double), intent(in) :: value
+
+      call self%name(name, 'reals', number_of(self%reals), [integer ::])
+      call self%add([value])
+   end subroutine put_real
+
+   !> Put reals in under a name
+   subroutine put_reals(self, name, values, shape)
+      class(parcel_type), intent(inout) :: self
+      !> Their name
+      character(len=*), intent(in) :: name
+      real(c_double), intent(in) :: values(:)
+      !> Their shape, if they are more than a list
+      integer, intent(in), optional :: shape(:)
+
+      if (present(shape)) then
+         call self%name(name, 'reals', number_of(self%reals), shape)
+      else
+         call self%name(name, 'reals', number_of(self%reals), [size(values)])
+      end if
+      call self%add(values)
+   end subroutine put_reals
+
+   !> Put a text in under a name
+   subroutine put_text(self, name, text)
+      class(parcel_type), intent(inout) :: self
+      !> Its name
+      character(len=*), intent(in) :: name
+      !> One line
+      character(len=*), intent(in) :: text
+
+      call self%name(name, 'lines', self%lines%count, [integer ::])
+      call self%lines%add(text)
+   end subroutine put_text
+
+   !> Put lines in under a name
+   subroutine put_lines(self, name, lines)
+      class(parcel_type), intent(inout) :: self
+      !> Their name
+      character(len=*), intent(in) :: name
+      type(lines_type), intent(in) :: lines
+
+      integer :: i
+
+      call self%name(name, 'lines', self%lines%count, [lines%count])
+      do i = 1, lines%count
+         call self%lines%add(lines%line(i)%text)
+      end do
+   end subroutine put_lines
+
+   !> Name what is put in
+   subroutine name(self, what, kind, before, shape)
+      class(parcel_type), intent(inout) :: self
+      !> Its name and kind
+      character(len=*), intent(in) :: what, kind
+      !> How many of its kind stand before it
+      integer, intent(in) :: before
+      !> Its shape in Fortran's order
+      integer, intent(in) :: shape(:)
+
+      character(len=:), allocatable :: line
+      integer :: i
+
+      line = what//' '//kind//' '//to_text(before)
+      do i = size(shape), 1, -1
+         line = line//' '//to_text(shape(i))
+      end do
+      call self%names%add(line)
+   end subroutine name
+
+   !> How many integers there are
+   pure integer function size_of(integers)
+      integer(c_int), allocatable, intent(in) :: integers(:)
+
+      size_of = 0
+      if (allocated(integers)) size_of = size(integers)
+   end function size_of
+
+   !> How many reals there are
+   pure integer function number_of(reals)
+      real(c_double), allocatable, intent(in) :: reals(:)
+
+      number_of = 0
+      if (allocated(reals)) number_of = size(reals)
+   end function number_of
+
    !> Make room for series, all of a parcel at once
    subroutine expect_series(self, number)
       class(parcel_type), intent(inout) :: self
@@ -105,14 +232,16 @@ contains
       type(parcel_type), intent(inout) :: parcel
       !> The error that came instead
       type(error_type), allocatable, intent(in) :: error
-      !> Its address and numbers of integers, reals and characters, zeros where there is nothing in it; kind of the error, 0
-      !> if there is none
+      !> Its address and numbers of integers, reals and characters, zeros where there is nothing in it; kind of the error, or
+      !> without one the number of lines at its end that are names, negative
       integer(c_int64_t), intent(out) :: sent(5)
 
       type(parcel_type), pointer :: content
+      integer :: i
 
       sent = 0
-      if (.not. (allocated(error) .or. allocated(parcel%integers) .or. allocated(parcel%reals) .or. parcel%lines%count > 0)) return
+      if (.not. (allocated(error) .or. allocated(parcel%integers) .or. allocated(parcel%reals) .or. &
+         & parcel%lines%count > 0)) return
       allocate (content)
       allocate (content%integers(0), content%reals(0))
       if (allocated(error)) then
@@ -123,6 +252,10 @@ contains
          if (allocated(parcel%reals)) call move_alloc(parcel%reals, content%reals)
          content%lines%count = parcel%lines%count
          if (allocated(parcel%lines%line)) call move_alloc(parcel%lines%line, content%lines%line)
+         do i = 1, parcel%names%count
+            call content%lines%add(parcel%names%line(i)%text)
+         end do
+         sent(5) = -parcel%names%count
          content%given = parcel%given
          if (allocated(parcel%series)) call move_alloc(parcel%series, content%series)
       end if

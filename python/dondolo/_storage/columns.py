@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dondolo._base.arguments import FloatArray
+from dondolo._fortran.files import Column
 from dondolo.errors import InputError
 
 
@@ -28,6 +29,10 @@ class Columns:
 
     def _values(self, name: str) -> FloatArray:
         """A column of numbers, NaN where there is none or what is there is no number."""
+        raise NotImplementedError
+
+    def column(self, name: str) -> Column:
+        """A column as it is written."""
         raise NotImplementedError
 
     def __contains__(self, name: str) -> bool:
@@ -101,11 +106,17 @@ class ColumnsInMemory(Columns):
         What the name of its file would end with.
     columns : mapping
         Lists of texts and arrays of numbers, NaN where there is none.
+    kinds : mapping
+        Kind of each column, for its numbers.
     """
 
-    def __init__(self, name: str, columns: Mapping[str, list[str] | FloatArray]) -> None:
+    def __init__(self, name: str, columns: Mapping[str, list[str] | FloatArray], kinds: Mapping[str, int]) -> None:
         self.path = name
-        self._columns = columns
+        self._columns, self._kinds = columns, kinds
+
+    def column(self, name: str) -> Column:
+        """A column as it is written."""
+        return Column(self._kinds[name], self._column(name))
 
     def _column(self, name: str) -> Any:
         if name not in self._columns:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
+import zlib
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from datetime import datetime
@@ -12,8 +13,8 @@ from typing import Any
 
 from dondolo._base.arguments import increasing
 from dondolo._base.files import RUN_NAME, read_text
+from dondolo._fortran.files import Written
 from dondolo._fortran.library import constants, unpack_warning
-from dondolo._storage.transactions import Written
 from dondolo.errors import DondoloWarning, InputError
 
 FORMAT = "dondolo run 2"
@@ -22,6 +23,19 @@ _LATEST = 253_402_128_000.0
 
 # What is known of a record, if its header or the catalogue states it
 RECORD_FACTS = ("date", "magnitude", "station", "component")
+
+
+def run_of(table: str) -> tuple[str, str]:
+    """The run that a table names, empty if it names none, and what follows that line."""
+    lines = table.split("\n", 2)
+    if len(lines) < 3 or not lines[0].startswith("# dondolo ") or not lines[1].startswith("# run: "):
+        return "", table
+    return lines[1].removeprefix("# run: "), lines[2]
+
+
+def described(name: str, table: str) -> Written:
+    """A table as the file of its run lists it."""
+    return Written(name, len(table.encode()), f"{zlib.crc32(run_of(table)[1].encode()):08x}")
 
 
 @dataclass(frozen=True)
@@ -89,6 +103,8 @@ class RunFile:
         The tables of the set.
     confidence : float
         Of the intervals in the tables; NaN where Python wrote them, whose tables have none.
+    content : mapping
+        All that the file has; empty for results that are in none.
     """
 
     version: str
@@ -108,6 +124,7 @@ class RunFile:
     shape: Mapping[str, int] = field(default_factory=dict)
     files: tuple[Written, ...] = ()
     confidence: float = float("nan")
+    content: Mapping[str, Any] = field(default_factory=dict, repr=False)
 
     def setting(self, group: str, name: str, default: Any) -> Any:
         """A variable of a group; `default`, which has the type it must have, if it is not there."""
@@ -133,6 +150,9 @@ class RunFile:
 
     def to_json(self) -> str:
         """The text of the file."""
+        if self.content:
+            files = [file._asdict() for file in self.files]
+            return _text_of({**self.content, "run": self.run, "files": files})
         content: dict[str, Any] = {"format": FORMAT, "run": self.run, "version": self.version}
         content |= {name: getattr(self, name) for name in ("compiler", "engine") if getattr(self, name)}
         content |= {"settings": self.settings, "inputs": self.inputs, "shape": self.shape, "records": self.records}
@@ -140,7 +160,11 @@ class RunFile:
         if self.work:
             content["work"] = self.work
         content |= {"notes": self.notes, "warnings": [one.as_data() for one in self.warnings]}
-        return json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False)
+        return _text_of(content)
+
+
+def _text_of(content: Mapping[str, Any]) -> str:
+    return json.dumps(content, indent=2, ensure_ascii=False, allow_nan=False)
 
 
 def read_run_file(path: str) -> RunFile:
@@ -203,6 +227,7 @@ def parse_run_file(text: str, path: str, written: datetime | None = None) -> Run
             {name: _member(shape, name, int) for name in shape},
             tuple(_written(one) for one in _all(content, "files", dict)),
             _member(_member(content, "standard_errors", dict, {}), "confidence", float, float("nan")),
+            content,
         )
     except (LookupError, TypeError, ValueError) as error:
         raise InputError(f"{path}: {error}") from error

@@ -37,7 +37,8 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar, Union, get_args, get_or
 
 import numpy as np
 
-from dondolo._base.files import as_file, check_regular, whole_file
+from dondolo._base.files import as_file, check_regular
+from dondolo._fortran.files import whole_file
 from dondolo._fortran.library import constants
 from dondolo._fortran.origins import check_replaced
 from dondolo.errors import DondoloWarning, InputError, MissingFileError

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from dondolo._base.arguments import as_flag, one_of
-from dondolo._base.files import whole_file
 from dondolo._base.shown import Shown
+from dondolo._fortran.files import whole_file
 from dondolo._fortran.library import constants
 from dondolo.errors import DondoloError
 

@@ -14,10 +14,12 @@ from numpy.typing import ArrayLike
 from dondolo._base.arguments import FloatArray, as_array, as_number, one_of
 from dondolo._base.shown import Shown, span
 from dondolo._fortran.curves import CurveData, warnings_of_curve
-from dondolo._fortran.library import warn
+from dondolo._fortran.library import constants, warn
 from dondolo._fortran.records import levels_in_words, unit_of
 from dondolo._fortran.uncertainty import restitution_sentence
 from dondolo._storage import tables
+from dondolo._storage.result_set import columns_of, write_set
+from dondolo._storage.run_file import RunFile
 from dondolo._storage.saved import Saved
 from dondolo.analysis.histories import cut, join
 from dondolo.analysis.stripe_tables import histories_table, stripes_table
@@ -26,6 +28,7 @@ from dondolo.curves.damage_states import fit_states
 from dondolo.curves.fitting import fit
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.sample import Sample, cluster_labels, given_labels
+from dondolo.curves.table import fragility_table
 from dondolo.errors import InputError, silent
 from dondolo.records.record import Record
 from dondolo.walls.table import walls_table
@@ -648,6 +651,76 @@ class Stripes(Shown, Saved):
             f"unit of im_level: {unit_of(self.im) or '1'}",
         ]
         tables.write_csv(path, tables.choose(self._tables(), table), comments, spreadsheet_safe=spreadsheet_safe)
+
+    def write_results(
+        self,
+        prefix: str | os.PathLike[str],
+        *,
+        edp_thresholds: ArrayLike | None = None,
+        states: States = "separate",
+        spreadsheet_safe: bool = False,
+    ) -> None:
+        """Write all tables, with the curves of damage states, into files of the names that the executable gives them.
+
+        `read_results` gives these stripes again, to the bit.
+
+        Parameters
+        ----------
+        prefix : path
+            What the names begin with, such as ``out/parapet`` for ``out/parapet_histories.csv``; folders are made.
+        edp_thresholds : array_like, optional
+            Damage states [rotation / capacity], increasing; collapse alone if left out.
+        states : {'separate', 'ordinal'}
+            As for `fit_damage_states`.
+        spreadsheet_safe : bool
+            Put an apostrophe before names that a spreadsheet would take for formulas; `read_results` takes it away.
+
+        Raises
+        ------
+        InputError
+            As `fit_damage_states`; another run is writing them, or a file of the same name is not a result of dondolo.
+        DondoloError
+            A file cannot be written.
+
+        Warns
+        -----
+        DondoloWarning
+            Whose results are replaced, and which reports, workbooks and figures are out of date.
+        """
+        levels = [self.edp_limit] if edp_thresholds is None else self._thresholds(edp_thresholds)
+        with silent():
+            curves = self.fit_damage_states(levels, states=states)
+        counts = np.array([self.exceedances(edp) for edp in levels])[:, :, None]
+        of_wall = [self.wall], self.im, self.levels
+        tables_ = {
+            "_walls.csv": walls_table([self.wall]),
+            "_histories.csv": histories_table(self),
+            "_stripes.csv": stripes_table(*of_wall, levels, counts, self.histories[:, None], self.uplifts),
+            "_fragility.csv": fragility_table([self.wall] * len(curves), curves),
+        }
+        events, checksums = (one or ("",) * self.n_records for one in (self.events, self.checksums))
+        run = RunFile(
+            constants().version,
+            settings={
+                "job": {"task": "stripes"},
+                "stripes": {"im": self.im, "levels": self.levels.tolist(), "edp_thresholds": levels, "states": states},
+                "solver": {
+                    "engine": self.engine,
+                    "rtol": self.rtol,
+                    "atol": self.atol,
+                    "edp_limit": self.edp_limit,
+                    "gravity": self.wall.gravity,
+                },
+            },
+            records=tuple(
+                {"name": name, "event": event, "checksum": checksum}
+                for name, event, checksum in zip(self.record_names[: self.n_records], events, checksums, strict=True)
+            ),
+            work=self.work._asdict(),
+            shape={"walls": 1, "levels": len(self.levels), "states": len(levels), "records": self.n_records},
+        )
+        columns = {name: columns_of(table) for name, table in tables_.items()}
+        write_set(prefix, columns, run, spreadsheet_safe=spreadsheet_safe)
 
     def _facts(self) -> list[tuple[str, str]]:
         facts = [

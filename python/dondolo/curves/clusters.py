@@ -71,6 +71,14 @@ def no_errors(errors: str, clusters: int) -> Errors:
     return Errors(np.full((2, 2), np.nan), errors, clusters, np.nan)
 
 
+def errors_of_table(
+    se_ln_theta: float, se_beta: float, covariance: float, clusters: int, degrees_of_freedom: float
+) -> Errors:
+    """Clustered standard errors from the numbers that tables have of them."""
+    matrix = np.array([[se_ln_theta**2, covariance], [covariance, se_beta**2]])
+    return Errors(matrix, "clustered", clusters, degrees_of_freedom)
+
+
 def errors_of_sample(sample: Sample, at: tuple[float, float]) -> Errors:
     """Standard errors of a curve with parameters (theta, beta) fitted to stripes, clustered by record or event."""
     labels = tuple(dict.fromkeys(sample.clusters))

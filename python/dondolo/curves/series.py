@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
-from dondolo._fortran.curves import rows_in_series
+from dondolo._fortran.curves import rows_in_series, slopes_in_series
 
 
 def in_series(probabilities: FloatArray, first: np.ndarray[Any, Any]) -> FloatArray:
@@ -45,9 +45,4 @@ def series_slopes(p_occ: FloatArray, probabilities: FloatArray, first: np.ndarra
     -------
     ndarray, shape (rows, levels)
     """
-    slopes = np.empty_like(probabilities)
-    for start, end in zip(first, np.append(first[1:], len(p_occ)), strict=True):
-        survive = 1.0 - p_occ[start:end, None] * probabilities[start:end]
-        for row in range(start, end):
-            slopes[row] = p_occ[row] * np.delete(survive, row - start, axis=0).prod(axis=0)
-    return slopes
+    return slopes_in_series(p_occ, probabilities, np.diff(first, append=len(p_occ)))

@@ -6,8 +6,8 @@ import os
 from pathlib import Path
 
 from dondolo._base.files import as_file
+from dondolo._fortran.files import RUN_FILE, TABLES, published_run
 from dondolo._storage.run_file import RunFile, read_run_file
-from dondolo._storage.transactions import RUN_FILE, TABLES, published_run
 from dondolo.errors import InputError, MissingFileError, silent
 from dondolo.exchange.cases import read_case
 from dondolo.exchange.result_file import MixedError, ResultFile
@@ -68,7 +68,7 @@ def read_results(prefix: str | os.PathLike[str]) -> Results:
         except (MissingFileError, MixedError):
             # Unless another run has published its results meanwhile
             tries += 1
-            if tries == _TRIES or published_run(Path(prefix)) == run.run:
+            if tries == _TRIES or published_run(prefix) == run.run:
                 raise
 
 

@@ -4,19 +4,23 @@ from __future__ import annotations
 
 import csv
 import math
+import operator
+import re
 from collections.abc import Iterable, Iterator
 from contextlib import suppress
-from pathlib import Path
 
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
 from dondolo._base.files import read_text
+from dondolo._fortran.files import DEGREES, INTEGER, REAL, TEXT, Column
 from dondolo._storage.columns import Columns
-from dondolo._storage.run_file import RunFile
-from dondolo._storage.tables import unguarded
-from dondolo._storage.transactions import described, run_of, staged
+from dondolo._storage.run_file import RunFile, described, run_of
+from dondolo._storage.tables import digits, unguarded
 from dondolo.errors import InputError, MissingFileError
+
+# A whole number of up to nine digits, as dondolo writes it
+_WHOLE = re.compile(r"0|-?[1-9]\d{0,8}")
 
 
 class MixedError(InputError):
@@ -27,7 +31,7 @@ def _text_of(path: str, run: RunFile) -> str:
     """Text of a table, which a run that was killed may have left under its name before it was published."""
     other = ""
     # A run that is ending may rename it after the first look.
-    for place in (path, staged(Path(path), run.run), path):
+    for place in (path, f"{path}.{run.run}.part", path):
         with suppress(MissingFileError):
             text = read_text(place).replace("\r\n", "\n")
             other = run_of(text)[0] or "unknown"
@@ -93,6 +97,17 @@ class ResultFile(Columns):
         if any("'" in line for line in lines):
             columns = ([unguarded(cell) for cell in column] for column in columns)
         return dict(zip(names, columns, strict=True))
+
+    def column(self, name: str) -> Column:
+        """A column as it is written: numbers where all cells are those that dondolo writes."""
+        cells = self.texts(name)
+        given = [cell for cell in cells if cell]
+        whole = [_WHOLE.fullmatch(cell) is not None for cell in given]
+        real = [digits(_number(cell)) == cell for cell in given]
+        if not given or not all(map(operator.or_, whole, real)):
+            return Column(TEXT, cells)
+        kind = INTEGER if all(whole) else DEGREES if any(whole) else REAL
+        return Column(kind, np.array([float(cell) if cell else np.nan for cell in cells]))
 
     def __contains__(self, name: str) -> bool:
         return name in self._columns

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -11,9 +12,11 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray, one_of
 from dondolo._base.shown import Shown
+from dondolo._fortran.files import TABLES
 from dondolo._fortran.library import constants
 from dondolo._fortran.walls import WALL_EXTRAS, WALL_LISTS, WALL_PROPERTIES, WALL_TEXTS, WALL_WORDS, describe_wall
 from dondolo._storage.columns import Columns
+from dondolo._storage.result_set import write_set
 from dondolo._storage.run_file import HistoryResult, RunFile
 from dondolo.analysis import histories
 from dondolo.analysis.certificate import Certified
@@ -25,12 +28,10 @@ from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloWarning, InputError
 from dondolo.exchange.case_checks import checks_of_run, stored_check
 from dondolo.exchange.cases import Case
+from dondolo.exchange.stored_curves import stored_curves
 from dondolo.exchange.stored_designs import stored_designs
-from dondolo.exchange.stored_errors import kept_errors
 from dondolo.exchange.stored_ties import stored_ties
-from dondolo.exchange.stored_unions import kept_unions
-from dondolo.populations.combination import combine
-from dondolo.populations.errors import with_clustered_errors
+from dondolo.populations.combination import combine_rows
 from dondolo.populations.flags import Flags
 from dondolo.populations.typology import Typology
 from dondolo.populations.uncertain_wall import UncertainWall
@@ -90,6 +91,35 @@ class Results(Shown):
     check: CodeCheck | None = None
     case: Case | None = None
     edp_thresholds: Sequence[float] = ()
+    _source: Source
+
+    def write_results(self, prefix: str | os.PathLike[str], *, spreadsheet_safe: bool = False) -> None:
+        """Write all tables into files of the names that the executable gives them.
+
+        `read_results` gives these results again, to the bit.
+
+        Parameters
+        ----------
+        prefix : path
+            What the names begin with, such as ``out/centre`` for ``out/centre_typology.csv``; folders are made.
+        spreadsheet_safe : bool
+            Put an apostrophe before names that a spreadsheet would take for formulas; `read_results` takes it away.
+
+        Raises
+        ------
+        InputError
+            Another run is writing them, or a file of the same name is not a result of dondolo.
+        DondoloError
+            A file cannot be written.
+
+        Warns
+        -----
+        DondoloWarning
+            Whose results are replaced, and which reports, workbooks and figures are out of date.
+        """
+        names = [name for name in TABLES if name in self._source.names]
+        tables = {name: {one: self._source[name].column(one) for one in self._source[name]} for name in names}
+        write_set(prefix, tables, self.run, spreadsheet_safe=spreadsheet_safe)
 
     @cached_property
     def checks(self) -> tuple[CodeCheck | None, ...]:
@@ -175,7 +205,7 @@ def results_of(run: RunFile, source: Source, case: Case | None = None, flags: Fl
     walls = source["_walls.csv"]
     with walls.reading():
         population = _population(walls, run.setting("solver", "gravity", constants().gravity))
-    results = Results(population=population, run=run, case=case, edp_thresholds=run.edp_thresholds)
+    results = Results(population=population, run=run, case=case, edp_thresholds=run.edp_thresholds, _source=source)
     if task == "history":
         results = _of_history(results, source["_history.csv"])
     elif task == "stripes":
@@ -223,12 +253,11 @@ def _of_typology(results: Results, source: Source, work: Work, flags: Flags | No
     run, table = results.run, source["_stripes.csv"]
     are_designs = bool(run.setting("population", "designs", False))
     with table.reading():
-        typology = _typology(table, results.population, work, run.warnings)
-    if are_designs:
-        typology = typology._as_alternatives()
-    if flags is not None:
-        typology = with_clustered_errors(replace(typology, flags=flags), flags)
-    typology = _with_tables(typology, source)
+        typology = _typology(table, results.population, work, run.warnings, flags, are_designs)
+    if flags is None:
+        groups = None if are_designs else source["_typology.csv"]
+        typology = stored_curves(typology, source["_fragility.csv"], groups, source.get(_UNIONS)).put_into(typology)
+    typology = replace(typology, ties=stored_ties(typology, source.get(_TIES)))
     results = replace(results, typology=typology)
     if "uncertainty" in run.settings:
         sources = source["_sources.csv"]
@@ -364,8 +393,15 @@ def _stripes(
     )
 
 
-def _typology(table: Columns, population: Population, work: Work, warnings: tuple[DondoloWarning, ...]) -> Typology:
-    """Counts of all walls of a population."""
+def _typology(
+    table: Columns,
+    population: Population,
+    work: Work,
+    warnings: tuple[DondoloWarning, ...],
+    flags: Flags | None,
+    are_designs: bool,
+) -> Typology:
+    """Counts of all walls of a population, and its curves."""
     thresholds = np.unique(table.numbers("edp_threshold"))
     levels = np.unique(table.numbers("im_level"))
     shape = (len(population), len(thresholds), len(levels))
@@ -374,9 +410,8 @@ def _typology(table: Columns, population: Population, work: Work, warnings: tupl
         raise ValueError(f"{len(table)} rows: must be {product}, one for each wall, damage state and level")
     counts = table.counts("collapses").reshape(shape).transpose(1, 2, 0)
     histories = table.counts("histories", 1).reshape(shape)[:, 0].T
-    everyone = np.ones(len(population), dtype=bool)
-    im = table.texts("im")[0]
-    result = combine(population, im, levels, thresholds, counts, histories, everyone, work)
+    of_rows = np.ascontiguousarray(counts), np.ascontiguousarray(histories)
+    result = combine_rows(population, table.texts("im")[0], levels, thresholds, *of_rows, work, flags, are_designs)
     return replace(result, warnings=tuple(dict.fromkeys([*warnings, *result.warnings])))
 
 
@@ -403,25 +438,4 @@ def _uncertain(table: Columns, typology: Typology) -> UncertainWall:
         total_interval=several("total_low", "total_high"),
         rest=np.nan,
         numbers=(np.nan, np.nan),
-    )
-
-
-def _with_tables(typology: Typology, source: Source) -> Typology:
-    """A typology with what its tables know besides counts: standard errors, unions of mechanisms, ties."""
-    groups = None if typology.are_alternatives else source["_typology.csv"]
-    unions = source.get(_UNIONS)
-    kept = kept_errors(typology, source["_fragility.csv"], groups, unions)
-    of_walls: tuple[dict[str, Fragility], ...] | None = None
-    of_groups = of_walls
-    if unions is not None:
-        of_walls, of_groups = kept_unions(typology, unions)
-    elif len(typology.combined) == len(typology.walls):
-        # No wall has several mechanisms.
-        of_walls = of_groups = ({},) * len(typology.edp_thresholds)
-    return replace(
-        kept.put_into(typology, -1),
-        kept_errors=kept,
-        kept_unions=of_walls,
-        kept_group_unions=of_groups,
-        ties=stored_ties(typology, source.get(_TIES)),
     )

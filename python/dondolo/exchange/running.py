@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from dondolo._base.arguments import FloatArray, as_flag, as_path
 from dondolo._base.interrupts import deferred
 from dondolo._fortran import _core
+from dondolo._fortran.files import TEXT
 from dondolo._fortran.library import Parcel, Stoppable, receive, warn
 from dondolo._storage.columns import ColumnsInMemory
 from dondolo._storage.run_file import parse_run_file
@@ -25,8 +26,6 @@ from dondolo.exchange.results import Results, Source, results_of
 from dondolo.populations.store import Contents, contents_of
 from dondolo.populations.study import typology_of
 
-# Kinds of columns, as src/dondolo/case/results/columns.f90 has them
-_TEXT = 0
 # Seconds between two looks at how far a run is
 _PAUSE = 0.1
 
@@ -118,14 +117,14 @@ def _tables(parcel: Parcel) -> tuple[dict[str, ColumnsInMemory], str]:
         at, line = at + 2 + number, line + 1 + number
         columns: dict[str, list[str] | FloatArray] = {}
         for head, kind in zip(heads, kinds, strict=True):
-            if kind == _TEXT:
+            if kind == TEXT:
                 columns[head] = parcel.lines[line : line + rows]
                 line += rows
             else:
                 values = parcel.series(rows)
                 values.flags.writeable = False
                 columns[head] = values
-        tables[name] = ColumnsInMemory(name, columns)
+        tables[name] = ColumnsInMemory(name, columns, dict(zip(heads, kinds, strict=True)))
     return tables, "\n".join(parcel.lines[line:])
 
 

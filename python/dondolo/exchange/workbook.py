@@ -8,10 +8,10 @@ import zipfile
 from collections.abc import Iterable
 from typing import Any
 
-from dondolo._base.files import as_file, whole_file
+from dondolo._base.files import as_file
+from dondolo._fortran.files import RUN_FILE, whole_file
 from dondolo._fortran.origins import check_replaced, derived_mark
 from dondolo._storage.run_file import RunFile, read_run_file
-from dondolo._storage.transactions import RUN_FILE
 from dondolo.errors import DondoloError, InputError, visible
 from dondolo.exchange.result_file import ResultFile
 

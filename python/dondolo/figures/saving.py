@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from dondolo._base.files import whole_file
+from dondolo._fortran.files import whole_file
 from dondolo._fortran.origins import check_replaced, derived_mark
 from dondolo.figures.layout import lay_out
 

@@ -12,8 +12,8 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray
 from dondolo._base.shown import Shown, shown_dispersion
-from dondolo._fortran.curves import FlatPopulation, curve_of_population
 from dondolo._fortran.library import as_text
+from dondolo._fortran.populations import FlatPopulation, curve_of_population
 from dondolo._fortran.records import blank_unit
 from dondolo._storage.saved import Saved
 from dondolo.curves.fragility import Fragility

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from dondolo._base.arguments import FloatArray, as_array
+from dondolo._fortran.populations import FlatFlags
 from dondolo._storage.saved import part_of_results
 from dondolo.curves.sample import cluster_labels
 from dondolo.errors import InputError
@@ -86,13 +87,34 @@ class Flags:
         return np.asarray(records @ self.runs / self.records)
 
     @functools.cached_property
+    def labels(self) -> tuple[str, ...]:
+        """Label of each cluster of records, in the order they appear in."""
+        return tuple(dict.fromkeys(self.clusters))
+
+    @functools.cached_property
+    def _members(self) -> FloatArray:
+        """1 where a record belongs to a cluster, shape (clusters, records)."""
+        return np.array([[own == label for own in self.clusters] for label in self.labels], dtype=float)
+
+    def _flat(self) -> FlatFlags:
+        """The same as Fortran takes it."""
+        numbers = {label: number for number, label in enumerate(self.labels, 1)}
+        bits = np.zeros(-(-len(self.bits) // 4) * 4, dtype=np.uint8)
+        bits[: len(self.bits)] = self.bits
+        clusters = np.array([numbers[label] for label in self.clusters], dtype=np.int32)
+        state = self.state % self.states + 1
+        return FlatFlags(
+            self.states, state, self.histories, bits.view(np.int32), clusters, (self.runs > 0.0).astype(np.int32)
+        )
+
+    @functools.cached_property
     def _starts(self) -> NDArray[np.int64]:
         """Where the bytes of each wall begin, and the end of the last."""
         return np.append(0, np.cumsum(_bytes_of(self.histories, self.levels * self.states)))
 
     def __getstate__(self) -> dict[str, Any]:
         # Not what is easily computed again
-        return {name: value for name, value in self.__dict__.items() if name != "_starts"}
+        return {one.name: getattr(self, one.name) for one in fields(self)}
 
     def place(self, first: int, count: int) -> slice:
         """Where the bytes of some walls are, from number `first` on."""

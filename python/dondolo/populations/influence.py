@@ -42,10 +42,10 @@ def changes(
     DondoloError
         Fewer than three clusters of records.
     """
-    labels = tuple(dict.fromkeys(flags.clusters))
+    labels = flags.labels
     if len(labels) < (fewest := constants().fewest_clusters):
         raise DondoloError(f"no standard errors: less than {fewest} clusters of records")
-    member = np.array([[own == label for own in flags.clusters] for label in labels], dtype=float)
+    member = flags._members
     part = member @ flags.runs / flags.records
     share = members.weights / members.weights.sum()
     first = members.rows[0][1]

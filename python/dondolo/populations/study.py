@@ -18,7 +18,6 @@ from dondolo.analysis.solver import Solver, as_solver
 from dondolo.errors import DondoloWarning, Interrupted
 from dondolo.populations.blocks import run_walls
 from dondolo.populations.combination import combine
-from dondolo.populations.errors import with_clustered_errors
 from dondolo.populations.flags import states_of
 from dondolo.populations.store import Contents, IntArray
 from dondolo.populations.typology import Typology
@@ -156,9 +155,7 @@ def typology_of(
     if not whole.any():
         raise Interrupted("interrupted: no wall is complete")
     runs = np.rint(share[:, None] * histories).astype(np.int32)
-    result = combine(people, im, levels, states, run.exceedances, runs, rows, run.work)
-    chosen = np.flatnonzero(rows[run.complete])
-    flags, told = run.flags.chosen(chosen), (*warnings, *result.warnings)
-    ties = tuple(run.ties[i] for i in chosen)
-    result = with_clustered_errors(dataclasses.replace(result, flags=flags, warnings=told, ties=ties), flags)
-    return result._with_union_warnings(), int(whole.sum()), len(whole)
+    result = combine(people, im, levels, states, run.exceedances, runs, run.complete, run.work, run.flags)
+    ties = tuple(run.ties[i] for i in np.flatnonzero(rows[run.complete]))
+    result = dataclasses.replace(result, warnings=(*warnings, *result.warnings), ties=ties)
+    return result, int(whole.sum()), len(whole)

@@ -12,15 +12,15 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 
 from dondolo._base.arguments import FloatArray, as_number, one_of
-from dondolo._base.files import as_file
 from dondolo._base.shown import Shown, shown_dispersion
-from dondolo._fortran.curves import FlatPopulation, coded, warnings_of_union
+from dondolo._fortran.curves import warnings_of_union
 from dondolo._fortran.library import constants, warn
+from dondolo._fortran.populations import FlatPopulation, coded
 from dondolo._fortran.records import levels_in_words, unit_of
 from dondolo._storage import tables
+from dondolo._storage.result_set import columns_of, write_set
 from dondolo._storage.run_file import RunFile
 from dondolo._storage.saved import Saved
-from dondolo._storage.transactions import publishing
 from dondolo.analysis.stripe_tables import stripes_table
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import Fragility
@@ -29,9 +29,8 @@ from dondolo.curves.plots import parameters
 from dondolo.curves.table import errors_table, fragility_table
 from dondolo.errors import DondoloWarning, InputError
 from dondolo.populations.curve import Group, IntArray, PopulationCurve, flat_population
-from dondolo.populations.errors import KeptErrors, with_clustered_errors
 from dondolo.populations.flags import Flags
-from dondolo.populations.rows import curves_of_rows, curves_of_walls, packed, packed_walls, unpacked, unpacked_walls
+from dondolo.populations.stored_curves import StoredCurves
 from dondolo.populations.tie_counts import TieCounts, tie_table
 from dondolo.walls.population import Population
 from dondolo.walls.wall import Wall, notes_on_supports
@@ -40,8 +39,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _Table = Literal["typology", "fragility", "stripes", "walls", "unions", "ties"]
-# What is said of the curve of a population, which alternatives do not have
-_OF_POPULATION = ("population_without_fit", "population_extrapolated", "population_nearly_flat")
+_MISSING = "unions: the results were read back from files without *_unions.csv"
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -80,10 +78,12 @@ class Typology(Shown, Saved):
         read back.
     warnings : tuple of DondoloWarning
         What was warned of: by the run, and of the curves of this state.
-    kept_errors : KeptErrors
-        The standard errors of results that were read back, in place of the flags; None for results of a run.
-    kept_unions, kept_group_unions : tuple of dict of str to Fragility
-        Of results that were read back, `unions` and `group_unions` in each damage state; None if the files have none.
+    stored_curves : StoredCurves
+        What files know of the curves of results that were read back, in place of the flags; None for results of a run.
+    union_curves, group_union_curves : dict of str to Fragility
+        `unions` and `group_unions`; None if they are not known.
+    union_counts : dict of str to ndarray
+        Collapses at each level of 'wall NAME' counted in the same histories, and mean fractions of 'group NAME'.
     ties : tuple of TieCounts
         What the histories do to the ties of each row: how many make each `yielded` and `broken`, and its mean and
         largest plastic elongation; None where that is not known.
@@ -110,9 +110,10 @@ class Typology(Shown, Saved):
     work: Work
     flags: Flags | None = None
     warnings: tuple[DondoloWarning, ...] = ()
-    kept_errors: KeptErrors | None = None
-    kept_unions: tuple[dict[str, Fragility], ...] | None = None
-    kept_group_unions: tuple[dict[str, Fragility], ...] | None = None
+    stored_curves: StoredCurves | None = None
+    union_curves: dict[str, Fragility] | None = None
+    group_union_curves: dict[str, Fragility] | None = None
+    union_counts: dict[str, FloatArray] | None = None
     ties: tuple[TieCounts, ...] | None = None
     _states: dict[float, Typology] = field(default_factory=dict)
 
@@ -166,11 +167,6 @@ class Typology(Shown, Saved):
         union = self.unions[self.facade]
         said = warnings_of_union(self.facade, union.status, union.theta)
         return dataclasses.replace(self, warnings=tuple(dict.fromkeys([*self.warnings, *said])))
-
-    def _as_alternatives(self) -> Typology:
-        """The same walls as designs of one wall."""
-        said = tuple(one for one in self.warnings if one.code not in _OF_POPULATION)
-        return dataclasses.replace(self, groups=(), warnings=said, _states={})
 
     @functools.cached_property
     def _flat(self) -> tuple[FlatPopulation, tuple[FloatArray, IntArray]]:
@@ -242,34 +238,42 @@ class Typology(Shown, Saved):
             raise InputError(f"edp_threshold = {value}: must be one of {known}")
         if len(self.edp_thresholds) == 1:
             return self
-        if value not in self._states and place[0] == len(self.edp_thresholds) - 1:
-            last, counts = self.edp_thresholds[-1:], self.exceedances[-1:]
-            self._states[value] = dataclasses.replace(self, edp_thresholds=last, exceedances=counts, _states={})
         if value not in self._states:
-            counts, threshold = self.exceedances[place], self.edp_thresholds[place]
-            # These two modules need each other: curves make a typology, which makes those of its states.
-            from dondolo.populations.combination import combine_rows
-
-            state = combine_rows(self.population, self.im, self.levels, threshold, counts, self.histories, self.work)
-            state = state._as_alternatives() if self.are_alternatives else state
-            if self.flags is not None:
-                flags = self.flags.at(int(place[0]))
-                state = with_clustered_errors(dataclasses.replace(state, flags=flags), flags)
-            if self.kept_errors is not None:
-                state = self.kept_errors.put_into(state, int(place[0]))
-                kept = {
-                    name: None if several is None else (several[int(place[0])],)
-                    for name, several in (
-                        ("kept_unions", self.kept_unions),
-                        ("kept_group_unions", self.kept_group_unions),
-                    )
-                }
-                state = dataclasses.replace(state, **kept)  # type: ignore[arg-type]
-            self._states[value] = dataclasses.replace(state, ties=self.ties)._with_union_warnings()
-            warn(warning.placed(f"damage state {value:g}: ") for warning in self._states[value].warnings)
+            number = int(place[0])
+            self._states[value] = self._at_last() if number == len(self.edp_thresholds) - 1 else self._at(number)
         return self._states[value]
 
-    @functools.cached_property
+    def _at_last(self) -> Typology:
+        """The typology of collapse alone."""
+        last, counts = self.edp_thresholds[-1:], self.exceedances[-1:]
+        stored = None if self.stored_curves is None else self.stored_curves.at(-1)
+        return dataclasses.replace(
+            self, edp_thresholds=last, exceedances=counts, stored_curves=stored, flags=self.flags, _states={}
+        )
+
+    def _at(self, number: int) -> Typology:
+        """The typology of another state."""
+        # These two modules need each other: curves make a typology, which makes those of its states.
+        from dondolo.populations.combination import combine_rows
+
+        place = slice(number, number + 1)
+        state = combine_rows(
+            self.population,
+            self.im,
+            self.levels,
+            self.edp_thresholds[place],
+            self.exceedances[place],
+            self.histories,
+            self.work,
+            None if self.flags is None else self.flags.at(number),
+            self.are_alternatives,
+        )
+        if self.stored_curves is not None:
+            state = self.stored_curves.at(number).put_into(state)._with_union_warnings()
+        warn(warning.placed(f"damage state {self.edp_thresholds[number]:g}: ") for warning in state.warnings)
+        return dataclasses.replace(state, ties=self.ties)
+
+    @property
     def unions(self) -> dict[str, Fragility]:
         """Curve of each facade, or wall with several mechanisms, counted in the same histories.
 
@@ -282,32 +286,32 @@ class Typology(Shown, Saved):
         InputError
             The results were read back from files without them.
         """
-        from dondolo.populations.unions import unions_of
+        if self.union_curves is None:
+            raise InputError(_MISSING)
+        return self.union_curves
 
-        return unions_of(self) if self.kept_unions is None else self.kept_unions[-1]
-
-    @functools.cached_property
+    @property
     def group_unions(self) -> dict[str, Fragility]:
         """Curve of the population ('') and of each group with a wall of several mechanisms, in the same histories.
 
         The lognormal fitted to the weighted mean of `unions` and of the fractions of walls with one mechanism;
         ``typology["all"].fit`` is the same with the mechanisms of each wall as independent. Empty if no wall has
         several mechanisms, or if there is one wall only, which `unions` has. Standard errors are over records and
-        walls; results that were read back have none.
+        walls.
 
         Raises
         ------
         InputError
             The results were read back from files without them.
         """
-        from dondolo.populations.unions import group_unions_of
-
-        return group_unions_of(self) if self.kept_group_unions is None else self.kept_group_unions[-1]
+        if self.group_union_curves is None:
+            raise InputError(_MISSING)
+        return self.group_union_curves
 
     @property
     def knows_unions(self) -> bool:
         """Are `unions` known? Not of results that were read back from files without them."""
-        return self.flags is not None or self.kept_unions is not None
+        return self.union_curves is not None
 
     def nrml_functions(self) -> tuple[dict[str, dict[str, Function]], list[str]]:
         """Fragility functions of a population for `write_nrml`, one a group and mechanism, with its damage states.
@@ -541,21 +545,19 @@ class Typology(Shown, Saved):
 
     def _stored(self) -> dict[str, Any]:
         """What a file has of it: all but what follows from the rest."""
-        names = ("population", "im", "levels", "edp_thresholds", "exceedances", "histories", "groups", "work", "flags")
-        stored = {name: getattr(self, name) for name in (*names, "warnings", "kept_errors", "kept_unions", "ties")}
-        stored["kept_group_unions"] = self.kept_group_unions
-        return stored | {"rows": packed(self.curves), "walls": packed_walls(self.population, self.combined)}
+        names = ("population", "im", "levels", "edp_thresholds", "exceedances", "histories", "work", "flags")
+        stored = {name: getattr(self, name) for name in (*names, "warnings", "stored_curves", "ties")}
+        return stored | {"are_alternatives": self.are_alternatives}
 
     @classmethod
-    def _restored(cls, rows: dict[str, Any], walls: dict[str, Any], **more: Any) -> Typology:
-        people, levels = more["population"], more["levels"]
-        origin = {"im": more["im"], "edp_threshold": float(more["edp_thresholds"][-1])}
-        own = curves_of_rows(people, levels, more["exceedances"][-1], more["histories"], unpacked(rows), **origin)
-        combined = curves_of_walls(people, own, unpacked_walls(walls, levels, **origin))
-        stored = cls(curves=own, combined=combined, **more)
-        if stored.flags is not None:
-            stored = with_clustered_errors(stored, stored.flags)
-        return stored if stored.kept_errors is None else stored.kept_errors.put_into(stored, -1)
+    def _restored(cls, stored_curves: StoredCurves | None, **more: Any) -> Typology:
+        from dondolo.populations.combination import combine_rows
+
+        rest = {name: more.pop(name) for name in ("warnings", "ties")}
+        typology = combine_rows(more.pop("population"), **more)
+        if stored_curves is not None:
+            typology = stored_curves.put_into(typology)
+        return dataclasses.replace(typology, **rest)
 
     def write_results(self, prefix: str | os.PathLike[str], *, spreadsheet_safe: bool = False) -> None:
         """Write all tables into files of the names that the executable gives them.
@@ -567,7 +569,7 @@ class Typology(Shown, Saved):
         Parameters
         ----------
         prefix : path
-            What the names begin with, such as ``out/centre`` for ``out/centre_typology.csv``; the folder must exist.
+            What the names begin with, such as ``out/centre`` for ``out/centre_typology.csv``; folders are made.
         spreadsheet_safe : bool
             Put an apostrophe before names that a spreadsheet would take for formulas; `read_results` takes it away.
 
@@ -584,22 +586,26 @@ class Typology(Shown, Saved):
         DondoloWarning
             Whose results are replaced, and which reports, workbooks and figures are out of date.
         """
+        self._write(prefix, {}, {}, spreadsheet_safe)
+
+    def _write(
+        self,
+        prefix: str | os.PathLike[str],
+        more: dict[str, tables.Table],
+        settings: dict[str, dict[str, Any]],
+        spreadsheet_safe: bool,
+    ) -> None:
+        """Write all tables and some more, with the settings of these."""
         pulls = {wall.gravity for wall in self.walls}
         if len(pulls) > 1:
             raise InputError(
                 f"gravity = {min(pulls):g} and {max(pulls):g}: must be the same for all walls that are saved"
             )
-        start = as_file("prefix", prefix)
-        shape = self._shape()
-        comments = [f"shape: {', '.join(f'{name} = {count}' for name, count in shape.items())}", *self._comments()]
-        with publishing(start) as files:
-            for name, table in self._tables().items():
-                lines = tables.result_lines(table(), [f"run: {files.run}", *comments], spreadsheet_safe)
-                files.write(f"_{name}.csv", lines)
-            run = self._run_file(pulls.pop())
-            run = dataclasses.replace(run, run=files.run, shape=shape, files=tuple(files.written))
-            files.write("_run.json", [run.to_json()])
-            files.publish()
+        found = {f"_{name}.csv": table() for name, table in self._tables().items()} | more
+        run = self._run_file(pulls.pop())
+        run = dataclasses.replace(run, settings={**run.settings, **settings})
+        columns = {name: columns_of(table) for name, table in found.items()}
+        write_set(prefix, columns, run, spreadsheet_safe=spreadsheet_safe)
 
     def _shape(self) -> dict[str, int]:
         return {"walls": len(self.walls), "levels": len(self.levels), "states": len(self.edp_thresholds)}
@@ -611,7 +617,7 @@ class Typology(Shown, Saved):
         if self.are_alternatives:
             settings["population"] = {"designs": True}
         version, work = constants().version, self.work._asdict()
-        return RunFile(version, settings=settings, work=work, warnings=self.warnings)
+        return RunFile(version, settings=settings, work=work, warnings=self.warnings, shape=self._shape())
 
     def _facts(self) -> list[tuple[str, str]]:
         fitted = sum(curve.has_fit for curve in self.combined.values())

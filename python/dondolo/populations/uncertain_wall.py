@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -169,6 +170,25 @@ class UncertainWall(tables.Tabular, Saved):
         from dondolo.populations.plots_uncertain import draw_uncertain_wall
 
         return draw_uncertain_wall(self, ax)
+
+    def write_results(self, prefix: str | os.PathLike[str], *, spreadsheet_safe: bool = False) -> None:
+        """Write all tables into files of the names that the executable gives them, as `Typology.write_results`.
+
+        `read_results` gives the same, but for `rest` and `numbers`.
+
+        Parameters
+        ----------
+        prefix, spreadsheet_safe
+            As for `Typology.write_results`.
+
+        Raises
+        ------
+        InputError
+            Another run is writing them, or a file of the same name is not a result of dondolo.
+        DondoloError
+            A file cannot be written.
+        """
+        self.typology._write(prefix, {"_sources.csv": self._table()}, {"uncertainty": {}}, spreadsheet_safe)
 
     def _comments(self) -> list[str]:
         return [f"unit of theta: {blank_unit(self.im).strip() or '1'}", *tables.lines_of(self._facts())]

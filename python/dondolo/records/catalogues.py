@@ -16,10 +16,10 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray, as_flag
 from dondolo._base.files import as_file, read_bytes, read_text, synchronize, thing
+from dondolo._fortran.files import locked
 from dondolo._fortran.library import constants
 from dondolo._fortran.origins import check_replaced
 from dondolo._storage import tables
-from dondolo._storage.transactions import locked
 from dondolo.errors import DondoloError, InputError
 from dondolo.records.directions import is_search_result, other_quantity, vertical_mark
 from dondolo.records.reading import read_records

@@ -6,7 +6,7 @@ import os
 import shutil
 from pathlib import Path
 
-from dondolo._base.files import whole_file
+from dondolo._fortran.files import whole_file
 from dondolo.errors import DondoloError
 
 _BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome", "microsoft-edge")

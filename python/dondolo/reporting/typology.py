@@ -144,7 +144,7 @@ def _curve_in_words(who: str, fit: Fragility) -> str:
 
 def unions(people: Typology) -> dict[str, Fragility]:
     """Facades and walls with several mechanisms in the same histories; none if the files have none."""
-    return {} if people.flags is None and people.kept_unions is None else people.unions
+    return people.unions if people.knows_unions else {}
 
 
 def _unions_table(people: Typology) -> Table | None:

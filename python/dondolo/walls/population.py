@@ -337,6 +337,13 @@ class Population(Shown):
         first.flags.writeable = False
         return first
 
+    @property
+    def _has_curve_of_row(self) -> NDArray[np.bool_]:
+        """Which walls have the curve of their one row, shape (walls,): those of one mechanism that can always occur."""
+        first = self.first_rows
+        alone: NDArray[np.bool_] = (np.diff(first, append=len(self)) == 1) & (self.p_occ[first] == 1)
+        return alone
+
     def __len__(self) -> int:
         return len(self.walls)
 

@@ -4,7 +4,8 @@
 !> of a cluster and the mechanisms of a wall depend on each other in any way; both kinds of clusters add their covariance.
 !> What belongs to a record and a wall alone is counted in both, which errs on the side of wide intervals by about one part
 !> in the number of walls or of records. Fractions of a wall whose mechanisms are in series are taken as linear in those
-!> of its mechanisms. Every stripe of a wall counts for one.
+!> of its mechanisms; those of a wall in whose histories any of several mechanisms is counted are its own. Every stripe of a
+!> wall counts for one.
 module dondolo_population_errors
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
@@ -14,10 +15,11 @@ module dondolo_population_errors
    use dondolo_population, only : part_type, population_type
    use dondolo_population_series, only : in_series, series_slopes
    use dondolo_population_typology, only : typology_type
+   use dondolo_population_unions, only : curves_with_mean, unions_type
    implicit none
    private
 
-   public :: population_errors_type
+   public :: population_errors_type, curve_sums_type
 
    !> What is known of a curve from the walls so far
    type :: curve_sums_type
@@ -34,19 +36,21 @@ module dondolo_population_errors
       logical :: is_determined = .true.
       !> Sum of the covariances by walls
       real(wp) :: covariance(2, 2) = 0.0_wp
+      !> Change of ln theta and beta if each cluster of records, or each wall, is left out (parameter, cluster), if they are
+      !> kept
+      real(wp), allocatable :: record_change(:, :), wall_change(:, :)
    end type curve_sums_type
 
    !> The curves of a population, wall after wall
    type :: population_errors_type
-      private
       !> Levels of intensity
       real(wp), allocatable :: levels(:)
       !> Records of each cluster that run at each level, over all records (levels, clusters)
       real(wp), allocatable :: share(:, :)
       !> The sum over the clusters
       real(wp), allocatable :: run(:)
-      !> The curves (curve, state)
-      type(curve_sums_type), allocatable :: curve(:, :)
+      !> The curves (curve, state), and the means of unions (mean, state)
+      type(curve_sums_type), allocatable :: curve(:, :), mean(:, :)
    contains
       !> Take the curves
       procedure :: begin
@@ -54,12 +58,14 @@ module dondolo_population_errors
       procedure :: add
       !> Set the standard errors of the curves
       procedure :: finish
+      !> Set the standard errors of the means of unions
+      procedure :: finish_means
    end type population_errors_type
 
 contains
 
    !> Take the curves
-   subroutine begin(self, typologies, population, share, error)
+   subroutine begin(self, typologies, population, share, error, keeps_changes)
       class(population_errors_type), intent(out) :: self
       !> Curves (curve, state), those of a group one after the other
       type(typology_type), intent(in) :: typologies(:, :)
@@ -69,37 +75,66 @@ contains
       real(wp), intent(in) :: share(:, :)
       !> Lack of memory
       type(error_type), allocatable, intent(out) :: error
+      !> Are the changes of the curves kept, cluster by cluster and wall by wall?
+      logical, intent(in) :: keeps_changes
 
       real(wp), parameter :: bytes_of_number = real(storage_size(1.0_wp)/8, wp)
+      real(wp) :: numbers
+      integer, allocatable :: means(:)
       integer :: i, k
 
-      call check_room(bytes_of_number*real(size(typologies), wp)*real(size(share) + 10*size(share, 1), wp), error)
+      allocate (means(0))
+      if (size(typologies) > 0) means = curves_with_mean(population, typologies(:, 1))
+      numbers = real(size(share) + 10*size(share, 1), wp)
+      if (keeps_changes) numbers = numbers + 2.0_wp*real(population%walls + size(share, 2), wp)
+      call check_room(bytes_of_number*real(size(typologies) + size(means)*size(typologies, 2), wp)*numbers, error)
       if (allocated(error)) return
       self%levels = population%levels
       self%share = share
       self%run = sum(share, dim=2)
-      allocate (self%curve(size(typologies, 1), size(typologies, 2)))
+      allocate (self%curve(size(typologies, 1), size(typologies, 2)), self%mean(size(means), size(typologies, 2)))
       do k = 1, size(typologies, 2)
          do i = 1, size(typologies, 1)
-            associate (curve => self%curve(i, k), typology => typologies(i, k))
-               curve%part = typology%part
-               curve%total = typology%weight*typology%saturation
-               allocate (curve%deviation(size(share, 1), size(share, 2)), source=0.0_wp)
-               if (typology%fit%has_fit()) call curve%fit%begin(typology%fit, self%levels, self%run)
-            end associate
+            call begin_curve(self%curve(i, k), typologies(i, k), population, share, keeps_changes)
+            if (typologies(i, k)%fit%has_fit()) call self%curve(i, k)%fit%begin(typologies(i, k)%fit, self%levels, self%run)
+         end do
+         do i = 1, size(means)
+            call begin_curve(self%mean(i, k), typologies(means(i), k), population, share, keeps_changes)
          end do
       end do
    end subroutine begin
 
+   !> Begin a curve
+   subroutine begin_curve(curve, typology, population, share, keeps_changes)
+      type(curve_sums_type), intent(out) :: curve
+      !> The curve, or one of the same walls
+      type(typology_type), intent(in) :: typology
+      type(population_type), intent(in) :: population
+      !> Records of each cluster that run at each level, over all records (levels, clusters)
+      real(wp), intent(in) :: share(:, :)
+      !> Are its changes kept?
+      logical, intent(in) :: keeps_changes
+
+      curve%part = typology%part
+      curve%total = typology%weight*typology%saturation
+      allocate (curve%deviation(size(share, 1), size(share, 2)), source=0.0_wp)
+      if (.not. keeps_changes) return
+      allocate (curve%record_change(2, size(share, 2)), source=0.0_wp)
+      allocate (curve%wall_change(2, typology%walls), source=0.0_wp)
+   end subroutine begin_curve
+
    !> Take a wall
-   pure subroutine add(self, population, number, counts)
+   pure subroutine add(self, population, number, counts, united)
       class(population_errors_type), intent(inout) :: self
-      !> The population: of a wall with several mechanisms the standard errors of the curve of all of them are set
+      !> The population: rows have their standard errors, those of the curve of the wall are set
       type(population_type), intent(inout) :: population
       !> Number of the wall
       integer, intent(in) :: number
       !> Histories of each cluster that reach each state, over all records (levels, clusters, states, mechanisms)
       real(wp), intent(in) :: counts(:, :, :, :)
+      !> Histories of each cluster in which any of its mechanisms reaches each state, over all records (levels, clusters,
+      !> states), of a wall with several
+      real(wp), intent(in), optional :: united(:, :, :)
 
       ! Of the rows of the wall and, last, of the wall as a whole
       real(wp) :: fraction(size(counts, 1), size(counts, 4) + 1), deviation(size(counts, 1), size(counts, 2), size(counts, 4) + 1)
@@ -120,14 +155,35 @@ contains
                deviation(:, g, last) = deviation(:, g, last) + slope(:, m)*deviation(:, g, m)
             end do
          end do
-         if (last > 2) call set_errors_of_wall(population%curve(k, columns(last)), self, population%occurrence(columns(last)), &
-            & fraction(:, last), deviation(:, :, last))
+         associate (curve => population%curve(k, columns(last)), row => population%curve(k, columns(1)))
+            if (last > 2) then
+               call set_errors_of_wall(curve, self, population%occurrence(columns(last)), fraction(:, last), deviation(:, :, last))
+            else if (curve%has_fit()) then
+               ! One mechanism that may not occur has the curve of its row, and a saturation.
+               curve%covariance = row%covariance
+               curve%errors = row%errors
+               curve%clusters = row%clusters
+               curve%degrees_of_freedom = row%degrees_of_freedom
+            end if
+         end associate
          do i = 1, size(self%curve, 1)
             do m = 1, last
                weight = population%weight_in(self%curve(i, k)%part, columns(m))
-               if (weight > 0.0_wp) call take(self%curve(i, k), weight, population%occurrence(columns(m)), fraction(:, m), &
-                  & deviation(:, :, m), self%run)
+               if (.not. weight > 0.0_wp) cycle
+               self%curve(i, k)%deviation = self%curve(i, k)%deviation + weight*deviation(:, :, m)
+               call leave_out(self%curve(i, k), weight, population%occurrence(columns(m)), fraction(:, m), self%run)
             end do
+         end do
+         if (size(self%mean, 1) == 0) cycle
+         if (present(united)) then
+            fraction(:, last) = sum(united(:, :, k), dim=2)/self%run
+            do g = 1, size(counts, 2)
+               deviation(:, g, last) = united(:, g, k) - self%share(:, g)*fraction(:, last)
+            end do
+         end if
+         do i = 1, size(self%mean, 1)
+            weight = population%weight_in(self%mean(i, k)%part, columns(last))
+            if (weight > 0.0_wp) self%mean(i, k)%deviation = self%mean(i, k)%deviation + weight*deviation(:, :, last)
          end do
       end do
    end subroutine add
@@ -154,8 +210,8 @@ contains
       call cluster_errors(curve, sums%levels, counts, sums%share, changes)
    end subroutine set_errors_of_wall
 
-   !> Take a wall, or one of its mechanisms, into a curve
-   pure subroutine take(curve, weight, occurrence, fraction, deviation, run)
+   !> Leave a wall, or one of its mechanisms, out of a curve
+   pure subroutine leave_out(curve, weight, occurrence, fraction, run)
       type(curve_sums_type), intent(inout) :: curve
       !> Its weight, positive
       real(wp), intent(in) :: weight
@@ -163,8 +219,6 @@ contains
       real(wp), intent(in) :: occurrence
       !> Its fractions at each level
       real(wp), intent(in) :: fraction(:)
-      !> Deviations of the clusters from them (levels, clusters)
-      real(wp), intent(in) :: deviation(:, :)
       !> Share of the records that run at each level
       real(wp), intent(in) :: run(:)
 
@@ -172,60 +226,106 @@ contains
       logical :: ok
 
       curve%walls = curve%walls + 1
-      curve%deviation = curve%deviation + weight*deviation
       if (.not. allocated(curve%fit%x) .or. .not. curve%is_determined) return
       call curve%fit%without(weight/curve%total*fraction*run, weight/curve%total*occurrence*run, change, ok)
       curve%is_determined = ok
+      if (allocated(curve%wall_change)) curve%wall_change(:, curve%walls) = change
       curve%covariance(:, 1) = curve%covariance(:, 1) + change*change(1)
       curve%covariance(:, 2) = curve%covariance(:, 2) + change*change(2)
-   end subroutine take
+   end subroutine leave_out
 
    !> Set the standard errors of the curves: over records and, if there are several walls, over these
    pure subroutine finish(self, typologies)
-      class(population_errors_type), intent(in) :: self
+      class(population_errors_type), intent(inout) :: self
       !> Curves (curve, state): covariance, clusters, errors and degrees of freedom of the fits are set
       type(typology_type), intent(inout) :: typologies(:, :)
 
-      real(wp), dimension(size(self%share, 1), size(self%share, 2)) :: counts
-      real(wp) :: changes(2, size(self%share, 2))
-      integer :: g, i, k
+      integer :: i, k
 
       do k = 1, size(typologies, 2)
          do i = 1, size(typologies, 1)
-            associate (curve => self%curve(i, k), typology => typologies(i, k))
-               if (.not. typology%fit%has_fit()) cycle
-               do g = 1, size(counts, 2)
-                  counts(:, g) = self%share(:, g)*typology%mean_fraction/typology%saturation &
-                     & + curve%deviation(:, g)/curve%total
-               end do
-               call cluster_errors(typology%fit, self%levels, counts, self%share, changes)
-               if (typology%fit%errors == 'clustered' .and. curve%walls > 1) call add_walls(curve, typology)
-            end associate
+            call set_errors(self%curve(i, k), typologies(i, k)%fit, typologies(i, k)%mean_fraction, typologies(i, k)%saturation, &
+               & self%levels, self%share)
          end do
       end do
    end subroutine finish
 
+   !> Set the standard errors of the means of unions: over records and, if there are several walls, over these
+   pure subroutine finish_means(self, unions, population)
+      class(population_errors_type), intent(inout) :: self
+      !> Unions: covariance, clusters, errors and degrees of freedom of the curves of the means are set
+      type(unions_type), intent(inout) :: unions
+      !> The population, fitted
+      type(population_type), intent(in) :: population
+
+      real(wp) :: weight, fraction(size(self%levels))
+      integer :: i, k, wall, united
+
+      do k = 1, size(self%mean, 2)
+         do i = 1, size(self%mean, 1)
+            associate (curve => self%mean(i, k), mean => unions%mean(i))
+               if (.not. mean%curve(k)%has_fit()) cycle
+               call curve%fit%begin(mean%curve(k), self%levels, self%run)
+               united = 0
+               do wall = 1, population%walls
+                  if (population%is_several(wall)) united = united + 1
+                  weight = population%weight_in(curve%part, population%rows + wall)
+                  if (.not. weight > 0.0_wp) cycle
+                  fraction = population%fraction(population%rows + wall, k)
+                  if (population%is_several(wall)) fraction = unions%fraction(united, k)
+                  call leave_out(curve, weight, population%occurrence(population%rows + wall), fraction, self%run)
+               end do
+               call set_errors(curve, mean%curve(k), mean%fraction(:, k), mean%saturation, self%levels, self%share)
+            end associate
+         end do
+      end do
+   end subroutine finish_means
+
+   !> Set the standard errors of a curve: over records and, if there are several walls, over these
+   pure subroutine set_errors(curve, fit, fraction, saturation, levels, share)
+      !> What is known of the curve
+      type(curve_sums_type), intent(inout) :: curve
+      !> Its fit: covariance, clusters, errors and degrees of freedom are set
+      type(fragility_type), intent(inout) :: fit
+      !> Its fractions at each level, and what they tend to
+      real(wp), intent(in) :: fraction(:), saturation
+      !> Levels of intensity
+      real(wp), intent(in) :: levels(:)
+      !> Records of each cluster that run at each level, over all records (levels, clusters)
+      real(wp), intent(in) :: share(:, :)
+
+      real(wp), dimension(size(share, 1), size(share, 2)) :: counts
+      real(wp) :: changes(2, size(share, 2))
+      integer :: g
+
+      if (.not. fit%has_fit()) return
+      do g = 1, size(counts, 2)
+         counts(:, g) = share(:, g)*fraction/saturation + curve%deviation(:, g)/curve%total
+      end do
+      call cluster_errors(fit, levels, counts, share, changes)
+      if (allocated(curve%record_change)) curve%record_change = changes
+      if (fit%errors == 'clustered' .and. curve%walls > 1) call add_walls(curve, fit)
+   end subroutine set_errors
+
    !> Add the covariance by walls to that by records; degrees of freedom after Satterthwaite, for ln theta
-   pure subroutine add_walls(curve, typology)
+   pure subroutine add_walls(curve, fit)
       type(curve_sums_type), intent(in) :: curve
       !> Curve with the covariance by records
-      type(typology_type), intent(inout) :: typology
+      type(fragility_type), intent(inout) :: fit
 
       real(wp) :: both(2)
 
-      associate (fit => typology%fit)
-         if (curve%walls < fewest_clusters .or. .not. curve%is_determined) then
-            fit%errors = merge('few_walls', 'one_wall ', curve%walls < fewest_clusters)
-            fit%clusters = curve%walls
-            fit%covariance = 0.0_wp
-            fit%degrees_of_freedom = 0.0_wp
-            return
-         end if
-         both = [fit%covariance(1, 1), curve%covariance(1, 1)]
-         if (sum(both) > 0.0_wp) fit%degrees_of_freedom = sum(both)**2/(both(1)**2/fit%degrees_of_freedom &
-            & + both(2)**2/real(curve%walls - 1, wp))
-         fit%covariance = fit%covariance + curve%covariance
-      end associate
+      if (curve%walls < fewest_clusters .or. .not. curve%is_determined) then
+         fit%errors = merge('few_walls', 'one_wall ', curve%walls < fewest_clusters)
+         fit%clusters = curve%walls
+         fit%covariance = 0.0_wp
+         fit%degrees_of_freedom = 0.0_wp
+         return
+      end if
+      both = [fit%covariance(1, 1), curve%covariance(1, 1)]
+      if (sum(both) > 0.0_wp) fit%degrees_of_freedom = sum(both)**2/(both(1)**2/fit%degrees_of_freedom &
+         & + both(2)**2/real(curve%walls - 1, wp))
+      fit%covariance = fit%covariance + curve%covariance
    end subroutine add_walls
 
 end module dondolo_population_errors

@@ -13,7 +13,7 @@ module dondolo_population_row_result
    implicit none
    private
 
-   public :: row_result_type, shape_type, pack_row, unpack_row, bytes_of_row, bytes_of_flags, pack_flags
+   public :: row_result_type, shape_type, pack_row, unpack_row, bytes_of_row, bytes_of_flags, pack_flags, unpack_flags
 
    !> How many numbers there are of a row, besides its histories
    type :: shape_type

@@ -18,7 +18,7 @@ module dondolo_population_unions
    implicit none
    private
 
-   public :: union_type, unions_type, union_builder_type, wall_union, mean_unions
+   public :: union_type, unions_type, union_builder_type, wall_union, mean_unions, curves_with_mean
 
    !> Fractions of a wall with several mechanisms, or means over a population or a group
    type :: union_type
@@ -28,14 +28,18 @@ module dondolo_population_unions
       character(len=:), allocatable :: group
       !> First and last row of the wall; 0 for a mean
       integer :: rows(2) = 0
-      !> Histories of each stripe (levels)
-      real(wp), allocatable :: histories(:)
+      !> Histories of each stripe (levels), and of a wall how many of them reach a state (levels, states)
+      real(wp), allocatable :: histories(:), collapses(:, :)
       !> Part of them in which a state is reached, by the same histories, and by the product (levels, states)
       real(wp), allocatable :: fraction(:, :), independent(:, :)
       !> Probability that any mechanism can occur
       real(wp) :: saturation = 1.0_wp
       !> Lognormals of each state, fitted to both, divided by the saturation
       type(fragility_type), allocatable :: curve(:), product(:)
+      !> Histories of each cluster of records in which each state is reached, over all histories of a stripe (levels, clusters,
+      !> states), and change of ln theta and beta of each curve if each cluster is left out (parameter, cluster, state): of a
+      !> wall that has just been counted
+      real(wp), allocatable :: reached(:, :, :), change(:, :, :)
    end type union_type
 
    !> The unions of a population. Of those of walls no more is kept than does not follow from the population: a large one
@@ -45,10 +49,12 @@ module dondolo_population_unions
       integer, allocatable :: wall(:)
       !> Names of the walls or facades
       type(line_type), allocatable :: name(:)
-      !> Parts of the histories in which a state is reached (levels, states, unions)
-      real(wp), allocatable :: fraction(:, :, :)
+      !> Histories of each stripe (levels, unions), and how many of them reach a state (levels, states, unions)
+      real(wp), allocatable :: histories(:, :), collapses(:, :, :)
       !> Lognormals of each state (states, unions)
       type(fragility_type), allocatable :: curve(:, :)
+      !> Change of ln theta and beta if each cluster of records is left out (parameter, cluster, state, union), if it is kept
+      real(wp), allocatable :: change(:, :, :, :)
       !> Means over the population and its groups
       type(union_type), allocatable :: mean(:)
    contains
@@ -60,6 +66,8 @@ module dondolo_population_unions
       procedure :: count => count_unions
       !> Get one; the means stand behind the walls
       procedure :: get
+      !> Part of the histories of a wall in which a state is reached
+      procedure :: fraction => fraction_of_wall
    end type unions_type
 
    !> The mechanisms of a wall, one after the other
@@ -94,12 +102,13 @@ contains
    end subroutine add
 
    !> Make room for the unions of some walls
-   subroutine reserve(self, number, levels, states)
+   subroutine reserve(self, number, levels, states, clusters)
       class(unions_type), intent(out) :: self
-      !> How many walls, levels and damage states
-      integer, intent(in) :: number, levels, states
+      !> How many walls, levels and damage states, and clusters of records whose changes are kept
+      integer, intent(in) :: number, levels, states, clusters
 
-      allocate (self%wall(number), self%name(number), self%fraction(levels, states, number), self%curve(states, number))
+      allocate (self%wall(number), self%name(number), self%histories(levels, number), self%collapses(levels, states, number), &
+         & self%curve(states, number), self%change(2, clusters, states, number))
    end subroutine reserve
 
    !> Keep the union of a wall
@@ -111,8 +120,10 @@ contains
 
       self%wall(place) = wall
       self%name(place)%text = union%name
-      self%fraction(:, :, place) = union%fraction
+      self%histories(:, place) = union%histories
+      self%collapses(:, :, place) = union%collapses
       self%curve(:, place) = union%curve
+      self%change(:, :, :, place) = union%change(:, :size(self%change, 2), :)
    end subroutine keep
 
    !> How many unions there are, means included
@@ -145,20 +156,32 @@ contains
       associate (group => population%row(union%rows(1))%group)
          if (group > 0) union%group = population%groups%line(group)%text
       end associate
-      union%fraction = self%fraction(:, :, place)
+      union%histories = self%histories(:, place)
+      union%collapses = self%collapses(:, :, place)
       union%curve = self%curve(:, place)
       union%product = population%curve(:, column)
-      union%histories = real(population%histories_of(column), wp)
       union%saturation = population%occurrence(column)
-      allocate (union%independent, mold=union%fraction)
+      allocate (union%fraction, mold=union%collapses)
+      allocate (union%independent, mold=union%collapses)
       do k = 1, size(union%curve)
+         union%fraction(:, k) = self%fraction(place, k)
          union%independent(:, k) = population%fraction(column, k)
       end do
    end subroutine get
 
+   !> Part of the histories of a wall in which a state is reached
+   pure function fraction_of_wall(self, place, state) result(fraction)
+      class(unions_type), intent(in) :: self
+      !> Place of its union, and number of the state
+      integer, intent(in) :: place, state
+      real(wp) :: fraction(size(self%histories, 1))
+
+      fraction = self%collapses(:, state, place)/self%histories(:, place)
+   end function fraction_of_wall
+
    !> Count and fit the union of the mechanisms of a wall
    subroutine wall_union(union, builder, population, wall, clusters, runs, error)
-      !> The union: fractions and curves are set, what else it has but its name follows from the population
+      !> The union: counts and curves are set, what else it has but its name follows from the population
       type(union_type), intent(out) :: union
       !> All mechanisms of the wall
       type(union_builder_type), intent(in) :: builder
@@ -174,11 +197,14 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       real(wp), dimension(size(runs, 2), maxval(clusters)) :: counts, histories
-      real(wp) :: changes(2, maxval(clusters)), all(size(runs, 2)), occurrence
+      real(wp) :: occurrence
       integer :: i, j, k, record
 
       occurrence = population%occurrence(population%rows + wall)
-      allocate (union%fraction(size(runs, 2), size(builder%survival, 3)), union%curve(size(builder%survival, 3)))
+      associate (states => size(builder%survival, 3))
+         allocate (union%collapses(size(runs, 2), states), union%curve(states), union%change(2, size(counts, 2), states), &
+            & union%reached(size(counts, 1), size(counts, 2), states))
+      end associate
       do k = 1, size(union%curve)
          counts = 0.0_wp
          histories = 0.0_wp
@@ -192,12 +218,15 @@ contains
                end associate
             end do
          end do
-         all = sum(histories, dim=2)
-         union%fraction(:, k) = sum(counts, dim=2)/all
+         union%histories = sum(histories, dim=2)
+         union%collapses(:, k) = sum(counts, dim=2)
+         union%reached(:, :, k) = counts/real(size(builder%survival, 1), wp)
          if (occurrence > 0.0_wp) counts = counts/occurrence
-         call fit_fragility(union%curve(k), population%levels, min(sum(counts, dim=2), all), all, error)
+         associate (all => union%histories, collapses => union%collapses(:, k)/merge(occurrence, 1.0_wp, occurrence > 0.0_wp))
+            call fit_fragility(union%curve(k), population%levels, min(collapses, all), all, error)
+         end associate
          if (allocated(error)) return
-         call cluster_errors(union%curve(k), population%levels, counts, histories, changes)
+         call cluster_errors(union%curve(k), population%levels, counts, histories, union%change(:, :, k))
       end do
    end subroutine wall_union
 
@@ -227,7 +256,8 @@ contains
 
    !> Weighted means of the unions of the walls of a population and of its groups
    subroutine mean_unions(unions, population, typologies, error)
-      !> Unions of the walls with several mechanisms, in the order of walls: their means are set, with naive standard errors
+      !> Unions of the walls with several mechanisms, in the order of walls: their means are set; their standard errors are
+      !> naive until those by records and walls are set (dondolo_population_errors)
       type(unions_type), intent(inout) :: unions
       !> The population, fitted
       type(population_type), intent(in) :: population
@@ -250,7 +280,9 @@ contains
          do i = 1, size(fraction, 2)
             fraction(:, i) = population%fraction(i, k)
          end do
-         fraction(:, population%rows + unions%wall) = unions%fraction(:, k, :)
+         do i = 1, size(unions%wall)
+            fraction(:, population%rows + unions%wall(i)) = unions%fraction(i, k)
+         end do
          do i = 1, size(curves)
             weights = weights_of(population, typologies(curves(i), k)%part)
             associate (mean => unions%mean(i))

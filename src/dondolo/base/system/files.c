@@ -207,6 +207,75 @@ void dondolo_give_back_lock(int descriptor)
    close(descriptor);
 }
 
+/* Make a part of a file, which is locked while it is written; number of the error, 0: it is there. Who has found it before it
+   was locked has removed it: it is made under another name then (EBUSY). */
+int dondolo_make_part(const char *path, int *descriptor)
+{
+   struct stat there;
+
+   *descriptor = open(path, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+   if (*descriptor < 0)
+      return errno;
+   /* A file system without locks refuses none. */
+   flock(*descriptor, LOCK_EX);
+   if (lstat(path, &there) == 0)
+      return 0;
+   close(*descriptor);
+   return EBUSY;
+}
+
+/* Bring a part to the disk and let it take the place of its file; number of the error, 0: done */
+int dondolo_publish_part(const char *part, const char *path)
+{
+   int descriptor = open(part, O_RDONLY | O_NOFOLLOW | O_CLOEXEC), error = 0;
+
+   if (descriptor < 0)
+      return errno;
+   if (!synchronize(descriptor) || rename(part, path) != 0)
+      error = errno;
+   close(descriptor);
+   return error;
+}
+
+/* Remove the parts FILE.RUN.new of a file that nobody writes any more */
+void dondolo_remove_dead_parts(const char *folder, const char *file)
+{
+   const char *form = "00000000T000000Z-xxxxxxxxxxxxxxxx.new";
+   size_t begin = strlen(file) + 1;
+   DIR *list = opendir(folder);
+   struct dirent *entry;
+
+   while (list != NULL && (entry = readdir(list)) != NULL) {
+      const char *name = entry->d_name;
+      int is_part = strncmp(name, file, begin - 1) == 0 && name[begin - 1] == '.' && strlen(name + begin) == strlen(form);
+
+      for (size_t i = 0; is_part && form[i] != '\0'; i++) {
+         char letter = name[begin + i];
+
+         is_part = form[i] == '0' ? strchr("0123456789", letter) != NULL
+                   : form[i] == 'x' ? strchr("0123456789abcdef", letter) != NULL
+                                    : letter == form[i];
+      }
+      if (is_part) {
+         int descriptor = openat(dirfd(list), name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+
+         if (descriptor < 0)
+            continue;
+         if (flock(descriptor, LOCK_EX | LOCK_NB) == 0)
+            unlinkat(dirfd(list), name, 0);
+         close(descriptor);
+      }
+   }
+   if (list != NULL)
+      closedir(list);
+}
+
+/* What the system says of an error */
+void dondolo_describe_error(int number, char *text, size_t room)
+{
+   snprintf(text, room, "%s", strerror(number));
+}
+
 /* Look at a lock file. 0: nobody has the lock; 1: a process has it; 2: there is no such file. */
 int dondolo_look_at_lock(const char *path, char *text, size_t room)
 {

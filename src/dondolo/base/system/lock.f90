@@ -1,6 +1,6 @@
 !> Locks: one run at a time writes an output or a store. The lock of `out/city` is the file `out/city.lock`, which says who
 !> has it; the kernel holds the lock itself (flock), and gives it back however the process ends. A file that a killed run
-!> has left is therefore no lock, but says which run that was. Python takes the same locks (_storage/transactions.py).
+!> has left is therefore no lock, but says which run that was.
 module dondolo_base_lock
    use, intrinsic :: iso_c_binding, only : c_char, c_double, c_int, c_null_char, c_size_t
    use dondolo_base_error, only : error_type, raise_failure, raise_input

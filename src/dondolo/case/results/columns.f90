@@ -7,14 +7,14 @@ module dondolo_case_columns
    implicit none
    private
 
-   public :: column_type, columns_type, text_column, real_column, integer_column
+   public :: column_type, columns_type, text_column, real_column, integer_column, degrees_column
 
-   !> What a column holds
-   integer, parameter :: text_column = 0, real_column = 1, integer_column = 2
+   !> What a column holds; degrees are real numbers, written as whole ones where they are whole
+   integer, parameter :: text_column = 0, real_column = 1, integer_column = 2, degrees_column = 3
 
    !> A column
    type :: column_type
-      !> text_column, real_column or integer_column; flags are integers, 0 or 1
+      !> text_column, real_column, integer_column or degrees_column; flags are integers, 0 or 1
       integer :: kind = text_column
       !> Numbers, those of integers too, NaN where there is none; those beyond the rows of the table are room
       real(wp), allocatable :: number(:)
@@ -68,7 +68,7 @@ contains
       !> Is there one?
       logical, intent(in) :: given
 
-      if (.not. self%has_column(real_column)) return
+      if (.not. self%has_column(merge(degrees_column, real_column, self%are_degrees))) return
       self%columns(self%column)%number(self%rows + 1) = value
       if (.not. given) self%columns(self%column)%number(self%rows + 1) = ieee_value(value, ieee_quiet_nan)
    end subroutine take_real

@@ -50,7 +50,7 @@ contains
 
       if (.not. given) then
          call self%append('')
-      else if (self%is_whole) then
+      else if (self%are_degrees .and. value == anint(value)) then
          call self%append(to_text(nint(value)))
       else
          call self%append(to_table(value))

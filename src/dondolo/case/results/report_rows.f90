@@ -256,9 +256,12 @@ contains
       !> Its EDP threshold
       real(wp), intent(in) :: threshold
 
+      real(wp) :: collapses
       logical :: is_wall
 
       is_wall = union%rows(1) > 0
+      collapses = 0.0_wp
+      if (is_wall) collapses = union%collapses(number, state)
       associate (curve => union%curve(state), other => union%product(state))
          call table%put('wall', union%name)
          call table%put('group', union%group)
@@ -266,14 +269,14 @@ contains
          call table%put('im', im)
          call table%put('im_level', level)
          call table%put('histories', nint(union%histories(number)), is_wall)
-         call table%put('collapses', union%histories(number)*union%fraction(number, state), is_wall)
+         call table%put('collapses', collapses, is_wall)
          call table%put('fraction', union%fraction(number, state))
          call table%put('independent_fraction', union%independent(number, state))
          call table%put('edp_threshold', threshold)
          call table%put('theta', curve%theta, curve%has_fit())
          call table%put('beta', curve%beta, curve%has_fit())
          call table%put('status', trim(fit_status_names(curve%status)))
-         call put_errors(table, '', curve, is_wall)
+         call put_errors(table, '', curve, given=.true.)
          call table%put('independent_theta', other%theta, other%has_fit())
          call table%put('independent_beta', other%beta, other%has_fit())
          call put_errors(table, 'independent_', other, given=.true.)

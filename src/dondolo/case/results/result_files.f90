@@ -12,7 +12,7 @@
 !>
 !> The folder is synchronized between 3 and 4, so that a loss of power does not keep 4 without 3, and after 4, before a
 !> checkpoint is removed. Tables begin with a line that names RUN, so that files that were brought together by other
-!> means are found out. Python publishes by the same steps (_storage/transactions.py).
+!> means are found out.
 module dondolo_case_result_files
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_base_checksum, only : crc32_length, crc32_of_file

@@ -22,7 +22,7 @@ module dondolo_case_table
       !> Column of the last value that was put
       integer :: column = 0
       !> Where it is written, does the text stand in quotes in any case, or the real number for a whole one?
-      logical :: is_quoted = .false., is_whole = .false.
+      logical :: is_quoted = .false., are_degrees = .false.
    contains
       !> Put the value of the next column of a row; where it is not `given` its cell is empty
       generic :: put => put_text, put_real, put_integer, put_logical
@@ -107,7 +107,7 @@ contains
       logical, intent(in), optional :: given
 
       call self%next_column(name)
-      self%is_whole = .false.
+      self%are_degrees = .false.
       call self%take_real(value, is_given(given))
    end subroutine put_real
 
@@ -121,7 +121,7 @@ contains
       logical, intent(in), optional :: given
 
       call self%next_column(name)
-      self%is_whole = value == anint(value)
+      self%are_degrees = .true.
       call self%take_real(value, is_given(given))
    end subroutine put_degrees
 

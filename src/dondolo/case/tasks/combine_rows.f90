@@ -2,21 +2,17 @@
 module dondolo_case_combine_rows
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
-   use dondolo_base_memory, only : check_room
    use dondolo_case, only : case_type
    use dondolo_case_motion_warnings, only : warn_of_events, warn_of_records
    use dondolo_case_result_warnings, only : fit_warnings_type, warn_of_union
    use dondolo_case_results, only : results_type, shown_rows
-   use dondolo_fragility_clustered, only : cluster_errors
    use dondolo_fragility_study, only : runs_of, study_type
+   use dondolo_population_curves, only : population_curves_type
    use dondolo_population_designs, only : compare_designs
-   use dondolo_population_errors, only : population_errors_type
    use dondolo_population_reader, only : population_reader_type
    use dondolo_population_row_result, only : row_result_type
    use dondolo_population_sensitivity, only : new_sensitivity
    use dondolo_population_store, only : read_result
-   use dondolo_population_typology, only : combine_population, typology_type
-   use dondolo_population_unions, only : mean_unions, union_builder_type, union_type, wall_union
    use dondolo_population_wall_row, only : wall_row_type
    implicit none
    private
@@ -34,9 +30,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(study_type) :: study
-      type(typology_type), allocatable :: typologies(:)
       type(fit_warnings_type) :: fits
-      integer :: k, states
+      integer :: states
 
       states = size(case%stripes%thresholds)
       results%population = case%survey%population
@@ -44,17 +39,7 @@ contains
       call case%make_study(study)
       if (.not. allocated(error)) call gather(results, study%share(), error)
       if (.not. allocated(error)) call results%population%fit(error)
-      if (allocated(error)) return
-      ! Designs are alternatives: nothing is a mean over them.
-      if (case%designs) allocate (results%typologies(0, states))
-      do k = 1, merge(0, states, case%designs)
-         call combine_population(typologies, results%population, k, error)
-         if (allocated(error)) return
-         if (k == 1) allocate (results%typologies(size(typologies), states))
-         results%typologies(:, k) = typologies
-      end do
-      if (case%designs) allocate (results%designs(results%population%rows))
-      call look_at_rows(case, results, study, fits, error)
+      if (.not. allocated(error)) call look_at_rows(case, results, study, fits, error)
       if (allocated(error)) return
       if (case%designs) call compare_designs(results%designs)
       if (allocated(case%uncertainty)) call compute_sensitivity(case, results)
@@ -116,11 +101,11 @@ contains
       call results%stores%close()
    end subroutine gather
 
-   !> Go through the rows with all that is known of each: standard errors of the curves of rows, walls and population,
-   !> unions of the walls with several mechanisms, what there is to say of the curves, and the rows that are shown
+   !> Go through the rows with all that is known of each: curves of the population and standard errors, unions of the walls
+   !> with several mechanisms, what there is to say of the curves, and the rows that are shown
    subroutine look_at_rows(case, results, study, fits, error)
       type(case_type), intent(in) :: case
-      !> Its results: the population and its curves are there
+      !> Its results: the population and the curves of its rows are there
       type(results_type), intent(inout) :: results
       type(study_type), intent(in) :: study
       !> What there is to say of the curves
@@ -131,115 +116,46 @@ contains
       type(population_reader_type) :: reader
       type(wall_row_type) :: row
       type(row_result_type) :: outcome
-      type(population_errors_type) :: errors
-      type(union_builder_type) :: builder
-      type(union_type) :: union
+      type(population_curves_type), allocatable :: curves
       character(len=:), allocatable :: name
-      real(wp), allocatable :: counts(:, :, :, :)
-      real(wp) :: share(size(study%levels), maxval(study%suite%clusters))
-      logical :: runs(size(study%suite%clusters), size(study%levels)), found
-      integer :: i, states, wall, united, rows(2)
+      real(wp) :: change(2, maxval(study%suite%clusters))
+      logical :: found
+      integer :: i, states
 
-      runs = runs_of(study)
-      call share_clusters(study%suite%clusters, runs, share)
+      ! On the heap: stacks may be small.
+      allocate (curves)
       states = size(case%stripes%thresholds)
       allocate (results%shown(min(shown_rows, case%survey%rows)))
-      associate (population => results%population)
-         united = count(population%is_several([(i, i=1, population%walls)]))
-         call check_room(real(size(study%levels)*8, wp)*(real(2*united, wp)*real(states + 1, wp) &
-            & + real(population%rows + population%walls, wp)), error)
-         if (.not. allocated(error)) call errors%begin(results%typologies, population, share, error)
-         if (allocated(error)) return
-         if (united > 0) call results%unions%reserve(united, size(study%levels), states)
-         reader%names%is_checked = .false.
-         united = 0
-         do i = 1, population%rows
-            call reader%next(case%table, row, found, error)
-            if (.not. allocated(error)) call read_result(results%stores, i, outcome, error)
-            if (allocated(error)) exit
-            wall = population%row(i)%wall
-            rows = population%rows_of(population%rows + wall)
-            if (i == rows(1)) then
-               name = row%wall%name()
-               if (len(row%facade) > 0) name = row%facade
-               if (allocated(counts)) deallocate (counts)
-               allocate (counts(size(share, 1), size(share, 2), states, rows(2) - rows(1) + 1))
+      if (case%designs) allocate (results%designs(results%population%rows))
+      call curves%begin(results%population, study%suite%clusters, runs_of(study), case%designs, .false., error)
+      if (allocated(error)) return
+      reader%names%is_checked = .false.
+      do i = 1, results%population%rows
+         call reader%next(case%table, row, found, error)
+         if (.not. allocated(error)) call read_result(results%stores, i, outcome, error)
+         if (allocated(error)) exit
+         name = row%wall%name()
+         if (len(row%facade) > 0) name = row%facade
+         call curves%add(outcome, name, results%population, change, error)
+         if (allocated(error)) exit
+         associate (curve => results%population%curve(states, i))
+            call fits%look(curve, row%wall%name())
+            if (case%designs) then
+               call results%designs(i)%take_wall(row%wall)
+               results%designs(i)%curve = curve
+               results%designs(i)%change = change(1, :)
             end if
-            call count_clusters(results, outcome, study%suite%clusters, runs, counts(:, :, :, i - rows(1) + 1))
-            associate (curve => population%curve(states, i))
-               call fits%look(curve, row%wall%name())
-               if (case%designs) call results%designs(i)%take_wall(row%wall)
-               if (i <= shown_rows) then
-                  results%shown(i)%name = row%wall%name()
-                  results%shown(i)%mechanism = row%wall%mechanism_name()
-                  results%shown(i)%curve = curve
-               end if
-            end associate
-            if (population%is_several(wall)) call builder%add(outcome, population%row(i)%p_occ)
-            if (i < rows(2)) cycle
-            call errors%add(population, wall, counts)
-            if (.not. population%is_several(wall)) cycle
-            united = united + 1
-            call wall_union(union, builder, population, wall, study%suite%clusters, runs, error)
-            if (allocated(error)) exit
-            union%name = name
-            call results%unions%keep(united, wall, union)
-            deallocate (builder%survival)
-         end do
-         call results%stores%close()
-         if (allocated(error)) return
-         call errors%finish(results%typologies)
-         if (united > 0) call mean_unions(results%unions, population, results%typologies, error)
-      end associate
-   end subroutine look_at_rows
-
-   !> Share of all records that each cluster has and that run at each level
-   pure subroutine share_clusters(clusters, runs, share)
-      !> Number of the cluster of each record
-      integer, intent(in) :: clusters(:)
-      !> Whether a record runs at a level (records, levels)
-      logical, intent(in) :: runs(:, :)
-      !> Shares (levels, clusters)
-      real(wp), intent(out) :: share(:, :)
-
-      integer :: i, j
-
-      share = 0.0_wp
-      do j = 1, size(runs, 2)
-         do i = 1, size(runs, 1)
-            associate (g => clusters(i))
-               if (runs(i, j)) share(j, g) = share(j, g) + 1.0_wp/real(size(runs, 1), wp)
-            end associate
-         end do
+            if (i > shown_rows) cycle
+            results%shown(i)%name = row%wall%name()
+            results%shown(i)%mechanism = row%wall%mechanism_name()
+            results%shown(i)%curve = curve
+         end associate
       end do
-   end subroutine share_clusters
-
-   !> Count the histories of a row by clusters of records, and set the clustered standard errors of its curves
-   subroutine count_clusters(results, outcome, clusters, runs, counts)
-      !> Results: the errors of the row are set, and of a design its curve
-      type(results_type), intent(inout) :: results
-      !> What came of a row
-      type(row_result_type), intent(in) :: outcome
-      !> Number of the cluster of each record
-      integer, intent(in) :: clusters(:)
-      !> Whether a record runs at a level (records, levels)
-      logical, intent(in) :: runs(:, :)
-      !> Histories of each cluster that reach each state, over all records (levels, clusters, states)
-      real(wp), intent(out) :: counts(:, :, :)
-
-      real(wp) :: histories(size(counts, 1), size(counts, 2)), changes(2, size(counts, 2))
-      integer :: k
-
-      associate (curves => results%population%curve(:, outcome%row))
-         do k = 1, size(counts, 3)
-            call outcome%by_cluster(k, clusters, runs, counts(:, :, k), histories)
-            call cluster_errors(curves(k), results%population%levels, counts(:, :, k), histories, changes)
-            counts(:, :, k) = counts(:, :, k)/real(outcome%histories, wp)
-         end do
-         if (.not. allocated(results%designs)) return
-         results%designs(outcome%row)%curve = curves(size(curves))
-         results%designs(outcome%row)%change = changes(1, :)
-      end associate
-   end subroutine count_clusters
+      call results%stores%close()
+      if (.not. allocated(error)) call curves%finish(results%population, error)
+      if (allocated(error)) return
+      call move_alloc(curves%typologies, results%typologies)
+      results%unions = curves%unions
+   end subroutine look_at_rows
 
 end module dondolo_case_combine_rows

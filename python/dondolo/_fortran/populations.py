@@ -1,0 +1,130 @@
+"""Curves of populations, as Fortran finds them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from dondolo._base.arguments import FloatArray
+from dondolo._fortran import _core
+from dondolo._fortran.curves import CurveData
+from dondolo._fortran.library import Parcel, as_text, check, constants, receive
+
+
+class FlatPopulation(NamedTuple):
+    """A population as Fortran takes it, with the counts of one damage state.
+
+    Attributes
+    ----------
+    texts : bytes
+        Mechanism and group of each row, a line each.
+    levels : ndarray, shape (levels,)
+    counts : ndarray of int, shape (levels, rows)
+    histories : ndarray of int, shape (levels, rows)
+    shares : ndarray, shape (2, rows)
+        Weight of the wall and probability of occurrence.
+    rows : ndarray of int, shape (walls,)
+        How many each wall has.
+    """
+
+    texts: bytes
+    levels: FloatArray
+    counts: NDArray[np.int32]
+    histories: NDArray[np.int32]
+    shares: FloatArray
+    rows: NDArray[np.int32]
+
+
+class FlatFlags(NamedTuple):
+    """Which histories reach which state, as Fortran takes it.
+
+    Attributes
+    ----------
+    states, state : int
+        How many states there are, and the one that is asked for, from 1; 0 without flags.
+    sizes : ndarray of int, shape (rows,)
+        Histories of a stripe of each row in which every record runs.
+    bits : ndarray of int
+        The flags of all rows, 32 a number.
+    clusters : ndarray of int, shape (records,)
+        Number of the cluster of each record, from 1.
+    runs : ndarray of int, shape (records, levels)
+        1 where a record runs at a level.
+    """
+
+    states: int
+    state: int
+    sizes: NDArray[np.int32]
+    bits: NDArray[np.int32]
+    clusters: NDArray[np.int32]
+    runs: NDArray[np.int32]
+
+
+class FittedCurve(NamedTuple):
+    """A curve with its standard errors of the kind `errors`; only clustered ones have a covariance here."""
+
+    data: CurveData
+    se_ln_theta: float
+    se_beta: float
+    cov_ln_theta_beta: float
+    errors: str
+    clusters: int
+    degrees_of_freedom: float
+
+
+def fit_population(names: bytes, population: FlatPopulation, flags: FlatFlags | None, are_alternatives: bool) -> Parcel:
+    """Curves of rows, of their walls and of their population in a damage state; names are two of each row, a line each.
+
+    What the parcel has is listed in populations.f90. Without flags standard errors are naive.
+    """
+    if flags is None:
+        nothing = np.ones(1, dtype=np.int32)
+        rows, levels = population.counts.shape[1], len(population.levels)
+        flags = FlatFlags(0, 0, np.zeros(rows, np.int32), nothing, nothing, np.ones((1, levels), np.int32))
+    texts, *rest = population
+    return receive(_core.populations.fit_population(texts, names, *rest, int(are_alternatives), *flags))
+
+
+def fitted_curves(parcel: Parcel, prefix: str) -> list[FittedCurve]:
+    """The curves of a parcel whose names begin with a prefix."""
+    names, kinds = constants().statuses, constants().errors
+
+    def columns(*words: str) -> list[Any]:
+        return [parcel[prefix + word] for word in words]
+
+    fit = np.column_stack(columns("theta", "beta", "naive_covariance", "log_likelihood", "bracket"))
+    data = [CurveData(names[code - 1], own) for code, own in zip(parcel[prefix + "status"].tolist(), fit, strict=True)]
+    errors = [kinds[code - 1] for code in parcel[prefix + "errors"].tolist()]
+    numbers = (one.tolist() for one in columns("se_ln_theta", "se_beta", "cov_ln_theta_beta"))
+    rest = (one.tolist() for one in columns("clusters", "degrees_of_freedom"))
+    return [FittedCurve(*row) for row in zip(data, *numbers, errors, *rest, strict=True)]
+
+
+def coded(curves: Sequence[tuple[str, float, float]]) -> tuple[FloatArray, NDArray[np.int32]]:
+    """Numbers (8, curves) and codes (curves,) of curves that are known by status, theta and beta."""
+    names = constants().statuses
+    numbers = np.zeros((len(curves), 8))
+    numbers[:, :2] = [(theta, beta) for _, theta, beta in curves]
+    return numbers.T, np.array([names.index(status) + 1 for status, *_ in curves], dtype=np.int32)
+
+
+def curve_of_population(
+    population: FlatPopulation,
+    curves: tuple[FloatArray, NDArray[np.int32]],
+    which: tuple[str, str],
+    x: FloatArray,
+    q: FloatArray,
+    members: bool = False,
+) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """A curve of a population at some levels: its mean, fractiles (q, x) and members' probabilities (members, x).
+
+    Curves are those of the rows, as `coded`; which: the mechanism, or 'all', and the group. The probabilities are
+    there with `members` only.
+    """
+    texts = (as_text("group", text) for text in which)
+    mean, fractiles, sent = _core.populations.curve_of_population(*population, *curves, *texts, x, q, int(members))
+    check(sent)
+    return mean, fractiles, receive(sent)["probabilities"].T if members else np.zeros((0, len(x)))

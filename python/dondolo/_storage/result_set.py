@@ -1,0 +1,83 @@
+"""Sets of result files, as the executable writes them."""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+from collections.abc import Mapping
+
+import numpy as np
+
+from dondolo._base.arguments import as_flag
+from dondolo._base.files import as_file
+from dondolo._fortran.files import DEGREES, INTEGER, REAL, RUN_FILE, TEXT, Column, result_set
+from dondolo._fortran.library import warn
+from dondolo._fortran.origins import check_replaced, outdated, replaced
+from dondolo._fortran.records import unit_of
+from dondolo._storage.run_file import RunFile
+from dondolo._storage.tables import Table
+from dondolo.errors import DondoloWarning
+
+
+def columns_of(table: Table) -> dict[str, Column]:
+    """Columns of lists and arrays; None and NaN are empty cells."""
+    return {name: _column(list(values)) for name, values in table.items()}
+
+
+def _column(values: list[object]) -> Column:
+    """A column: texts if any of its values is one, else numbers."""
+    if any(isinstance(value, str) for value in values):
+        return Column(TEXT, ["" if value is None else str(value) for value in values])
+    given = [value for value in values if value is not None]
+    whole = [isinstance(value, (int, np.integer, np.bool_)) for value in given]
+    kind = REAL if not any(whole) else INTEGER if all(whole) else DEGREES
+    return Column(kind, np.array([np.nan if value is None else value for value in values], dtype=np.float64))
+
+
+def write_set(
+    prefix: str | os.PathLike[str],
+    tables: Mapping[str, Mapping[str, Column]],
+    run: RunFile,
+    *,
+    spreadsheet_safe: bool = False,
+) -> None:
+    """Publish tables, by what their names end with, and the file of their run, in place of an earlier set.
+
+    Raises
+    ------
+    InputError
+        Another run is writing them, or a file of the same name is not a result of dondolo.
+    DondoloError
+        A file cannot be written.
+
+    Warns
+    -----
+    DondoloWarning
+        Whose results are replaced, and which reports, workbooks and figures are out of date.
+    """
+    start, is_safe = as_file("prefix", prefix), as_flag("spreadsheet_safe", spreadsheet_safe)
+    check_replaced(f"{start}{RUN_FILE}", "run")
+    for name in tables:
+        check_replaced(f"{start}{name}", "table")
+    notes = replaced(start)
+    comments = _comments(run)
+    with result_set(start) as files:
+        for name, columns in tables.items():
+            files.write(name, columns, comments, spreadsheet_safe=is_safe)
+        files.publish(dataclasses.replace(run, run=files.run, files=tuple(files.written)).to_json())
+    for code, sentences in (("results_replaced", notes), ("out_of_date", outdated(start))):
+        warn(DondoloWarning(sentence, code, {"results": str(start)}) for sentence in sentences)
+
+
+def _comments(run: RunFile) -> list[str]:
+    """Lines above the columns: what was computed, and what to beware of."""
+    lines = [f"{what}: {_counts(counts)}" for what, counts in (("shape", run.shape), ("work", run.work)) if counts]
+    im = run.setting("stripes", "im", "")
+    if im:
+        lines.append(f"unit of im_level and theta: {unit_of(im) or '1'}")
+    return [*lines, *(f"note: {note}" for note in run.notes), *(f"warning: {sentence}" for sentence in run.warnings)]
+
+
+def _counts(counts: Mapping[str, int]) -> str:
+    """Counts by their names."""
+    return ", ".join(f"{name} = {count}" for name, count in counts.items())
