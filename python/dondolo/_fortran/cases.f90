@@ -77,8 +77,10 @@ contains
          call pack_store(results%stores(1), rows, fault)
          if (.not. allocated(fault)) then
             call case%make_study(study)
-            call rows%add(int(pack(merge(1, 0, runs_of(study)), .true.), c_int))
-            call rows%add(real(results%stores(1)%work%counts(), c_double))
+            associate (runs => merge(1, 0, runs_of(study)))
+               call rows%put('runs', int(pack(runs, .true.), c_int), shape(runs))
+            end associate
+            call rows%put('work', real(results%stores(1)%work%counts(), c_double))
             call send(rows, none, sent_rows)
          else if (.not. allocated(error)) then
             call move_alloc(fault, error)
@@ -102,12 +104,7 @@ contains
       told = [done, total]
    end subroutine hear
 
-   !> A case. Integers: number of walls, of levels, of records, of EDP thresholds, threads, record of the history from
-   !> 1, number of values of ag, of f0 and of tc_star of a check, 0 without one, then walls and records as they are packed;
-   !> reals: rtol, atol, edp_limit, 1 where errors are to be estimated, scale of the history (with its sign), levels,
-   !> thresholds, the values of the check with its confidence and behaviour factors, then walls with their weights and
-   !> probabilities, and records; text: task, title, output, im, polarity, engine, states, soil and topography of the check,
-   !> then walls, their groups and facades, and records, and how its tables were read, where there is something to say of it
+   !> A case: each of its values under its name, as Python's Case has it, its walls (pack_rows) and its records (pack_records)
    subroutine pack_case(case, parcel, error)
       type(case_type), intent(inout) :: case
       !> Empty
@@ -117,7 +114,6 @@ contains
 
       type(wall_row_type), allocatable :: rows(:)
       real(c_double) :: scale
-      integer :: i
 
       if (case%job%task == typology_task) then
          call read_rows(case%table, rows, error)
@@ -132,24 +128,28 @@ contains
          if (.not. allocated(case%stripes%levels)) allocate (case%stripes%levels(0))
          scale = 1
          if (case%job%task == history_task) scale = case%history_scale()
-         parcel%integers = [size(rows), size(case%stripes%levels), size(case%suite%records), &
-            & size(case%stripes%thresholds), case%job%threads, case%history%record, 0, 0, 0, merge(1, 0, case%designs)]
-         parcel%reals = [case%solver%solver%rtol, case%solver%solver%atol, case%solver%solver%edp_limit, &
-            & count([case%solver%solver%estimate_error, case%solver%solver%certify])*1.0_c_double, scale, case%stripes%levels, &
-            & case%stripes%thresholds]
-         call parcel%lines%add(trim(task_names(case%job%task)))
-         call parcel%lines%add(case%job%title)
-         call parcel%lines%add(case%job%output)
-         call parcel%lines%add(case%stripes%scaling%name)
-         call parcel%lines%add(case%records_input%polarity)
-         call parcel%lines%add(trim(case%solver%solver%engine))
-         call parcel%lines%add(case%stripes%states)
+         call parcel%put('task', trim(task_names(case%job%task)))
+         call parcel%put('title', case%job%title)
+         call parcel%put('output', case%job%output)
+         call parcel%put('im', case%stripes%scaling%name)
+         call parcel%put('polarity', case%records_input%polarity)
+         call parcel%put('engine', trim(case%solver%solver%engine))
+         call parcel%put('states', case%stripes%states)
+         call parcel%put('threads', case%job%threads)
+         call parcel%put('record', case%history%record)
+         call parcel%put('designs', merge(1, 0, case%designs))
+         call parcel%put('estimate_error', merge(1, 0, case%solver%solver%estimate_error))
+         call parcel%put('certify', merge(1, 0, case%solver%solver%certify))
+         call parcel%put('rtol', case%solver%solver%rtol)
+         call parcel%put('atol', case%solver%solver%atol)
+         call parcel%put('edp_limit', case%solver%solver%edp_limit)
+         call parcel%put('scale', scale)
+         call parcel%put('levels', case%stripes%levels)
+         call parcel%put('edp_thresholds', case%stripes%thresholds)
+         call parcel%put('notes', case%notes)
          call pack_check(case, parcel)
          call pack_rows(rows, parcel)
          call pack_records(case%suite%records, parcel, error)
-         do i = 1, case%notes%count
-            call parcel%lines%add(case%notes%line(i)%text)
-         end do
       end if
    end subroutine pack_case
 
@@ -168,22 +168,20 @@ contains
       call send(parcel, error, sent)
    end subroutine result_tables
 
-   !> Add the check of a case
+   !> Put in the check of a case: soil, topography, ag, f0, tc_star, knowledge_factor and behaviour, without one nothing
    subroutine pack_check(case, parcel)
       type(case_type), intent(in) :: case
-      !> Its integers 7 to 9 are set, reals and two lines added
       type(parcel_type), intent(inout) :: parcel
 
-      if (.not. allocated(case%check)) then
-         call parcel%lines%add('')
-         call parcel%lines%add('')
-         return
-      end if
+      if (.not. allocated(case%check)) return
       associate (check => case%check)
-         parcel%integers(7:9) = [size(check%ag), size(check%f0), size(check%tc_star)]
-         call parcel%add(real([check%ag, check%f0, check%tc_star, check%knowledge_factor, check%behaviour], c_double))
-         call parcel%lines%add(check%soil)
-         call parcel%lines%add(check%topography)
+         call parcel%put('soil', check%soil)
+         call parcel%put('topography', check%topography)
+         call parcel%put('ag', real(check%ag, c_double))
+         call parcel%put('f0', real(check%f0, c_double))
+         call parcel%put('tc_star', real(check%tc_star, c_double))
+         call parcel%put('knowledge_factor', real(check%knowledge_factor, c_double))
+         call parcel%put('behaviour', real(check%behaviour, c_double))
       end associate
    end subroutine pack_check
 

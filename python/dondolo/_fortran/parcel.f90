@@ -46,8 +46,8 @@ module dondolo_parcel
       procedure :: expect_series
       !> Put a series in
       procedure :: move_series
-      !> Add a note to the lines
-      procedure :: add_note
+      !> Put in a note, if there is one
+      procedure :: put_note
    end type parcel_type
 
 contains
@@ -216,15 +216,19 @@ contains
       call move_alloc(values, self%series(self%given)%values)
    end subroutine move_series
 
-   !> Add how something was read, where there is something to say of it
-   subroutine add_note(self, note)
+   !> Put in how something was read, where there is something to say of it, as notes
+   subroutine put_note(self, note)
       class(parcel_type), intent(inout) :: self
       !> The note; empty or not allocated: none
       character(len=:), allocatable, intent(in) :: note
 
-      if (.not. allocated(note)) return
-      if (len(note) > 0) call self%lines%add(note)
-   end subroutine add_note
+      type(lines_type) :: notes
+
+      if (allocated(note)) then
+         if (len(note) > 0) call notes%add(note)
+      end if
+      call self%put('notes', notes)
+   end subroutine put_note
 
    !> Send a parcel, or an error as one: its sentence is the text of it
    subroutine send(parcel, error, sent)

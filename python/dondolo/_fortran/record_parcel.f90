@@ -3,6 +3,7 @@
 module dondolo_record_parcel
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use dondolo_base_error, only : error_type
+   use dondolo_base_lines, only : lines_type
    use dondolo_boundary, only : check_room, next_line
    use dondolo_parcel, only : parcel_type
    use dondolo_record, only : record_type
@@ -76,26 +77,28 @@ contains
    subroutine pack_records(records, parcel, error)
       !> The records; their samples are moved away
       type(record_type), intent(inout) :: records(:)
-      !> Integers: lengths, numbers of metadata, numbers of samples of vertical components; reals: time steps, largest
-      !> accelerations; text: names, then keys and values; series: samples of all, then those of vertical components
+      !> Of each record records_samples, their number, records_entries, the number of its metadata, records_verticals, samples of
+      !> its vertical component, records_dt, records_pga and records_name; records_metadata: keys and values of all; series:
+      !> samples of all, then those of vertical components
       type(parcel_type), intent(inout) :: parcel
       !> Lack of memory to send them
       type(error_type), allocatable, intent(out) :: error
 
+      type(lines_type) :: names, metadata
       integer :: i, k, lengths(size(records)), verticals(size(records))
 
       lengths = [(size(records(i)%acceleration), i=1, size(records))]
       verticals = [(merge(lengths(i), 0, allocated(records(i)%vertical)), i=1, size(records))]
       call check_room(error, records=size(records), samples=sum(real(lengths + verticals, c_double)))
       if (allocated(error)) return
-      call parcel%add(lengths)
-      call parcel%add([(records(i)%metadata%count(), i=1, size(records))])
-      call parcel%add(verticals)
-      call parcel%add(records%dt)
-      call parcel%add(records%pga())
+      call parcel%put('records_samples', lengths)
+      call parcel%put('records_entries', [(records(i)%metadata%count(), i=1, size(records))])
+      call parcel%put('records_verticals', verticals)
+      call parcel%put('records_dt', records%dt)
+      call parcel%put('records_pga', records%pga())
       call parcel%expect_series(size(records) + count(verticals > 0))
       do i = 1, size(records)
-         call parcel%lines%add(records(i)%name)
+         call names%add(records(i)%name)
          call parcel%move_series(records(i)%acceleration)
       end do
       do i = 1, size(records)
@@ -104,11 +107,13 @@ contains
       do i = 1, size(records)
          do k = 1, records(i)%metadata%count()
             associate (entry => records(i)%metadata%entries(k))
-               call parcel%lines%add(entry%key)
-               call parcel%lines%add(entry%value)
+               call metadata%add(entry%key)
+               call metadata%add(entry%value)
             end associate
          end do
       end do
+      call parcel%put('records_name', names)
+      call parcel%put('records_metadata', metadata)
    end subroutine pack_records
 
 end module dondolo_record_parcel

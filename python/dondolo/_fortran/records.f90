@@ -295,9 +295,8 @@ contains
    end subroutine significant_times
 
    !> Read accelerograms: what = 0 one channel of a file, 1 all of a catalogue, 2 all channels of a file; texts are empty
-   !> where they are not given. Vertical components of a catalogue are read with vertical = 1. Integers before those of
-   !> pack_records: number of records, and of a catalogue with levels the record of each row; reals before them: level and
-   !> factor of each row, 0 where it has none
+   !> where they are not given. Vertical components of a catalogue are read with vertical = 1. Beside what pack_records has there
+   !> are of a catalogue with levels row_record, row_level and row_factor of each row, 0 where it has none, and notes
    subroutine read_records(path, what, dt_given, dt, units, channel, layout, vertical, vertical_factor, sent)
       character(len=*), intent(in) :: path, units, channel, layout
       integer(c_int), intent(in) :: what, dt_given, vertical
@@ -309,7 +308,7 @@ contains
       character(len=:), allocatable :: note
       real(c_double), allocatable :: step, factor
       type(record_rows_type) :: rows
-      type(lines_type) :: notes
+      type(lines_type) :: notes, sentences
       integer :: i
 
       ! A step or a factor that is not allocated is an argument that is not present
@@ -326,28 +325,32 @@ contains
       end select
       if (.not. allocated(error)) then
          call list_reading_notes(records, notes)
-         call parcel%add([size(records)])
          if (rows%have_levels) then
-            call parcel%add(rows%record)
-            call parcel%add([rows%level, rows%factor])
+            call parcel%put('row_record', rows%record)
+            call parcel%put('row_level', rows%level)
+            call parcel%put('row_factor', rows%factor)
          end if
+         if (allocated(note)) then
+            if (len(note) > 0) call sentences%add(note)
+         end if
+         do i = 1, notes%count
+            call sentences%add(notes%line(i)%text)
+         end do
+         call parcel%put('notes', sentences)
          call pack_records(records, parcel, error)
       end if
-      call parcel%add_note(note)
-      do i = 1, notes%count
-         call parcel%lines%add(notes%line(i)%text)
-      end do
       call send(parcel, error, sent)
    end subroutine read_records
 
-   !> Read a table of numbers. Integers: columns, rows; reals: its numbers, row by row; text: names of the columns, and how it
-   !> was read, where there is something to say of it
+   !> Read a table of numbers: the names of its columns, its numbers (columns, rows), and notes: how it was read, where there is
+   !> something to say of it
    subroutine read_number_table(path, sent)
       character(len=*), intent(in) :: path
       integer(c_int64_t), intent(out) :: sent(5)
       type(cell_type), allocatable :: columns(:)
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
+      type(lines_type) :: names
       real(wp), allocatable :: values(:, :)
       character(len=:), allocatable :: note
       integer :: i
@@ -355,17 +358,16 @@ contains
       call read_table(path, columns, values, note, error)
       if (.not. allocated(error)) then
          do i = 1, size(columns)
-            call parcel%lines%add(columns(i)%text)
+            call names%add(columns(i)%text)
          end do
-         parcel%integers = shape(values)
-         parcel%reals = reshape(values, [size(values)])
-         call parcel%add_note(note)
+         call parcel%put('columns', names)
+         call parcel%put('numbers', reshape(values, [size(values)]), shape(values))
+         call parcel%put_note(note)
       end if
       call send(parcel, error, sent)
    end subroutine read_number_table
 
-   !> The table of the records of a catalogue. Integer: number of its lines; text: its lines, and how the catalogue was read,
-   !> where there is something to say of it
+   !> The table of the records of a catalogue, and notes: how the catalogue was read, where there is something to say of it
    subroutine catalogue_table(path, gravity, sent)
       character(len=*), intent(in) :: path
       real(c_double), intent(in) :: gravity
@@ -377,9 +379,8 @@ contains
 
       call read_catalogue(path, records, error, note)
       if (.not. allocated(error)) then
-         parcel%lines = record_table(records, gravity)
-         parcel%integers = [parcel%lines%count]
-         call parcel%add_note(note)
+         call parcel%put('table', record_table(records, gravity))
+         call parcel%put_note(note)
       end if
       call send(parcel, error, sent)
    end subroutine catalogue_table

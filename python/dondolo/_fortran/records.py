@@ -47,21 +47,14 @@ class MeasureData(NamedTuple):
     power: int
 
 
-def unpack_records(parcel: Parcel, count: int, reals: int = 0, integers: int = 0, lines: int = 0) -> list[RecordData]:
-    """Records out of a parcel, from given places on."""
-    lengths, entries, verticals = parcel.integers[integers : integers + 3 * count].reshape(3, count).tolist()
-    steps, peaks = parcel.reals[reals : reals + 2 * count].reshape(2, count).tolist()
-    horizontal = [parcel.series(length) for length in lengths]
-    upwards = [parcel.series(length) if length else None for length in verticals]
-    names = parcel.lines[lines : lines + count]
-    words = iter(parcel.lines[lines + count :])
-    metadata = [{next(words): next(words) for _ in range(number)} for number in entries]
-    return list(map(RecordData, names, steps, horizontal, peaks, metadata, upwards))
-
-
-def records_end(parcel: Parcel, count: int, integers: int = 0, lines: int = 0) -> int:
-    """Line of a parcel after its records."""
-    return lines + count + 2 * int(parcel.integers[integers + count : integers + 2 * count].sum())
+def unpack_records(parcel: Parcel) -> list[RecordData]:
+    """Records out of a parcel."""
+    horizontal = [parcel.series(length) for length in parcel["records_samples"].tolist()]
+    upwards = [parcel.series(length) if length else None for length in parcel["records_verticals"].tolist()]
+    words = iter(parcel["records_metadata"])
+    metadata = [{next(words): next(words) for _ in range(number)} for number in parcel["records_entries"].tolist()]
+    steps, peaks = parcel["records_dt"].tolist(), parcel["records_pga"].tolist()
+    return list(map(RecordData, parcel["records_name"], steps, horizontal, peaks, metadata, upwards))
 
 
 def records_of_file(
@@ -85,29 +78,27 @@ def records_of_file(
     )
     vertical = (0, 0.0) if vertical_factor is None else (1, vertical_factor)
     parcel = receive(_core.records.read_records(as_path(path), what, int(dt is not None), step, *texts, *vertical))
-    count = int(parcel.integers[0])
-    rows = len(parcel.integers) - 1 - 3 * count
-    records = unpack_records(parcel, count, 2 * rows, 1 + rows)
+    records = unpack_records(parcel)
     # After all has been taken, since a warning may be an error
-    warn_of_notes(parcel.lines[records_end(parcel, count, 1 + rows) :])
-    level, factor = parcel.reals[: 2 * rows].reshape(2, rows)
-    return records, (parcel.integers[1 : 1 + rows], level, factor)
+    warn_of_notes(parcel["notes"])
+    if "row_record" not in parcel.names:
+        return records, (np.zeros(0, dtype=np.int32), np.zeros(0), np.zeros(0))
+    return records, (parcel["row_record"], parcel["row_level"], parcel["row_factor"])
 
 
 def read_number_table(path: str | os.PathLike[str]) -> tuple[list[str], FloatArray]:
     """Read a table of numbers: the names of its columns, and its numbers (rows, columns)."""
     parcel = receive(_core.records.read_number_table(as_path(path)))
-    columns, rows = (int(count) for count in parcel.integers)
-    warn_of_notes(parcel.lines[columns:])
-    return parcel.lines[:columns], parcel.reals.reshape(rows, columns)
+    warn_of_notes(parcel["notes"])
+    return parcel["columns"], parcel["numbers"]
 
 
 def catalogue_table(path: str | os.PathLike[str]) -> list[str]:
     """The table of the records of a catalogue, as the executable prints it."""
     parcel = receive(_core.records.catalogue_table(as_path(path), constants().gravity))
-    lines = int(parcel.integers[0])
-    warn_of_notes(parcel.lines[lines:])
-    return parcel.lines[:lines]
+    warn_of_notes(parcel["notes"])
+    table: list[str] = parcel["table"]
+    return table
 
 
 def describe_measure(im: str, of_record: bool = False) -> MeasureData:

@@ -14,14 +14,13 @@ module dondolo_store_parcel
 
 contains
 
-   !> What a store has of its rows. Integers: histories of a stripe of each row, how many of them reach each state (levels,
-   !> states, rows), and ties of each row, 0 for rows that are not there; then of the rows that are there how many histories
-   !> make each tie yield and how many break it (ties, levels, 2), and the flags, eight a byte, each row from a byte of its own
-   !> on, and the number of these bytes last. Reals: of the rows that are there mean and largest plastic elongation (ties,
-   !> levels, 2) [m]
+   !> What a store has of its rows: histories of a stripe of each row, how many of them have reached each state (levels, states,
+   !> rows), and ties of each row, 0 for rows that are not there; then of the rows that are there tie_counts, how many histories
+   !> make each tie yield and how many break it (ties, levels, 2), elongations, mean and largest plastic ones (ties, levels, 2)
+   !> [m], and the flags, eight a byte, each row from a byte of its own on, and flag_bytes, their number
    subroutine pack_store(store, parcel, error)
       type(store_type), intent(inout) :: store
-      !> Its integers and reals are set
+      !> Empty
       type(parcel_type), intent(inout) :: parcel
       !> Lack of memory, or the store cannot be read
       type(error_type), allocatable, intent(out) :: error
@@ -60,8 +59,13 @@ contains
          end do
       end associate
       flags(at + 1:at + 3) = repeat(achar(0), 3)
-      parcel%integers = [histories, reached, ties, counts(:number), transfer(flags(:(at + 3)/4*4), [0_c_int]), at]
-      parcel%reals = elongations(:number)
+      call parcel%put('histories', histories)
+      call parcel%put('reached', reshape(reached, [size(reached)]), shape(reached))
+      call parcel%put('ties', ties)
+      call parcel%put('tie_counts', counts(:number))
+      call parcel%put('elongations', elongations(:number))
+      call parcel%put('flags', transfer(flags(:(at + 3)/4*4), [0_c_int]))
+      call parcel%put('flag_bytes', at)
    end subroutine pack_store
 
    !> Add what the histories of a row do to its ties behind that of others, as many numbers of each kind; there is room for as

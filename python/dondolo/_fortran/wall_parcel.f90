@@ -2,6 +2,7 @@
 module dondolo_wall_parcel
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use dondolo_base_error, only : add_place, error_type, raise_input
+   use dondolo_base_lines, only : lines_type
    use dondolo_base_property, only : is_list, is_text, is_words
    use dondolo_base_text, only : to_text
    use dondolo_boundary, only : check_room, next_line
@@ -80,17 +81,18 @@ contains
    subroutine pack_walls(walls, parcel)
       !> The walls
       type(wall_type), intent(in) :: walls(:)
-      !> Integers: how many values each of a wall's numbers has, two_sided; reals: the static quantities of each wall, then all
-      !> values of all walls; text: their texts, one a line
+      !> Of each wall walls_given, how many values each of its numbers has, walls_two_sided, walls_statics, the static quantities,
+      !> and walls_texts, one after the other; walls_values: the values of all walls
       type(parcel_type), intent(inout) :: parcel
 
-      integer, parameter :: wall_integers = wall_numbers + 1, wall_reals = size(static_names)
-      integer(c_int), allocatable :: integers(:, :)
+      integer, parameter :: wall_reals = size(static_names)
+      integer(c_int), allocatable :: integers(:, :), two_sided(:)
+      type(lines_type) :: texts
       real(c_double), allocatable :: reals(:, :), values(:)
       integer, allocatable :: lengths(:)
       integer :: i, k, number, next
 
-      allocate (integers(wall_integers, size(walls)), reals(wall_reals, size(walls)), values(16*size(walls)))
+      allocate (integers(wall_numbers, size(walls)), two_sided(size(walls)), reals(wall_reals, size(walls)), values(16*size(walls)))
       next = 1
       do i = 1, size(walls)
          associate (input => walls(i)%input, mechanism => walls(i)%mechanism)
@@ -100,7 +102,7 @@ contains
             do k = 1, size(wall_properties)
                associate (property => wall_properties(k))
                   if (property%kind == is_text .or. property%kind == is_words) then
-                     call parcel%lines%add(input%word(property%name))
+                     call texts%add(input%word(property%name))
                      cycle
                   end if
                   number = number + 1
@@ -111,24 +113,26 @@ contains
                   next = next + lengths(k)
                end associate
             end do
-            integers(wall_integers, i) = merge(1, 0, mechanism%two_sided)
+            two_sided(i) = merge(1, 0, mechanism%two_sided)
             reals(:, i) = statics_of(walls(i))
          end associate
       end do
-      call parcel%add(reshape(integers, [size(integers)]))
-      call parcel%add(reshape(reals, [size(reals)]))
-      call parcel%add(values(:next - 1))
+      call parcel%put('walls_given', reshape(integers, [size(integers)]), shape(integers))
+      call parcel%put('walls_two_sided', two_sided)
+      call parcel%put('walls_statics', reshape(reals, [size(reals)]), shape(reals))
+      call parcel%put('walls_values', values(:next - 1))
+      call parcel%put('walls_texts', texts)
    end subroutine pack_walls
 
-   !> Rows of a population: walls as they were understood, then reals: their weights and the probabilities of their
-   !> mechanisms; text: their groups, then their facades
+   !> Rows of a population: walls as they were understood, weights, probabilities of their mechanisms, groups and facades
    subroutine pack_rows(rows, parcel)
       !> The rows
       type(wall_row_type), intent(in) :: rows(:)
-      !> What was in it stays before them
+      !> Has walls_weight, walls_p_occ, walls_group and walls_facade too
       type(parcel_type), intent(inout) :: parcel
 
       type(wall_type), allocatable :: walls(:)
+      type(lines_type) :: groups, facades
       integer :: i
 
       allocate (walls(size(rows)))
@@ -136,13 +140,14 @@ contains
          walls(i) = rows(i)%wall
       end do
       call pack_walls(walls, parcel)
-      call parcel%add([rows%weight, rows%p_occ])
       do i = 1, size(rows)
-         call parcel%lines%add(rows(i)%group)
+         call groups%add(rows(i)%group)
+         call facades%add(rows(i)%facade)
       end do
-      do i = 1, size(rows)
-         call parcel%lines%add(rows(i)%facade)
-      end do
+      call parcel%put('walls_weight', rows%weight)
+      call parcel%put('walls_p_occ', rows%p_occ)
+      call parcel%put('walls_group', groups)
+      call parcel%put('walls_facade', facades)
    end subroutine pack_rows
 
 end module dondolo_wall_parcel

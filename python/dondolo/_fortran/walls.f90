@@ -132,8 +132,7 @@ contains
       end do
    end subroutine check_rotations
 
-   !> Read a population: walls as pack_walls has them, then reals: their weights and the probabilities of their mechanisms;
-   !> text: their groups, and how the table was read, where there is something to say of it
+   !> Read a population: its rows as pack_rows has them, and notes: how the table was read, where there is something to say of it
    subroutine read_walls(path, gravity, sent)
       character(len=*), intent(in) :: path
       real(c_double), intent(in) :: gravity
@@ -146,7 +145,7 @@ contains
       call read_population(path, rows, error, gravity, note)
       if (.not. allocated(error)) call check_room(error, walls=size(rows))
       if (.not. allocated(error)) call pack_rows(rows, parcel)
-      call parcel%add_note(note)
+      call parcel%put_note(note)
       call send(parcel, error, sent)
    end subroutine read_walls
 

@@ -85,7 +85,7 @@ def describe_walls(count: int, values: Mapping[str, Any], gravity: ArrayLike) ->
     )
     # f2py takes no empty arrays
     sent = _core.walls.describe_walls(texts, np.array([*numbers, 0.0]), given.T, gravity)
-    return unpack_walls(receive(sent), count)
+    return unpack_walls(receive(sent))
 
 
 def _values(what: str, value: Any) -> Sequence[float]:
@@ -119,21 +119,20 @@ def tie_states(wall: Handle, edp: ArrayLike, ties: int) -> tuple[FloatArray, Flo
     return elongation.T.reshape(shape), energy.T.reshape(shape), broken.T.reshape(shape) == 1
 
 
-def unpack_walls(parcel: Parcel, count: int, reals: int = 0, integers: int = 0, lines: int = 0) -> list[WallData]:
-    """Walls out of a parcel, from given places on."""
-    words = len(WALL_TEXTS)
-    statics = parcel.reals[reals : reals + count * _WALL_REALS].reshape(count, _WALL_REALS).tolist()
-    lengths = parcel.integers[integers : integers + count * _WALL_INTEGERS].reshape(count, _WALL_INTEGERS).tolist()
-    values = iter(parcel.reals[reals + count * _WALL_REALS : walls_end(parcel, count, reals, integers)[0]].tolist())
+def unpack_walls(parcel: Parcel) -> list[WallData]:
+    """Walls out of a parcel."""
+    words, texts = len(WALL_TEXTS), parcel["walls_texts"]
+    values = iter(parcel["walls_values"].tolist())
+    columns = [parcel[f"walls_{name}"].tolist() for name in ("statics", "given", "two_sided")]
     return [
         WallData(
-            _named(WALL_TEXTS, parcel.lines[lines + words * i : lines + words * (i + 1)], WALL_WORDS)
-            | {what: _value(values, what, length) for what, length in zip(WALL_NUMBERS, given, strict=False)},
-            row[0],
-            tuple(row[1:]),
-            bool(given[-1]),
+            _named(WALL_TEXTS, texts[words * i : words * (i + 1)], WALL_WORDS)
+            | {what: _value(values, what, length) for what, length in zip(WALL_NUMBERS, given, strict=True)},
+            statics[0],
+            tuple(statics[1:]),
+            bool(two_sided),
         )
-        for i, (row, given) in enumerate(zip(statics, lengths, strict=True))
+        for i, (statics, given, two_sided) in enumerate(zip(*columns, strict=True))
     ]
 
 
@@ -150,13 +149,6 @@ def _value(values: Iterator[float], what: str, length: int) -> Any:
     if length == 0:
         return None
     return tuple(itertools.islice(values, length)) if what in WALL_LISTS else next(values)
-
-
-def walls_end(parcel: Parcel, count: int, reals: int = 0, integers: int = 0, lines: int = 0) -> tuple[int, int, int]:
-    """Where the reals, integers and lines of so many walls in a parcel end."""
-    end = integers + count * _WALL_INTEGERS
-    lengths = parcel.integers[integers:end].reshape(count, _WALL_INTEGERS)[:, :-1]
-    return reals + count * _WALL_REALS + int(lengths.sum()), end, lines + len(WALL_TEXTS) * count
 
 
 def join_walls(walls: Sequence[FlatWall]) -> FlatWall:
@@ -176,12 +168,9 @@ def read_walls(
     """Read a population: its walls, their weights and groups, the probabilities of their mechanisms, their facades."""
     pull = constants().gravity if gravity is None else as_number("gravity", gravity)
     parcel = receive(_core.walls.read_walls(as_path(path), pull))
-    count = len(parcel.integers) // _WALL_INTEGERS
-    reals, _, groups = walls_end(parcel, count)
-    weights, p_occ = parcel.reals[reals:].reshape(2, count)
-    facades = groups + count
-    warn_of_notes(parcel.lines[facades + count :])
-    return unpack_walls(parcel, count), weights, parcel.lines[groups:facades], p_occ, parcel.lines[facades:][:count]
+    warn_of_notes(parcel["notes"])
+    weights, groups, p_occ, facades = (parcel[f"walls_{name}"] for name in ("weight", "group", "p_occ", "facade"))
+    return unpack_walls(parcel), weights, groups, p_occ, facades
 
 
 # What walls are made of, in Fortran's order; gravity crosses by itself
@@ -197,5 +186,3 @@ WALL_EXTRAS = frozenset(
 ) | frozenset(BUILDING_NAMES)
 # What stands in the place of those that are not given beside the others of their kind
 WALL_ABSENT = {row.name: row.absent for row in WALL_PROPERTIES if row.absent is not None}
-_WALL_REALS = 12
-_WALL_INTEGERS = len(WALL_NUMBERS) + 1

@@ -6,19 +6,21 @@ import os
 from dataclasses import dataclass
 from typing import Any
 
-import numpy as np
-
 from dondolo._base.arguments import FloatArray, as_path
 from dondolo._base.shown import Shown
 from dondolo._fortran import _core
 from dondolo._fortran.library import Parcel, receive, warn_of_notes
-from dondolo._fortran.records import levels_in_words, records_end, unpack_records
-from dondolo._fortran.walls import unpack_walls, walls_end
+from dondolo._fortran.records import levels_in_words, unpack_records
+from dondolo._fortran.walls import unpack_walls
 from dondolo.analysis.stripes import States
 from dondolo.records.codes import Site
 from dondolo.records.record import Record, record_from
 from dondolo.walls.mechanisms import wall_from
 from dondolo.walls.population import Population
+
+# What a case has of a parcel as it is
+_WORDS = ("task", "title", "output", "im", "polarity", "engine", "states")
+_NUMBERS = ("rtol", "atol", "edp_limit", "threads", "scale")
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -130,45 +132,22 @@ def read_case(path: str | os.PathLike[str]) -> Case:
 
 def case_of(parcel: Parcel) -> Case:
     """A case as Fortran sends it; how its tables were read is warned of."""
-    walls, levels, records, thresholds, threads, record = (int(value) for value in parcel.integers[:6])
-    are_designs = bool(parcel.integers[9])
-    rtol, atol, edp_limit, second_runs, scale = (float(value) for value in parcel.reals[:5])
-    task, title, output, im, polarity, engine, states, soil, topography = parcel.lines[:9]
-    counts = parcel.integers[6:9]
-    hazard = 5 + levels + thresholds
-    places = [hazard + (int(counts.sum()) + 2 if counts.any() else 0), 10, 9]
-    check: dict[str, Any] = {}
-    if counts.any():
-        *values, (knowledge_factor, behaviour) = np.split(parcel.reals[hazard : places[0]], np.cumsum(counts))
-        site = Site(*(one.tolist() if len(one) > 1 else one[0] for one in values), soil=soil, topography=topography)  # type: ignore[arg-type]
-        check = {"site": site, "knowledge_factor": float(knowledge_factor), "behaviour": float(behaviour)}
-    people = [wall_from(data) for data in unpack_walls(parcel, walls, *places)]
-    reals, integers, lines = walls_end(parcel, walls, *places)
-    weight, p_occ = parcel.reals[reals : reals + 2 * walls].reshape(2, walls)
-    groups, facades = parcel.lines[lines : lines + walls], parcel.lines[lines + walls : lines + 2 * walls]
-    lines += 2 * walls
-    motions = unpack_records(parcel, records, reals + 2 * walls, integers, lines)
-    warn_of_notes(parcel.lines[records_end(parcel, records, integers, lines) :])
+    given: dict[str, Any] = {name: parcel[name] for name in (*_WORDS, *_NUMBERS)}
+    given |= {name: bool(parcel[name]) for name in ("estimate_error", "certify", "designs")}
+    given |= {name: parcel[name].copy() for name in ("levels", "edp_thresholds")}
+    if "soil" in parcel.names:
+        hazard = (parcel[name].tolist() for name in ("ag", "f0", "tc_star"))
+        values = (one if len(one) > 1 else one[0] for one in hazard)
+        given |= {name: parcel[name] for name in ("knowledge_factor", "behaviour")}
+        given["site"] = Site(*values, soil=parcel["soil"], topography=parcel["topography"])
+    walls = tuple(wall_from(data) for data in unpack_walls(parcel))
+    weight, p_occ = parcel["walls_weight"], parcel["walls_p_occ"]
+    groups, facades = (tuple(parcel[name]) for name in ("walls_group", "walls_facade"))
+    records = tuple(record_from(data) for data in unpack_records(parcel))
+    warn_of_notes(parcel["notes"])
     return Case(
-        task=task,
-        title=title,
-        output=output,
-        population=Population(tuple(people), weight, groups=tuple(groups), p_occ=p_occ, facades=tuple(facades)),
-        records=tuple(record_from(data) for data in motions),
-        im=im,
-        polarity=polarity,
-        engine=engine,
-        levels=parcel.reals[5 : 5 + levels].copy(),
-        edp_thresholds=parcel.reals[5 + levels : 5 + levels + thresholds].copy(),
-        states="ordinal" if states == "ordinal" else "separate",
-        rtol=rtol,
-        atol=atol,
-        edp_limit=edp_limit,
-        estimate_error=second_runs > 0.0,
-        certify=second_runs == 2.0,
-        threads=threads,
-        record_index=record - 1,
-        scale=scale,
-        designs=are_designs,
-        **check,
+        **given,
+        population=Population(walls, weight, groups=groups, p_occ=p_occ, facades=facades),
+        records=records,
+        record_index=parcel["record"] - 1,
     )

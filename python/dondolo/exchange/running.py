@@ -129,18 +129,9 @@ def _tables(parcel: Parcel) -> tuple[dict[str, ColumnsInMemory], str]:
 
 
 def _contents(case: Case, parcel: Parcel) -> Contents:
-    """What the store of a population has; which records run at which level and counts of the work stand at its end."""
-    records, levels = len(case.records), len(case.levels)
-    numbers, runs = np.split(parcel.integers, [-records * levels])
-    lengths, work = np.split(parcel.reals, [-len(Work._fields)])
-    return contents_of(
-        numbers,
-        lengths,
-        (len(case.population), len(case.edp_thresholds)),
-        case.records,
-        runs.reshape(levels, records).T.astype(np.float64),
-        Work(*work.astype(int).tolist()),
-    )
+    """What the store of a population has, with the records that run at each level and counts of the work."""
+    work = Work(*parcel["work"].astype(int).tolist())
+    return contents_of(parcel, case.records, parcel["runs"].T.astype(np.float64), work)
 
 
 def _interrupted(case: Case | None, contents: Contents | None) -> tuple[str, Any]:

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from dondolo._base.arguments import FloatArray
 from dondolo._base.files import as_file
 from dondolo._fortran import _core
-from dondolo._fortran.library import check, receive
+from dondolo._fortran.library import Parcel, check, receive
 from dondolo.analysis.request import Request
 from dondolo.analysis.work import Work
 from dondolo.curves.sample import cluster_labels
@@ -94,9 +94,7 @@ class Store:
     def read(self) -> Contents:
         """Everything that is there."""
         parcel = receive(_core.stores.read_store(self._handle))
-        work = self._state()[1]
-        shape = len(self._request.walls), len(self._states)
-        return contents_of(parcel.integers, parcel.reals, shape, self._request.records, self._request.runs, work)
+        return contents_of(parcel, self._request.records, self._request.runs, self._state()[1])
 
     def _state(self) -> tuple[NDArray[np.bool_], Work]:
         there, counts, failure = _core.stores.store_state(self._handle, len(self._request.walls))
@@ -112,22 +110,14 @@ class Store:
         self._close()
 
 
-def contents_of(
-    numbers: IntArray,
-    lengths: FloatArray,
-    shape: tuple[int, int],
-    records: Iterable[Record],
-    runs: FloatArray,
-    work: Work,
-) -> Contents:
-    """What a store has, as Fortran sends it; `shape` are its rows and states, `runs` are (records, levels)."""
-    (rows, states), levels = shape, runs.shape[1]
-    histories, reached, ties, rest = np.split(numbers[:-1], np.cumsum([rows, rows * states * levels, rows]))
-    complete = histories > 0
-    of_ties, bits = np.split(rest, [2 * levels * ties.sum()])
-    tied = TieCounts.of_rows(ties[complete], levels, of_ties, lengths) if complete.any() else ()
-    exceedances = np.ascontiguousarray(np.moveaxis(reached.reshape(rows, states, levels), 0, -1))
-    packed = bits.view(np.uint8)[: numbers[-1]]
+def contents_of(parcel: Parcel, records: Iterable[Record], runs: FloatArray, work: Work) -> Contents:
+    """What a store has, as Fortran sends it; `runs` are (records, levels)."""
+    histories, reached, ties = (parcel[name] for name in ("histories", "reached", "ties"))
+    complete, (_, states, levels) = histories > 0, reached.shape
+    of_ties = ties[complete], levels, parcel["tie_counts"], parcel["elongations"]
+    tied = TieCounts.of_rows(*of_ties) if complete.any() else ()
+    exceedances = np.ascontiguousarray(np.moveaxis(reached, 0, -1))
+    packed = parcel["flags"].view(np.uint8)[: parcel["flag_bytes"]]
     events, checksums = zip(*((record.event, record.checksum) for record in records), strict=True)
     labels = cluster_labels(len(events), events, checksums)
     flags = Flags(histories[complete], levels, states, runs, labels, packed)

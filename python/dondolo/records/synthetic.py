@@ -81,7 +81,7 @@ def synthetic_records(
 
 def _realisation(*arguments: Any) -> Record:
     parcel = receive(_core.records.synthetic_record(*arguments))
-    (data,) = unpack_records(parcel, 1)
+    (data,) = unpack_records(parcel)
     magnitude, distance, site, seed, realisation, deviations = arguments
     metadata = {
         "event": data.name,
