@@ -30,7 +30,6 @@ ROOMS = {
     "reporting": "Reports",
     "_storage": "Saved results",
     "errors": "Errors and warnings",
-    "_fortran": "The library",
 }
 
 

@@ -39,6 +39,17 @@ class DondoloError(Exception):
 class InputError(DondoloError, ValueError):
     """What was asked for is wrong; the message is the sentence of the executable.
 
+    Parameters
+    ----------
+    sentence : str
+        What `str` gives.
+    code : str
+        What is wrong with an argument, for programs, which should not read sentences: ``wrong_type``, ``not_a_number``,
+        ``not_numbers``, ``not_an_integer``, ``not_a_flag``, ``not_a_word``, ``not_a_probability``, ``not_increasing``,
+        ``not_given``; '' for anything else, and for what the library checks.
+    variable : str
+        Name of the argument; '' without a code.
+
     Examples
     --------
     >>> import dondolo as dd
@@ -47,7 +58,19 @@ class InputError(DondoloError, ValueError):
     ... except dd.InputError as error:
     ...     print(error)
     height = -1: must be positive
+    >>> try:
+    ...     dd.HazardCurve.power_law("rare", 2.5)
+    ... except dd.InputError as error:
+    ...     print(error.code, error.variable)
+    not_a_number k0
     """
+
+    # Of those too that OSError makes
+    code = variable = ""
+
+    def __init__(self, *sentence: object, code: str = "", variable: str = "") -> None:
+        super().__init__(*sentence)
+        self.code, self.variable = code, variable
 
 
 class MissingFileError(FileNotFoundError, InputError):

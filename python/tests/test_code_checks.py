@@ -180,7 +180,7 @@ def test_lines_on_the_curve(stripes, tmp_path):
             lambda: dd.check_ntc(WALL, SITE, knowledge_factor=1.5),
             r"knowledge_factor = 1\.5: must lie between 1 and 1\.35",
         ),
-        (lambda: dd.check_ntc(WALL, 0.2), "site: float is no site"),
+        (lambda: dd.check_ntc(WALL, 0.2), "site: must be a Site, not float"),
     ],
 )
 def test_wrong_input(make, words):

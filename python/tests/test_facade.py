@@ -79,7 +79,10 @@ def test_leaves():
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: dd.Population.of_facade(dd.FreeStandingWall(3.0, 0.5)), "no one-sided wall"),
+        (
+            lambda: dd.Population.of_facade(dd.FreeStandingWall(3.0, 0.5)),
+            "must be a OneSidedWall, not FreeStandingWall",
+        ),
         (lambda: dd.Population.of_facade(dd.OneSidedWall(3.0, 0.5)), "only with sections"),
         (lambda: dd.Population.of_facade(whole(), hinge_level="floors"), "must be heights or 'storeys'"),
         (lambda: dd.Population.of_facade(whole(), hinge_level=[]), "must be given"),

@@ -94,8 +94,8 @@ def test_pickle(wall, sine):
         ({"solver": dd.Solver(edp_limit=-1.0)}, "edp_limit = -1: must be positive"),
         ({"scale": float("nan")}, "scale = NaN: makes record 'sine' exceed"),
         ({"scale": 1e6}, "scale = 1000000: makes record 'sine' exceed 10000 m/s2"),
-        ({"record": 3}, "record: int is no record"),
-        ({"wall": "parapet"}, "wall: str is no wall"),
+        ({"record": 3}, "record: must be a Record, not int"),
+        ({"wall": "parapet"}, "wall: must be a Wall, not str"),
     ],
 )
 def test_errors(wall, sine, changes, sentence):

@@ -153,7 +153,7 @@ def test_errors(arguments, sentence):
 
 @pytest.mark.parametrize(
     ("walls", "sentence"),
-    [(3, "walls = 3: must be walls"), ("ab", "walls = 'ab': must be walls"), ([3], "walls: int is no wall")],
+    [(3, "walls = 3: must be walls"), ("ab", "walls = 'ab': must be walls"), ([3], "walls: must be a Wall, not int")],
 )
 def test_no_walls(walls, sentence):
     with pytest.raises(dd.InputError) as caught:

@@ -337,7 +337,7 @@ def test_conditions_say_what_is_wrong(records, condition, sentence):
 
 def test_a_selection_is_no_record(records, parapet):
     selection = dd.RecordSet(records).select(dd.TargetSpectrum.ec8(0.25, soil="C", periods=PERIODS), 3)
-    with pytest.raises(dd.InputError, match="Selection is no record: must be given as its attribute records"):
+    with pytest.raises(dd.InputError, match=r"not Selection \(it has them as its attribute records"):
         dd.multiple_stripe(parapet, selection, [0.5], progress=False)
     site = dd.Site(ag=0.2, f0=2.5, tc_star=0.35, soil="B")
     check = dd.check_ntc(parapet, site)

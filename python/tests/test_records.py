@@ -4,6 +4,7 @@ import pickle
 
 import numpy as np
 import pytest
+from refusals import refused
 
 import dondolo as dd
 
@@ -161,7 +162,7 @@ def test_metadata(tmp_path):
     record = dd.Record([0.0, 1.0], 0.1, metadata=given)
     given["event"] = "other"
     assert record.metadata["event"] == "Friuli"
-    with pytest.raises(dd.InputError, match="metadata: str is no mapping"):
+    with refused("wrong_type", "metadata"):
         dd.Record([0.0, 1.0], 0.1, metadata="Friuli")
 
 

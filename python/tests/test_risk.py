@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 from dondolo.curves.risk_of_walls import WallFrequencies
 from dondolo.hazard import integrals as integrals_module
+from refusals import refused
 from scipy import integrate, stats
 
 import dondolo as dd
@@ -496,11 +497,11 @@ def test_refused(hazard, curve):
         (lambda x: 0.5, "gives an array of shape"),
         (lambda x: np.full(x.shape, "much"), "fragility: must give numbers"),
         (lambda x: np.exp(-x), r"fragility = 0\.\d+ at \S+, 0\.\d+ below: must not fall with the intensity"),
-        (0.3, "function: float is no function"),
+        (0.3, "function: must be a function, not float"),
     ):
         with pytest.raises(dd.InputError, match=sentence):
             dd.FunctionFragility(wrong).risk(hazard)
-    with pytest.raises(dd.InputError, match="hazard: list is no hazard curve"):
+    with refused("wrong_type", "hazard"):
         curve.risk([1.0])
     for levels, frequency, sentence in (
         ([0.1, 0.2], [0.01], "2 levels, 1 annual_frequency: must be as many"),

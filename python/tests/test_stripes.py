@@ -149,10 +149,10 @@ def test_pickle(analysis):
         ({"threads": -1}, "threads = -1: must be an integer, between 0 and 1024"),
         ({"threads": 1.5}, "threads = 1.5: must be an integer, between 0 and 1024"),
         ({"solver": dd.Solver(atol="small")}, "atol = 'small': must be a number"),
-        ({"solver": "rk45"}, "solver: str is no Solver"),
+        ({"solver": "rk45"}, "solver: must be a Solver, not str"),
         ({"records": []}, "records: must be given"),
-        ({"records": [1.0]}, "records: float is no record"),
-        ({"wall": None}, "wall: NoneType is no wall"),
+        ({"records": [1.0]}, "records: must be a Record, not float"),
+        ({"wall": None}, "wall: must be a Wall, not NoneType"),
     ],
 )
 def test_errors(wall, few, changes, sentence):

@@ -70,7 +70,7 @@ def test_files_and_figure(found, tmp_path):
 def test_refused(records):
     wall = dd.TwoBlockWall(3.0, 0.25)
     for walls, hinges, message in (
-        (dd.OneSidedWall(3.0, 0.25), HINGES, "no wall of two blocks"),
+        (dd.OneSidedWall(3.0, 0.25), HINGES, "must be a TwoBlockWall, not OneSidedWall"),
         (wall, [0.5, 1.2], "must lie between 0.01 and 0.99|hinge = 1.2"),
         (wall, [0.6, 0.5], "must increase"),
         (wall, [0.6], "at least two"),

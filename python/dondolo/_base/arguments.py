@@ -15,14 +15,19 @@ FloatArray = NDArray[np.float64]
 _T = TypeVar("_T")
 
 
+def _wrong(code: str, variable: str, sentence: str) -> InputError:
+    """The error of an argument; its sentence begins with the name of the variable, and often its value."""
+    return InputError(variable + sentence, code=code, variable=variable)
+
+
 def as_number(name: str, value: Any) -> float:
     """Turn what a user gives for a number into one."""
     if isinstance(value, (str, bytes)):
-        raise InputError(f"{name} = {value!r}: must be a number")
+        raise _wrong("not_a_number", name, f" = {value!r}: must be a number")
     try:
         return float(value)
     except (TypeError, ValueError, OverflowError):
-        raise InputError(f"{name} = {value!r}: must be a number") from None
+        raise _wrong("not_a_number", name, f" = {value!r}: must be a number") from None
 
 
 def as_count(name: str, value: Any, least: int, most: int | None = None) -> int:
@@ -30,14 +35,14 @@ def as_count(name: str, value: Any, least: int, most: int | None = None) -> int:
     whole = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
     if not whole or value < least or (most is not None and value > most):
         allowed = f"at least {least}" if most is None else f"between {least} and {most}"
-        raise InputError(f"{name} = {value!r}: must be an integer, {allowed}")
+        raise _wrong("not_an_integer", name, f" = {value!r}: must be an integer, {allowed}")
     return int(value)
 
 
 def as_flag(name: str, value: Any) -> bool:
     """Turn what a user gives for yes or no into it; a text, of which even 'no' would be true, is refused."""
     if not isinstance(value, (bool, np.bool_)):
-        raise InputError(f"{name} = {value!r}: must be True or False")
+        raise _wrong("not_a_flag", name, f" = {value!r}: must be True or False")
     return bool(value)
 
 
@@ -49,12 +54,12 @@ def as_array(name: str, values: ArrayLike) -> FloatArray:
             raise TypeError
         array = np.ascontiguousarray(given, dtype=np.float64)
     except (TypeError, ValueError, OverflowError):
-        raise InputError(f"{name}: must be numbers") from None
+        raise _wrong("not_numbers", name, ": must be numbers") from None
     if array.ndim != 1:
-        raise InputError(f"{name}: must be one row of numbers, not an array of {array.ndim} dimensions")
+        raise _wrong("not_numbers", name, f": must be one row of numbers, not an array of {array.ndim} dimensions")
     if not array.size:
         # f2py takes no empty arrays
-        raise InputError(f"{name}: must be given")
+        raise _wrong("not_given", name, ": must be given")
     return array
 
 
@@ -70,23 +75,28 @@ def increasing(name: str, values: ArrayLike, *, from_zero: bool = False) -> Floa
     falls = levels[1:] <= levels[:-1]
     if falls.any():
         i = int(np.argmax(falls))
-        raise InputError(f"{name} = {levels[i]:.15g}, {levels[i + 1]:.15g}: must increase strictly")
+        raise _wrong("not_increasing", name, f" = {levels[i]:.15g}, {levels[i + 1]:.15g}: must increase strictly")
     levels.flags.writeable = False
     return levels
 
 
-def instance_of(name: str, value: Any, kind: type[_T], what: str) -> _T:
-    """Check that what a user gives is of a class; `what` says what else it is, such as 'no wall'."""
+def instance_of(name: str, value: Any, kind: type[_T]) -> _T:
+    """Check that what a user gives is of a class."""
     if not isinstance(value, kind):
-        raise InputError(f"{name}: {type(value).__name__} is {what}")
+        raise wrong_type(name, value, f"a {kind.__name__}")
     return value
+
+
+def wrong_type(name: str, value: Any, allowed: str, hint: str = "") -> InputError:
+    """The error of an argument of another type than is allowed; a hint says what to write instead."""
+    return _wrong("wrong_type", name, f": must be {allowed}, not {type(value).__name__}{hint and f' ({hint})'}")
 
 
 def one_of(name: str, value: Any, allowed: Iterable[str]) -> None:
     """Check a word that a user gives for an option."""
     words = list(dict.fromkeys(allowed))
     if not isinstance(value, str) or value not in words:
-        raise InputError(f"{name} = {value!r}: must be one of {', '.join(map(repr, words))}")
+        raise _wrong("not_a_word", name, f" = {value!r}: must be one of {', '.join(map(repr, words))}")
 
 
 def as_measures(ims: str | Iterable[str]) -> list[str]:
@@ -123,7 +133,8 @@ def as_generator(seed: Any) -> np.random.Generator:
     try:
         return np.random.default_rng(seed)
     except (TypeError, ValueError):
-        raise InputError(f"seed = {seed!r}: must be an integer, at least 0, a Generator or None") from None
+        sentence = f" = {seed!r}: must be an integer, at least 0, a Generator or None"
+        raise _wrong("not_an_integer", "seed", sentence) from None
 
 
 def as_levels(x: ArrayLike) -> FloatArray:
@@ -131,7 +142,7 @@ def as_levels(x: ArrayLike) -> FloatArray:
     try:
         values = np.asarray(x, dtype=np.float64)
     except (TypeError, ValueError, OverflowError):
-        raise InputError("x: must be numbers") from None
+        raise _wrong("not_numbers", "x", ": must be numbers") from None
     if not np.all(values >= 0.0):
         raise InputError("x: must be levels of intensity, not negative")
     return values
@@ -142,10 +153,10 @@ def as_probabilities(name: str, p: ArrayLike) -> FloatArray:
     try:
         values = np.asarray(p, dtype=np.float64)
     except (TypeError, ValueError, OverflowError):
-        raise InputError(f"{name}: must be numbers") from None
+        raise _wrong("not_numbers", name, ": must be numbers") from None
     wrong = ~((values >= 0.0) & (values <= 1.0))
     if np.any(wrong):
-        raise InputError(f"{name} = {values[wrong][0]:g}: must lie between 0 and 1")
+        raise _wrong("not_a_probability", name, f" = {values[wrong][0]:g}: must lie between 0 and 1")
     return values
 
 
@@ -158,6 +169,6 @@ def tails(confidence: float) -> tuple[float, float]:
     """Probabilities at the ends of an interval of a confidence."""
     confidence = as_number("confidence", confidence)
     if not 0.0 < confidence < 1.0:
-        raise InputError(f"confidence = {confidence}: must lie between 0 and 1")
+        raise _wrong("not_a_probability", "confidence", f" = {confidence}: must lie between 0 and 1")
     # A confidence next to 1 must not round to certainty, which has no quantile
     return 0.5 - 0.5 * confidence, min(0.5 + 0.5 * confidence, float(np.nextafter(1.0, 0.0)))

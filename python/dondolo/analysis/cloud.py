@@ -485,7 +485,7 @@ def cloud(
     >>> bool(curve(0.5) < curve(1.0))
     True
     """
-    instance_of("wall", wall, Wall, "no wall")
+    instance_of("wall", wall, Wall)
     several = scaled_records(records)
     factor = as_number("scale", scale)
     if not 0.0 < factor < np.inf:

@@ -297,7 +297,7 @@ def overturning_spectrum(
     >>> round(spectrum.boundaries[0].lower, 4)  # in g, at the first frequency
     0.2034
     """
-    instance_of("wall", wall, Wall, "no wall")
+    instance_of("wall", wall, Wall)
     one_of("polarity", polarity, ("as_recorded", "reversed"))
     frequency, amplitude = _increasing("frequencies", frequencies), _increasing("amplitudes", amplitudes)
     if not callable(pulse):

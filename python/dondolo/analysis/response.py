@@ -379,8 +379,8 @@ def simulate(
     >>> response.ties is None or response.uplift
     False
     """
-    instance_of("wall", wall, Wall, "no wall")
-    instance_of("record", record, Record, "no record")
+    instance_of("wall", wall, Wall)
+    instance_of("record", record, Record)
     factor = as_number("scale", scale)
     history, estimate_error = as_flag("history", history), as_flag("estimate_error", estimate_error)
     how = as_solver(solver)

@@ -77,5 +77,5 @@ def as_solver(solver: Solver | None) -> Solver:
     """The solver of an analysis; the default where none is given."""
     if solver is None:
         return _DEFAULT
-    instance_of("solver", solver, Solver, "no Solver")
+    instance_of("solver", solver, Solver)
     return solver

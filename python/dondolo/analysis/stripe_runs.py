@@ -120,7 +120,7 @@ class Study(Shown):
         DondoloWarning
             As `multiple_stripe`.
         """
-        instance_of("wall", wall, Wall, "no wall")
+        instance_of("wall", wall, Wall)
         as_flag("progress", progress)
         request = dataclasses.replace(self._request, walls=(wall,))
         with deferred() as interrupts:
@@ -230,7 +230,7 @@ def multiple_stripe(
     >>> stripes.histories.tolist()
     [4, 6]
     """
-    instance_of("wall", wall, Wall, "no wall")
+    instance_of("wall", wall, Wall)
     study = Study(
         records,
         levels,
@@ -304,7 +304,7 @@ def adaptive_stripes(
     >>> len(stripes.levels)
     6
     """
-    instance_of("wall", wall, Wall, "no wall")
+    instance_of("wall", wall, Wall)
     estimate_error, certify = as_flag("estimate_error", estimate_error), as_flag("certify", certify)
     as_flag("progress", progress)
     if isinstance(records, Mapping) or getattr(records, "level", None) is not None:

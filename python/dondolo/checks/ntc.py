@@ -127,7 +127,7 @@ class CodeCheck(Shown, Saved):
         >>> round(found["site", ""], 4)
         0.0333
         """
-        if instance_of("curve", curve, Fragility, "no fragility curve").im != "pga":
+        if instance_of("curve", curve, Fragility).im != "pga":
             raise InputError(f"curve: its measure is {curve.im!r}, must be 'pga'")
         return {key: float(curve(level)) for key, level in {**self._of("pga", "site"), **self.capacities}.items()}
 
@@ -288,6 +288,6 @@ def check_ntc(wall: Wall, site: Site, *, knowledge_factor: float = 1.35, behavio
     >>> round(check.value("nonlinear", "SLV", "capacity_ag"), 11)
     0.08206169897
     """
-    handle = upload((instance_of("wall", wall, Wall, "no wall"),))
-    given = instance_of("site", site, Site, "no site")._input(knowledge_factor, behaviour)
+    handle = upload((instance_of("wall", wall, Wall),))
+    given = instance_of("site", site, Site)._input(knowledge_factor, behaviour)
     return CodeCheck(wall=wall, site=site, rows=kinematic_sheet(handle, given))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, tails
+from dondolo._base.arguments import FloatArray, tails, wrong_type
 from dondolo._base.shown import Shown
 from dondolo._storage.saved import Saved
 from dondolo.curves.clusters import freedom
@@ -74,7 +74,7 @@ class Comparison(Shown, Saved):
 def compare(one: Curve, other: Curve, *, confidence: float = 0.95) -> Comparison:
     """Compare two curves: see `Curve.compare`."""
     if not isinstance(other, Curve):
-        raise InputError(f"other: {type(other).__name__} is no fragility curve")
+        raise wrong_type("other", other, "a fragility curve")
     first, second = one._fitted(), other._fitted()
     if first.im != second.im:
         raise InputError(f"im = '{first.im}' and '{second.im}': must be the same")

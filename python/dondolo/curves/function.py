@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import as_levels, shaped
+from dondolo._base.arguments import as_levels, shaped, wrong_type
 from dondolo._base.shown import Shown
 from dondolo._fortran.records import describe_measure
 from dondolo.curves.curve import Curve, inverse
@@ -57,7 +57,7 @@ class FunctionFragility(Curve, Shown):
 
     def __post_init__(self) -> None:
         if not callable(self.function):
-            raise InputError(f"function: {type(self.function).__name__} is no function")
+            raise wrong_type("function", self.function, "a function")
         object.__setattr__(self, "im", describe_measure(self.im).name)
 
     def __call__(self, x: ArrayLike) -> Any:

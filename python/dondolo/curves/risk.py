@@ -404,7 +404,7 @@ class Risk(Shown, Saved):
 
 def risk_of(fragility: Curve, hazard: HazardCurve) -> Risk:
     """Mean annual frequency of collapse: see `Curve.risk`."""
-    instance_of("hazard", hazard, HazardCurve, "no hazard curve")
+    instance_of("hazard", hazard, HazardCurve)
     if fragility.im and fragility.im != hazard.im:
         raise InputError(f"im = '{fragility.im}' of the fragility and '{hazard.im}' of the hazard: must be the same")
     fragility._need_fit()

@@ -142,7 +142,8 @@ class HazardCurve(Shown, Saved):
         rises = h[1:] > h[:-1]
         if rises.any():
             i = int(np.argmax(rises))
-            raise InputError(f"annual_frequency = {h[i]:.15g}, {h[i + 1]:.15g}: must not increase with the level")
+            hint = ": are these return periods? Their inverses are annual frequencies" if np.all(h > 1.0) else ""
+            raise InputError(f"annual_frequency = {h[i]:.15g}, {h[i + 1]:.15g}: must not increase with the level{hint}")
         h.flags.writeable = False
         for what, value in (
             ("levels", x),

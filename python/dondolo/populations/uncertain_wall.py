@@ -303,7 +303,7 @@ def uncertain_wall(
     >>> bool(found.beta_total > found.beta_records)
     True
     """
-    instance_of("wall", wall, Wall, "no wall")
+    instance_of("wall", wall, Wall)
     known = _distributions(wall, sources)
     n, seed = as_count("n_variants", n_variants, smallest_sample(len(known)), _MOST), as_count("seed", seed, 0)
     values = np.array(

@@ -174,7 +174,7 @@ def weakest_hinge(
     >>> found.hinge in (0.5, 0.6, 0.7, 0.8)
     True
     """
-    instance_of("wall", wall, TwoBlockWall, "no wall of two blocks")
+    instance_of("wall", wall, TwoBlockWall)
     heights = increasing("hinges", hinges)
     own = wall._properties()
     walls = (

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import zlib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
@@ -12,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, as_count, as_number, instance_of, one_of
+from dondolo._base.arguments import FloatArray, as_array, as_count, as_number, instance_of, one_of, wrong_type
 from dondolo._base.shown import html_of
 from dondolo._fortran import _core
 from dondolo._fortran.buildings import floor_motion
@@ -115,7 +116,7 @@ class Record:
         peak, failure = _core.records.check_record(values, step, values if upwards is None else upwards)
         check(failure)
         if not isinstance(metadata, Mapping):
-            raise InputError(f"metadata: {type(metadata).__name__} is no mapping")
+            raise wrong_type("metadata", metadata, "a mapping")
         known = {str(key): str(value) for key, value in metadata.items()}
         self._hold(RecordData(name, step, values, peak, known, upwards), steps)
 
@@ -493,7 +494,7 @@ class Record:
         >>> floor.peak_acceleration > record.peak_acceleration
         True
         """
-        instance_of("building", building, Building, "no building")
+        instance_of("building", building, Building)
         values, upwards, parts = floor_motion(self.acceleration, self.vertical, self.dt, building._values())
         return self.processed(values, f"on a floor of {building!r}", dt=self.dt / parts, vertical=upwards)
 
@@ -682,17 +683,19 @@ def as_records(records: Record | Iterable[Record]) -> tuple[Record, ...]:
     """One record or several as a tuple of them."""
     if isinstance(records, Record):
         records = (records,)
+    if isinstance(records, (str, os.PathLike)):
+        raise wrong_type("records", records, "a Record or several", f"read_catalogue reads {os.fspath(records)!r}")
     if not isinstance(records, Iterable):
-        hint = ": must be given as its attribute records" if hasattr(records, "records") else ""
-        raise InputError(f"records: {type(records).__name__} is no record{hint}")
+        hint = "it has them as its attribute records" if hasattr(records, "records") else ""
+        raise wrong_type("records", records, "a Record or several", hint)
     several = tuple(records)
     if not several:
         raise InputError("records: must be given")
     if set(map(type, several)) != {Record}:
         for record in several:
-            instance_of("records", record, Record, "no record")
+            instance_of("records", record, Record)
     return several
 
 
 def _as_record(record: Any) -> Record:
-    return instance_of("record", record, Record, "no record")
+    return instance_of("record", record, Record)

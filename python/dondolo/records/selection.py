@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dondolo._base.arguments import FloatArray, as_count, as_generator, as_number
+from dondolo._base.arguments import FloatArray, as_count, as_generator, as_number, instance_of
 from dondolo._base.shown import Shown
 from dondolo._storage.saved import Saved
 from dondolo.errors import InputError
@@ -132,8 +132,7 @@ def select_records(
     seed: int | np.random.Generator | None = 0,
 ) -> Selection:
     """Records that meet a target: see `RecordSet.select`."""
-    if not isinstance(target, TargetSpectrum):
-        raise InputError(f"target: {type(target).__name__} is no TargetSpectrum")
+    instance_of("target", target, TargetSpectrum)
     several = tuple(dict.fromkeys(RecordSet(plain_records(records)).records))
     places = as_count("n_records", n_records, 1, len(several))
     if weight is None:

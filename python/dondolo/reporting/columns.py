@@ -110,7 +110,14 @@ _COLUMNS: dict[str, _Shown] = {
     "total": _Shown("total", percent),
     "total_low": _Shown("total, from", _two),
     "total_high": _Shown("total, to", _two),
-    # Statics
+    # Walls
+    "height": _Shown("height [m]", number),
+    "thickness": _Shown("thickness [m]", number),
+    "density": _Shown("density [kg/m3]", number),
+    "hinge": _Shown("hinge / height", number),
+    "overburden": _Shown("overburden [N/m]", number),
+    "overburden_inertia": _Shown("of it lifted", number),
+    "eccentricity": _Shown("ecc. [m]", number),
     "trigger": _Shown((Symbol("a", "0"), " [g]"), number),
     "capacity_rad": _Shown("capacity [rad]", number),
     "p_rad_s": _Shown((Symbol("p"), " [rad/s]"), number),

@@ -38,14 +38,9 @@ from dondolo.walls.wall import Wall, effective_property, notes_on_supports
 # What stands behind properties of a wall in place of their units
 _UNITS = {"hinge": "of the height", "eccentricity": "m, to the outer side", "restitution": "model"}
 
-# Properties of every wall of a population, and those that a wall of its mechanism has, with heads of their columns
-_SIZES = {"height": "height [m]", "thickness": "thickness [m]", "density": "density [kg/m3]"}
-_COLUMNS = {
-    "hinge": "hinge / height",
-    "overburden": "overburden [N/m]",
-    "overburden_inertia": "of it lifted",
-    "eccentricity": "ecc. [m]",
-}
+# Properties of every wall of a population, and those that a wall of its mechanism has
+_SIZES = ("height", "thickness", "density")
+_OF_TWO_BLOCKS = ("hinge", "overburden", "overburden_inertia", "eccentricity")
 # Units that make numbers of a usual size of what is given in others, and what these are times
 _SHOWN = {"m2/m": ("cm2/m", 1e4), "Pa": ("MPa", 1e-6)}
 # Designs, or mechanisms of a facade, that are drawn one by one and have their calculation sheets
@@ -174,33 +169,33 @@ def _wall_facts(run: Run) -> Facts:
 def _main_properties(people: Population, is_alike: bool) -> Table:
     """What every wall of a population has, and the loads of its top; designs and hinges of a facade have no weights."""
     walls = people.walls
-    columns: dict[Piece, Sequence[Piece]] = {"wall": [wall.name for wall in walls]}
+    columns: dict[str, Sequence[Any]] = {"wall": [wall.name for wall in walls]}
     if any(people.groups):
-        columns["group"] = list(people.groups)
-    columns["mechanism"] = [mechanism_name(wall.mechanism) for wall in walls]
+        columns["group"] = people.groups
+    columns["mechanism"] = [wall.mechanism for wall in walls]
     if not is_alike:
-        columns["weight"] = [number(weight) for weight in people.weights]
+        columns["weight"] = people.weights.tolist()
     if not is_alike or np.any(people.p_occ < 1.0):
-        columns[Symbol("p", "occ")] = [number(p) for p in people.p_occ]
-    columns |= {head: [number(getattr(wall, what)) for wall in walls] for what, head in _SIZES.items()}
-    for what, head in _COLUMNS.items():
+        columns["p_occ"] = people.p_occ.tolist()
+    columns |= {what: [getattr(wall, what) for wall in walls] for what in _SIZES}
+    for what in _OF_TWO_BLOCKS:
         values = [getattr(wall, what, None) for wall in walls]
         if any(value is not None for value in values):
-            columns[head] = [number(value) for value in values]
-    return Table.of(columns, ("group", "mechanism"))
+            columns[what] = values
+    return shown(columns)
 
 
 def _further_properties(walls: Sequence[Wall]) -> list[Table]:
     """Sections, loads, ties, floors: what some of the walls have, as many columns a table as a page is wide."""
-    rows = [row for row in WALL_PROPERTIES if row.name in WALL_EXTRAS and row.name not in _COLUMNS]
-    shown = {row.name: _SHOWN.get(row.unit, (row.unit, 1.0)) for row in rows}
+    rows = [row for row in WALL_PROPERTIES if row.name in WALL_EXTRAS and row.name not in _OF_TWO_BLOCKS]
+    units = {row.name: _SHOWN.get(row.unit, (row.unit, 1.0)) for row in rows}
     known = {
-        name: [_set(effective_property(wall, name), factor) for wall in walls] for name, (_, factor) in shown.items()
+        name: [_set(effective_property(wall, name), factor) for wall in walls] for name, (_, factor) in units.items()
     }
     having = [i for i in range(len(walls)) if any(cells[i] for cells in known.values())]
     columns: list[tuple[Piece, Sequence[Piece]]] = [
         (name.replace("_", " ") + (f" [{unit}]" if unit else ""), cells)
-        for name, (unit, _) in shown.items()
+        for name, (unit, _) in units.items()
         if any(cells := [known[name][i] for i in having])
     ]
     tables = []

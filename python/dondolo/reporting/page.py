@@ -101,11 +101,11 @@ def report(
     if title is not None:
         run.title = as_text("title", title).decode()
     if check is not None:
-        run.check = instance_of("check", check, CodeCheck, "no check")
+        run.check = instance_of("check", check, CodeCheck)
         if not isinstance(run.results, Stripes) or run.results.wall != check.wall:
             raise InputError("check: must be of the one wall of the report")
-    if hazard is not None and not isinstance(hazard, HazardCurve):
-        raise InputError(f"hazard: {type(hazard).__name__} is no hazard curve")
+    if hazard is not None:
+        instance_of("hazard", hazard, HazardCurve)
     if hazard is not None and isinstance(run.results, Response):
         raise InputError("hazard: must be left out for a single motion, which has no fragility")
     if hazard is not None and hazard.rigid_ground:

@@ -222,7 +222,7 @@ def compare_designs(
     if not isinstance(designs, Mapping) or not designs:
         raise InputError("designs: must be a mapping of names to walls, at least one")
     names = tuple(str(name) for name in designs)
-    walls = [instance_of(f"designs[{name!r}]", wall, Wall, "no wall") for name, wall in designs.items()]
+    walls = [instance_of(f"designs[{name!r}]", wall, Wall) for name, wall in designs.items()]
     several = lasting(records)
     tails(confidence)
     masses = _masses(designs, steel)

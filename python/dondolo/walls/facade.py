@@ -16,7 +16,7 @@ from dondolo.walls.wall import described
 
 def facade(wall: OneSidedWall, *, hinge_level: Sequence[float] | Literal["storeys"] = "storeys") -> Population:
     """The walls above the hinges of a facade: see `Population.of_facade`."""
-    instance_of("wall", wall, OneSidedWall, "no one-sided wall")
+    instance_of("wall", wall, OneSidedWall)
     if isinstance(hinge_level, str):
         if hinge_level != "storeys":
             raise InputError(f"hinge_level = {hinge_level!r}: must be heights or 'storeys'")

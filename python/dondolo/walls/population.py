@@ -103,7 +103,7 @@ class Population(Shown):
         if not walls:
             raise InputError("walls: must be given")
         for wall in walls:
-            instance_of("walls", wall, Wall, "no wall")
+            instance_of("walls", wall, Wall)
         if len(walls) > 1:
             walls = _named(walls)
         weights = _shares("weight", self.weights, walls, math.inf)

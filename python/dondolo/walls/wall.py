@@ -104,7 +104,7 @@ class Wall:
         if not self.mechanism:
             raise TypeError("Wall has no mechanism: use OneSidedWall, FreeStandingWall or TwoBlockWall")
         if self.building is not None:
-            instance_of("building", self.building, Building, "no building")
+            instance_of("building", self.building, Building)
         lists = properties_of_parts(self)
         object.__setattr__(self, "_lists", lists)
         properties = self._properties() | more
