@@ -1,4 +1,4 @@
-!> What is printed of a fitted curve.
+!> What is printed of a fitted curve, and columns of tables on the terminal.
 module dondolo_fit_lines
    use, intrinsic :: iso_fortran_env, only : output_unit
    use dondolo_base_kinds, only : wp
@@ -10,10 +10,12 @@ module dondolo_fit_lines
    implicit none
    private
 
-   public :: print_fit, print_population_errors, fractiles, bar, make_head
+   public :: print_fit, print_population_errors, fractiles, bar, make_head, name_width
 
    !> Widest bar of a table
    integer, parameter :: bar_width = 40
+   !> Least and largest width of a column of names
+   integer, parameter :: narrowest = 30, widest = 80
 
 contains
 
@@ -146,5 +148,13 @@ contains
       head = case%stripes%scaling%name//case%stripes%scaling%unit_after_blank()
       head = right(head, max(12, len(head) + 1))
    end subroutine make_head
+
+   !> Width of a column of names, one blank after the longest name included
+   pure integer function name_width(longest)
+      !> Length of the longest name
+      integer, intent(in) :: longest
+
+      name_width = min(max(narrowest, longest + 1), widest)
+   end function name_width
 
 end module dondolo_fit_lines

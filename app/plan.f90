@@ -18,10 +18,9 @@ module dondolo_plan
    use dondolo_case_warning, only : warnings_type
    use dondolo_check_lines, only : print_check
    use dondolo_check_sheet, only : sheet_type
+   use dondolo_fit_lines, only : name_width
    use dondolo_motion_work, only : work_type
-   use dondolo_name_column, only : name_width
-   use dondolo_plan_building, only : print_building
-   use dondolo_plan_wall, only : print_body, print_head, print_row, print_wall
+   use dondolo_plan_wall, only : print_body, print_building, print_head, print_row, print_wall
    use dondolo_population_reader, only : population_reader_type
    use dondolo_population_store, only : store_type
    use dondolo_population_wall_row, only : wall_row_type

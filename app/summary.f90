@@ -6,19 +6,19 @@ module dondolo_summary
    use dondolo_base_plain, only : visible
    use dondolo_base_text, only : counted, left, right, rounded, to_text
    use dondolo_case, only : case_type
+   use dondolo_case_design_rows, only : make_design_sentence
    use dondolo_case_job_group, only : history_task, stripes_task, typology_task
-   use dondolo_case_results, only : results_type, row_counts_type
+   use dondolo_case_results, only : results_type, row_counts_type, shown_rows
    use dondolo_case_source_rows, only : make_model_sentence, make_source_sentence
    use dondolo_case_tie_rows, only : make_tie_sentence
    use dondolo_check_lines, only : print_check, print_verdicts
-   use dondolo_design_lines, only : print_designs
-   use dondolo_fit_lines, only : bar, fractiles, make_head, print_fit, print_population_errors
+   use dondolo_fit_lines, only : bar, fractiles, make_head, name_width, print_fit, print_population_errors
    use dondolo_fragility, only : fit_status_names
    use dondolo_fragility_drift_note, only : make_drift_note, share_of
    use dondolo_motion_certificate, only : in_double, in_quadruple, not_computable
    use dondolo_motion_error_estimate, only : runs_of_estimate
-   use dondolo_name_column, only : name_width
    use dondolo_plan_wall, only : print_wall
+   use dondolo_population_designs, only : design_type
    use dondolo_population_typology, only : whole_population
    use dondolo_union_lines, only : print_facade, print_unions, print_verdict_rows
    use dondolo_wall_support_notes, only : supports_type
@@ -363,5 +363,21 @@ contains
          end do
       end do
    end subroutine print_typology
+
+   !> Print what each design gains
+   subroutine print_designs(designs)
+      !> The designs, compared
+      type(design_type), intent(in) :: designs(:)
+
+      character(len=:), allocatable :: line
+      integer :: i
+
+      write (output_unit, '(a)') 'designs against '''//designs(1)%name//''', with 95 % intervals from paired records:'
+      do i = 2, min(size(designs), shown_rows)
+         call make_design_sentence(designs(i), designs(1), line)
+         write (output_unit, '(a)') '   '//line
+      end do
+      if (size(designs) > shown_rows) write (output_unit, '(a)') '   ... and '//to_text(size(designs) - shown_rows)//' more'
+   end subroutine print_designs
 
 end module dondolo_summary

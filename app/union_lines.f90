@@ -7,9 +7,8 @@ module dondolo_union_lines
    use dondolo_case_check_rows, only : check_methods, check_states, shown_verdicts
    use dondolo_case_results, only : results_type, shown_rows
    use dondolo_check_lines, only : chance
-   use dondolo_fit_lines, only : bar, fractiles, make_head, print_fit
+   use dondolo_fit_lines, only : bar, fractiles, make_head, name_width, print_fit
    use dondolo_fragility, only : fit_status_names, fragility_type
-   use dondolo_name_column, only : name_width
    use dondolo_population_unions, only : union_type
    implicit none
    private
