@@ -21,12 +21,6 @@ module dondolo_base_text_file
    !> What may follow the last line: NUL, tab, line feed, carriage return, Ctrl-Z (end of file under DOS), blank
    character(len=*), parameter :: padding = achar(0)//achar(9)//achar(10)//achar(13)//achar(26)//' '
 
-   !> Does the first character of a text become the lowest byte of an integer?
-   logical, parameter :: first_is_lowest = transfer(1_int64, 'a') == achar(1)
-
-   !> Bit of a byte that tells of a line feed
-   integer, parameter :: mark = 6
-
    !> The text of a file and where its lines are
    type :: text_file_type
       !> Path of the file
@@ -232,8 +226,7 @@ contains
       type(text_file_type), intent(inout) :: text
 
       integer, parameter :: line_feed = 10, return = 13
-      integer(int64) :: marks
-      integer :: begin, finish, count, i, at
+      integer :: begin, finish, count, i
 
       call find_content(text%text, begin, finish)
       if (finish < begin) then
@@ -241,30 +234,19 @@ contains
          return
       end if
       associate (content => text%text)
-         count = 1 + count_line_feeds(content(begin:finish))
+         count = 1
+         do i = begin, finish
+            count = count + merge(1, 0, iachar(content(i:i)) == line_feed)
+         end do
          allocate (text%first(count), text%last(count))
          text%first(1) = begin
          text%last(count) = finish
          count = 1
-         i = begin
-         if (first_is_lowest) then
-            do i = begin, finish - 7, 8
-               marks = line_feeds(content(i:i + 7))
-               do while (marks /= 0)
-                  at = i + trailz(marks)/8
-                  text%last(count) = at - 1
-                  count = count + 1
-                  text%first(count) = at + 1
-                  ! Without the lowest bit
-                  marks = iand(marks, marks - 1)
-               end do
-            end do
-         end if
-         do at = i, finish
-            if (iachar(content(at:at)) /= line_feed) cycle
-            text%last(count) = at - 1
+         do i = begin, finish
+            if (iachar(content(i:i)) /= line_feed) cycle
+            text%last(count) = i - 1
             count = count + 1
-            text%first(count) = at + 1
+            text%first(count) = i + 1
          end do
          do i = 1, count - 1
             do while (text%last(i) >= text%first(i))
@@ -290,52 +272,6 @@ contains
       end if
       finish = verify(text, padding, back=.true.)
    end subroutine find_content
-
-   !> Number of line feeds
-   pure integer function count_line_feeds(text) result(count)
-      !> Text
-      character(len=*), intent(in) :: text
-
-      integer, parameter :: line_feed = 10
-      ! The lowest bit of each byte; words whose sum surely fits into each byte; every other byte, and of these every other
-      integer(int64), parameter :: ones = int(z'0101010101010101', int64), pairs = int(z'00ff00ff00ff00ff', int64), &
-         & fours = int(z'0000ffff0000ffff', int64), whole = int(z'00000000ffffffff', int64)
-      integer, parameter :: words = 127
-      integer(int64) :: sums
-      integer :: block, i
-
-      ! Eight sums side by side in the bytes of an integer, and several such integers at once
-      count = 0
-      do block = 1, len(text) - 8*words + 1, 8*words
-         sums = 0
-         do i = block, block + 8*(words - 1), 8
-            sums = sums + iand(shiftr(line_feeds(text(i:i + 7)), mark), ones)
-         end do
-         sums = iand(sums, pairs) + iand(shiftr(sums, 8), pairs)
-         sums = iand(sums, fours) + iand(shiftr(sums, 16), fours)
-         count = count + int(iand(sums, whole) + shiftr(sums, 32))
-      end do
-      do i = block, len(text)
-         count = count + merge(1, 0, iachar(text(i:i)) == line_feed)
-      end do
-   end function count_line_feeds
-
-   !> Which of eight characters are line feeds: bit `mark` of each of their bytes
-   pure integer(int64) function line_feeds(text)
-      !> Eight characters
-      character(len=8), intent(in) :: text
-
-      ! In each byte: a line feed, the lowest seven and six bits, and the bit after these
-      integer(int64), parameter :: feeds = int(z'0a0a0a0a0a0a0a0a', int64), seven = int(z'7f7f7f7f7f7f7f7f', int64), &
-         & six = int(z'3f3f3f3f3f3f3f3f', int64), marks = shiftl(int(z'0101010101010101', int64), mark)
-      integer(int64) :: bytes
-
-      ! A byte is zero then. Eight bits become seven and six that are zero where they are, so that no sum overflows
-      bytes = ieor(transfer(text, bytes), feeds)
-      bytes = iand(ior(bytes, shiftr(bytes, 1)), seven)
-      bytes = iand(ior(bytes, shiftr(bytes, 1)), six)
-      line_feeds = iand(not(bytes + six), marks)
-   end function line_feeds
 
    !> Number of lines
    pure function lines(self)

@@ -1,6 +1,5 @@
 !> Bytes of files as text: UTF-8, UTF-16 that begins with a byte order mark, and what to say of all else.
 module dondolo_base_encoding
-   use, intrinsic :: iso_fortran_env, only : int64
    implicit none
    private
 
@@ -24,21 +23,16 @@ contains
       !> Bytes
       character(len=*), intent(in) :: text
 
-      ! In each byte: one, and all bits but the highest
-      integer(int64), parameter :: ones = int(z'0101010101010101', int64), low = int(z'7f7f7f7f7f7f7f7f', int64)
-      integer(int64) :: eight, marks
-      integer :: i
+      integer :: lowest, highest, i
 
-      ! Eight bytes at once, and without an exit: zero less one has the highest bit, as bytes from 128 on have
-      marks = 0
-      do i = 1, len(text) - 7, 8
-         eight = transfer(text(i:i + 7), eight)
-         marks = ior(marks, ior(eight, iand(eight, low) - ones))
+      ! Without an exit, so that the loop becomes vector instructions
+      lowest = 1
+      highest = 1
+      do i = 1, len(text)
+         lowest = min(lowest, iachar(text(i:i)))
+         highest = max(highest, iachar(text(i:i)))
       end do
-      is_ascii = iand(marks, not(low)) == 0
-      do i = i, len(text)
-         is_ascii = is_ascii .and. iachar(text(i:i)) > 0 .and. iachar(text(i:i)) < 128
-      end do
+      is_ascii = lowest > 0 .and. highest < 128
    end function is_ascii
 
    !> Is a text UTF-8, without NUL?
