@@ -44,6 +44,7 @@ SMALL = {
     "src/dondolo/(base/properties/|case/input/survey|building/building)": "lists of properties",
     "src/dondolo/wall/(wall_(body|lists|ties)|tie_statics|interlocking)": "lists of properties",
     "src/dondolo/(case/(warnings/|groups/stripes_group)|fragility/ordinal)": "levels and states",
+    "python/dondolo/_fortran/checks": "lines of the sheet of a check",
     "src/dondolo/fragility/tie_tallies": "levels and ties of a wall",
     "src/dondolo/motion/(common/grip|lanes/normal_form)": "ties of a wall",
     "src/dondolo/motion/lanes/lanes": "lanes, whose number is fixed",
