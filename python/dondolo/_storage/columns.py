@@ -35,6 +35,10 @@ class Columns:
         """A column as it is written."""
         raise NotImplementedError
 
+    def _value(self, name: str, i: int) -> float:
+        """A cell of a column of numbers, as `_values` has it."""
+        return float(self._values(name)[i])
+
     def __contains__(self, name: str) -> bool:
         raise NotImplementedError
 
@@ -66,17 +70,17 @@ class Columns:
 
     def number(self, name: str, i: int) -> float:
         """A cell that is a finite number."""
-        value = float(self._values(name)[i])
+        value = self._value(name, i)
         if not math.isfinite(value):
             raise ValueError(f"{self.place(i)}: {name} = {self.texts(name)[i]!r}: must be a number")
         return value
 
-    def numbers(self, name: str) -> FloatArray:
-        """A column of finite numbers."""
-        values = self._values(name)
+    def numbers(self, name: str, first: int = 0, count: int | None = None) -> FloatArray:
+        """Finite numbers of a column, or of some rows of it."""
+        values = self._values(name)[first : None if count is None else first + count]
         if not np.isfinite(values).all():
             # Names the first that is no number
-            self.number(name, int(np.argmin(np.isfinite(values))))
+            self.number(name, first + int(np.argmin(np.isfinite(values))))
         return values
 
     def count(self, name: str, i: int) -> int:

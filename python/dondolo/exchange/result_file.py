@@ -129,6 +129,10 @@ class ResultFile(Columns):
             raise ValueError(f"no column '{name}'")
         return self._columns[name]
 
+    def _value(self, name: str, i: int) -> float:
+        # Of many columns a few cells are asked for.
+        return _number(self.texts(name)[i])
+
     def _values(self, name: str) -> FloatArray:
         if name not in self._numbers:
             cells = self.texts(name)

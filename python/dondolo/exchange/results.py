@@ -14,7 +14,15 @@ from dondolo._base.arguments import FloatArray, one_of
 from dondolo._base.shown import Shown
 from dondolo._fortran.files import TABLES
 from dondolo._fortran.library import constants
-from dondolo._fortran.walls import WALL_EXTRAS, WALL_LISTS, WALL_PROPERTIES, WALL_TEXTS, WALL_WORDS, describe_wall
+from dondolo._fortran.walls import (
+    WALL_EXTRAS,
+    WALL_LISTS,
+    WALL_PROPERTIES,
+    WALL_TEXTS,
+    WALL_WORDS,
+    describe_wall,
+    describe_walls,
+)
 from dondolo._storage.columns import Columns
 from dondolo._storage.result_set import write_set
 from dondolo._storage.run_file import HistoryResult, RunFile
@@ -272,24 +280,39 @@ def _of_typology(results: Results, source: Source, work: Work, flags: Flags | No
 
 def _population(table: Columns, gravity: float) -> Population:
     """Walls as they were given."""
-    walls: list[Wall] = []
     lists = {column: argument for column, argument in _LIST_COLUMNS.items() if numbered(column, 1) in table}
-    for i, (name, kind) in enumerate(zip(table.texts("wall"), table.texts("mechanism"), strict=True)):
+    names, models = table.texts("wall"), table.texts("restitution_model")
+    rows: list[dict[str, Any]] = []
+    for i, kind in enumerate(table.texts("mechanism")):
         given: dict[str, Any] = {
             argument: table.number(column, i)
             for column, argument in _WALL_COLUMNS.items()
             if (column in table or argument not in WALL_EXTRAS) and table.given(column, i)
         }
         given |= {argument: values for column, argument in lists.items() if (values := _list(table, column, i))}
-        try:
-            one_of("mechanism", kind, MECHANISMS)
-            given |= {"name": name, "restitution": table.texts("restitution_model")[i]}
-            walls.append(wall_from(describe_wall(given | {"mechanism": kind}, gravity)))
-        except (TypeError, ValueError) as error:
-            raise ValueError(f"{table.place(i)}: {error}") from error
+        rows.append(given | {"name": names[i], "restitution": models[i], "mechanism": kind})
+    walls = _walls(table, rows, gravity)
     weights, p_occ = table.numbers("weight"), table.numbers("p_occ")
     facades = tuple(table.texts("facade")) if "facade" in table else ("",) * len(walls)
-    return Population(tuple(walls), weights, groups=tuple(table.texts("group")), p_occ=p_occ, facades=facades)
+    return Population(walls, weights, groups=tuple(table.texts("group")), p_occ=p_occ, facades=facades)
+
+
+def _walls(table: Columns, rows: Sequence[dict[str, Any]], gravity: float) -> tuple[Wall, ...]:
+    """Walls of their properties, all at once; a row that is wrong is found one by one."""
+    words = dict.fromkeys(word for given in rows for word in given)
+    try:
+        data = describe_walls(
+            len(rows), {word: [one.get(word) for one in rows] for word in words}, [gravity] * len(rows)
+        )
+    except InputError:
+        data = []
+        for i, given in enumerate(rows):
+            try:
+                one_of("mechanism", given["mechanism"], MECHANISMS)
+                data.append(describe_wall(given, gravity))
+            except (TypeError, ValueError) as error:
+                raise ValueError(f"{table.place(i)}: {error}") from error
+    return tuple(wall_from(one) for one in data)
 
 
 def _list(table: Columns, column: str, i: int) -> list[Any]:

@@ -8,11 +8,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, one_of
+from dondolo._base.arguments import one_of
+from dondolo._fortran.curves import CurveData, fit_curves
 from dondolo._fortran.library import constants
 from dondolo._storage.columns import Columns
 from dondolo.curves.clusters import Errors, errors_of_table, no_errors
-from dondolo.curves.fitting import fit, with_errors
+from dondolo.curves.fitting import curve_of, with_errors
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.series import in_series
 from dondolo.curves.table import ERRORS
@@ -86,38 +87,39 @@ def _with_unions(stored: StoredCurves, typology: Typology, table: Columns) -> St
         for k in range(states):
             walls = [(name, place(i, k)) for i, name in enumerate(names)]
             of_groups = [(one, place(len(names) + i, k)) for i, one in enumerate(groups)]
-            unions.append({name: _union(typology, table, first) for name, first in walls})
+            unions.append(_unions(typology, table, walls))
             group_unions.append({one.group: _mean(typology, table, one, first) for one, first in of_groups})
             counts.append(
-                {f"wall {name}": _cells(table, "collapses", first, levels) for name, first in walls}
-                | {f"group {one.group}": _cells(table, "fraction", first, levels) for one, first in of_groups}
+                {f"wall {name}": table.numbers("collapses", first, levels) for name, first in walls}
+                | {f"group {one.group}": table.numbers("fraction", first, levels) for one, first in of_groups}
             )
     return replace(stored, unions=tuple(unions), group_unions=tuple(group_unions), counts=tuple(counts))
 
 
-def _cells(table: Columns, name: str, first: int, number: int) -> FloatArray:
-    """Numbers of some rows of a column."""
-    return np.array([table.number(name, row) for row in range(first, first + number)])
-
-
 def _mean(typology: Typology, table: Columns, group: Group, first: int) -> Fragility:
     """A mean over walls, fitted again."""
-    fraction = _cells(table, "fraction", first, len(typology.levels))
+    fraction = table.numbers("fraction", first, len(typology.levels))
     curve = replace(mean_curve(typology, group, fraction), edp_threshold=table.number("edp_threshold", first))
     return with_errors(curve, errors_of_row(table, first)) if curve.has_fit else curve
 
 
-def _union(typology: Typology, table: Columns, first: int) -> Fragility:
-    """The curve of the rows of a state, fitted again."""
-    levels = len(typology.levels)
-    name = table.texts("wall")[first]
-    chosen = np.flatnonzero([own == name for own in typology.population.wholes])
-    saturation = float(in_series(typology.population.p_occ[chosen], np.array([0]))[0])
-    histories = _cells(table, "histories", first, levels)
-    reached = _cells(table, "collapses", first, levels) / (saturation or 1.0)
-    origin = {"im": typology.im, "edp_threshold": table.number("edp_threshold", first), "saturation": saturation}
-    curve = fit(typology.levels, np.minimum(reached, histories), histories, **origin)
-    return with_errors(curve, errors_of_row(table, first)) if curve.has_fit else curve
+def _unions(typology: Typology, table: Columns, walls: Sequence[tuple[str, int]]) -> dict[str, Fragility]:
+    """Curves of walls whose rows begin at some places, fitted again."""
+    people, levels = typology.population, len(typology.levels)
+    whole = in_series(people.p_occ, people.first_rows).tolist()
+    saturations = dict(zip((people.wholes[i] for i in people.first_rows.tolist()), whole, strict=True))
+    histories = np.array([table.numbers("histories", first, levels) for _, first in walls])
+    collapses = np.array([table.numbers("collapses", first, levels) for _, first in walls])
+    share = np.array([saturations[name] or 1.0 for name, _ in walls])
+    reached = np.minimum(collapses / share[:, None], histories)
+    numbers, statuses = fit_curves(typology.levels, reached, histories)
+    curves = {}
+    for i, (name, first) in enumerate(walls):
+        edp, data = table.number("edp_threshold", first), CurveData(statuses[i], numbers[i])
+        origin = {"im": typology.im, "edp_threshold": edp, "saturation": saturations[name]}
+        curve = curve_of(data, typology.levels, reached[i], histories[i], **origin)
+        curves[name] = with_errors(curve, errors_of_row(table, first)) if curve.has_fit else curve
+    return curves
 
 
 def _of_walls(typology: Typology, rows: Sequence[Errors], unions: Columns | None, state: int) -> list[Errors]:
@@ -150,10 +152,11 @@ def errors_of_row(table: Columns, row: int, prefix: str = "") -> Errors:
     kind = table.texts(prefix + "errors")[row]
     if not kind:
         return no_errors("given", 0)
-    try:
-        one_of(prefix + "errors", kind, constants().errors[1:])
-    except ValueError as error:
-        raise ValueError(f"{table.place(row)}: {error}") from error
+    if kind not in constants().errors[1:]:
+        try:
+            one_of(prefix + "errors", kind, constants().errors[1:])
+        except ValueError as error:
+            raise ValueError(f"{table.place(row)}: {error}") from error
     clusters = table.count(prefix + "clusters", row)
     if kind != "clustered":
         return no_errors(kind, clusters)
@@ -165,17 +168,13 @@ def _numbers(table: Columns, row: int, names: Sequence[str]) -> list[float]:
     """Standard errors, covariance and degrees of freedom."""
     values = [table.number(name, row) for name in names]
     of_theta, of_beta, both, degrees = values
-    for name, value, is_allowed in zip(
-        names,
-        values,
-        (
-            0.0 <= of_theta < 1e100,
-            0.0 <= of_beta < 1e100,
-            abs(both) <= of_theta * of_beta * (1.0 + 1e-9),
-            degrees > 0.0,
-        ),
-        strict=True,
-    ):
-        if not is_allowed:
-            raise ValueError(f"{table.place(row)}: {name} = {value:g}: is not possible")
+    allowed = (
+        0.0 <= of_theta < 1e100,
+        0.0 <= of_beta < 1e100,
+        abs(both) <= of_theta * of_beta * (1.0 + 1e-9),
+        degrees > 0.0,
+    )
+    if not all(allowed):
+        wrong = allowed.index(False)
+        raise ValueError(f"{table.place(row)}: {names[wrong]} = {values[wrong]:g}: is not possible")
     return values
