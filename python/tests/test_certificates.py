@@ -126,6 +126,7 @@ def test_two_ties_under_recorded_motions(recorded, engine):
     check_estimates(recorded, sample["not_computable"], engine)
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
 def test_certificates_are_those_of_the_table(synthetic):
     """Of the hard histories that 33 digits settle: the EDP of the table, whatever double precision says."""
