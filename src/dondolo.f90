@@ -54,7 +54,7 @@ module dondolo
    use dondolo_record_synthetic, only : synthetic_record
    use dondolo_wall, only : mechanism_names, new_wall, wall_input_type, wall_type
    use dondolo_wall_mechanism, only : mechanism_type
-   use dondolo_wall_tie, only : tie_type
+   use dondolo_wall_restraint, only : restraint_type
    implicit none
    private
 
@@ -65,7 +65,7 @@ module dondolo
    public :: im_names, measure_type, new_measure, ground_velocity, ground_displacement
    public :: spectral_displacement, pseudo_acceleration
    ! Walls
-   public :: wall_input_type, wall_type, new_wall, mechanism_names, mechanism_type, tie_type
+   public :: wall_input_type, wall_type, new_wall, mechanism_names, mechanism_type, restraint_type
    ! Motion
    public :: solver_type, check_solver, check_limit, engine_names
    public :: simulate, response_type, trace_type, tie_response_type

@@ -6,8 +6,8 @@ program test_tail
    use dondolo_motion_adaptive_step, only : advance, motion_type
    use dondolo_motion_dormand_prince, only : angular_acceleration, excitation_type
    use dondolo_motion_events, only : impact, limit_reached
-   use dondolo_motion_grip, only : grip_type
-   use dondolo_motion_held_tail, only : held_motion
+   use dondolo_motion_restraint_state, only : restraint_state_type
+   use dondolo_motion_restrained_tail, only : restrained_motion
    use dondolo_motion_response, only : response_type
    use dondolo_motion_rk45, only : simulate_rk45
    use dondolo_motion_tail, only : free_motion, tail_type
@@ -103,7 +103,7 @@ contains
       type(wall_input_type) :: input
       type(error_type), allocatable :: error
       class(mechanism_type), allocatable :: held
-      type(grip_type) :: grip
+      type(restraint_state_type) :: restraints
       type(tail_type) :: tail
       real(wp) :: q, v, f
       integer :: i, k, m
@@ -131,10 +131,10 @@ contains
                if (m < 5) then
                   call free_motion(held, held%capacity, 0.0_wp, q, v, tail)
                else
-                  grip = grip_type()
-                  call grip%begin(held, 0.0_wp)
-                  call grip%cross(held, q, .true., 0.0_wp)
-                  call held_motion(held, grip, held%capacity, q, v, 0.0_wp, tail)
+                  restraints = restraint_state_type()
+                  call restraints%begin(held, 0.0_wp)
+                  call restraints%cross(held, q, .true., 0.0_wp)
+                  call restrained_motion(held, restraints, held%capacity, q, v, 0.0_wp, tail)
                end if
                f = angular_acceleration(held, excitation_type(), 0.0_wp, q, 0.0_wp)
                call check(.not. tail%collapsed, 'it turns')

@@ -6,8 +6,8 @@ program test_ties
    use checks, only : check, check_close, check_error, check_ok, finish, suite
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
-   use dondolo_motion_grip, only : grip_type
-   use dondolo_motion_held_tail, only : held_motion
+   use dondolo_motion_restraint_state, only : restraint_state_type
+   use dondolo_motion_restrained_tail, only : restrained_motion
    use dondolo_motion_response, only : response_type, tie_response_type, trace_type
    use dondolo_motion_rest, only : new_rest, rest_type
    use dondolo_motion_rk45, only : simulate_rk45
@@ -243,7 +243,7 @@ contains
    subroutine test_energy()
       type(wall_type) :: wall
       class(mechanism_type), allocatable :: held
-      type(grip_type) :: grip
+      type(restraint_state_type) :: restraints
       type(tail_type) :: tail
       type(tie_response_type), allocatable :: ties(:)
       real(wp) :: at_rest, fall, level
@@ -251,17 +251,17 @@ contains
       call suite('energy')
       wall = made(tied())
       allocate (held, source=wall%mechanism)
-      call grip%begin(held, 0.0_wp)
-      call held_motion(held, grip, wall%mechanism%capacity, 0.0_wp, 0.08_wp, 0.0_wp, tail)
+      call restraints%begin(held, 0.0_wp)
+      call restrained_motion(held, restraints, wall%mechanism%capacity, 0.0_wp, 0.08_wp, 0.0_wp, tail)
       call check_close(tail%peak, 0.00761924908059266_wp, 0.0_wp, 'peak', exact)
-      call grip%responses(held, tail%peak, ties)
+      call restraints%responses(held, tail%peak, ties)
       call check_close(ties(1)%plastic_elongation, 0.0589377478485007_wp, 0.0_wp, 'set', exact)
       ! The wall comes back without what the tie has taken, but for what the tie had at rest.
       at_rest = 1500.0_wp**2/(2.0_wp*1287500.0_wp)
       call check_close(ties(1)%energy - at_rest, 529.565944228739_wp, exact, 'energy that the wall loses')
-      level = grip%below
+      level = restraints%below
       fall = held%potential(tail%peak) - held%potential(level)
-      call grip%cross(held, level, .false., 0.0_wp)
+      call restraints%cross(held, level, .false., 0.0_wp)
       fall = fall + held%potential(level) - held%potential(0.0_wp)
       call check_close(sqrt(2.0_wp*fall/219375.0_wp), 0.0396490652059264_wp, 0.0_wp, 'speed at impact', exact)
    end subroutine test_energy

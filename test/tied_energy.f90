@@ -13,7 +13,7 @@ module tied_energy
    use dondolo_motion_response, only : trace_type
    use dondolo_record, only : record_type
    use dondolo_wall_mechanism, only : mechanism_type
-   use dondolo_wall_tie, only : tie_type
+   use dondolo_wall_restraint, only : restraint_type
    use dondolo_wall_travel, only : lever, travel
    implicit none
    private
@@ -31,7 +31,7 @@ module tied_energy
       !> Impacts after which the wall is faster than e times its speed before
       integer :: wrong_impacts = 0
       !> Steps with flowing ties, with slack ones and with flowing friction
-      integer :: flowing = 0, slack = 0, rubbing = 0
+      integer :: flowing = 0, slack = 0, sliding = 0
       !> Those in which friction holds the wall out, and those in which nothing could
       integer :: held = 0, groundless = 0
    end type tied_balance_type
@@ -68,7 +68,7 @@ contains
 
       allocate (bare, held, source=mechanism)
       force = 0.0_wp
-      call bare%hold(force, force)
+      call bare%set_restraints(force, force)
       largest = 0.0_wp
       worst = 0.0_wp
       do i = 1, trace%rows - 1
@@ -96,7 +96,7 @@ contains
                step%slope = scale*(record%acceleration(interval + 1) - record%acceleration(interval))/record%dt
             end if
             call pull_along(mechanism%restraints, q, largest, force, stiffness, balance)
-            call held%hold(force, stiffness)
+            call held%set_restraints(force, stiffness)
             call close_step(bare, held, force, stiffness, step, balance, error)
             if (abs(error) > worst) then
                worst = abs(error)
@@ -110,7 +110,7 @@ contains
 
    !> Forces of the ties in a step, T = force + stiffness D, from the largest rotation before it alone
    subroutine pull_along(restraints, q, largest, force, stiffness, balance)
-      type(tie_type), intent(in) :: restraints(:)
+      type(restraint_type), intent(in) :: restraints(:)
       !> Rotations at both ends, and the largest before [rad]
       real(wp), intent(in) :: q(2), largest
       real(wp), intent(out) :: force(:), stiffness(:)
@@ -126,7 +126,7 @@ contains
             if (largest >= tie%fracture) cycle
             if (tie%is_friction) then
                if (.not. (q(2) > q(1) .and. middle > largest)) cycle
-               balance%rubbing = balance%rubbing + 1
+               balance%sliding = balance%sliding + 1
                force(i) = tie%strength
                stiffness(i) = -tie%strength/tie%fracture_travel
             else if (q(2) > q(1) .and. middle > largest .and. middle > tie%yield) then

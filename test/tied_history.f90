@@ -12,7 +12,7 @@ module tied_history
    use dondolo_record_random, only : new_random, random_type
    use dondolo_wall, only : new_wall, wall_input_type, wall_type
    use dondolo_wall_mechanism, only : mechanism_type
-   use dondolo_wall_tie, only : tie_input_type
+   use dondolo_wall_restraint, only : tie_input_type
    use random_history, only : across, between, choice, history_type, random_record, random_solver
    use same_response, only : is_same
    use tied_energy, only : tied_balance_of, tied_balance_type
@@ -28,7 +28,7 @@ module tied_history
    real(wp), parameter :: largest_imbalance = 1.0e-9_wp
 
    !> Numbers of histories, of ties, and of histories with each kind of step
-   integer :: histories = 0, yielded = 0, broken = 0, collapsed = 0, flowing = 0, slack = 0, rubbing = 0, held = 0
+   integer :: histories = 0, yielded = 0, broken = 0, collapsed = 0, flowing = 0, slack = 0, sliding = 0, held = 0
    real(wp) :: slowest = 0.0_wp, worst = 0.0_wp
 
 contains
@@ -245,7 +245,7 @@ contains
          & to_text(balance%worst_row)//' of '//to_text(trace%rows))
       flowing = flowing + min(1, balance%flowing)
       slack = slack + min(1, balance%slack)
-      rubbing = rubbing + min(1, balance%rubbing)
+      sliding = sliding + min(1, balance%sliding)
       held = held + min(1, balance%held)
    end subroutine check_energy
 
@@ -256,7 +256,7 @@ contains
          & ' collapses; '//to_text(held)//' held out; slowest ', slowest, ' s; energy, worst ', worst
       if (histories < 100) return
       call check(min(yielded, broken, collapsed) > histories/10, 'ties yield and break, walls fall')
-      call check(min(flowing, slack, rubbing) > histories/20, 'ties flow and are slack, friction rubs')
+      call check(min(flowing, slack, sliding) > histories/20, 'ties flow and are slack, friction rubs')
       ! Some 14 of 1000 are, by chance fewer than 10 in one part of a thousand out of seven.
       call check(held > histories/400, 'friction holds walls out')
    end subroutine print_ties

@@ -8,7 +8,7 @@ module dondolo_gpu_kernel
    use dondolo_gpu_events, only : allowed_part, find_first, impact, limit_reached, no_event, rate, turning, value
    use dondolo_gpu_ground, only : aim, begin_at, chain_ends, find_start, ground_type, leave_edge
    use dondolo_gpu_state, only : gpu_history_type, gpu_wall_type, lane_width, lanes_type, normal_form_type
-   use dondolo_motion_lane_state, only : event_possible, part_if_held, record_over, step_taken, step_too_long
+   use dondolo_motion_lane_state, only : event_possible, part_if_restrained, record_over, step_taken, step_too_long
    use dondolo_motion_normal_form, only : y_limit
    use dondolo_motion_step_limits, only : shortest_motion, smallest_step
    implicit none

@@ -28,7 +28,7 @@ module dondolo_check_kinematic
    use dondolo_wall_body, only : wall_body_type
    use dondolo_wall_mechanism, only : mechanism_type
    use dondolo_wall_one_block_model, only : one_block_model_type
-   use dondolo_wall_tie_statics, only : hold_plastic
+   use dondolo_wall_tie_statics, only : set_plastic_restraints
    use dondolo_wall_two_block, only : two_block_type
    implicit none
    private
@@ -238,13 +238,13 @@ contains
       !> Rotation [rad]
       real(wp), intent(in) :: q
 
-      class(mechanism_type), allocatable :: held
+      class(mechanism_type), allocatable :: restrained
       real(wp) :: moment
 
       if (allocated(self%mechanism%restraints)) then
-         allocate (held, source=self%mechanism)
-         call hold_plastic(held, q)
-         moment = held%moment(q)
+         allocate (restrained, source=self%mechanism)
+         call set_plastic_restraints(restrained, q)
+         moment = restrained%moment(q)
       else
          moment = self%mechanism%moment(q)
       end if

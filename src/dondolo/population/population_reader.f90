@@ -18,7 +18,7 @@ module dondolo_population_reader
    use dondolo_population_wall_names, only : wall_names_type
    use dondolo_population_wall_row, only : row_properties, wall_row_type
    use dondolo_wall, only : new_wall
-   use dondolo_wall_hinge_level, only : find_hinge_levels, has_hinge_level
+   use dondolo_wall_hinge_level, only : read_hinge_levels, has_hinge_level
    use dondolo_wall_properties, only : wall_input_type, wall_properties
    implicit none
    private
@@ -209,7 +209,7 @@ contains
       type(problems_type) :: problems
 
       self%level = 0
-      call find_hinge_levels(self%input, problems, self%levels)
+      call read_hinge_levels(self%input, problems, self%levels)
       if (problems%count > 0) self%levels = [real(wp) ::]
       if (len(self%own%facade) == 0) self%own%facade = trim(self%input%word('name'))
       self%own%has_name = .true.

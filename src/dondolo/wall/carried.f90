@@ -3,7 +3,7 @@
 !> Places are a depth behind the outer face of the base and a height above the base (docs/theory.md, section 2).
 module dondolo_wall_carried
    use dondolo_base_kinds, only : wp
-   use dondolo_wall_tie, only : tie_type
+   use dondolo_wall_restraint, only : restraint_type
    implicit none
    private
 
@@ -50,7 +50,7 @@ module dondolo_wall_carried
       !> Springs
       type(spring_type), allocatable :: springs(:)
       !> Ties, then friction
-      type(tie_type), allocatable :: ties(:)
+      type(restraint_type), allocatable :: restraints(:)
       !> Depth u of the hinge behind the outer face [m]
       real(wp) :: hinge = 0.0_wp
       !> Radius a of the edge that the wall rolls on; the hinge at rest is then as deep [m]

@@ -11,7 +11,7 @@ module dondolo_wall_hinge_level
    implicit none
    private
 
-   public :: has_hinge_level, find_hinge_levels, cut_wall
+   public :: has_hinge_level, read_hinge_levels, cut_wall
 
    !> What asks for a hinge at the bottom of every section
    character(len=*), parameter :: storeys = 'storeys'
@@ -30,7 +30,7 @@ contains
    end function has_hinge_level
 
    !> Heights of the hinges that are asked for
-   subroutine find_hinge_levels(input, problems, levels)
+   subroutine read_hinge_levels(input, problems, levels)
       !> What is said of the wall, ranges checked
       class(wall_input_type), intent(in) :: input
       !> Takes levels that the wall does not have
@@ -61,7 +61,7 @@ contains
          if (.not. levels(i) > levels(i - 1)) call problems%note('hinge_level = '//to_text(levels(i))// &
             & ': must be more than '//to_text(levels(i - 1))//' before it')
       end do
-   end subroutine find_hinge_levels
+   end subroutine read_hinge_levels
 
    !> The wall above a hinge
    subroutine cut_wall(input, level, problems)

@@ -13,7 +13,7 @@ module dondolo_wall_interlocking
    use dondolo_base_settings, only : settings_type
    use dondolo_base_text, only : to_text
    use dondolo_wall_rigid_body, only : faces_at, same, section_type
-   use dondolo_wall_tie, only : new_friction, tie_type
+   use dondolo_wall_restraint, only : new_friction, restraint_type
    implicit none
    private
 
@@ -25,8 +25,8 @@ module dondolo_wall_interlocking
 
 contains
 
-   !> Add the friction of the transverse walls to what holds a wall
-   subroutine read_interlocking(input, sections, gravity, hinge, edge, problems, ties)
+   !> Add the friction of the transverse walls to the ties of a wall
+   subroutine read_interlocking(input, sections, gravity, hinge, edge, problems, restraints)
       !> What is said of the wall, ranges checked
       class(settings_type), intent(in) :: input
       !> Its storeys
@@ -38,9 +38,9 @@ contains
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
       !> Its ties; out: and the friction after them
-      type(tie_type), allocatable, intent(inout) :: ties(:)
+      type(restraint_type), allocatable, intent(inout) :: restraints(:)
 
-      type(tie_type), allocatable :: restraints(:)
+      type(restraint_type), allocatable :: more(:)
       real(wp) :: tall, faces(2), friction, force
       logical :: given(size(names))
       integer :: i
@@ -60,10 +60,10 @@ contains
       force = friction_force(tall, input%number('interlock_course'), input%number('interlock_overlap'), &
          & input%number('interlock_thickness'), friction, gravity*input%number('density'))/input%number('interlock_spacing')
       faces = faces_at(sections, tall/3.0_wp)
-      allocate (restraints(size(ties) + 1))
-      restraints(:size(ties)) = ties
-      restraints(size(restraints)) = new_friction(faces(2), tall/3.0_wp, force, input%number('interlock_overlap'), hinge, edge)
-      call move_alloc(restraints, ties)
+      allocate (more(size(restraints) + 1))
+      more(:size(restraints)) = restraints
+      more(size(more)) = new_friction(faces(2), tall/3.0_wp, force, input%number('interlock_overlap'), hinge, edge)
+      call move_alloc(more, restraints)
    end subroutine read_interlocking
 
    !> Friction that one transverse wall can give [N]

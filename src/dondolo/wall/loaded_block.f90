@@ -6,7 +6,7 @@
 !>
 !> Every term is a sum over points that is linear or quadratic in e and f, so that a few sums made once hold any number of
 !> things; only a thrust that decays is asked one by one. A tie is a thrust inwards and a spring, as long as it neither
-!> yields nor breaks nor becomes slack, and so is friction, whose spring pushes: `hold` changes those sums.
+!> yields nor breaks nor becomes slack, and so is friction, whose spring pushes: `set_restraints` changes those sums.
 module dondolo_wall_loaded_block
    use dondolo_base_bracket, only : bracket_type
    use dondolo_base_error, only : error_type, raise_input
@@ -15,7 +15,7 @@ module dondolo_wall_loaded_block
    use dondolo_wall_carried, only : actions_type, spring_type
    use dondolo_wall_mechanism, only : mechanism_type
    use dondolo_wall_rigid_body, only : rigid_body_type
-   use dondolo_wall_tie, only : elastic, flowing
+   use dondolo_wall_restraint, only : elastic, flowing
    use dondolo_wall_travel, only : lever, rotation_after, travel, versine
    implicit none
    private
@@ -67,7 +67,7 @@ module dondolo_wall_loaded_block
       procedure :: potential
       procedure :: geometric_end
       procedure :: support
-      procedure :: hold
+      procedure :: set_restraints
    end type loaded_block_type
 
 contains
@@ -172,10 +172,10 @@ contains
       mechanism%free_thrust = mechanism%thrust
       mechanism%free_spring = mechanism%spring
       call check_rest(mechanism, body, actions, error)
-      if (.not. allocated(error)) call find_capacity(mechanism, error)
+      if (.not. allocated(error)) call set_capacity(mechanism, error)
       if (allocated(error)) return
-      call find_unseating(mechanism, actions)
-      if (size(actions%ties) > 0) call add_ties(mechanism, actions, error)
+      call set_unseating(mechanism, actions)
+      if (size(actions%restraints) > 0) call add_ties(mechanism, actions, error)
    end subroutine new_loaded_block
 
    !> Add the ties, none of which has yielded yet
@@ -186,18 +186,18 @@ contains
       !> A tie that is released before the wall falls: it is hardly above a hinge far behind it
       type(error_type), allocatable, intent(out) :: error
 
-      real(wp), dimension(size(actions%ties)) :: force, stiffness
+      real(wp), dimension(size(actions%restraints)) :: force, stiffness
       integer, allocatable :: mode(:)
       integer :: at
 
-      mechanism%restraints = actions%ties
-      mechanism%ties = count(.not. actions%ties%is_friction)
+      mechanism%restraints = actions%restraints
+      mechanism%ties = count(.not. actions%restraints%is_friction)
       associate (ties => mechanism%restraints)
          mechanism%preload = sum(ties%preload*lever(ties%edge, ties%e, ties%f, 0.0_wp))
          mode = merge(flowing, elastic, ties%is_friction)
-         call ties%pull(mode, 0.0_wp, force, stiffness)
+         call ties%linear_force(mode, 0.0_wp, force, stiffness)
       end associate
-      call mechanism%hold(force, stiffness)
+      call mechanism%set_restraints(force, stiffness)
       associate (ties => mechanism%restraints)
          at = findloc(lever(ties%edge, ties%e, ties%f, mechanism%capacity) > 0.0_wp, .false., dim=1)
          if (at > 0) call raise_input(error, 'tie '//to_text(at)//': its tie_height is too low for the depth of the hinge; '// &
@@ -205,8 +205,8 @@ contains
       end associate
    end subroutine add_ties
 
-   !> Set the forces of the ties
-   pure subroutine hold(self, force, stiffness)
+   !> Set the forces of ties and friction
+   pure subroutine set_restraints(self, force, stiffness)
       class(loaded_block_type), intent(inout) :: self
       !> Of each of them: T = force + stiffness D [N/m] and [N/m per m]
       real(wp), intent(in) :: force(:), stiffness(:)
@@ -222,7 +222,7 @@ contains
             call self%spring%add(stiffness(i), tie%e, tie%f)
          end associate
       end do
-   end subroutine hold
+   end subroutine set_restraints
 
    !> Add a spring or a bed, whose sums are integrals over its height
    pure subroutine add_spring(sums, spring, actions)
@@ -377,14 +377,14 @@ contains
       associate (carried => actions%carried, thrusts => actions%thrusts)
          holds = mechanism%gravity*body%mass*mechanism%e + sum(carried%weight*(carried%depth - actions%hinge))
          call raise_input(error, 'thrust: the wall does not stand at rest'//trim(merge(' without its ties', '                 ', &
-            & size(actions%ties) > 0))//'; its weights hold it with '//rounded(holds)// &
+            & size(actions%restraints) > 0))//'; its weights hold it with '//rounded(holds)// &
             & ' N m per metre, thrusts push it out with '//rounded(sum(thrusts%force*thrusts%height)))
       end associate
    end subroutine check_rest
 
    !> The rotation at which the restoring moment vanishes: in closed form, or where forces change with the rotation by
    !> bisection of the first change of sign
-   subroutine find_capacity(mechanism, error)
+   subroutine set_capacity(mechanism, error)
       type(loaded_block_type), intent(inout) :: mechanism
       !> There is none, or more than one
       type(error_type), allocatable, intent(out) :: error
@@ -424,10 +424,10 @@ contains
          call bracket%halve(mechanism%moment(bracket%middle()) > 0.0_wp)
       end do
       mechanism%capacity = bracket%middle()
-   end subroutine find_capacity
+   end subroutine set_capacity
 
    !> The rotation at which the first load loses its seat
-   pure subroutine find_unseating(mechanism, actions)
+   pure subroutine set_unseating(mechanism, actions)
       type(loaded_block_type), intent(inout) :: mechanism
       !> What acts on the wall
       type(actions_type), intent(in) :: actions
@@ -440,6 +440,6 @@ contains
                & thing%height - actions%edge, thing%seat))
          end associate
       end do
-   end subroutine find_unseating
+   end subroutine set_unseating
 
 end module dondolo_wall_loaded_block

@@ -7,7 +7,7 @@
 !> All terms are per metre of wall length.
 module dondolo_wall_mechanism
    use dondolo_base_kinds, only : wp
-   use dondolo_wall_tie, only : tie_type
+   use dondolo_wall_restraint, only : restraint_type
    implicit none
    private
 
@@ -28,8 +28,8 @@ module dondolo_wall_mechanism
       !> Rotation at which a load loses its seat, which counts as collapse [rad]; huge: none does
       real(wp) :: unseating = huge(1.0_wp)
       !> Ties, then friction; not allocated: none. As built no tie has yielded, and terms and potential are those of a wall
-      !> that its ties hold with T_0 + k D and friction with F (1 - D/D_u); `hold` puts other forces in their place
-      type(tie_type), allocatable :: restraints(:)
+      !> that its ties hold with T_0 + k D and friction with F (1 - D/D_u); `set_restraints` puts other forces in their place
+      type(restraint_type), allocatable :: restraints(:)
       !> How many of them are ties
       integer :: ties = 0
       !> Moment of the ties at rest, as built [N m]
@@ -43,9 +43,9 @@ module dondolo_wall_mechanism
       procedure(rotation_interface), deferred :: geometric_end
       !> How the motion of its supports moves it
       procedure(support_interface), deferred :: support
-      !> Set the forces of the ties
-      procedure :: hold
-      !> Does friction hold it?
+      !> Set the forces of ties and friction
+      procedure :: set_restraints
+      !> Whether friction acts on it
       procedure :: has_friction
       !> Restoring moment G - Q
       procedure :: moment
@@ -111,17 +111,18 @@ module dondolo_wall_mechanism
 
 contains
 
-   !> Set the forces of the ties, T = force + stiffness D: terms and potential then contain them. Nothing to do without ties
-   pure subroutine hold(self, force, stiffness)
+   !> Set the forces of ties and friction, T = force + stiffness D: terms and potential then contain them. Mechanisms that can have
+   !> neither inherit this, which does nothing
+   pure subroutine set_restraints(self, force, stiffness)
       class(mechanism_type), intent(inout) :: self
       !> Of each of them [N/m] and [N/m per m]
       real(wp), intent(in) :: force(:), stiffness(:)
 
       associate (of => self, that => force, and => stiffness)
       end associate
-   end subroutine hold
+   end subroutine set_restraints
 
-   !> Does friction hold it?
+   !> Whether friction acts on the wall
    pure logical function has_friction(self)
       class(mechanism_type), intent(in) :: self
 

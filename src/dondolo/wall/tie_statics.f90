@@ -4,12 +4,12 @@
 module dondolo_wall_tie_statics
    use dondolo_base_kinds, only : wp
    use dondolo_wall_mechanism, only : mechanism_type
-   use dondolo_wall_tie, only : broken, elastic, flowing
+   use dondolo_wall_restraint, only : broken, elastic, flowing
    use dondolo_wall_travel, only : lever
    implicit none
    private
 
-   public :: greatest_acceleration, hold_plastic, plastic_acceleration, ties_after
+   public :: greatest_acceleration, set_plastic_restraints, plastic_acceleration, ties_after
 
    !> Parts of the rotation between two events in which a maximum is looked for
    integer, parameter :: parts = 64
@@ -34,7 +34,7 @@ contains
 
    !> Hold a wall as design has it at a rotation that it is pushed to for the first time: all ties that are not broken by then
    !> at their largest force, and what is left of the friction
-   pure subroutine hold_plastic(wall, q)
+   pure subroutine set_plastic_restraints(wall, q)
       !> Has ties
       class(mechanism_type), intent(inout) :: wall
       !> Rotation; that at which a tie breaks is one of those at which it holds [rad]
@@ -46,9 +46,9 @@ contains
       integer :: mode(size(wall%restraints))
 
       mode = merge(broken, flowing, q > wall%restraints%fracture*(1.0_wp + same))
-      call wall%restraints%pull(mode, 0.0_wp, force, stiffness)
-      call wall%hold(force, stiffness)
-   end subroutine hold_plastic
+      call wall%restraints%linear_force(mode, 0.0_wp, force, stiffness)
+      call wall%set_restraints(force, stiffness)
+   end subroutine set_plastic_restraints
 
    !> Greatest acceleration that the wall withstands at any rotation up to its capacity, pushed out for the first time [m/s2]
    function greatest_acceleration(mechanism) result(a)
@@ -56,29 +56,29 @@ contains
       !> Greatest value of [G - Q + sum T X]/L
       real(wp) :: a
 
-      class(mechanism_type), allocatable :: held
+      class(mechanism_type), allocatable :: restrained
       real(wp), allocatable :: force(:), stiffness(:)
       integer, allocatable :: mode(:)
       real(wp) :: from, to
 
       a = 0.0_wp
-      allocate (held, source=mechanism)
+      allocate (restrained, source=mechanism)
       from = 0.0_wp
       do
-         to = held%capacity
-         if (allocated(held%restraints)) then
-            associate (ties => held%restraints)
+         to = restrained%capacity
+         if (allocated(restrained%restraints)) then
+            associate (ties => restrained%restraints)
                allocate (mode(size(ties)), force(size(ties)), stiffness(size(ties)))
                mode = merge(flowing, elastic, from >= ties%yield)
                where (from >= ties%fracture) mode = broken
-               call ties%pull(mode, 0.0_wp, force, stiffness)
+               call ties%linear_force(mode, 0.0_wp, force, stiffness)
                to = min(to, minval(ties%yield, mask=mode == elastic), minval(ties%fracture, mask=mode /= broken))
             end associate
-            call held%hold(force, stiffness)
+            call restrained%set_restraints(force, stiffness)
             deallocate (mode, force, stiffness)
          end if
-         a = max(a, greatest_between(held, from, to))
-         if (to >= held%capacity) exit
+         a = max(a, greatest_between(restrained, from, to))
+         if (to >= restrained%capacity) exit
          from = to
       end do
    end function greatest_acceleration
@@ -98,8 +98,8 @@ contains
       associate (ties => mechanism%restraints(:mechanism%ties), peak => min(edp, mechanism%unseating/mechanism%capacity))
          ! A division by the capacity made the EDP; the same division keeps the order of the rotations to the bit.
          is_broken = peak >= ties%fracture/mechanism%capacity
-         elongation = ties%set(peak*mechanism%capacity)
-         where (is_broken) elongation = ties%set(ties%fracture)
+         elongation = ties%plastic_elongation(peak*mechanism%capacity)
+         where (is_broken) elongation = ties%plastic_elongation(ties%fracture)
          where (peak <= ties%yield/mechanism%capacity) elongation = 0.0_wp
       end associate
    end subroutine ties_after

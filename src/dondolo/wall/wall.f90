@@ -7,7 +7,7 @@ module dondolo_wall
    use dondolo_base_text, only : to_text
    use dondolo_building, only : building_type
    use dondolo_building_input, only : new_building
-   use dondolo_wall_hinge_level, only : cut_wall, find_hinge_levels, has_hinge_level
+   use dondolo_wall_hinge_level, only : cut_wall, read_hinge_levels, has_hinge_level
    use dondolo_wall_mechanism, only : mechanism_type
    use dondolo_wall_model, only : wall_model_type
    use dondolo_wall_one_block_model, only : one_block_model_type
@@ -92,7 +92,7 @@ contains
       if (present(gravity)) wall%gravity = gravity
       call understand(wall, input, problems)
       if (problems%count == 0 .and. has_hinge_level(input)) then
-         call find_hinge_levels(wall%input, problems, levels)
+         call read_hinge_levels(wall%input, problems, levels)
          if (problems%count == 0 .and. size(levels) > 1) call problems%note('hinge_level: has '//to_text(size(levels))// &
             & ' values, a wall has one; a facade with several is a population, task = ''typology''')
          above = input

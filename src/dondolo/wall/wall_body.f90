@@ -93,8 +93,9 @@ contains
       if (problems%count > before) return
       call read_hinge(input, gravity, problems, wall)
       call check_places(input, problems, wall)
-      call read_ties(input, wall%sections, wall%actions%hinge, wall%actions%edge, problems, wall%actions%ties)
-      call read_interlocking(input, wall%sections, gravity, wall%actions%hinge, wall%actions%edge, problems, wall%actions%ties)
+      call read_ties(input, wall%sections, wall%actions%hinge, wall%actions%edge, problems, wall%actions%restraints)
+      call read_interlocking(input, wall%sections, gravity, wall%actions%hinge, wall%actions%edge, problems, &
+         & wall%actions%restraints)
       if (problems%count > before) return
       if (input%has('mass')) call take_inertia(input, problems, wall)
       if (two_sided) call check_symmetry(input, problems, wall)

@@ -7,7 +7,7 @@ module dondolo_wall_ties
    use dondolo_base_unit_hint, only : unit_question
    use dondolo_wall_lists, only : take
    use dondolo_wall_rigid_body, only : faces_at, same, section_type
-   use dondolo_wall_tie, only : new_tie, tie_input_type, tie_type
+   use dondolo_wall_restraint, only : new_tie, tie_input_type, restraint_type
    implicit none
    private
 
@@ -29,7 +29,7 @@ contains
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
       !> Ties; undefined if something is wrong
-      type(tie_type), allocatable, intent(out) :: ties(:)
+      type(restraint_type), allocatable, intent(out) :: ties(:)
 
       real(wp), allocatable :: depth(:), area(:), length(:), modulus(:), strength(:), preload(:), strain(:), anchor(:)
       type(tie_input_type), allocatable :: given(:)

@@ -40,7 +40,7 @@ contains
          constants%atol = solver%atol*mechanism%frequency_parameter()*mechanism%capacity/constants%form%unit
       end if
       ! Ties remember every peak.
-      if (.not. solver%collapses_only .or. constants%form%is_held) return
+      if (.not. solver%collapses_only .or. constants%form%is_restrained) return
       constants%first_peak = y_limit
       constants%first_rotation = constants%limit
    end function new_lane_constants

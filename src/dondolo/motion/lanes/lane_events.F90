@@ -4,9 +4,9 @@ module dondolo_motion_lane_events
    use dondolo_base_kinds, only : wp
    use dondolo_motion_events, only : no_event, turning
    use dondolo_motion_lane_constants, only : lane_constants_type
-   use dondolo_motion_lane_grip, only : lane_grip_type
+   use dondolo_motion_lane_restraints, only : lane_restraints_type
    use dondolo_motion_lane_series, only : allowed_part, find_first, find_first_level, find_simple, rate, undecided, value
-   use dondolo_motion_lane_state, only : lane_width, lanes_type, part_if_held, step_taken, step_too_long, whole_vectors
+   use dondolo_motion_lane_state, only : lane_width, lanes_type, part_if_restrained, step_taken, step_too_long, whole_vectors
    use dondolo_motion_step_limits, only : shortest_motion, smallest_step
    implicit none
    private
@@ -40,7 +40,7 @@ contains
       real(wp) :: counted, d(0:9)
       integer :: i, n
 
-      counted = merge(part_if_held, 1.0_wp, constants%form%is_held)
+      counted = merge(part_if_restrained, 1.0_wp, constants%form%is_restrained)
       n = 0
       ! Without a branch, which no processor could foresee
       do i = 1, active
@@ -73,21 +73,21 @@ contains
    end subroutine find_lane_events
 
    !> The first event in the step of a flagged lane, and the motion there
-   pure subroutine find_event(found, n, lanes, grips, part, event)
+   pure subroutine find_event(found, n, lanes, restraints, part, event)
       !> What is found, and the place of the lane in it
       type(found_type), intent(in) :: found
       integer, intent(in) :: n
       !> The lanes: y and v become those at the event
       type(lanes_type), intent(inout) :: lanes
       !> The ties in each lane; absent for a wall without
-      type(lane_grip_type), intent(inout), optional :: grips(:)
+      type(lane_restraints_type), intent(inout), optional :: restraints(:)
       !> The part of its step up to the event, or to where the step ends
       real(wp), intent(out) :: part
       !> The event
       integer, intent(out) :: event
 
       real(wp) :: d(0:9)
-      logical :: heeds
+      logical :: looks
 
       associate (i => found%lane(n))
          part = found%last(n)
@@ -95,7 +95,7 @@ contains
          if (part*lanes%step(i) > shortest_motion*lanes%dt(i)) then
             part = found%x(n)
             event = int(found%event(n))
-            if (event /= undecided .and. .not. present(grips)) then
+            if (event /= undecided .and. .not. present(restraints)) then
                lanes%y(i) = found%y(n)
                lanes%v(i) = found%v(n)/lanes%step(i)
                return
@@ -106,9 +106,9 @@ contains
             part = found%last(n)
             call find_first(d, lanes%peak(i), part, event)
          end if
-         if (present(grips) .and. found%last(n)*lanes%step(i) > shortest_motion*lanes%dt(i)) then
-            call grips(i)%heed(heeds)
-            if (heeds) call find_first_level(d, lanes%below(i), lanes%above(i), part, event)
+         if (present(restraints) .and. found%last(n)*lanes%step(i) > shortest_motion*lanes%dt(i)) then
+            call restraints(i)%looks_for_levels(looks)
+            if (looks) call find_first_level(d, lanes%below(i), lanes%above(i), part, event)
          end if
          ! A motion that begins where it turns does not turn there again: that is rounding, and would be found forever, since no
          ! time passes. It goes on a little instead.

@@ -10,7 +10,7 @@ module dondolo_motion_lane_history
    use dondolo_motion_history, only : history_type
    use dondolo_motion_lane_constants, only : lane_constants_type
    use dondolo_motion_lane_events, only : find_event, found_type
-   use dondolo_motion_lane_grip, only : lane_grip_type
+   use dondolo_motion_lane_restraints, only : lane_restraints_type
    use dondolo_motion_lane_ground, only : aim, limit_span, next_sample, stop_between
    use dondolo_motion_lane_state, only : event_possible, lane_width, lanes_type
    use dondolo_motion_normal_form, only : y_limit
@@ -49,7 +49,7 @@ module dondolo_motion_lane_history
       !> The history in each lane
       type(lane_history_type) :: history(lane_width)
       !> The ties in each lane; not allocated for a wall without
-      type(lane_grip_type), allocatable :: grips(:)
+      type(lane_restraints_type), allocatable :: restraints(:)
       !> Counts
       type(work_type) :: work
       !> The wall
@@ -86,7 +86,7 @@ contains
          lanes%v(i) = 0.0_wp
          lanes%last(i) = set%offset(history%record) + set%length(history%record)
          lanes%fifth_a(i) = constants%form%fifth_a
-         if (allocated(batch%grips)) call batch%grips(i)%begin(batch%mechanism, constants, lanes, i)
+         if (allocated(batch%restraints)) call batch%restraints(i)%begin(batch%mechanism, constants, lanes, i)
          if (associated(batch%trace)) call batch%trace%add(0.0_wp, &
             & history%scale*batch%records(history%record)%acceleration(1), 0.0_wp, 0.0_wp, history%side)
          call wait(batch, i, 1)
@@ -130,7 +130,7 @@ contains
       associate (lanes => batch%lanes, history => batch%history(i), constants => batch%constants)
          if (lanes%flag(i) >= event_possible) then
             call history%count_step(constants, interval_of(batch, i), lanes%dt(i))
-            call find_event(batch%found, n, lanes, batch%grips, part, event)
+            call find_event(batch%found, n, lanes, batch%restraints, part, event)
             h = part*lanes%step(i)
             if (event == no_event .and. .not. lanes%time(i) + h < lanes%dt(i)) then
                call next_sample(lanes, i, batch%set)
@@ -143,12 +143,12 @@ contains
             case (impact)
                call bounce(batch, i)
             case (level_above, level_below)
-               call batch%grips(i)%cross(constants, lanes, i, event, time_of(batch, i), h > shortest_motion*lanes%dt(i))
+               call batch%restraints(i)%cross(constants, lanes, i, event, time_of(batch, i), h > shortest_motion*lanes%dt(i))
             case (turning)
                lanes%v(i) = 0.0_wp
                ! Between two impacts it may turn below the peak.
                if (lanes%y(i) > lanes%peak(i)) call set_peak(batch, i)
-               if (allocated(batch%grips)) call batch%grips(i)%turn(constants, lanes, i)
+               if (allocated(batch%restraints)) call batch%restraints(i)%turn(constants, lanes, i)
                history%collapsed = .not. lanes%y(i) < y_limit
                history%over = history%collapsed
             case (limit_reached)
@@ -183,7 +183,7 @@ contains
          lanes%y(i) = 0.0_wp
          lanes%v(i) = min(lanes%v(i), 0.0_wp)
          if (associated(batch%trace)) call add_row(batch, i)
-         if (allocated(batch%grips)) call batch%grips(i)%strike(constants, lanes, i, history%rest)
+         if (allocated(batch%restraints)) call batch%restraints(i)%strike(constants, lanes, i, history%rest)
          call history%strike(history%rest, record, lanes%u(i), lanes%v(i), constants%form%unit, at_rest)
          if (associated(batch%trace)) call add_row(batch, i, after_impact=.true.)
          if (.not. at_rest) then
@@ -317,8 +317,8 @@ contains
             call history%end_rocking(record)
             if (history%collapsed .or. history%given_up) then
                continue
-            else if (allocated(batch%grips)) then
-               call batch%grips(i)%after_record(constants, lanes%y(i), lanes%v(i), record%duration(), tail)
+            else if (allocated(batch%restraints)) then
+               call batch%restraints(i)%after_record(constants, lanes%y(i), lanes%v(i), record%duration(), tail)
                call history%take_tail(tail, record)
             else
                call find_motion(batch, i, q, v)

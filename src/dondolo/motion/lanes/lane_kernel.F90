@@ -7,9 +7,9 @@
 module dondolo_motion_lane_kernel
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_base_kinds, only : wp
-   use dondolo_motion_lane_state, only : event_possible, lane_width, lanes_type, part_if_held, record_over, step_taken, &
+   use dondolo_motion_lane_state, only : event_possible, lane_width, lanes_type, part_if_restrained, record_over, step_taken, &
       & step_too_long, whole_vectors
-   use dondolo_motion_normal_form, only : degrees, harmonic_degrees, held_degrees, normal_form_type, y_limit
+   use dondolo_motion_normal_form, only : degrees, harmonic_degrees, restrained_degrees, normal_form_type, y_limit
    implicit none
    private
 
@@ -33,17 +33,17 @@ contains
       integer :: rounded
 
       rounded = whole_vectors(active)
-      if (form%is_held .and. form%is_shaken) then
-         if (form%degree == held_degrees(1)) then
-            call shaken_step_held_14(lanes, rounded, form, samples, verticals, rtol, atol)
+      if (form%is_restrained .and. form%is_shaken) then
+         if (form%degree == restrained_degrees(1)) then
+            call shaken_step_restrained_14(lanes, rounded, form, samples, verticals, rtol, atol)
          else
-            call shaken_step_held_22(lanes, rounded, form, samples, verticals, rtol, atol)
+            call shaken_step_restrained_22(lanes, rounded, form, samples, verticals, rtol, atol)
          end if
-      else if (form%is_held) then
-         if (form%degree == held_degrees(1)) then
-            call step_held_14(lanes, rounded, form, samples, rtol, atol)
+      else if (form%is_restrained) then
+         if (form%degree == restrained_degrees(1)) then
+            call step_restrained_14(lanes, rounded, form, samples, rtol, atol)
          else
-            call step_held_22(lanes, rounded, form, samples, rtol, atol)
+            call step_restrained_22(lanes, rounded, form, samples, rtol, atol)
          end if
       else if (form%is_harmonic .and. form%is_shaken) then
          if (form%degree == harmonic_degrees(1)) then
@@ -117,8 +117,8 @@ contains
 #include "lane_step.inc"
 #undef LANE_HARMONIC
 #undef LANE_KIND
-#define LANE_KIND step_held_
-#define LANE_HELD
+#define LANE_KIND step_restrained_
+#define LANE_RESTRAINED
 #define LANE_DEGREE 14
 #include "lane_step.inc"
 #define LANE_DEGREE 22

@@ -2,11 +2,11 @@
 module dondolo_motion_lane_state
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_base_kinds, only : wp
-   use dondolo_motion_normal_form, only : highest_held
+   use dondolo_motion_normal_form, only : highest_restrained
    implicit none
    private
 
-   public :: lanes_type, lane_width, part_if_held, vector_width, whole_vectors
+   public :: lanes_type, lane_width, part_if_restrained, vector_width, whole_vectors
    public :: step_taken, record_over, event_possible, step_too_long
 
    !> Most lanes: so many that those with an event in the same step fill a vector, and so few that all stay in the caches of
@@ -18,7 +18,7 @@ module dondolo_motion_lane_state
 
    !> Part of the last three terms of a step that counts as its error where ties hold the wall. It vibrates on them, and
    !> the first term that is left out is (w h)^3/504 of the first of these three, less than 1/4000 where w h < 1/2
-   real(wp), parameter :: part_if_held = 1.0e-2_wp
+   real(wp), parameter :: part_if_restrained = 1.0e-2_wp
 
    !> What becomes of a step: it is taken; it is taken, and the record is over; it is not taken, since something may
    !> happen in it, or since it is too long for the tolerance
@@ -51,7 +51,7 @@ module dondolo_motion_lane_state
       integer(int64) :: flag(lane_width) = step_taken
       !> Of walls with ties: coefficients of a with the forces that they have at present, the bound of its fifth derivative,
       !> and the nearest y above and below at which these forces change
-      real(wp) :: a(lane_width, 0:highest_held) = 0.0_wp, fifth_a(lane_width) = 0.0_wp
+      real(wp) :: a(lane_width, 0:highest_restrained) = 0.0_wp, fifth_a(lane_width) = 0.0_wp
       real(wp) :: above(lane_width) = huge(1.0_wp), below(lane_width) = 0.0_wp
    end type lanes_type
 

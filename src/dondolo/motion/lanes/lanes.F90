@@ -9,7 +9,7 @@ module dondolo_motion_lanes
    use dondolo_base_kinds, only : wp
    use dondolo_motion_lane_constants, only : lane_constants_type
    use dondolo_motion_lane_events, only : find_lane_events
-   use dondolo_motion_lane_grip, only : lane_grip_type
+   use dondolo_motion_lane_restraints, only : lane_restraints_type
    use dondolo_motion_lane_history, only : add_row, begin, begin_still, lane_batch_type, resolve
    use dondolo_motion_lane_kernel, only : step_lanes
    use dondolo_motion_lane_state, only : event_possible, lane_width, vector_width
@@ -51,7 +51,7 @@ contains
       batch%records => records
       batch%set => set
       batch%queue => queue
-      if (constants%form%is_held) allocate (batch%grips(lane_width))
+      if (constants%form%is_restrained) allocate (batch%restraints(lane_width))
       most = most_lanes(size(queue%record), omp_get_num_threads())
       do while (batch%active < most)
          if (.not. is_filled(batch%active + 1)) exit
@@ -149,7 +149,7 @@ contains
       type(record_type), target :: records(2)
       type(record_set_type), target :: set
       type(queue_type), target :: queue
-      type(lane_grip_type), allocatable :: grip
+      type(lane_restraints_type), allocatable :: kept
       integer(int64) :: next
 
       allocate (batch, source=empty)
@@ -164,24 +164,24 @@ contains
       batch%set => set
       batch%queue => queue
       batch%trace => trace
-      if (constants%form%is_held) allocate (batch%grips(lane_width))
+      if (constants%form%is_restrained) allocate (batch%restraints(lane_width))
       call begin(batch, 1, 1)
       batch%active = 1
       do while (.not. (batch%history(1)%over .or. trace%lacks_memory))
          ! At its end a history looks ahead with its ties; the trace goes on from how they are now.
-         if (allocated(batch%grips)) grip = batch%grips(1)
+         if (allocated(batch%restraints)) kept = batch%restraints(1)
          next = batch%lanes%next(1)
          call step(batch)
          ! Of a flagged lane it has been added.
          if (batch%lanes%flag(1) < event_possible .and. batch%lanes%next(1) > next) call add_row(batch, 1)
          if (.not. batch%history(1)%over .or. batch%history(1)%record /= 1) cycle
-         if (allocated(batch%grips)) call batch%grips(1)%responses(batch%history(1)%peak, trace%ties)
+         if (allocated(batch%restraints)) call batch%restraints(1)%responses(batch%history(1)%peak, trace%ties)
          if (.not. rocks_on()) cycle
-         if (allocated(grip)) batch%grips(1) = grip
+         if (allocated(kept)) batch%restraints(1) = kept
          call begin_still(batch, 1, 2)
       end do
       ! A wall that never moves has no step.
-      if (allocated(batch%grips) .and. .not. allocated(trace%ties)) call batch%grips(1)%responses(0.0_wp, trace%ties)
+      if (allocated(batch%restraints) .and. .not. allocated(trace%ties)) call batch%restraints(1)%responses(0.0_wp, trace%ties)
       trace%is_whole = queue%response(1)%is_whole
       call trace%trim_rows()
 
@@ -201,7 +201,7 @@ contains
       integer, intent(in) :: from, to
 
       batch%history(to) = batch%history(from)
-      if (allocated(batch%grips)) batch%grips(to) = batch%grips(from)
+      if (allocated(batch%restraints)) batch%restraints(to) = batch%restraints(from)
       associate (lanes => batch%lanes)
          lanes%y(to) = lanes%y(from)
          lanes%v(to) = lanes%v(from)

@@ -12,7 +12,7 @@
 !> and one branch-free loop serves every mechanism. Lengths are in halves of x at the limit, y = z + 1.
 !>
 !> Ties add -(force + stiffness D) D'/sqrt(J J(0)) to A, with constants that change in the course of a history: two more
-!> polynomials for each of them, from which `held` makes the A of the moment.
+!> polynomials for each of them, from which `restrained` makes the A of the moment.
 !>
 !> Those of one rigid body that turns about a fixed point are harmonic: e cos(w z) + f sin(w z), with w the rotation at
 !> z = 1 less that at z = 0. Two short polynomials in z^2 then serve all of them and all their derivatives.
@@ -25,7 +25,7 @@ module dondolo_motion_normal_form
    private
 
    public :: normal_form_type, new_normal_form
-   public :: degrees, highest_degree, harmonic_degrees, highest_harmonic, held_degrees, highest_held
+   public :: degrees, highest_degree, harmonic_degrees, highest_harmonic, restrained_degrees, highest_restrained
 
    !> Degrees of the polynomials to choose from: a slender block, most walls, stocky ones, walls that lift heavy masses
    integer, parameter :: degrees(6) = [8, 13, 15, 18, 22, 32]
@@ -36,8 +36,8 @@ module dondolo_motion_normal_form
    integer, parameter :: highest_harmonic = harmonic_degrees(2)
 
    !> Degrees of the polynomials of walls with ties
-   integer, parameter :: held_degrees(2) = [14, 22]
-   integer, parameter :: highest_held = held_degrees(2)
+   integer, parameter :: restrained_degrees(2) = [14, 22]
+   integer, parameter :: highest_restrained = restrained_degrees(2)
 
    !> Highest degree whose powers keep the rounding of the series that they are made of
    integer, parameter :: highest_full = degrees(5)
@@ -58,8 +58,8 @@ module dondolo_motion_normal_form
    type :: normal_form_type
       !> Do polynomials hold its terms to rounding? If not, the rest is undefined
       logical :: exists = .false.
-      !> Do ties hold the wall? Then a is that of the wall without them
-      logical :: is_held = .false.
+      !> Has the wall ties? Then a is that of the wall without them
+      logical :: is_restrained = .false.
       !> Are its terms harmonic?
       logical :: is_harmonic = .false.
       !> Degree of the polynomials: one of `harmonic_degrees`, else of `degrees`
@@ -90,8 +90,8 @@ module dondolo_motion_normal_form
       procedure :: rotation
       !> Coordinate y
       procedure :: coordinate
-      !> The polynomial a of a wall that ties hold
-      procedure :: held
+      !> The polynomial a with the forces of the ties
+      procedure :: restrained
       !> Bound of the fifth derivative
       procedure :: fifth
    end type normal_form_type
@@ -116,11 +116,12 @@ contains
       real(wp) :: series(0:nodes - 1), inertia, target
       integer :: i, iteration, needed, kept
 
-      ! Friction can hold a wall out, which the engine lanes does not know.
+      ! Friction can stop a wall at a rotation, which the engine lanes does not model.
       if (limit < least_limit*mechanism%capacity .or. mechanism%has_friction()) return
       allocate (wall, source=mechanism)
-      form%is_held = allocated(wall%restraints)
-      if (form%is_held) call wall%hold(spread(0.0_wp, 1, size(wall%restraints)), spread(0.0_wp, 1, size(wall%restraints)))
+      form%is_restrained = allocated(wall%restraints)
+      if (form%is_restrained) call wall%set_restraints(spread(0.0_wp, 1, size(wall%restraints)), &
+         & spread(0.0_wp, 1, size(wall%restraints)))
       if (present(is_shaken)) form%is_shaken = is_shaken
       form%limit = limit
       z = chebyshev_nodes(nodes)
@@ -150,11 +151,11 @@ contains
       a = a/form%unit
       b = b/form%unit
       d = d/form%unit
-      if (form%is_identity .and. .not. form%is_held) call find_harmonic_form(form, z, a, b, d)
+      if (form%is_identity .and. .not. form%is_restrained) call fit_harmonic_form(form, z, a, b, d)
       if (form%is_harmonic) return
       needed = max(degree_of(chebyshev_series(a)), degree_of(chebyshev_series(b)))
       if (form%is_shaken) needed = max(needed, degree_of(chebyshev_series(d)))
-      if (form%is_held) then
+      if (form%is_restrained) then
          call add_ties(form, wall, q, stretch*inertia, needed)
          if (.not. form%exists) return
       else
@@ -192,10 +193,10 @@ contains
          end associate
          needed = max(needed, degree_of(chebyshev_series(force(:, i))), degree_of(chebyshev_series(stiffness(:, i))))
       end do
-      form%exists = needed <= highest_held
+      form%exists = needed <= highest_restrained
       if (.not. form%exists) return
-      form%degree = minval(held_degrees, held_degrees >= needed)
-      allocate (form%by_force(0:highest_held, ties), form%by_stiffness(0:highest_held, ties))
+      form%degree = minval(restrained_degrees, restrained_degrees >= needed)
+      allocate (form%by_force(0:highest_restrained, ties), form%by_stiffness(0:highest_restrained, ties))
       allocate (form%fifth_by_force(ties), form%fifth_by_stiffness(ties))
       do i = 1, ties
          call expand(force(:, i), form%degree, form%by_force(:, i), form%fifth_by_force(i))
@@ -227,7 +228,7 @@ contains
    end subroutine sample
 
    !> The harmonic form, if it is one to rounding
-   pure subroutine find_harmonic_form(form, z, a, b, d)
+   pure subroutine fit_harmonic_form(form, z, a, b, d)
       !> The form; its unit is given
       type(normal_form_type), intent(inout) :: form
       !> Nodes, and the terms there
@@ -237,9 +238,9 @@ contains
       integer :: k, n
 
       associate (w => form%unit)
-         call find_amplitudes(w*z, a, form%even(1), form%odd(1), are_harmonic(1))
-         call find_amplitudes(w*z, b, form%even(2), form%odd(2), are_harmonic(2))
-         call find_amplitudes(w*z, d, form%even(3), form%odd(3), are_harmonic(3))
+         call fit_amplitudes(w*z, a, form%even(1), form%odd(1), are_harmonic(1))
+         call fit_amplitudes(w*z, b, form%even(2), form%odd(2), are_harmonic(2))
+         call fit_amplitudes(w*z, d, form%even(3), form%odd(3), are_harmonic(3))
          do k = size(harmonic_degrees), 1, -1
             n = harmonic_degrees(k)
             if (last_term(w, n) > rounding) exit
@@ -266,7 +267,7 @@ contains
          form%d(0:n:2) = form%even(3)*form%cosine(:n/2)
          form%d(1:n - 1:2) = form%odd(3)*form%sine(:n/2 - 1)
       end associate
-   end subroutine find_harmonic_form
+   end subroutine fit_harmonic_form
 
    !> What a sine loses by the degree n of the cosine beside it, relative to its value at 2 w: w^n/(2 (n + 1)!)
    pure real(wp) function last_term(w, n)
@@ -284,7 +285,7 @@ contains
    end function last_term
 
    !> Amplitudes of a harmonic function: at nodes that lie evenly about zero its two parts are orthogonal
-   pure subroutine find_amplitudes(angles, values, even, odd, is_harmonic)
+   pure subroutine fit_amplitudes(angles, values, even, odd, is_harmonic)
       !> Angles w z [rad], and the function there
       real(wp), intent(in) :: angles(:), values(:)
       !> Amplitudes of the cosine and of the sine
@@ -295,7 +296,7 @@ contains
       even = sum(values*cos(angles))/sum(cos(angles)**2)
       odd = sum(values*sin(angles))/sum(sin(angles)**2)
       is_harmonic = all(abs(even*cos(angles) + odd*sin(angles) - values) <= noise*maxval(abs(values)))
-   end subroutine find_amplitudes
+   end subroutine fit_amplitudes
 
    !> Degree beyond which a series is nothing but rounding
    pure integer function degree_of(series)
@@ -328,23 +329,23 @@ contains
       end do
    end subroutine expand
 
-   !> The polynomial a of a wall that ties hold
-   pure subroutine held(self, force, stiffness, a, fifth_a)
+   !> The polynomial a with the forces of the ties
+   pure subroutine restrained(self, force, stiffness, a, fifth_a)
       class(normal_form_type), intent(in) :: self
       !> Of each tie: T = force + stiffness D [N/m] and [N/m per m]
       real(wp), intent(in) :: force(:), stiffness(:)
       !> Coefficients of 1, z, z^2, ... [1/s2], and the bound of its fifth derivative / 5!
-      real(wp), intent(out) :: a(0:highest_held), fifth_a
+      real(wp), intent(out) :: a(0:highest_restrained), fifth_a
 
       integer :: i
 
-      a = self%a(:highest_held)
+      a = self%a(:highest_restrained)
       fifth_a = self%fifth_a
       do i = 1, size(force)
          a = a + (force(i)*self%by_force(:, i) + stiffness(i)*self%by_stiffness(:, i))
          fifth_a = fifth_a + abs(force(i))*self%fifth_by_force(i) + abs(stiffness(i))*self%fifth_by_stiffness(i)
       end do
-   end subroutine held
+   end subroutine restrained
 
    !> Bound of the fifth derivative of y''/5! by y [1/s2]
    elemental real(wp) function fifth(self, fifth_a, u, heavier)

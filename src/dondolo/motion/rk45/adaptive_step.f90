@@ -9,7 +9,7 @@ module dondolo_motion_adaptive_step
    use dondolo_motion_dormand_prince, only : angular_acceleration, dense_rotation, dormand_prince_step, excitation_type, &
       & is_beyond, state_type
    use dondolo_motion_events, only : find_event, find_level, impact, level_above, level_below, limit_reached, no_event, turning
-   use dondolo_motion_grip, only : grip_type
+   use dondolo_motion_restraint_state, only : restraint_state_type
    use dondolo_motion_history, only : history_type
    use dondolo_motion_step_limits, only : longest_step, shortest_motion, smallest_step
    use dondolo_motion_wall_constants, only : wall_constants_type
@@ -37,8 +37,8 @@ module dondolo_motion_adaptive_step
       real(wp) :: step = 0.0_wp
       !> Longest step from the last sample or event to the next [s]
       real(wp) :: longest = huge(1.0_wp)
-      !> How its ties hold the wall
-      type(grip_type) :: grip
+      !> State of its ties and friction
+      type(restraint_state_type) :: restraints
       !> Levels in a row that were reached without any time passing
       integer :: stalled = 0
       !> Does friction hold it where it is, and how often was it released in this sample interval?
@@ -99,8 +99,8 @@ contains
       if (h > shortest_motion*dt) then
          b = dense_rotation(h, start, next)
          call find_event(b, motion%peak, constants%limit, event, x)
-         if (motion%grip%exists .and. motion%stalled < most_stalled) then
-            call find_level(b, motion%grip%above, motion%grip%below, event, x)
+         if (motion%restraints%exists .and. motion%stalled < most_stalled) then
+            call find_level(b, motion%restraints%above, motion%restraints%below, event, x)
          end if
       end if
       if (event /= no_event) then
@@ -116,7 +116,8 @@ contains
       motion%q = next%q
       motion%v = next%v
       motion%f = next%f
-      if (motion%grip%exists) motion%stalled = merge(motion%stalled + 1, 0, event >= level_above .and. h <= shortest_motion*dt)
+      if (motion%restraints%exists) motion%stalled = merge(motion%stalled + 1, 0, &
+         & event >= level_above .and. h <= shortest_motion*dt)
       if (event /= no_event) motion%longest = longest_step(constants%solver%steps_per_sample, dt, motion%time)
    end subroutine advance
 
@@ -182,8 +183,8 @@ contains
       integer :: i
 
       level = limit
-      if (event == level_above) level = motion%grip%above
-      if (event == level_below) level = motion%grip%below
+      if (event == level_above) level = motion%restraints%above
+      if (event == level_below) level = motion%restraints%below
       start = state_type(motion%q, motion%v, motion%f)
       whole = next
       whole_step = h

@@ -9,8 +9,8 @@ module dondolo_motion_rk45
    use dondolo_motion_adaptive_step, only : advance, motion_type
    use dondolo_motion_dormand_prince, only : angular_acceleration, excitation_type
    use dondolo_motion_events, only : impact, level_above, level_below, limit_reached, no_event, turning
-   use dondolo_motion_grip, only : grip_type
-   use dondolo_motion_held_tail, only : held_motion
+   use dondolo_motion_restraint_state, only : restraint_state_type
+   use dondolo_motion_restrained_tail, only : restrained_motion
    use dondolo_motion_history, only : starting_acceleration
    use dondolo_motion_response, only : intervals_after, response_type, trace_type
    use dondolo_motion_rest, only : new_rest
@@ -61,7 +61,7 @@ contains
       last = size(record%acceleration) - 1
       if (present(release)) motion%q = release
       motion%peak = motion%q
-      call motion%grip%begin(wall, motion%q)
+      call motion%restraints%begin(wall, motion%q)
       if (present(trace)) call add_row(motion, record, trace)
 
       ending = merge(record_over, at_rest, motion%q > 0.0_wp)
@@ -78,7 +78,7 @@ contains
       end do
 
       motion%collapsed = ending == collapsed
-      if (motion%grip%exists) then
+      if (motion%restraints%exists) then
          call finish_ties(wall, constants, record, ending == record_over, motion, trace)
       else if (ending == record_over) then
          call motion%add_free_motion(wall, record, constants%limit, motion%q, motion%v)
@@ -145,17 +145,17 @@ contains
       type(trace_type), intent(inout), optional :: trace
 
       class(mechanism_type), allocatable :: after
-      type(grip_type) :: grip
+      type(restraint_state_type) :: restraints
       type(tail_type) :: tail
 
       ! Copies: a trace goes on from the end of the record.
-      grip = motion%grip
+      restraints = motion%restraints
       if (still_rocks) then
          allocate (after, source=wall)
-         call held_motion(after, grip, constants%limit, motion%q, motion%v, record%duration(), tail)
+         call restrained_motion(after, restraints, constants%limit, motion%q, motion%v, record%duration(), tail)
          call motion%take_tail(tail, record)
       end if
-      if (present(trace)) call grip%responses(wall, motion%peak, trace%ties)
+      if (present(trace)) call restraints%responses(wall, motion%peak, trace%ties)
    end subroutine finish_ties
 
    !> Rocking, until rest, collapse, or the end of the last interval
@@ -207,7 +207,7 @@ contains
             if (present(trace)) call add_row(motion, record, trace)
          case default
             if (motion%q > motion%peak) call set_peak(motion, record)
-            if (motion%grip%exists) call change_ties(wall, record, event, motion)
+            if (motion%restraints%exists) call change_ties(wall, record, event, motion)
             if (every_step .and. .not. sample_reached) call add_row(motion, record, trace)
          end select
          if (sample_reached) then
@@ -230,13 +230,13 @@ contains
 
       select case (event)
       case (level_above, level_below)
-         call motion%grip%cross(wall, motion%q, event == level_above, time_of(motion, record))
+         call motion%restraints%cross(wall, motion%q, event == level_above, time_of(motion, record))
          ! A motion outwards that ends just there goes back without what flows.
-         if (motion%grip%flows .and. motion%v < 0.0_wp) call motion%grip%turn(wall, motion%peak)
+         if (motion%restraints%flows .and. motion%v < 0.0_wp) call motion%restraints%turn(wall, motion%peak)
       case default
          ! A tie flows outwards only; rounding may end such a motion unseen.
-         if (.not. (event == turning .or. (motion%grip%flows .and. motion%v < 0.0_wp))) return
-         call motion%grip%turn(wall, motion%peak)
+         if (.not. (event == turning .or. (motion%restraints%flows .and. motion%v < 0.0_wp))) return
+         call motion%restraints%turn(wall, motion%peak)
          ! Not where a motion inwards has ended: it goes on outwards until it is where friction has not been overcome before.
          if (event == turning .and. .not. motion%f > 0.0_wp .and. wall%has_friction()) call look_for_stick(wall, motion)
       end select
@@ -320,7 +320,7 @@ contains
 
       motion%v = min(motion%v, 0.0_wp)
       if (present(trace)) call add_row(motion, record, trace)
-      if (motion%grip%exists) call strike_ties(wall, constants, motion)
+      if (motion%restraints%exists) call strike_ties(wall, constants, motion)
       v = motion%v
       call motion%strike(constants%rest, record, motion%excitation%start + motion%excitation%slope*motion%time, v, &
          & 1.0_wp, rests)
@@ -344,9 +344,9 @@ contains
 
       logical :: changed
 
-      if (motion%grip%flows) call motion%grip%turn(wall, motion%peak)
-      changed = motion%grip%changed
-      call motion%grip%strike(wall)
+      if (motion%restraints%flows) call motion%restraints%turn(wall, motion%peak)
+      changed = motion%restraints%changed
+      call motion%restraints%strike(wall)
       if (changed) constants%rest = new_rest(wall)
    end subroutine strike_ties
 

@@ -1,4 +1,4 @@
-!> A wall that friction holds where its motion outwards has ended.
+!> A wall that sticks: friction stops it where its motion outwards has ended.
 !>
 !> There the ground pushes it outwards, but by less than the friction that a further motion would wake. At a rotation that does
 !> not change both accelerations, without and with that friction, are linear between two samples, so that the instant at which
@@ -16,23 +16,23 @@ module dondolo_motion_stick
 
 contains
 
-   !> See whether friction holds the wall where its motion outwards has just ended
+   !> Set whether friction stops the wall where its motion outwards has just ended
    pure subroutine look_for_stick(wall, motion)
-      !> The wall, its friction asleep; awake if it goes on
+      !> The wall without friction; with it if the motion outwards goes on
       class(mechanism_type), intent(inout) :: wall
       !> The motion: at its peak, without velocity
       type(motion_type), intent(inout) :: motion
 
-      real(wp) :: free, rubbing
+      real(wp) :: free, resisted
 
-      call both(wall, motion, motion%time, free, rubbing)
-      motion%sticks = free > 0.0_wp .and. rubbing < free
+      call both(wall, motion, motion%time, free, resisted)
+      motion%sticks = free > 0.0_wp .and. resisted < free
       if (motion%sticks) motion%q = motion%peak
    end subroutine look_for_stick
 
    !> Stay until the wall is released, or to the next sample
    pure subroutine stay(wall, steps_per_sample, dt, motion, sample_reached)
-      !> The wall, its friction asleep; awake if it goes on
+      !> The wall without friction; with it if the motion outwards goes on
       class(mechanism_type), intent(inout) :: wall
       !> Least number of steps from a sample to the next
       integer, intent(in) :: steps_per_sample
@@ -42,13 +42,13 @@ contains
       !> Does it stay to the next sample?
       logical, intent(out) :: sample_reached
 
-      real(wp) :: free(2), rubbing(2), back, on, now
+      real(wp) :: free(2), resisted(2), back, on, now
 
       now = motion%time
-      call both(wall, motion, now, free(1), rubbing(1))
-      call both(wall, motion, dt, free(2), rubbing(2))
+      call both(wall, motion, now, free(1), resisted(1))
+      call both(wall, motion, dt, free(2), resisted(2))
       back = crossing(-free)
-      on = crossing(rubbing)
+      on = crossing(resisted)
       ! Rounding may undo a release at once.
       sample_reached = motion%released > most_stalled .or. .not. min(back, on) < dt
       if (sample_reached) then
@@ -58,7 +58,7 @@ contains
       motion%time = min(back, on)
       motion%released = motion%released + 1
       motion%sticks = .false.
-      if (on < back) call motion%grip%cross(wall, motion%q, .true., 0.0_wp)
+      if (on < back) call motion%restraints%cross(wall, motion%q, .true., 0.0_wp)
       motion%f = angular_acceleration(wall, motion%excitation, motion%time, motion%q, 0.0_wp)
       if (on < back) then
          motion%f = max(0.0_wp, motion%f)
@@ -85,19 +85,19 @@ contains
    end subroutine stay
 
    !> Accelerations of the wall without velocity at its peak: without friction, and with that of a motion outwards
-   pure subroutine both(wall, motion, time, free, rubbing)
+   pure subroutine both(wall, motion, time, free, resisted)
       !> The wall: as it is without friction
       class(mechanism_type), intent(inout) :: wall
       type(motion_type), intent(inout) :: motion
       !> Time since the last sample [s]
       real(wp), intent(in) :: time
       !> Accelerations [rad/s2]
-      real(wp), intent(out) :: free, rubbing
+      real(wp), intent(out) :: free, resisted
 
       free = angular_acceleration(wall, motion%excitation, time, motion%peak, 0.0_wp)
-      call motion%grip%cross(wall, motion%peak, .true., 0.0_wp)
-      rubbing = angular_acceleration(wall, motion%excitation, time, motion%peak, 0.0_wp)
-      call motion%grip%turn(wall, motion%peak)
+      call motion%restraints%cross(wall, motion%peak, .true., 0.0_wp)
+      resisted = angular_acceleration(wall, motion%excitation, time, motion%peak, 0.0_wp)
+      call motion%restraints%turn(wall, motion%peak)
    end subroutine both
 
 end module dondolo_motion_stick

@@ -10,10 +10,10 @@ module dondolo_record_column_text
    implicit none
    private
 
-   public :: look_at_columns, make_plain, oddities_type
+   public :: look_at_columns, make_plain, irregularities_type
 
    !> What is not plain
-   type :: oddities_type
+   type :: irregularities_type
       !> Lines without rows of empty cells at the end
       integer :: lines = 0
       !> Lines that are dropped at the end
@@ -27,13 +27,13 @@ module dondolo_record_column_text
    contains
       !> Is there anything?
       procedure :: any => any_oddity
-   end type oddities_type
+   end type irregularities_type
 
 contains
 
    !> Is there anything that is not plain?
    pure logical function any_oddity(self)
-      class(oddities_type), intent(in) :: self
+      class(irregularities_type), intent(in) :: self
 
       any_oddity = self%has_empty_rows .or. self%has_commas .or. self%has_quotes .or. self%has_separator_line
    end function any_oddity
@@ -41,7 +41,7 @@ contains
    !> Find out what is not plain in a text
    subroutine look_at_columns(text, odd)
       type(text_file_type), intent(in) :: text
-      type(oddities_type), intent(out) :: odd
+      type(irregularities_type), intent(out) :: odd
 
       character(len=:), allocatable :: line
       integer :: begin, lines
@@ -71,7 +71,7 @@ contains
    subroutine make_plain(text, odd, plain)
       type(text_file_type), intent(in) :: text
       !> What is not plain in it; commas in quotes are added
-      type(oddities_type), intent(inout) :: odd
+      type(irregularities_type), intent(inout) :: odd
       !> The same made plain
       type(text_file_type), intent(out) :: plain
 

@@ -17,7 +17,7 @@ module dondolo_record_format_columns
    use dondolo_record_column_cells, only : find_cells, first_value_line, most_cells, separator_of
    use dondolo_record_column_counts, only : are_names, check_count, drop_row, has_count_line, take_count_line
    use dondolo_record_column_roles, only : find_roles, roles_type, table_type
-   use dondolo_record_column_text, only : look_at_columns, make_plain, oddities_type
+   use dondolo_record_column_text, only : look_at_columns, make_plain, irregularities_type
    use dondolo_record_column_titles, only : is_other_quantity
    use dondolo_record_column_top, only : read_top, top_type
    use dondolo_record_format, only : raise_at, samples_type
@@ -39,7 +39,7 @@ contains
       type(text_file_type), intent(in) :: text
 
       type(text_file_type) :: plain
-      type(oddities_type) :: odd
+      type(irregularities_type) :: odd
 
       call look_at_columns(text, odd)
       if (odd%any()) then
@@ -87,7 +87,7 @@ contains
       real(wp), intent(in), optional :: dt
 
       type(text_file_type) :: plain
-      type(oddities_type) :: odd
+      type(irregularities_type) :: odd
 
       call look_at_columns(text, odd)
       if (.not. odd%any()) then

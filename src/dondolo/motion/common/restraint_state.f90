@@ -1,20 +1,20 @@
-!> How the ties of a wall hold it in the course of a history.
+!> The state of the ties and of the friction of a wall in the course of a history.
 !>
-!> In each mode of its ties the motion is smooth. Modes change only at rotations that are known beforehand, levels, and where
-!> a motion outwards ends; what the ties remember is the largest rotation at which one did (docs/theory.md, section 4).
-!> Friction is one of them, which flows whenever the wall goes where it has not been.
-module dondolo_motion_grip
+!> Each is in a mode, in which the motion is smooth. Modes change only at rotations that are known beforehand, called levels, and
+!> where a motion outwards ends; what remains in them of the past is the largest rotation at which one did (docs/theory.md,
+!> section 4). Friction flows whenever the wall goes where it has not been.
+module dondolo_motion_restraint_state
    use dondolo_base_kinds, only : wp
    use dondolo_motion_response, only : never, tie_response_type
    use dondolo_wall_mechanism, only : mechanism_type
-   use dondolo_wall_tie, only : broken, elastic, flowing, slack, tie_type
+   use dondolo_wall_restraint, only : broken, elastic, flowing, slack, restraint_type
    implicit none
    private
 
-   public :: grip_type
+   public :: restraint_state_type
 
-   !> The ties of a wall at present
-   type :: grip_type
+   !> Ties and friction of a wall at present
+   type :: restraint_state_type
       !> Are there any?
       logical :: exists = .false.
       !> Does one of them flow?
@@ -29,7 +29,7 @@ module dondolo_motion_grip
       real(wp), private :: reached = 0.0_wp
       !> Mode, plastic elongation [m], rotation below which it is slack [rad] and times of yield and fracture [s] of each
       integer, allocatable, private :: mode(:)
-      real(wp), allocatable, private :: set(:), slack_below(:), time_of_yield(:), time_of_fracture(:)
+      real(wp), allocatable, private :: plastic_elongation(:), slack_below(:), time_of_yield(:), time_of_fracture(:)
    contains
       !> The start of a history
       procedure :: begin
@@ -41,14 +41,14 @@ module dondolo_motion_grip
       procedure :: strike
       !> What the history did to the ties
       procedure :: responses
-      procedure, private :: take_hold
-   end type grip_type
+      procedure, private :: update
+   end type restraint_state_type
 
 contains
 
    !> Begin a history: the wall is at rest, or was taken to a rotation
    pure subroutine begin(self, wall, q)
-      class(grip_type), intent(inout) :: self
+      class(restraint_state_type), intent(inout) :: self
       !> The wall; its ties get the forces that they have
       class(mechanism_type), intent(inout) :: wall
       !> Rotation, also the largest so far [rad]
@@ -61,7 +61,7 @@ contains
       ties = size(wall%restraints)
       allocate (self%mode(ties))
       self%mode = merge(flowing, elastic, wall%restraints%is_friction)
-      allocate (self%force(ties), self%stiffness(ties), self%set(ties), self%slack_below(ties), source=0.0_wp)
+      allocate (self%force(ties), self%stiffness(ties), self%plastic_elongation(ties), self%slack_below(ties), source=0.0_wp)
       allocate (self%time_of_yield(ties), self%time_of_fracture(ties), source=never)
       if (q > 0.0_wp) call self%cross(wall, q, .true., 0.0_wp)
       call self%turn(wall, q)
@@ -69,7 +69,7 @@ contains
 
    !> Cross a level
    pure subroutine cross(self, wall, q, outwards, time)
-      class(grip_type), intent(inout) :: self
+      class(restraint_state_type), intent(inout) :: self
       !> The wall; its ties get the forces that they have from now on
       class(mechanism_type), intent(inout) :: wall
       !> Rotation [rad]
@@ -94,18 +94,18 @@ contains
             end if
             if (self%mode(i) == flowing .and. q >= tie%fracture) then
                self%mode(i) = broken
-               self%set(i) = tie%set(q)
+               self%plastic_elongation(i) = tie%plastic_elongation(q)
                self%time_of_fracture(i) = time
                self%changed = .true.
             end if
          end associate
       end do
-      call self%take_hold(wall)
+      call self%update(wall)
    end subroutine cross
 
    !> End a motion outwards
    pure subroutine turn(self, wall, q)
-      class(grip_type), intent(inout) :: self
+      class(restraint_state_type), intent(inout) :: self
       !> The wall; its ties get the forces that they have from now on
       class(mechanism_type), intent(inout) :: wall
       !> Rotation [rad]
@@ -117,34 +117,34 @@ contains
       do i = 1, size(self%mode)
          if (self%mode(i) /= flowing) cycle
          if (wall%restraints(i)%is_friction) then
-            ! A wall that has not moved at all is still held.
+            ! As long as the wall has not moved at all friction acts in full.
             if (.not. self%reached > 0.0_wp) cycle
             self%mode(i) = slack
             self%slack_below(i) = self%reached
          else
             self%mode(i) = elastic
-            self%set(i) = wall%restraints(i)%set(q)
-            self%slack_below(i) = wall%restraints(i)%slack_below(self%set(i))
+            self%plastic_elongation(i) = wall%restraints(i)%plastic_elongation(q)
+            self%slack_below(i) = wall%restraints(i)%slack_below(self%plastic_elongation(i))
          end if
          self%changed = .true.
       end do
-      call self%take_hold(wall)
+      call self%update(wall)
    end subroutine turn
 
    !> Strike the base, with the forces that the ties have there
    pure subroutine strike(self, wall)
-      class(grip_type), intent(inout) :: self
+      class(restraint_state_type), intent(inout) :: self
       !> The wall; its ties get these forces
       class(mechanism_type), intent(inout) :: wall
 
       where (self%mode == elastic .and. self%slack_below > 0.0_wp) self%mode = slack
       self%changed = .false.
-      call self%take_hold(wall)
+      call self%update(wall)
    end subroutine strike
 
    !> What a history that is over did to the ties
    pure subroutine responses(self, wall, peak, response)
-      class(grip_type), intent(in) :: self
+      class(restraint_state_type), intent(in) :: self
       class(mechanism_type), intent(in) :: wall
       !> Largest rotation [rad]
       real(wp), intent(in) :: peak
@@ -153,7 +153,7 @@ contains
 
       allocate (response(wall%ties))
       associate (ties => wall%restraints(:wall%ties))
-         response%plastic_elongation = ties%set(peak)
+         response%plastic_elongation = ties%plastic_elongation(peak)
          response%energy = ties%strength*response%plastic_elongation
          response%broken = peak >= ties%fracture
          response%time_of_yield = self%time_of_yield(:wall%ties)
@@ -163,21 +163,21 @@ contains
 
    !> Rotation at which an elastic tie yields [rad]
    pure real(wp) function yields_at(self, tie)
-      type(grip_type), intent(in) :: self
-      type(tie_type), intent(in) :: tie
+      type(restraint_state_type), intent(in) :: self
+      type(restraint_type), intent(in) :: tie
 
       yields_at = max(tie%yield, self%reached)
    end function yields_at
 
-   !> Give the wall the forces of its ties, and find the levels that come next
-   pure subroutine take_hold(self, wall)
-      class(grip_type), intent(inout) :: self
+   !> Give the wall the forces of its ties and of friction, and find the levels that come next
+   pure subroutine update(self, wall)
+      class(restraint_state_type), intent(inout) :: self
       class(mechanism_type), intent(inout) :: wall
 
       integer :: i
 
-      call wall%restraints%pull(self%mode, self%set, self%force, self%stiffness)
-      call wall%hold(self%force, self%stiffness)
+      call wall%restraints%linear_force(self%mode, self%plastic_elongation, self%force, self%stiffness)
+      call wall%set_restraints(self%force, self%stiffness)
       self%flows = any(self%mode == flowing)
       self%above = huge(self%above)
       self%below = -huge(self%below)
@@ -192,6 +192,6 @@ contains
             self%above = min(self%above, self%slack_below(i))
          end select
       end do
-   end subroutine take_hold
+   end subroutine update
 
-end module dondolo_motion_grip
+end module dondolo_motion_restraint_state

@@ -1,20 +1,22 @@
-!> A tie that holds a wall back: linear up to its yield force, then plastic up to a strain at which it breaks. It cannot push.
+!> A restraint: a force that holds a wall back, and depends on its present rotation and on the largest one so far.
 !>
-!> Its elongation D(q) only grows with the rotation, and it yields only in tension, thus only at a new largest D: its plastic
-!> set and whether it is broken follow from the largest rotation so far, q_m, alone (docs/theory.md, section 2). So does what
-!> is left of friction that resists only a motion to new rotations: it is a tie that flows from the start, with a force that
-!> falls, and is slack on every way back.
-module dondolo_wall_tie
+!> A tie is linear up to its yield force, then plastic up to a strain at which it breaks. It cannot push. Its elongation D(q)
+!> only grows with the rotation, and it yields only in tension, thus only at a new largest D: its plastic elongation and whether
+!> it is broken follow from the largest rotation so far, q_m, alone (docs/theory.md, section 2).
+!>
+!> Friction that resists only a motion to new rotations is the same with other numbers: a tie that flows from the start, with a
+!> force that falls with D, and is slack on every way back. So one type is enough for both, and arrays of it are elemental.
+module dondolo_wall_restraint
    use dondolo_base_kinds, only : wp
    use dondolo_wall_travel, only : rotation_after, travel
    implicit none
    private
 
-   public :: tie_type, tie_input_type, new_friction, new_tie
+   public :: restraint_type, tie_input_type, new_friction, new_tie
    public :: elastic, flowing, slack, broken
 
-   !> Modes of a tie, in each of which its force is smooth: T_0 + k (D - D_p), F_y (of friction less with D), none for the time
-   !> being, none any more
+   !> Modes, in each of which the force is smooth: T_0 + k (D - D_p); F_y, for friction F_y (1 - D/D_u); none until the wall is
+   !> back at a larger rotation; none for good
    integer, parameter :: elastic = 1, flowing = 2, slack = 3, broken = 4
 
    !> A tie as a user describes it
@@ -31,8 +33,8 @@ module dondolo_wall_tie
       real(wp) :: anchor_force = huge(1.0_wp)
    end type tie_input_type
 
-   !> A tie, all per metre of wall
-   type :: tie_type
+   !> A tie or friction, all per metre of wall
+   type :: restraint_type
       !> Anchor from the hinge, and radius of the edge that the wall rolls on [m]
       real(wp) :: e = 0.0_wp, f = 0.0_wp, edge = 0.0_wp
       !> Stiffness k [N/m per m], force at rest T_0 and largest force F_y [N/m]
@@ -45,12 +47,12 @@ module dondolo_wall_tie
       logical :: is_friction = .false.
    contains
       !> Plastic elongation D_p
-      procedure :: set
+      procedure :: plastic_elongation
       !> Rotation below which it is slack
       procedure :: slack_below
       !> Force as a constant and a stiffness
-      procedure :: pull
-   end type tie_type
+      procedure :: linear_force
+   end type restraint_type
 
 contains
 
@@ -60,7 +62,7 @@ contains
       type(tie_input_type), intent(in) :: input
       !> Depth of the hinge, and radius of the edge [m]
       real(wp), intent(in) :: hinge, edge
-      type(tie_type) :: tie
+      type(restraint_type) :: tie
 
       tie%e = input%depth - hinge
       tie%f = input%height - edge
@@ -84,7 +86,7 @@ contains
       real(wp), intent(in) :: force, travelled
       !> Depth of the hinge, and radius of the edge [m]
       real(wp), intent(in) :: hinge, edge
-      type(tie_type) :: tie
+      type(restraint_type) :: tie
 
       tie%is_friction = .true.
       tie%e = depth - hinge
@@ -99,39 +101,39 @@ contains
    end function new_friction
 
    !> Plastic elongation D_p after a largest rotation; of a broken tie that at which it broke [m]
-   elemental real(wp) function set(self, largest)
-      class(tie_type), intent(in) :: self
+   elemental real(wp) function plastic_elongation(self, largest)
+      class(restraint_type), intent(in) :: self
       !> Largest rotation so far q_m [rad]
       real(wp), intent(in) :: largest
 
-      set = 0.0_wp
+      plastic_elongation = 0.0_wp
       if (largest >= self%fracture) then
-         set = self%fracture_travel - self%yield_travel
+         plastic_elongation = self%fracture_travel - self%yield_travel
       else if (largest > self%yield) then
-         set = max(0.0_wp, travel(self%edge, self%e, self%f, largest) - self%yield_travel)
+         plastic_elongation = max(0.0_wp, travel(self%edge, self%e, self%f, largest) - self%yield_travel)
       end if
-   end function set
+   end function plastic_elongation
 
    !> Rotation below which it is slack, 0 if it never is [rad]
-   elemental real(wp) function slack_below(self, set)
-      class(tie_type), intent(in) :: self
+   elemental real(wp) function slack_below(self, plastic_elongation)
+      class(restraint_type), intent(in) :: self
       !> Plastic elongation D_p [m]
-      real(wp), intent(in) :: set
+      real(wp), intent(in) :: plastic_elongation
 
       real(wp) :: distance
 
-      distance = set - self%preload/self%stiffness
+      distance = plastic_elongation - self%preload/self%stiffness
       slack_below = 0.0_wp
       if (distance > 0.0_wp) slack_below = rotation_after(self%edge, self%e, self%f, distance)
    end function slack_below
 
    !> Its force as a constant and a stiffness: T = force + stiffness D
-   elemental subroutine pull(self, mode, set, force, stiffness)
-      class(tie_type), intent(in) :: self
+   elemental subroutine linear_force(self, mode, plastic_elongation, force, stiffness)
+      class(restraint_type), intent(in) :: self
       !> One of the modes
       integer, intent(in) :: mode
       !> Plastic elongation D_p [m]
-      real(wp), intent(in) :: set
+      real(wp), intent(in) :: plastic_elongation
       !> Constant part [N/m] and stiffness [N/m per m]
       real(wp), intent(out) :: force, stiffness
 
@@ -139,12 +141,12 @@ contains
       stiffness = 0.0_wp
       select case (mode)
       case (elastic)
-         force = self%preload - self%stiffness*set
+         force = self%preload - self%stiffness*plastic_elongation
          stiffness = self%stiffness
       case (flowing)
          force = self%strength
          if (self%is_friction) stiffness = -self%strength/self%fracture_travel
       end select
-   end subroutine pull
+   end subroutine linear_force
 
-end module dondolo_wall_tie
+end module dondolo_wall_restraint

@@ -3,16 +3,16 @@
 !> Between two levels of the ties E = 1/2 J q'^2 + V is constant, with the potential of the forces that they have there. A
 !> motion outwards that ends is followed by lower ones only, since ties give back at most what they took (docs/theory.md,
 !> section 4).
-module dondolo_motion_held_tail
+module dondolo_motion_restrained_tail
    use dondolo_base_bracket, only : bracket_type
    use dondolo_base_kinds, only : wp
-   use dondolo_motion_grip, only : grip_type
+   use dondolo_motion_restraint_state, only : restraint_state_type
    use dondolo_motion_tail, only : inertia, tail_type, time_between, turning_rotation, way_to_turn, work_between
    use dondolo_wall_mechanism, only : mechanism_type
    implicit none
    private
 
-   public :: held_motion
+   public :: restrained_motion
 
    !> Parts of the way between two levels in which a change of sign of the moment is looked for
    integer, parameter :: parts = 64
@@ -20,10 +20,10 @@ module dondolo_motion_held_tail
 contains
 
    !> The largest rotation after the end of the record
-   pure subroutine held_motion(wall, grip, limit, q, v, start, tail)
+   pure subroutine restrained_motion(wall, restraints, limit, q, v, start, tail)
       !> The wall; its ties change
       class(mechanism_type), intent(inout) :: wall
-      type(grip_type), intent(inout) :: grip
+      type(restraint_state_type), intent(inout) :: restraints
       !> Rotation that counts as collapse [rad]
       real(wp), intent(in) :: limit
       !> Rotation at the end of the record, less than the limit [rad]
@@ -37,20 +37,20 @@ contains
       real(wp) :: at, goal, kinetic, lively
       logical :: outwards, has_struck, turns
 
-      if (grip%flows .and. .not. v > 0.0_wp) call grip%turn(wall, q)
+      if (restraints%flows .and. .not. v > 0.0_wp) call restraints%turn(wall, q)
       at = q
       kinetic = 0.5_wp*inertia(wall, q)*v**2
       lively = kinetic
       outwards = v > 0.0_wp .or. (.not. v < 0.0_wp .and. wall%moment(q) < 0.0_wp)
       has_struck = .false.
       do
-         goal = max(0.0_wp, grip%below)
-         if (outwards) goal = min(limit, grip%above)
+         goal = max(0.0_wp, restraints%below)
+         if (outwards) goal = min(limit, restraints%above)
          call go(wall, goal, at, kinetic, lively, tail%delay, turns)
          if (turns .and. .not. outwards) then
             outwards = .true.
          else if (turns) then
-            call grip%turn(wall, at)
+            call restraints%turn(wall, at)
             tail%peak = at
             return
          else if (outwards .and. at >= limit) then
@@ -58,17 +58,17 @@ contains
             tail%collapsed = .true.
             return
          else if (outwards .or. at > 0.0_wp) then
-            call grip%cross(wall, at, outwards, start + tail%delay)
+            call restraints%cross(wall, at, outwards, start + tail%delay)
          else
             kinetic = wall%restitution**2*kinetic
             lively = wall%restitution**2*lively
             if (has_struck .or. .not. kinetic > 0.0_wp) return
             has_struck = .true.
             outwards = .true.
-            call grip%strike(wall)
+            call restraints%strike(wall)
          end if
       end do
-   end subroutine held_motion
+   end subroutine restrained_motion
 
    !> Go to a rotation, or to where the motion turns before it
    pure subroutine go(wall, goal, at, kinetic, lively, time, turns)
@@ -138,4 +138,4 @@ contains
       q = bracket%middle()
    end function balance
 
-end module dondolo_motion_held_tail
+end module dondolo_motion_restrained_tail

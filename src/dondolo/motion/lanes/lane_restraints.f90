@@ -1,15 +1,15 @@
-!> The ties of a wall in a lane of the engine lanes: their modes, and the lane's coefficients that follow from them.
+!> Ties and friction of a wall in a lane of the engine lanes: their modes, and the lane's coefficients that follow from them.
 !>
-!> What the ties do is decided by the rules that all engines share (dondolo_motion_grip). Here their levels become values of y, and
-!> their forces the polynomial a of the lane (dondolo_motion_normal_form).
-module dondolo_motion_lane_grip
+!> All engines share the rules by which modes change (dondolo_motion_restraint_state). Here the rotations at which they do become
+!> values of y, and the forces the polynomial a of the lane (dondolo_motion_normal_form).
+module dondolo_motion_lane_restraints
    use dondolo_base_kinds, only : wp
    use dondolo_motion_events, only : level_above
-   use dondolo_motion_grip, only : grip_type
-   use dondolo_motion_held_tail, only : held_motion
+   use dondolo_motion_restraint_state, only : restraint_state_type
+   use dondolo_motion_restrained_tail, only : restrained_motion
    use dondolo_motion_lane_constants, only : lane_constants_type
    use dondolo_motion_lane_state, only : lanes_type
-   use dondolo_motion_normal_form, only : highest_held
+   use dondolo_motion_normal_form, only : highest_restrained
    use dondolo_motion_response, only : tie_response_type
    use dondolo_motion_rest, only : new_rest, rest_type
    use dondolo_motion_tail, only : tail_type
@@ -17,21 +17,21 @@ module dondolo_motion_lane_grip
    implicit none
    private
 
-   public :: lane_grip_type
+   public :: lane_restraints_type
 
    !> The ties of a wall in one lane
-   type :: lane_grip_type
+   type :: lane_restraints_type
       !> The wall, with the forces that its ties have at present
       class(mechanism_type), allocatable, private :: wall
       !> Their modes
-      type(grip_type), private :: grip
+      type(restraint_state_type), private :: state
       !> Levels in a row that were reached without any time passing
       integer, private :: stalled = 0
    contains
       !> The start of a history
       procedure :: begin
       !> Are levels looked for?
-      procedure :: heed
+      procedure :: looks_for_levels
       !> A level is crossed
       procedure :: cross
       !> A motion outwards ends
@@ -42,8 +42,8 @@ module dondolo_motion_lane_grip
       procedure :: after_record
       !> What the history has done to the ties
       procedure :: responses
-      procedure, private :: take_hold
-   end type lane_grip_type
+      procedure, private :: update
+   end type lane_restraints_type
 
    !> Levels in a row, none of which took time, after which a step goes on without them
    integer, parameter :: most_stalled = 8
@@ -52,7 +52,7 @@ contains
 
    !> Begin a history, at rest
    pure subroutine begin(self, mechanism, constants, lanes, i)
-      class(lane_grip_type), intent(inout) :: self
+      class(lane_restraints_type), intent(inout) :: self
       !> The wall as built
       class(mechanism_type), intent(in) :: mechanism
       type(lane_constants_type), intent(in) :: constants
@@ -61,25 +61,25 @@ contains
       integer, intent(in) :: i
 
       if (.not. allocated(self%wall)) allocate (self%wall, source=mechanism)
-      self%grip = grip_type()
+      self%state = restraint_state_type()
       self%stalled = 0
-      call self%grip%begin(self%wall, 0.0_wp)
-      call self%take_hold(constants, lanes, i)
+      call self%state%begin(self%wall, 0.0_wp)
+      call self%update(constants, lanes, i)
    end subroutine begin
 
    !> Are levels looked for in the next step? Not after many in a row that took no time: the wall balances on one of them
-   pure subroutine heed(self, heeds)
-      class(lane_grip_type), intent(inout) :: self
+   pure subroutine looks_for_levels(self, looks)
+      class(lane_restraints_type), intent(inout) :: self
       !> Are they?
-      logical, intent(out) :: heeds
+      logical, intent(out) :: looks
 
-      heeds = self%stalled < most_stalled
-      if (.not. heeds) self%stalled = 0
-   end subroutine heed
+      looks = self%stalled < most_stalled
+      if (.not. looks) self%stalled = 0
+   end subroutine looks_for_levels
 
    !> Cross a level
    pure subroutine cross(self, constants, lanes, i, event, time, took_time)
-      class(lane_grip_type), intent(inout) :: self
+      class(lane_restraints_type), intent(inout) :: self
       type(lane_constants_type), intent(in) :: constants
       !> The lanes, and the one
       type(lanes_type), intent(inout) :: lanes
@@ -94,33 +94,33 @@ contains
       self%stalled = merge(0, self%stalled + 1, took_time)
       if (event == level_above) then
          lanes%y(i) = lanes%above(i)
-         call self%grip%cross(self%wall, self%grip%above, .true., time)
-      else if (self%grip%flows) then
-         call self%grip%turn(self%wall, constants%form%rotation(lanes%y(i)))
+         call self%state%cross(self%wall, self%state%above, .true., time)
+      else if (self%state%flows) then
+         call self%state%turn(self%wall, constants%form%rotation(lanes%y(i)))
       else
          lanes%y(i) = lanes%below(i)
-         call self%grip%cross(self%wall, self%grip%below, .false., time)
+         call self%state%cross(self%wall, self%state%below, .false., time)
       end if
-      call self%take_hold(constants, lanes, i)
+      call self%update(constants, lanes, i)
    end subroutine cross
 
    !> End a motion outwards
    pure subroutine turn(self, constants, lanes, i)
-      class(lane_grip_type), intent(inout) :: self
+      class(lane_restraints_type), intent(inout) :: self
       type(lane_constants_type), intent(in) :: constants
       !> The lanes, and the one
       type(lanes_type), intent(inout) :: lanes
       integer, intent(in) :: i
 
       self%stalled = 0
-      if (.not. self%grip%flows) return
-      call self%grip%turn(self%wall, constants%form%rotation(lanes%y(i)))
-      call self%take_hold(constants, lanes, i)
+      if (.not. self%state%flows) return
+      call self%state%turn(self%wall, constants%form%rotation(lanes%y(i)))
+      call self%update(constants, lanes, i)
    end subroutine turn
 
    !> Strike the base
    pure subroutine strike(self, constants, lanes, i, rest)
-      class(lane_grip_type), intent(inout) :: self
+      class(lane_restraints_type), intent(inout) :: self
       type(lane_constants_type), intent(in) :: constants
       !> The lanes, and the one
       type(lanes_type), intent(inout) :: lanes
@@ -131,15 +131,15 @@ contains
       logical :: changed
 
       self%stalled = 0
-      changed = self%grip%changed
-      call self%grip%strike(self%wall)
+      changed = self%state%changed
+      call self%state%strike(self%wall)
       if (changed) rest = new_rest(self%wall)
-      call self%take_hold(constants, lanes, i)
+      call self%update(constants, lanes, i)
    end subroutine strike
 
    !> The motion after the record
    pure subroutine after_record(self, constants, y, v, duration, tail)
-      class(lane_grip_type), intent(inout) :: self
+      class(lane_restraints_type), intent(inout) :: self
       type(lane_constants_type), intent(in) :: constants
       !> Coordinate, and its velocity [1/s], at the end of the record
       real(wp), intent(in) :: y, v
@@ -151,37 +151,37 @@ contains
 
       q = constants%form%rotation(y)
       call self%wall%terms(q, j, c, g, l, load)
-      call held_motion(self%wall, self%grip, constants%limit, q, v*constants%form%unit*sqrt(constants%rest%inertia/j), &
+      call restrained_motion(self%wall, self%state, constants%limit, q, v*constants%form%unit*sqrt(constants%rest%inertia/j), &
          & duration, tail)
    end subroutine after_record
 
    !> What the history has done to each of the ties
    pure subroutine responses(self, peak, ties)
-      class(lane_grip_type), intent(in) :: self
+      class(lane_restraints_type), intent(in) :: self
       !> Largest rotation [rad]
       real(wp), intent(in) :: peak
       type(tie_response_type), allocatable, intent(out) :: ties(:)
 
-      call self%grip%responses(self%wall, peak, ties)
+      call self%state%responses(self%wall, peak, ties)
    end subroutine responses
 
    !> Give a lane the forces and the next levels of its ties
-   pure subroutine take_hold(self, constants, lanes, i)
-      class(lane_grip_type), intent(in) :: self
+   pure subroutine update(self, constants, lanes, i)
+      class(lane_restraints_type), intent(in) :: self
       type(lane_constants_type), intent(in) :: constants
       !> The lanes, and the one
       type(lanes_type), intent(inout) :: lanes
       integer, intent(in) :: i
 
-      real(wp) :: a(0:highest_held)
+      real(wp) :: a(0:highest_restrained)
 
-      call constants%form%held(self%grip%force, self%grip%stiffness, a, lanes%fifth_a(i))
+      call constants%form%restrained(self%state%force, self%state%stiffness, a, lanes%fifth_a(i))
       lanes%a(i, :) = a
-      lanes%above(i) = constants%form%coordinate(self%grip%above)
+      lanes%above(i) = constants%form%coordinate(self%state%above)
       lanes%below(i) = 0.0_wp
-      if (self%grip%below > 0.0_wp) lanes%below(i) = constants%form%coordinate(self%grip%below)
+      if (self%state%below > 0.0_wp) lanes%below(i) = constants%form%coordinate(self%state%below)
       ! A tie flows outwards only; rounding may end such a motion unseen.
-      if (self%grip%flows) lanes%below(i) = max(lanes%below(i), lanes%y(i))
-   end subroutine take_hold
+      if (self%state%flows) lanes%below(i) = max(lanes%below(i), lanes%y(i))
+   end subroutine update
 
-end module dondolo_motion_lane_grip
+end module dondolo_motion_lane_restraints
