@@ -12,7 +12,7 @@ module dondolo_motion_lanes
    use dondolo_motion_lane_restraints, only : lane_restraints_type
    use dondolo_motion_lane_history, only : add_row, begin, begin_still, lane_batch_type, resolve
    use dondolo_motion_lane_kernel, only : step_lanes
-   use dondolo_motion_lane_state, only : event_possible, lane_width, vector_width
+   use dondolo_motion_lane_state, only : event_possible, lane_width, move_lane, vector_width
    use dondolo_motion_queue, only : queue_type
    use dondolo_motion_response, only : intervals_after, trace_type
    use dondolo_motion_work, only : work_type
@@ -202,33 +202,7 @@ contains
 
       batch%history(to) = batch%history(from)
       if (allocated(batch%restraints)) batch%restraints(to) = batch%restraints(from)
-      associate (lanes => batch%lanes)
-         lanes%y(to) = lanes%y(from)
-         lanes%v(to) = lanes%v(from)
-         lanes%time(to) = lanes%time(from)
-         lanes%dt(to) = lanes%dt(from)
-         lanes%rate(to) = lanes%rate(from)
-         lanes%u(to) = lanes%u(from)
-         lanes%u_next(to) = lanes%u_next(from)
-         lanes%slope(to) = lanes%slope(from)
-         lanes%factor(to) = lanes%factor(from)
-         lanes%heavier(to) = lanes%heavier(from)
-         lanes%heavier_next(to) = lanes%heavier_next(from)
-         lanes%heavier_slope(to) = lanes%heavier_slope(from)
-         lanes%vertical_factor(to) = lanes%vertical_factor(from)
-         lanes%span(to) = lanes%span(from)
-         lanes%next_span(to) = lanes%next_span(from)
-         lanes%peak(to) = lanes%peak(from)
-         lanes%next(to) = lanes%next(from)
-         lanes%last(to) = lanes%last(from)
-         lanes%series(to, :) = lanes%series(from, :)
-         lanes%step(to) = lanes%step(from)
-         lanes%flag(to) = lanes%flag(from)
-         lanes%a(to, :) = lanes%a(from, :)
-         lanes%fifth_a(to) = lanes%fifth_a(from)
-         lanes%above(to) = lanes%above(from)
-         lanes%below(to) = lanes%below(from)
-      end associate
+      call move_lane(batch%lanes, from, to)
    end subroutine move
 
 end module dondolo_motion_lanes
