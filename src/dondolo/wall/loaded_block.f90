@@ -172,9 +172,9 @@ contains
       mechanism%free_thrust = mechanism%thrust
       mechanism%free_spring = mechanism%spring
       call check_rest(mechanism, body, actions, error)
-      if (.not. allocated(error)) call set_capacity(mechanism, error)
+      if (.not. allocated(error)) call compute_capacity(mechanism, error)
       if (allocated(error)) return
-      call set_unseating(mechanism, actions)
+      call compute_unseating(mechanism, actions)
       if (size(actions%restraints) > 0) call add_ties(mechanism, actions, error)
    end subroutine new_loaded_block
 
@@ -384,7 +384,7 @@ contains
 
    !> The rotation at which the restoring moment vanishes: in closed form, or where forces change with the rotation by
    !> bisection of the first change of sign
-   subroutine set_capacity(mechanism, error)
+   subroutine compute_capacity(mechanism, error)
       type(loaded_block_type), intent(inout) :: mechanism
       !> There is none, or more than one
       type(error_type), allocatable, intent(out) :: error
@@ -424,10 +424,10 @@ contains
          call bracket%halve(mechanism%moment(bracket%middle()) > 0.0_wp)
       end do
       mechanism%capacity = bracket%middle()
-   end subroutine set_capacity
+   end subroutine compute_capacity
 
    !> The rotation at which the first load loses its seat
-   pure subroutine set_unseating(mechanism, actions)
+   pure subroutine compute_unseating(mechanism, actions)
       type(loaded_block_type), intent(inout) :: mechanism
       !> What acts on the wall
       type(actions_type), intent(in) :: actions
@@ -440,6 +440,6 @@ contains
                & thing%height - actions%edge, thing%seat))
          end associate
       end do
-   end subroutine set_unseating
+   end subroutine compute_unseating
 
 end module dondolo_wall_loaded_block
