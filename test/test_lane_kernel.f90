@@ -1,10 +1,12 @@
-!> One step of the lanes: its series against the recurrence for polynomials, and what a step that is taken promises.
+!> One step of the lanes: its series against the recurrence for polynomials, and what a step that is taken promises; and the move of
+!> a lane.
 program test_lane_kernel
+   use, intrinsic :: iso_c_binding, only : c_f_pointer, c_loc
    use checks, only : check, finish, suite
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : to_text
    use dondolo_motion_lane_kernel, only : step_lanes
-   use dondolo_motion_lane_state, only : event_possible, lane_width, lanes_type, step_too_long
+   use dondolo_motion_lane_state, only : event_possible, lane_integer, lane_width, lanes_type, move_lane, step_too_long
    use dondolo_motion_normal_form, only : degrees, harmonic_degrees, new_normal_form, normal_form_type, y_limit
    use dondolo_record_random, only : new_random, random_type
    use dondolo_wall, only : wall_type
@@ -45,9 +47,30 @@ program test_lane_kernel
    call test_promises()
    call suite('starts')
    call test_starts()
+   call suite('moves')
+   call test_moves()
    call finish()
 
 contains
+
+   !> A lane that moves takes every word of its state with it, and leaves the others alone
+   subroutine test_moves()
+      type(lanes_type), allocatable, target :: lanes
+      integer(lane_integer), pointer :: words(:, :)
+      integer(lane_integer), allocatable :: before(:, :)
+      integer :: j
+
+      allocate (lanes)
+      call check(modulo(storage_size(lanes), lane_width*storage_size(words)) == 0, 'each component has a word for each lane')
+      call c_f_pointer(c_loc(lanes), words, [lane_width, storage_size(lanes)/storage_size(words)/lane_width])
+      words = reshape([(int(j, lane_integer), j=1, size(words))], shape(words))
+      before = words
+      call move_lane(lanes, lane_width, 2)
+      call check(all(words(2, :) == before(lane_width, :)), 'all words move')
+      call check(all(words(1, :) == before(1, :)) .and. all(words(3:, :) == before(3:, :)), 'no other lane changes')
+      call check(lanes%y(2) == lanes%y(lane_width) .and. lanes%flag(2) == lanes%flag(lane_width) &
+         & .and. lanes%below(2) == lanes%below(lane_width), 'components of both kinds, the first and the last among them')
+   end subroutine test_moves
 
    !> Lanes in states of all kinds
    subroutine fill(lanes, longest)
