@@ -46,7 +46,7 @@ SMALL = {
     "src/dondolo/(case/(warnings/|groups/stripes_group)|fragility/ordinal)": "levels and states",
     "python/dondolo/_fortran/checks": "lines of the sheet of a check",
     "src/dondolo/fragility/tie_tallies": "levels and ties of a wall",
-    "src/dondolo/motion/(common/grip|lanes/normal_form)": "ties of a wall",
+    "src/dondolo/motion/(common/restraint_state|lanes/normal_form)": "ties of a wall",
     "src/dondolo/motion/lanes/lanes": "lanes, whose number is fixed",
     "src/dondolo/record/last_number": "prints of a fixed number",
     "src/dondolo/record/synthetic/": "harmonics of a record whose duration is limited",
