@@ -5,7 +5,7 @@
 module dondolo_wall_hinge_level
    use dondolo_base_error, only : problems_type
    use dondolo_base_kinds, only : wp
-   use dondolo_base_property, only : number_of_words, word_of
+   use dondolo_base_property, only : is_list, is_words, number_of_words, property_type, word_of
    use dondolo_base_text, only : rounded, to_text
    use dondolo_wall_properties, only : is_of_building, wall_input_type
    implicit none
@@ -88,12 +88,11 @@ contains
       end if
       if (problems%count > 0) return
       call cut_sections(input, level, face)
-      call keep_above(input, level, face, 'load', 'load', [character(len=11) :: 'load_lifted', 'load_pushed', 'load_seat'])
-      call keep_above(input, level, face, 'inertia_mass', 'inertia', [character(len=12) ::])
-      call keep_above(input, level, face, 'thrust', 'thrust', [character(len=12) :: 'thrust_decay'])
-      call keep_above(input, level, face, 'spring', 'spring', [character(len=12) ::])
-      call keep_above(input, level, face, 'tie_height', 'tie', [character(len=16) :: 'tie_area', 'tie_length', 'tie_modulus', &
-         & 'tie_strength', 'tie_preload', 'tie_strain', 'tie_anchor_force'])
+      call keep_above(input, level, face, 'load')
+      call keep_above(input, level, face, 'inertia')
+      call keep_above(input, level, face, 'thrust')
+      call keep_above(input, level, face, 'spring')
+      call keep_above(input, level, face, 'tie')
       call cut_beds(input, level, face)
    end subroutine cut_wall
 
@@ -148,59 +147,68 @@ contains
       call choose(input, 'section_fill', above)
    end subroutine cut_sections
 
-   !> What acts above a hinge of things that have a depth and a height each
-   subroutine keep_above(input, level, face, list, what, others)
-      !> What is said of the wall
+   !> Keep the actions of a kind that act above a hinge: their heights are from the hinge, their depths from the outer face there
+   subroutine keep_above(input, level, face, kind)
+      !> What is said of the wall, whose actions have a height each
       class(wall_input_type), intent(inout) :: input
       !> Height of the hinge, and depth of the outer face there [m]
       real(wp), intent(in) :: level, face
-      !> Name of their list
-      character(len=*), intent(in) :: list
-      !> What the names of their depths and heights begin with
-      character(len=*), intent(in) :: what
-      !> Names of their other numbers
-      character(len=*), intent(in) :: others(:)
+      !> First word of the names of their properties: 'load', 'tie', ...
+      character(len=*), intent(in) :: kind
 
       real(wp), allocatable :: heights(:), depths(:)
-      logical, allocatable :: above(:)
-      integer :: i, number
 
-      number = size(input%list(list))
-      if (number == 0) return
-      heights = of_each(input%list(what//'_height'), number)
+      heights = input%list(kind//'_height')
+      if (size(heights) == 0) return
+      depths = input%list(kind//'_depth')
+      if (size(depths) > 0) call input%set(kind//'_depth', depths - face)
+      call input%set(kind//'_height', heights - level)
       ! At the hinge itself nothing has a lever
-      above = heights > level*(1.0_wp + same)
-      depths = input%list(what//'_depth')
-      if (size(depths) > 0) call input%set(what//'_depth', depths - face)
-      call choose(input, what//'_depth', above)
-      call input%set(what//'_height', heights - level)
-      call choose(input, what//'_height', above)
-      do i = 1, size(others)
-         call choose(input, trim(others(i)), above)
-      end do
-      call choose(input, list, above)
-      if (list == 'load') call choose_inertias(input, above)
+      call choose_all(input, kind, heights > level*(1.0_wp + same))
    end subroutine keep_above
 
-   !> Leave the words of the loads that stay
-   subroutine choose_inertias(input, above)
+   !> Leave only some actions of a kind: of each of their properties the values that belong to these. A property that the table
+   !> gets in future is among them
+   subroutine choose_all(input, kind, chosen)
       !> What is said of the wall
       class(wall_input_type), intent(inout) :: input
-      !> Which loads stay
-      logical, intent(in) :: above(:)
+      !> First word of the names of their properties
+      character(len=*), intent(in) :: kind
+      !> Which of them stay
+      logical, intent(in) :: chosen(:)
 
-      character(len=:), allocatable :: words
+      type(property_type), pointer :: table(:)
       integer :: i
 
-      words = input%word('load_inertia')
-      if (.not. any(above)) call input%clear('load_inertia')
-      if (.not. any(above) .or. number_of_words(words) < 2) return
-      words = ''
-      do i = 1, size(above)
-         if (above(i)) words = words//','//trim(word_of(input%word('load_inertia'), i))
+      call input%get_table(table)
+      do i = 1, size(table)
+         if (index(trim(table(i)%name)//'_', kind//'_') /= 1) cycle
+         if (table(i)%kind == is_list) call choose(input, trim(table(i)%name), chosen)
+         if (table(i)%kind == is_words) call choose_words(input, trim(table(i)%name), chosen)
       end do
-      call input%set('load_inertia', words(2:))
-   end subroutine choose_inertias
+   end subroutine choose_all
+
+   !> Leave only some words of a list of choices; one that is that of all stays unless nothing is left
+   subroutine choose_words(input, name, chosen)
+      !> What is said of the wall
+      class(wall_input_type), intent(inout) :: input
+      !> Name of the list
+      character(len=*), intent(in) :: name
+      !> Which actions stay
+      logical, intent(in) :: chosen(:)
+
+      character(len=:), allocatable :: words, left
+      integer :: i
+
+      words = input%word(name)
+      if (.not. any(chosen)) call input%clear(name)
+      if (.not. any(chosen) .or. number_of_words(words) < 2) return
+      left = ''
+      do i = 1, size(chosen)
+         if (chosen(i)) left = left//','//trim(word_of(words, i))
+      end do
+      call input%set(name, left(2:))
+   end subroutine choose_words
 
    !> The parts of beds above a hinge
    subroutine cut_beds(input, level, face)
@@ -222,10 +230,7 @@ contains
       call input%set('bed_bottom', max(bottom, level) - level)
       call input%set('bed_top', top - level)
       call input%set('bed_depth', depth - face)
-      call choose(input, 'bed_bottom', above)
-      call choose(input, 'bed_top', above)
-      call choose(input, 'bed_depth', above)
-      call choose(input, 'bed', above)
+      call choose_all(input, 'bed', above)
    end subroutine cut_beds
 
    !> Values of a list for each of several things: as given, or one for all
