@@ -475,6 +475,7 @@ contains
       call check_ok(error, 'a run')
       call list_tables(kinds)
       do k = 1, size(kinds)
+         call check(index(kinds(k)%suffix, '.csv ') > 0, trim(kinds(k)%suffix)//' is not cut off')
          if (.not. kinds(k)%is_of(case)) cycle
          table = columns_type()
          call kinds(k)%fill(case, results, table, error)

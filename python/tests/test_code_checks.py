@@ -317,3 +317,88 @@ def test_check_without_a_run(run, root):
     for case, shown in (("facade", True), ("facade_hinges", False)):
         done = run("--check", root / f"data/cases/{case}.nml")
         assert (done.returncode, bool(re.search(r"(?m)^kinematic +limit state", done.stdout))) == (0, shown)
+
+
+def total(items, name):
+    """Sum of what the items have."""
+    values = [getattr(item, name) for item in items]
+    return sum(value for value in values if value == value)
+
+
+@pytest.mark.parametrize("tied", [False, True])
+def test_sums_by_hand(tied):
+    """A facade of two storeys with loads, a thrust and a tie, whose sums were made by hand."""
+    ties = [dd.Tie(6.6, area=1e-4, length=10.0, strength=235e6, preload=50e6, strain=0.02, modulus=2.06e11)]
+    wall = dd.OneSidedWall(
+        sections=[dd.Section(3.8, 0.70), dd.Section(3.4, 0.55)],
+        density=2000.0,
+        loads=[
+            dd.Load(9e3, depth=0.55, height=3.8, inertia="both"),
+            dd.Load(7e3, depth=0.40, height=7.2, inertia="both"),
+        ],
+        thrusts=[dd.Thrust(2.5e3, height=6.6)],
+        compressive_strength=1e6,
+        ties=ties if tied else [],
+    )
+    check = dd.check_ntc(wall, SITE)
+    items = {item.item: item for item in check.items}
+    expected = {
+        "section 1": (52189.2, 0.288306705882353, 1.9, 15046.4963346353, 99159.48),
+        "section 2": (36689.4, 0.213306705882353, 5.5, 7826.0950548, 201791.7),
+        "load 1": (9000.0, 0.488306705882353, 3.8, 4394.76035294118, 34200.0),
+        "load 2": (7000.0, 0.338306705882353, 7.2, 2368.14694117647, 50400.0),
+    }
+    for name, (force, arm, lever, stabilising, first) in expected.items():
+        found = items[name]
+        assert (found.force, found.arm, found.lever) == pytest.approx((force, arm, lever), rel=1e-13)
+        assert (found.stabilising, found.force_lever) == pytest.approx((stabilising, first), rel=1e-12)
+    assert items["thrust 1"].overturning == pytest.approx(16500.0, rel=1e-14)
+    assert (items["masonry"].depth, items["masonry"].lever) == pytest.approx(
+        (0.319039735099338, 3.38609271523179), rel=1e-13
+    )
+    if tied:
+        assert items["tie 1"].stabilising == pytest.approx(155100.0, rel=1e-14)
+    first, second = (total(items.values(), name) for name in ("force_lever", "force_lever2"))
+    assert second == pytest.approx(1511888.59823841, rel=1e-13)
+    alpha = (total(items.values(), "stabilising") - total(items.values(), "overturning")) / first
+    assert alpha == pytest.approx(0.436350625832744 if tied else 0.034069403402041, rel=1e-12)
+    assert alpha == pytest.approx(check.value("mechanism", "", "alpha_0"), rel=1e-14)
+    mass = first**2 / second / 9.81
+    assert mass == pytest.approx(10022.481748554, rel=1e-12)
+    assert mass == pytest.approx(check.value("mechanism", "", "mass"), rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    "wall",
+    [
+        dd.OneSidedWall(3.0, 0.25, hinge_depth=0.02, pushed_masses=[dd.PushedMass(200.0, height=2.0, depth=0.1)]),
+        dd.FreeStandingWall(2.0, 0.4),
+        dd.TwoBlockWall(
+            3.0, 0.25, hinge=0.6, overburden=20e3, overburden_inertia=0, eccentricity=-0.065, hinge_depth=0.01
+        ),
+        dd.OneSidedWall(3.0, 0.25, interlock=dd.Interlock(overlap=0.12, course=0.10, thickness=0.25, spacing=5.0)),
+    ],
+    ids=["pushed", "free_standing", "strip", "friction"],
+)
+def test_sums_of_any_wall(wall):
+    check = dd.check_ntc(wall, SITE)
+    first, second = (total(check.items, name) for name in ("force_lever", "force_lever2"))
+    alpha = (total(check.items, "stabilising") - total(check.items, "overturning")) / first
+    assert alpha == pytest.approx(check.value("mechanism", "", "alpha_0"), rel=1e-13)
+    assert first**2 / second / 9.81 == pytest.approx(check.value("mechanism", "", "mass"), rel=1e-13)
+
+
+def test_sums_in_files(root, executable, tmp_path):
+    """Ten lines without dondolo make alpha_0 and M* of the sheet out of the table."""
+    (tmp_path / "wall.nml").write_text(CASE.format(root=root))
+    subprocess.run([executable, "--quiet", "wall.nml"], cwd=tmp_path, check=True)
+    tables = []
+    for name in ("calculation", "check"):
+        lines = (tmp_path / f"out/wall_{name}.csv").read_text().splitlines()
+        tables.append(list(csv.DictReader(line for line in lines if not line.startswith("#"))))
+    items, sheet = tables
+    names = ("stabilising_nm_m", "overturning_nm_m", "force_lever_nm_m", "force_lever2_nm2_m")
+    against, along, first, second = (sum(float(row[name] or 0) for row in items) for name in names)
+    value = {row["quantity"]: float(row["value"]) for row in sheet if row["method"] == "mechanism"}
+    assert (against - along) / first == pytest.approx(value["alpha_0"], rel=1e-14)
+    assert first**2 / second / 9.81 == pytest.approx(value["mass"], rel=1e-14)

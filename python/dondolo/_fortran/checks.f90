@@ -1,12 +1,14 @@
 !> Checks by building codes, and elastic spectra.
 module checks
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use dondolo_base_error, only : error_type, problems_type
    use dondolo_base_lines, only : lines_type
    use dondolo_base_settings, only : group_settings_type, new_settings
    use dondolo_boundary, only : next_line
    use dondolo_case_wall_warnings, only : wall_warnings_type
    use dondolo_case_warning, only : warnings_type
+   use dondolo_check_calculation, only : is_given, item_type, list_items
    use dondolo_check_code_spectrum, only : elastic_spectrum_type
    use dondolo_check_floor_spectrum, only : floor_spectrum_type, new_floor_spectrum
    use dondolo_check_input, only : check_input_type, check_properties, take_check
@@ -20,7 +22,7 @@ module checks
    implicit none
    private
 
-   public :: ntc_parameters, code_spectrum, check_ntc, check_histories, check_notes
+   public :: ntc_parameters, code_spectrum, check_ntc, check_histories, check_notes, calculation_items
 
 contains
 
@@ -143,6 +145,35 @@ contains
       end if
       call send(parcel, error, sent)
    end subroutine check_histories
+
+   !> Items of the calculation of a wall: lines, their names; reals, of each item the numbers of item_type, NaN for one that it has
+   !> not
+   subroutine calculation_items(walls, sent)
+      integer(c_int64_t), intent(in) :: walls
+      integer(c_int64_t), intent(out) :: sent(5)
+      type(wall_type), pointer :: found(:)
+      type(item_type), allocatable :: items(:)
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+      real(c_double), allocatable :: numbers(:, :)
+      integer :: i
+
+      call find_walls(walls, found, error)
+      if (.not. allocated(error)) then
+         call list_items(found(1), items)
+         allocate (numbers(8, size(items)))
+         do i = 1, size(items)
+            associate (item => items(i))
+               call parcel%lines%add(trim(item%name))
+               numbers(:, i) = [item%force, item%depth, item%arm, item%lever, item%stabilising, item%overturning, item%first, &
+                  & item%second]
+            end associate
+         end do
+         where (.not. is_given(numbers)) numbers = ieee_value(1.0_c_double, ieee_quiet_nan)
+         call parcel%add(reshape(numbers, [size(numbers)]))
+      end if
+      call send(parcel, error, sent)
+   end subroutine calculation_items
 
    !> Notes on a sheet, whose lines have a tab between method, limit state and name: lines, their sentences
    subroutine check_notes(texts, values, n, sent)

@@ -49,6 +49,43 @@ class SheetRow(NamedTuple):
     meaning: str
 
 
+class CalculationItem(NamedTuple):
+    """A term of the sums behind a kinematic check, per metre of wall; NaN where an item has no such number.
+
+    Attributes
+    ----------
+    item : str
+        'section 1', 'masonry', 'load 1', 'mass 1', 'thrust 1', 'tie 1', 'friction 1'; of a strip 'lower block',
+        'upper block', 'load on top'.
+    force : float
+        Weight, force outwards, or largest force of a tie [N/m].
+    depth : float
+        Behind the outer face [m].
+    arm : float
+        Rise for a unit of rotation [m].
+    lever : float
+        Horizontal travel for a unit of rotation [m].
+    stabilising : float
+        Its moment against the mechanism [N m/m].
+    overturning : float
+        Its moment that helps the mechanism [N m/m].
+    force_lever : float
+        Weight times lever [N m/m]; 'masonry' has none, since the sections have it.
+    force_lever2 : float
+        Weight times lever squared [N m2/m]; the sections have none, since the masonry moves as one body.
+    """
+
+    item: str
+    force: float
+    depth: float
+    arm: float
+    lever: float
+    stabilising: float
+    overturning: float
+    force_lever: float
+    force_lever2: float
+
+
 class SiteInput(NamedTuple):
     """What a user says of a check, as Fortran takes it."""
 
@@ -88,6 +125,13 @@ def check_notes(rows: Sequence[SheetRow]) -> tuple[str, ...]:
     lines = "\n".join(f"{row.method}\t{row.limit_state}\t{row.quantity}" for row in rows)
     values = np.array([row.value for row in rows], float)
     return tuple(receive(_core.checks.check_notes(lines.encode(), values)).lines)
+
+
+def calculation_items(wall: Handle) -> tuple[CalculationItem, ...]:
+    """The items of the kinematic check of a wall."""
+    parcel = receive(_core.checks.calculation_items(wall.number))
+    numbers = np.reshape(parcel.reals, (len(parcel.lines), -1)).tolist()
+    return tuple(CalculationItem(name, *row) for name, row in zip(parcel.lines, numbers, strict=True))
 
 
 def _rows(parcel: Parcel) -> tuple[SheetRow, ...]:

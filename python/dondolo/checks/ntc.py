@@ -14,7 +14,14 @@ import numpy as np
 
 from dondolo._base.arguments import instance_of
 from dondolo._base.shown import Shown
-from dondolo._fortran.checks import SheetRow, check_notes, dynamic_sheet, kinematic_sheet
+from dondolo._fortran.checks import (
+    CalculationItem,
+    SheetRow,
+    calculation_items,
+    check_notes,
+    dynamic_sheet,
+    kinematic_sheet,
+)
 from dondolo._fortran.library import constants
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved, part_of_results
@@ -83,6 +90,11 @@ class CodeCheck(Shown, Saved):
             if (row.quantity, row.method) == (quantity, method) and row.limit_state in ("", limit_state):
                 return row.value
         raise InputError(f"quantity = {quantity!r}: the check has none for method {method!r}, state {limit_state!r}")
+
+    @property
+    def items(self) -> tuple[CalculationItem, ...]:
+        """The terms of the sums behind alpha_0, M* and e*, the executable's ``_calculation.csv``."""
+        return calculation_items(upload((self.wall,)))
 
     @property
     def notes(self) -> tuple[str, ...]:

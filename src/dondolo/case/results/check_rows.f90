@@ -5,6 +5,7 @@ module dondolo_case_check_rows
    use dondolo_base_text, only : lower
    use dondolo_case, only : case_type
    use dondolo_case_table, only : table_type
+   use dondolo_check_calculation, only : is_given, item_type
    use dondolo_check_kinematic, only : kinematic_type, new_kinematic
    use dondolo_check_ntc_check, only : check_ntc
    use dondolo_check_sheet, only : sheet_type
@@ -14,7 +15,7 @@ module dondolo_case_check_rows
    implicit none
    private
 
-   public :: check_wall, put_check, put_sheet_row, verdicts_type
+   public :: check_wall, put_check, put_item, put_sheet_row, verdicts_type
    public :: check_methods, check_states, shown_verdicts
 
    !> The kinematic checks: method and limit state
@@ -166,5 +167,21 @@ contains
          call table%put('meaning', trim(row%quantity%meaning), is_quoted=.true.)
       end associate
    end subroutine put_sheet_row
+
+   !> An item of the calculation
+   subroutine put_item(table, item)
+      class(table_type), intent(inout) :: table
+      type(item_type), intent(in) :: item
+
+      call table%put('item', trim(item%name))
+      call table%put('force_n_m', item%force, is_given(item%force))
+      call table%put('depth_m', item%depth, is_given(item%depth))
+      call table%put('arm_m', item%arm, is_given(item%arm))
+      call table%put('lever_m', item%lever, is_given(item%lever))
+      call table%put('stabilising_nm_m', item%stabilising, is_given(item%stabilising))
+      call table%put('overturning_nm_m', item%overturning, is_given(item%overturning))
+      call table%put('force_lever_nm_m', item%first, is_given(item%first))
+      call table%put('force_lever2_nm2_m', item%second, is_given(item%second))
+   end subroutine put_item
 
 end module dondolo_case_check_rows

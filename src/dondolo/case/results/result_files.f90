@@ -32,7 +32,7 @@ module dondolo_case_result_files
    character(len=*), parameter :: run_suffix = '_run.json'
 
    !> Length of what the name of a table ends with, with room
-   integer, parameter :: suffix_length = 15
+   integer, parameter :: suffix_length = 24
 
    !> What every table begins with
    character(len=*), parameter :: mark = '# dondolo '

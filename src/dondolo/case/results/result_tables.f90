@@ -5,7 +5,7 @@ module dondolo_case_result_tables
    use dondolo_base_property, only : find_property
    use dondolo_base_text, only : to_table, to_text
    use dondolo_case, only : case_type
-   use dondolo_case_check_rows, only : put_sheet_row
+   use dondolo_case_check_rows, only : put_item, put_sheet_row
    use dondolo_case_design_rows, only : put_design
    use dondolo_case_job_group, only : history_task, stripes_task, typology_task
    use dondolo_case_report_rows, only : put_typology, put_union
@@ -16,6 +16,7 @@ module dondolo_case_result_tables
    use dondolo_case_source_rows, only : put_source
    use dondolo_case_table, only : table_type
    use dondolo_case_tie_rows, only : make_tie_comment
+   use dondolo_check_calculation, only : item_type, list_items
    use dondolo_population_unions, only : union_type
    use dondolo_wall_properties, only : wall_properties
    implicit none
@@ -89,6 +90,7 @@ contains
       call add('_unions.csv', has_unions, put_unions)
       call add('_designs.csv', has_designs, put_designs)
       call add('_check.csv', has_check, put_sheet)
+      call add('_calculation.csv', has_check, put_calculation)
       call add('_checks.csv', has_checks, put_row=put_check_row)
       call add('_sources.csv', has_sources, put_sources)
 
@@ -312,6 +314,23 @@ contains
          call table%end_row()
       end do
    end subroutine put_sheet
+
+   !> The items of the check
+   subroutine put_calculation(case, results, table, error)
+      type(case_type), intent(in), target :: case
+      type(results_type), intent(inout) :: results
+      class(table_type), intent(inout) :: table
+      type(error_type), allocatable, intent(out) :: error
+
+      type(item_type), allocatable :: items(:)
+      integer :: i
+
+      call list_items(case%wall, items)
+      do i = 1, size(items)
+         call put_item(table, items(i))
+         call table%end_row()
+      end do
+   end subroutine put_calculation
 
    !> The time history
    subroutine put_motion(case, results, table, error)

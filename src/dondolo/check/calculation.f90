@@ -1,0 +1,184 @@
+!> The sums behind a kinematic check, item by item, so that they can be made again by hand: of a wall that turns about its base its
+!> storeys, loads, masses, thrusts and ties; of a strip that bends its two blocks and the load on top.
+!>
+!> A unit of rotation lifts an item by its arm and moves it outwards by its lever:
+!>
+!>     alpha_0 = [sum stabilising - sum overturning]/sum P lever          M* = (sum P lever)^2/(g sum P lever^2)
+!>
+!> The masonry of a wall that turns about its base is one rigid body, one point in the second sum (dondolo_check_kinematic); its
+!> storeys stand in the others.
+module dondolo_check_calculation
+   use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : to_text
+   use dondolo_wall, only : wall_type
+   use dondolo_wall_body, only : wall_body_type
+   use dondolo_wall_one_block_model, only : one_block_model_type
+   use dondolo_wall_rigid_body, only : body_of_sections, rigid_body_type, same
+   use dondolo_wall_travel, only : lever
+   use dondolo_wall_two_block, only : two_block_type
+   implicit none
+   private
+
+   public :: item_type, list_items, is_given
+
+   !> What a number is set to that an item has not
+   real(wp), parameter :: none = -huge(1.0_wp)
+
+   !> A term of the sums, per metre of wall
+   type :: item_type
+      !> Name
+      character(len=24) :: name = ''
+      !> Weight P or Q, horizontal force outwards, or largest force of a tie [N/m]
+      real(wp) :: force = none
+      !> Depth behind the outer face [m]
+      real(wp) :: depth = none
+      !> Rise and horizontal travel for a unit of rotation [m]
+      real(wp) :: arm = none, lever = none
+      !> Terms of the sums [N m/m]; the last [N m2/m]
+      real(wp) :: stabilising = none, overturning = none, first = none, second = none
+   end type item_type
+
+contains
+
+   !> Has an item this number?
+   elemental logical function is_given(number)
+      real(wp), intent(in) :: number
+
+      is_given = number > none
+   end function is_given
+
+   !> List the items of a wall; none of a mechanism that has no kinematic check
+   subroutine list_items(wall, items)
+      type(wall_type), intent(in) :: wall
+      type(item_type), allocatable, intent(out) :: items(:)
+
+      allocate (items(0))
+      select type (model => wall%model)
+      type is (one_block_model_type)
+         call list_masonry(items, model%body, wall%gravity)
+         call list_actions(items, model%body, wall%gravity)
+      class default
+         select type (mechanism => wall%mechanism)
+         type is (two_block_type)
+            call list_blocks(items, mechanism)
+         end select
+      end select
+   end subroutine list_items
+
+   !> List the storeys, and the masonry as one point
+   subroutine list_masonry(items, wall, gravity)
+      type(item_type), allocatable, intent(inout) :: items(:)
+      type(wall_body_type), intent(in) :: wall
+      !> [m/s2]
+      real(wp), intent(in) :: gravity
+
+      type(rigid_body_type) :: part, whole
+      type(item_type) :: item
+      real(wp) :: bottom, density
+      integer :: i
+
+      whole = body_of_sections(wall%sections, 1.0_wp)
+      density = wall%body%mass/whole%mass
+      bottom = 0.0_wp
+      ! A body whose centroid is given has no storeys that it is the sum of.
+      if (abs(whole%height - wall%body%height) + abs(whole%depth - wall%body%depth) <= same*whole%height) then
+         do i = 1, size(wall%sections)
+            part = body_of_sections(wall%sections(i:i), density)
+            item = weighed('section '//to_text(i), gravity*part%mass, part%depth, bottom + part%height, wall%actions%hinge)
+            item%second = none
+            items = [items, item]
+            bottom = bottom + wall%sections(i)%height
+         end do
+      else
+         item = weighed('section 1', gravity*wall%body%mass, wall%body%depth, wall%body%height, wall%actions%hinge)
+         item%second = none
+         items = [items, item]
+      end if
+      item = weighed('masonry', gravity*wall%body%mass, wall%body%depth, wall%body%height, wall%actions%hinge)
+      item%stabilising = none
+      item%first = none
+      items = [items, item]
+   end subroutine list_masonry
+
+   !> List what acts on a wall
+   subroutine list_actions(items, wall, gravity)
+      type(item_type), allocatable, intent(inout) :: items(:)
+      type(wall_body_type), intent(in) :: wall
+      !> [m/s2]
+      real(wp), intent(in) :: gravity
+
+      type(item_type) :: item
+      integer :: i, masses, friction
+
+      masses = 0
+      associate (hinge => wall%actions%hinge, edge => wall%actions%edge)
+         do i = 1, size(wall%actions%carried)
+            associate (load => wall%actions%carried(i))
+               if (load%weight > 0.0_wp) then
+                  item = weighed('load '//to_text(i), load%weight, load%depth, load%height, hinge)
+               else
+                  ! A mass that the wall only pushes lifts nothing
+                  masses = masses + 1
+                  item = weighed('mass '//to_text(masses), gravity*load%pushed, load%depth, load%height, hinge)
+                  item%stabilising = none
+               end if
+               items = [items, item]
+            end associate
+         end do
+         do i = 1, size(wall%actions%thrusts)
+            associate (thrust => wall%actions%thrusts(i))
+               items = [items, item_type('thrust '//to_text(i), thrust%force, thrust%depth, lever=thrust%height, &
+                  & overturning=thrust%force*thrust%height)]
+            end associate
+         end do
+         friction = 0
+         do i = 1, size(wall%actions%ties)
+            associate (tie => wall%actions%ties(i))
+               if (tie%is_friction) friction = friction + 1
+               item = item_type('tie '//to_text(i), tie%strength, tie%e + hinge, lever=lever(edge, tie%e, tie%f, 0.0_wp))
+               if (tie%is_friction) item%name = 'friction '//to_text(friction)
+               item%stabilising = item%force*item%lever
+               items = [items, item]
+            end associate
+         end do
+      end associate
+   end subroutine list_actions
+
+   !> A weight that goes with the wall
+   pure function weighed(name, force, depth, height, hinge) result(item)
+      character(len=*), intent(in) :: name
+      !> [N/m]
+      real(wp), intent(in) :: force
+      !> Place, and depth of the hinge [m]
+      real(wp), intent(in) :: depth, height, hinge
+      type(item_type) :: item
+
+      item = item_type(name, force, depth, depth - hinge, height, force*(depth - hinge), none, force*height, force*height**2)
+   end function weighed
+
+   !> List the blocks of a strip, and the load on top, which a floor holds sideways: with T = r/(1 - r) they rise by w, w (2 + T)
+   !> and w (2 + T) + e T
+   subroutine list_blocks(items, strip)
+      type(item_type), allocatable, intent(inout) :: items(:)
+      type(two_block_type), intent(in) :: strip
+
+      real(wp) :: travel, ratio, rise
+      integer :: i
+
+      associate (lower => strip%lower, upper => strip%upper, w => strip%lower%b, load => strip%overburden)
+         travel = lower%radius*cos(lower%alpha)
+         ratio = travel/(upper%radius*cos(upper%alpha))
+         rise = w*(2.0_wp + ratio)
+         items = [item_type('lower block', strip%gravity*lower%mass, arm=w, lever=travel), &
+            & item_type('upper block', strip%gravity*upper%mass, arm=rise, lever=travel)]
+         if (load%weight > 0.0_wp) items = [items, item_type('load on top', load%weight, arm=rise + load%eccentricity*ratio, &
+            & lever=0.0_wp)]
+      end associate
+      do i = 1, size(items)
+         items(i)%stabilising = items(i)%force*items(i)%arm
+         items(i)%first = items(i)%force*items(i)%lever
+         items(i)%second = items(i)%force*items(i)%lever**2
+      end do
+   end subroutine list_blocks
+
+end module dondolo_check_calculation
