@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
 from dondolo._storage.columns import Columns
@@ -45,9 +43,7 @@ def stored_designs(typology: Typology, table: Columns, run: RunFile) -> DesignCo
         names=names,
         stripes=(),
         curves=typology.curves,
-        comparisons=tuple(
-            _against(curve, first, table, row, run.confidence) for row, curve in enumerate(typology.curves)
-        ),
+        comparisons=tuple(_against(curve, first, table, row) for row, curve in enumerate(typology.curves)),
         steel=table.numbers("steel_kg_m"),
         alpha_0=table.numbers("alpha_0_g"),
         confidence=run.confidence,
@@ -55,15 +51,11 @@ def stored_designs(typology: Typology, table: Columns, run: RunFile) -> DesignCo
     )
 
 
-def _against(curve: Fragility, first: Fragility, table: Columns, row: int, confidence: float) -> Comparison | None:
-    """A design against the first; dispersions only where it is known which record brings which design down."""
+def _against(curve: Fragility, first: Fragility, table: Columns, row: int) -> Comparison | None:
+    """A design against the first: medians alone, since the curves of rows do not know their records."""
     if not table.given("ratio", row):
         return None
     ratio, low, high, p_value = (table.number(name, row) for name in ("ratio", "ratio_low", "ratio_high", "p_value"))
-    if curve.parts and first.parts:
-        return replace(
-            curve.compare(first, confidence=confidence), ratio=ratio, ratio_interval=(low, high), p_value=p_value
-        )
     return Comparison(
         pairing="paired",
         shared=curve.clusters,
