@@ -16,7 +16,7 @@ TITLES = {
     "uncertainty": "What is not known for certain of the one wall of a case, for the task 'typology' with `&wall`; each"
     " property as a distribution: 'uniform(low, high)', 'triangular(low, mode, high)', 'normal(mean, sd)' or"
     " 'lognormal(theta, beta)', the last two also with low, high where they are cut off",
-    "member": "Further columns of a population",
+    "row": "Further columns of a population",
     "population": "A population of walls, for the task 'typology'",
     "records": "The accelerograms",
     "stripes": "The intensity measure and its levels",
@@ -67,7 +67,7 @@ def default(row: Property) -> str:
 
 def table(group: str) -> list[str]:
     """Lines of the table of a group."""
-    title = f"## {'Columns' if group == 'member' else f'&{group}'}"
+    title = f"## {'Columns' if group == 'row' else f'&{group}'}"
     lines = [title, "", TITLES[group] + ".", "", "| variable | unit | default | allowed | only for | meaning |"]
     lines.append("|---|---|---|---|---|---|")
     for row in properties(group):

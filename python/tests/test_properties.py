@@ -279,7 +279,7 @@ def test_template_has_every_property(run, tmp_path):
     for task, groups in {
         "stripes": ("job", "wall", "building", "records", "stripes", "solver"),
         "history": ("job", "wall", "building", "records", "stripes", "solver", "history"),
-        "typology": ("job", "population", "wall", "building", "member", "records", "stripes", "solver"),
+        "typology": ("job", "population", "wall", "building", "row", "records", "stripes", "solver"),
     }.items():
         text = run("--template", task).stdout
         for group in groups:
