@@ -132,8 +132,8 @@ contains
             end associate
          end do
          friction = 0
-         do i = 1, size(wall%actions%ties)
-            associate (tie => wall%actions%ties(i))
+         do i = 1, size(wall%actions%restraints)
+            associate (tie => wall%actions%restraints(i))
                if (tie%is_friction) friction = friction + 1
                item = item_type('tie '//to_text(i), tie%strength, tie%e + hinge, lever=lever(edge, tie%e, tie%f, 0.0_wp))
                if (tie%is_friction) item%name = 'friction '//to_text(friction)
