@@ -450,15 +450,19 @@ def test_report_appears_whole_or_not_at_all(stripes, tmp_path, monkeypatch):
     dd.report(stripes, path)
     before = path.read_bytes()
 
-    def broken(self, target):
+    def full(self, *_, **__):
         raise OSError(28, "No space left on device")
 
-    with monkeypatch.context() as patch:
-        patch.setattr(Path, "replace", broken)
-        with pytest.raises(dd.DondoloError, match="cannot be written: No space left"):
-            dd.report(stripes, path, title="Another")
-    assert path.read_bytes() == before
-    assert os.listdir(tmp_path) == ["report.html"]
+    def lost(self, *_, **__):
+        self.unlink()
+
+    for write, words in ((full, "No space left"), (lost, "No such file")):
+        with monkeypatch.context() as patch:
+            patch.setattr(Path, "write_text", write)
+            with pytest.raises(dd.DondoloError, match=f"cannot be written: {words}"):
+                dd.report(stripes, path, title="Another")
+        assert path.read_bytes() == before
+        assert os.listdir(tmp_path) == ["report.html"]
     dd.report(stripes, path, title="Another")
     assert "<title>Another</title>" in path.read_text()
 
