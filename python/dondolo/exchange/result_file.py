@@ -6,7 +6,7 @@ import csv
 import math
 import operator
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import suppress
 
 import numpy as np
@@ -68,9 +68,9 @@ class ResultFile(Columns):
         lines = self._text.split("\n")
         # Comments stand at the head: a # or a line end in a cell begins none.
         head = next((i for i, line in enumerate(lines) if not line.startswith("#")), len(lines))
-        self._lines: list[int] = []
+        self._lines: Sequence[int] = []
         with self.reading():
-            self._columns = self._read(lines[head:], head)
+            self._columns = self._split(lines[head:], head) or self._read(lines[head:], head)
 
     def check(self) -> None:
         """Check that the file is as its run has written it; what has a worse place is said first by the others."""
@@ -79,13 +79,29 @@ class ResultFile(Columns):
                 why = f"{found.bytes} bytes, {written.bytes} written" if found.bytes != written.bytes else "its CRC-32"
                 raise InputError(f"{self.path}: is not as its run has written it ({why})")
 
+    def _split(self, lines: list[str], head: int) -> dict[str, list[str]]:
+        """Columns of a table without quotes and empty lines, of as many cells in each row: the usual case.
+
+        Nothing of any other.
+        """
+        rows = lines[:-1] if lines and not lines[-1] else lines
+        names, body = (rows[0].split(",") if rows else []), ",".join(rows[1:])
+        if any(sign in body for sign in "\"'\r") or not body or not all(rows):
+            return {}
+        if {row.count(",") for row in rows} != {len(names) - 1} or max(map(len, rows)) > csv.field_size_limit():
+            return {}
+        self._lines = range(head + 2, head + 1 + len(rows))
+        cells = body.split(",")
+        return {name: cells[i :: len(names)] for i, name in enumerate(names)}
+
     def _read(self, lines: list[str], head: int) -> dict[str, list[str]]:
         rows = csv.reader(line + "\n" for line in lines)
         body = []
+        self._lines = places = []
         try:
             names = next(rows, [])
             for row in filter(None, rows):
-                self._lines.append(head + rows.line_num)
+                places.append(head + rows.line_num)
                 if len(row) != len(names):
                     raise ValueError(f"{self.place(-1)}: {len(row)} cells: must be {len(names)} as in the header")
                 body.append(row)
