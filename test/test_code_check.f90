@@ -267,6 +267,7 @@ contains
       call make_sheet(between, input, the_site([0.2_wp]))
       call check_close(strip%value('mechanism', '', 'level'), 4.5_wp, exact, 'level')
       call check_close(strip%value('site', '', 'floor_pga'), between%value('site', '', 'floor_pga'), exact, 'a_Z')
+      call check_close(strip%value('mechanism', '', 'diaphragm_period'), -1.0_wp, exact, 'a rigid floor')
       call check_close(strip%value('nonlinear', 'SLV', 'demand'), between%value('nonlinear', 'SLV', 'demand'), exact, 'demand')
    end subroutine test_strip_in_a_building
 

@@ -402,3 +402,20 @@ def test_sums_in_files(root, executable, tmp_path):
     value = {row["quantity"]: float(row["value"]) for row in sheet if row["method"] == "mechanism"}
     assert (against - along) / first == pytest.approx(value["alpha_0"], rel=1e-14)
     assert first**2 / second / 9.81 == pytest.approx(value["mass"], rel=1e-14)
+
+
+def test_notes():
+    """What the numbers of a sheet do not say is a note: a diaphragm, a hinge that is not the weakest, a long period."""
+
+    def notes(wall):
+        return " ".join(dd.check_ntc(wall, SITE).notes)
+
+    house = {"period": 0.3, "damping": 0.05, "storeys": 3, "level": 3.0, "level_top": 6.0, "building_height": 9.0}
+    loaded = {"hinge": 0.63, "overburden": 20e3, "overburden_inertia": 0, "eccentricity": 0.02}
+    assert notes(dd.TwoBlockWall(3.0, 0.25, **loaded, building=dd.Building(**house))) == ""
+    soft = dd.TwoBlockWall(3.0, 0.25, **loaded, building=dd.Building(**house, diaphragm_period=0.4))
+    assert "diaphragm at the top moves the strip" in notes(soft)
+    assert dd.check_ntc(soft, SITE).value("mechanism", "", "diaphragm_period") == 0.4
+    assert "not at the weakest hinge" in notes(dd.TwoBlockWall(3.0, 0.25, **{**loaded, "hinge": 0.8}))
+    assert "falls the higher the hinge" in notes(dd.TwoBlockWall(3.0, 0.25))
+    assert "beyond T_E" in notes(dd.OneSidedWall(20.0, 0.4))

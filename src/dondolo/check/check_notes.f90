@@ -34,6 +34,9 @@ contains
          call notes%add('the check is not at the weakest hinge of the strip: alpha_0 is least, '//rounded(least)// &
             & ', at hinge = '//rounded(hinge))
       end if
+      if (sheet%value('mechanism', '', 'diaphragm_period') > 0.0_wp) call notes%add('the flexible diaphragm at the top moves '// &
+         & 'the strip in its histories, but is not in the spectrum of the code: the demand of the kinematic check may be '// &
+         & 'too small')
       period = max(sheet%value('nonlinear', 'SLV', 'period'), sheet%value('nonlinear', 'SLC', 'period'))
       if (period > long_period) call notes%add('the equivalent period reaches '//rounded(period)//' s; beyond T_E, '// &
          & rounded(long_period)//' s or more by the soil, the displacements of NTC 2018, 3.2.3.2.3 fall, and the demand '// &

@@ -40,6 +40,7 @@ module dondolo_check_sheet
       & quantity_type('weakest_hinge', 'r*', '', 'hinge of a strip, height / height of the wall, at which alpha_0 is least'), &
       & quantity_type('weakest_alpha_0', 'alpha_0(r*)', '', 'multiplier there'), &
       & quantity_type('level', 'z', 'm', 'level above the ground whose spectrum is the demand'), &
+      & quantity_type('diaphragm_period', 'T_d', 's', 'period of the flexible diaphragm at the top, not in the demand'), &
       & quantity_type('tie_fracture', '', 'm', 'displacement at which ties break that carry more than half'), &
       & quantity_type('capacity_ag', 'a_gC', 'g', 'a_g that the wall withstands'), &
       & quantity_type('capacity_pga', 'a_gC S', 'g', 'peak acceleration at the site that the wall withstands'), &

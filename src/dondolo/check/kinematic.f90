@@ -55,6 +55,8 @@ module dondolo_check_kinematic
       real(wp) :: weakest_hinge = -1.0_wp, weakest_multiplier = -1.0_wp
       !> Level above the ground whose spectrum is the demand [m]; 0: the ground, or a level that is not known
       real(wp) :: level = 0.0_wp
+      !> Period of a flexible diaphragm that holds the top, which the spectrum of the code does not know [s]; 0: none
+      real(wp) :: diaphragm_period = 0.0_wp
       !> Of each mode of the building that the wall stands on: period [s], damping ratio, and participation times shape at the
       !> level of the wall, for a strip the mean of its floors; of size 0 on the ground
       real(wp), allocatable :: period(:), damping(:), participation(:)
@@ -134,6 +136,7 @@ contains
          type is (two_block_type)
             if (building%height > 0.0_wp) participation = 0.5_wp*(participation + building%participation_top)
             kinematic%level = building%level_top - 0.5_wp*building%height
+            if (building%has_diaphragm()) kinematic%diaphragm_period = building%diaphragm%period
          end select
          kinematic%level = max(0.0_wp, kinematic%level)
          ! Modes that do not move the level are not there.

@@ -124,6 +124,7 @@ contains
       call sheet%add('mechanism', '', 'a_0', kinematic%capacity(0.0_wp, input%knowledge_factor), 'C8.7.1.3')
       call sheet%add('mechanism', '', 'd_0', kinematic%end_displacement, 'C8.7.1.4')
       if (kinematic%level > 0.0_wp) call sheet%add('mechanism', '', 'level', kinematic%level)
+      if (kinematic%diaphragm_period > 0.0_wp) call sheet%add('mechanism', '', 'diaphragm_period', kinematic%diaphragm_period)
       if (kinematic%weakest_hinge > 0.0_wp) then
          call sheet%add('mechanism', '', 'weakest_hinge', kinematic%weakest_hinge)
          call sheet%add('mechanism', '', 'weakest_alpha_0', kinematic%weakest_multiplier, 'C8.7.1.1')
