@@ -768,25 +768,42 @@ def test_the_browser_would_see_a_request(browser, served, pages):
 # --- What fails, and what paper shows
 
 
-def test_a_wall_that_fails_its_checks_is_not_green(records, tmp_path):
-    """Without warnings too; a wall that passes all of them is."""
+def verdict(path):
+    """Tone and words of the verdict of a page."""
+    return re.search(r'<aside class="verdict (\w+)"><h3>(.*?)</h3>', path.read_text(encoding="utf-8")).groups()
+
+
+def test_the_verdict_comes_first_and_in_words(records, tmp_path):
+    """A wall that fails a check is red without warnings too; one whose anchors are not checked is not green."""
     weak, firm = (dd.OneSidedWall(1.5, thickness, name="front") for thickness in (0.18, 1.6))
     site = dd.Site(ag=0.25, f0=2.5, tc_star=0.35)
     strong = [record for record in records if record.intensity("pga") > 0.1]
     stripes = dd.multiple_stripe(weak, strong, [0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0], progress=False)
     check = dd.check_ntc(weak, site)
-    assert not check.verified["linear", "SLV"]
-    dd.report(stripes, tmp_path / "weak.html", check=check)
-    page = read(tmp_path / "weak.html")
-    assert "Not verified by NTC 2018" in page.text
-    assert f"linear SLV, capacity / demand {check.value('linear', 'SLV', 'ratio'):.3g}" in page.text
-    assert "No warnings" not in page.text
-    dd.report(stripes, tmp_path / "bare.html")
-    assert "No warnings" in read(tmp_path / "bare.html").text
-    assert all(dd.check_ntc(firm, site).verified.values())
-    stripes = dd.multiple_stripe(firm, records, [0.4, 0.8, 1.2], progress=False)
-    dd.report(stripes, tmp_path / "firm.html", check=dd.check_ntc(firm, site))
-    assert "Not verified" not in read(tmp_path / "firm.html").text
+    missed = [key for key, holds in check.verified.items() if not holds]
+    assert ("linear", "SLV") in missed
+    page, index = tmp_path / "page.html", check.value("nonlinear", "SLV", "ratio")
+    dd.report(stripes, page, check=check)
+    words = f"{len(missed)} of 4 checks by NTC 2018 not satisfied; ζ_E {index:.3g} (nonlinear SLV)"
+    assert verdict(page) == ("failed", words)
+    assert f"linear SLV, capacity / demand {check.value('linear', 'SLV', 'ratio'):.3g}" in read(page).text
+    assert "No warnings on the calculation." in read(page).text
+    dd.report(stripes, page)
+    assert 'class="verdict' not in page.read_text()
+    dd.report(stripes, page, hazard=dd.HazardCurve([0.1, 1.0], [1e-2, 1e-4], rigid_ground=True))
+    assert verdict(page)[0] == "doubt"
+
+    for wall, tone in ((firm, "fine"), (tied(firm), "doubt"), (tied(firm, anchor_force=9e3), "fine")):
+        check = dd.check_ntc(wall, site)
+        assert all(check.verified.values())
+        dd.report(dd.multiple_stripe(wall, records, [0.4, 0.8, 1.2], progress=False), page, check=check)
+        assert (verdict(page)[0], "all 4 checks" in verdict(page)[1].lower()) == (tone, True)
+        assert ("anchors of the ties not checked" in verdict(page)[1]) == (tone == "doubt")
+
+
+def tied(wall, **anchor):
+    """A wall with a tie."""
+    return dataclasses.replace(wall, ties=[dd.Tie(1.4, area=5e-5, length=8.0, **anchor)])
 
 
 def test_failing_walls_of_a_population_are_named(root, executable, tmp_path):
@@ -826,6 +843,11 @@ def test_the_records_of_a_run_are_described(executable, root, tmp_path):
         assert table["event"] == ["Lakeside", "Lakeside"]
         assert table["magnitude"] == ["6.1", "6.1"]
         assert (table["station"][1], table["component"][1], table["date"][1]) == ("QQX", "E", "2019-05-04")
+    assert read(tmp_path / "page.html").table("Records, and collapses")["factor from"]
+    (tmp_path / "catalogue.csv").write_text("file,dt_s,units\na.txt,0.01,m/s2\nb.txt,0.01,m/s2\n")
+    dd.report(dd.run_case(tmp_path / "case.nml", progress=False), tmp_path / "page.html")
+    table = read(tmp_path / "page.html").table("Records, as their headers")
+    assert {*table["event"], *table["magnitude"], *table["station"]} == {"not given"}
 
 
 def test_paper_shows_what_is_folded_up(browser, pages, tmp_path):
@@ -833,10 +855,26 @@ def test_paper_shows_what_is_folded_up(browser, pages, tmp_path):
     if not shutil.which("pdftotext"):
         pytest.skip("pdftotext is not installed")
     page = pages / "stripes.html"
-    last = next(iter(read(page).table("Records, and collapses").values()))[-1]
+    names = next(iter(read(page).table("Records, and collapses").values()))
     browse(browser, tmp_path, f"--print-to-pdf={tmp_path}/page.pdf", page.as_uri())
     words = subprocess.run(["pdftotext", tmp_path / "page.pdf", "-"], capture_output=True, text=True, check=True).stdout
-    assert last in words.partition("Table of the histories of a stripe")[2]
+    words = "".join(words.partition("Table of the histories of a stripe")[2].split())
+    assert [name for name in names if "".join(name.split()) not in words] == []
+
+
+def test_pdf_has_every_record_and_file(browser, executable, root, tmp_path):
+    if not shutil.which("pdftotext"):
+        pytest.skip("pdftotext is not installed")
+    case = root / "data/cases/parapet.nml"
+    subprocess.run([executable, "--quiet", case], cwd=tmp_path, capture_output=True, check=True)
+    found = dd.read_results(tmp_path / "out/parapet")
+    dd.report(found, tmp_path / "page.pdf")
+    words = subprocess.run(["pdftotext", tmp_path / "page.pdf", "-"], capture_output=True, text=True, check=True).stdout
+    words = "".join(words.split())
+    files = [Path(one["path"]).name for one in found.run.inputs]
+    names = [*(one["name"] for one in found.run.records), *files]
+    assert len(files) > 44
+    assert [name for name in names if "".join(name.split()) not in words] == []
 
 
 def test_pdf_is_printed_unfolded(monkeypatch, stripes, tmp_path):

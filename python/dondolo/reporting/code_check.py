@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -12,6 +12,8 @@ from dondolo.checks.ntc import CodeCheck
 from dondolo.curves.fragility import Fragility
 from dondolo.reporting.content import Piece, Symbol, Table, figure
 from dondolo.reporting.numerals import NONE, number, probability, whole
+from dondolo.walls.parts import parts_of
+from dondolo.walls.wall import Wall
 
 
 def code_check(check: CodeCheck, curve: Fragility | None) -> dict[str, Any]:
@@ -20,7 +22,7 @@ def code_check(check: CodeCheck, curve: Fragility | None) -> dict[str, Any]:
     chances: dict[tuple[str, str], float] = {}
     if curve is not None and curve.has_fit and curve.im == "pga":
         chances = check.probabilities(curve)
-        words = "; ".join(f"{' '.join(key).strip()} {value:.2g}" for key, value in chances.items())
+        words = "; ".join(f"{' '.join(key).strip()} {probability(value).text}" for key, value in chances.items())
         drawn = figure(
             lambda: check.plot(curve=curve), f"Lines of the checks on the fragility curve. Probabilities: {words}."
         )
@@ -109,9 +111,75 @@ def code_checks(
     }
 
 
-def failed(checks: Sequence[CodeCheck | None]) -> list[str]:
-    """The checks that walls do not pass, a sentence each."""
+class Verdict(NamedTuple):
+    """What the checks come to, at the beginning of a report.
+
+    Attributes
+    ----------
+    tone : str
+        'failed', 'doubt' or 'fine': the colour, which the words repeat.
+    words : str
+        How many checks are satisfied, and the safety index.
+    reasons : tuple of str
+        The checks that are not, and what was not checked.
+    """
+
+    tone: str
+    words: str
+    reasons: tuple[str, ...]
+
+
+def verdict(checks: Sequence[CodeCheck | None], walls: Sequence[Wall], *, without_soil: bool) -> Verdict | None:
+    """The verdict on the walls of a report; None if nothing was checked and nothing is in doubt.
+
+    Parameters
+    ----------
+    checks : sequence of CodeCheck or None
+        Of each wall; None for one that could not be checked.
+    walls : sequence of Wall
+        All walls of the report.
+    without_soil : bool
+        Whether the hazard of the annual frequency is without the factor of soil and topography.
+    """
     made = [check for check in checks if check is not None]
+    missed, doubts = _failed(made), []
+    if made and len(made) < len(checks):
+        doubts.append(f"not checked: {len(checks) - len(made)} of {len(checks)} walls")
+    if made and (loose := unchecked_anchors(walls)):
+        doubts.append(f"anchors of the ties not checked: {_named(loose, walls)}")
+    if without_soil:
+        doubts.append("the hazard is that of rigid, level ground, without the factor S of soil and topography")
+    if not made:
+        return Verdict("doubt", "Not checked by a building code", tuple(doubts)) if doubts else None
+    verdicts = [holds for check in made for holds in check.verified.values()]
+    if missed:
+        words = f"{verdicts.count(False)} of {len(verdicts)} checks by NTC 2018 not satisfied"
+    else:
+        words = f"all {len(verdicts)} checks by NTC 2018 satisfied"
+    index = min(made, key=lambda check: check.value("nonlinear", "SLV", "ratio"))
+    whose = f", {index.wall.name}" if len(made) > 1 else ""
+    words = f"{words[0].upper()}{words[1:]}; ζ_E {_ratio(index):.3g} (nonlinear SLV{whose})"
+    if doubts and not missed:
+        words += "; open: " + "; ".join(one.partition(":")[0] for one in doubts)
+    return Verdict("failed" if missed else "doubt" if doubts else "fine", words, (*missed, *doubts))
+
+
+def unchecked_anchors(walls: Sequence[Wall]) -> list[Wall]:
+    """Walls with ties whose anchors have no strength, so that the bars alone are checked."""
+    return [wall for wall in walls if any(tie.anchor_force is None for tie in parts_of(wall, "ties"))]
+
+
+def _ratio(check: CodeCheck) -> float:
+    return check.value("nonlinear", "SLV", "ratio")
+
+
+def _named(some: Sequence[Wall], walls: Sequence[Wall]) -> str:
+    """Walls by their names, or how many they are."""
+    return ", ".join(wall.name for wall in some) if len(some) <= _NAMED else f"{len(some)} of {len(walls)} walls"
+
+
+def _failed(made: Sequence[CodeCheck]) -> list[str]:
+    """The checks that walls do not pass, a sentence each."""
     sentences = []
     for key in dict.fromkeys(key for check in made for key in check.verified):
         missed = [check for check in made if not check.verified.get(key, True)]
@@ -123,10 +191,8 @@ def failed(checks: Sequence[CodeCheck | None]) -> list[str]:
         what = f"{' '.join(key)}{least}"
         if len(made) == 1:
             sentences.append(what)
-        elif len(missed) <= _NAMED:
-            sentences.append(f"{what}: {', '.join(check.wall.name for check in missed)}")
         else:
-            sentences.append(f"{what}: {len(missed)} of {len(made)} walls")
+            sentences.append(f"{what}: {_named([check.wall for check in missed], [check.wall for check in made])}")
     return sentences
 
 

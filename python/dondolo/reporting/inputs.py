@@ -47,6 +47,8 @@ _SHOWN = {"m2/m": ("cm2/m", 1e4), "Pa": ("MPa", 1e-6)}
 DRAWN = 24
 # Columns of a table of further properties: what fits across a page
 _ACROSS = 8
+# What a table of records says of each
+_DESCRIBED = ("event", *RECORD_FACTS)
 
 
 def inputs(run: Run) -> dict[str, Any]:
@@ -279,10 +281,13 @@ def records(run: Run) -> dict[str, Any]:
 
 def _stored_records_table(stored: Sequence[Mapping[str, str]]) -> Table:
     """Records of result files, which have their names and headers, and not their samples."""
-    known = [key for key in ("event", *RECORD_FACTS) if any(one.get(key) for one in stored)]
     columns: dict[Piece, Sequence[Piece]] = {"record": [one["name"] for one in stored]}
-    columns |= {key: [one.get(key, "") for one in stored] for key in known}
-    return Table.of(columns, known)
+    return Table.of(columns | _described(stored), _DESCRIBED)
+
+
+def _described(headers: Sequence[Mapping[str, str]]) -> dict[Piece, Sequence[Piece]]:
+    """What headers and catalogue state of each record, and that they do not."""
+    return {name: [one.get(name) or "not given" for one in headers] for name in _DESCRIBED}
 
 
 def _histories_table(stripes: Stripes) -> Table:
@@ -292,7 +297,8 @@ def _histories_table(stripes: Stripes) -> Table:
         "record": list(stripes.record_names),
         "polarity": ["reversed" if sign < 0 else "as recorded" for sign in stripes.polarity],
         f"{stripes.im} unscaled [{level_unit(stripes.im)}]": [number(x) for x in unscaled],
-        "largest factor": [number(x) for x in np.nanmax(stripes.scale, axis=0)],
+        "factor from": [number(x) for x in np.nanmin(stripes.scale, axis=0)],
+        "to": [number(x) for x in np.nanmax(stripes.scale, axis=0)],
         "collapses": [whole(z) for z in stripes.collapsed.sum(axis=0)],
     }
     return Table.of(columns, ("polarity",))
@@ -300,9 +306,8 @@ def _histories_table(stripes: Stripes) -> Table:
 
 def _records_table(records: Sequence[Record]) -> Table:
     """Records that are at hand."""
-    known = [key for key in ("event", *RECORD_FACTS) if any(one.metadata.get(key) for one in records)]
     columns: dict[Piece, Sequence[Piece]] = {"record": [one.name for one in records]}
-    columns |= {key: [one.metadata.get(key, "") for one in records] for key in known}
+    columns |= _described([one.metadata for one in records])
     columns |= {
         "PGA [g]": [number(one.intensity("pga")) for one in records],
         "PGV [m/s]": [number(one.intensity("pgv")) for one in records],
@@ -313,7 +318,7 @@ def _records_table(records: Sequence[Record]) -> Table:
         columns["processing"] = ["; ".join(one.processing) for one in records]
     if any("reading" in one.metadata for one in records):
         columns["reading"] = [one.metadata.get("reading", "") for one in records]
-    return Table.of(columns, (*known, "processing", "reading"))
+    return Table.of(columns, (*_DESCRIBED, "processing", "reading"))
 
 
 def checks(run: Run) -> dict[str, Any]:

@@ -26,7 +26,7 @@ from dondolo.hazard.hazard import HazardCurve
 from dondolo.populations.typology import Typology
 from dondolo.populations.uncertain_wall import UncertainWall
 from dondolo.reporting import designs, facade, inputs, typology, uncertain, wall
-from dondolo.reporting.code_check import code_check, code_checks, failed
+from dondolo.reporting.code_check import code_check, code_checks, verdict
 from dondolo.reporting.content import BETA, THETA, Symbol, date_in_words
 from dondolo.reporting.numerals import NONE, whole
 from dondolo.reporting.pdf import write_pdf
@@ -228,8 +228,10 @@ def _chapters(run: Run, hazard: HazardCurve | None) -> list[Chapter]:
         chapters.append(Chapter("risk", "Annual frequency of collapse", "risk", facts))
         found += short
     measure = style.im_label(getattr(results, "im", "pga"))
+    checked = run.checks if run.check is None else (run.check,)
+    found_verdict = verdict(checked, run.population.walls, without_soil=hazard is not None and hazard.rigid_ground)
     return [
-        Chapter("summary", "Summary", "summary", {"warnings": found, "failed": _failed(run), **summary}),
+        Chapter("summary", "Summary", "summary", {"verdict": found_verdict, "warnings": found, **summary}),
         *chapters,
         Chapter("inputs", "What was run", "inputs", inputs.inputs(run)),
         Chapter("walls", _title_of_walls(run), "walls", inputs.walls(run)),
@@ -250,11 +252,6 @@ def _chapters(run: Run, hazard: HazardCurve | None) -> list[Chapter]:
         Chapter("symbols", "Symbols and terms", "symbols", {"measure": measure, "is_alike": run.is_alike}),
         Chapter("software", "Software", "facts", inputs.software(run)),
     ]
-
-
-def _failed(run: Run) -> list[str]:
-    """The checks by a building code that the walls do not pass."""
-    return failed(run.checks if run.check is None else (run.check,))
 
 
 def _title_of_walls(run: Run) -> str:
