@@ -7,7 +7,7 @@ program dondolo_main
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
    use dondolo_base_plain, only : visible
-   use dondolo_base_system, only : outlive_file_limit, output_arrives, stderr_is_terminal
+   use dondolo_base_system, only : output_arrives, set_up_process, stderr_is_terminal
    use dondolo_base_threads, only : available_threads, given_threads
    use dondolo_base_version, only : dondolo_version_text
    use dondolo_benchmark, only : run_benchmark
@@ -37,7 +37,7 @@ program dondolo_main
    type(error_type), allocatable :: error
    integer :: i
 
-   call outlive_file_limit()
+   call set_up_process()
    call read_arguments(arguments, error)
    if (allocated(error)) call give_up(error)
    select case (arguments%action)

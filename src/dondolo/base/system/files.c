@@ -1,15 +1,72 @@
-/* What files need of POSIX that Fortran cannot call: functions with optional arguments, structures, clocks. */
+/* What files need of POSIX that Fortran cannot call: functions with optional arguments, structures, clocks. For Windows see
+   windows_files.c and windows_locks.c. */
+#ifndef _WIN32
 #define _GNU_SOURCE
+#include "standard.h"
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
+
+/* Make a folder, remove an empty one, give a file another name in place of a file that has it, remove a file; 1: done */
+int dondolo_make_folder(const char *path)
+{
+   return mkdir(path, 0777) == 0;
+}
+
+int dondolo_remove_folder(const char *path)
+{
+   return rmdir(path) == 0;
+}
+
+int dondolo_rename(const char *from, const char *to)
+{
+   return rename(from, to) == 0;
+}
+
+int dondolo_remove_file(const char *path)
+{
+   return unlink(path) == 0;
+}
+
+/* 1: a file may be replaced, whoever has it open */
+int dondolo_is_free(const char *path)
+{
+   (void)path;
+   return 1;
+}
+
+/* 1: two paths are one file that exists */
+int dondolo_same_file(const char *first, const char *second)
+{
+   char *real_first = realpath(first, NULL), *real_second = realpath(second, NULL);
+   int is_same = real_first != NULL && real_second != NULL && strcmp(real_first, real_second) == 0;
+
+   free(real_first);
+   free(real_second);
+   return is_same;
+}
+
+/* Where the folders of a path end: number of bytes with the last separator */
+size_t dondolo_last_separator(const char *path)
+{
+   const char *last = strrchr(path, '/');
+
+   return last == NULL ? 0 : (size_t)(last - path) + 1;
+}
+
+/* 1: a path does not depend on the current folder */
+int dondolo_is_absolute(const char *path)
+{
+   return path[0] == '/';
+}
 
 /* Make a file that is not there yet, and open it to write; NULL if that fails. No link is followed. */
 FILE *dondolo_create(const char *path)
@@ -92,7 +149,7 @@ FILE *dondolo_append(const char *path)
 }
 
 /* Cut a regular file to a length, no link followed; 1: it has this length now */
-int dondolo_cut(const char *path, long bytes)
+int dondolo_cut(const char *path, int64_t bytes)
 {
    struct stat found;
    int descriptor = open(path, O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC), done;
@@ -104,16 +161,38 @@ int dondolo_cut(const char *path, long bytes)
    return done;
 }
 
+/* Open a file, which is made with the sticky bit if it is not there. `is_made`: it is known to have been made here. */
+static int open_marked(const char *path, int access, int *is_made)
+{
+   const int how = access | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
+
+   *is_made = 0;
+#ifdef __APPLE__
+   /* There the bit is lost when a file is made. */
+   struct stat made;
+   int descriptor = open(path, how | O_EXCL, 0666);
+
+   if (descriptor >= 0 || errno != EEXIST) {
+      *is_made = descriptor >= 0;
+      if (*is_made && fstat(descriptor, &made) == 0)
+         fchmod(descriptor, (made.st_mode & 07777) | S_ISVTX);
+      return descriptor;
+   }
+#endif
+   return open(path, how, 0666 | S_ISVTX);
+}
+
 /* Make an empty file and remove it; 1: that can be done. It has the sticky bit of dondolo_take_lock: so one that a killed
    trial has left is removed too, and a file of somebody else's is not. */
 int dondolo_try_file(const char *path)
 {
    struct stat found;
-   int descriptor = open(path, O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666 | S_ISVTX);
+   int is_made, descriptor = open_marked(path, O_WRONLY, &is_made);
 
    if (descriptor < 0)
       return 0;
-   if (fstat(descriptor, &found) == 0 && S_ISREG(found.st_mode) && found.st_size == 0 && (found.st_mode & S_ISVTX) != 0)
+   if (fstat(descriptor, &found) == 0 && S_ISREG(found.st_mode) && found.st_size == 0 &&
+       (is_made || (found.st_mode & S_ISVTX) != 0))
       unlink(path);
    close(descriptor);
    return 1;
@@ -122,6 +201,11 @@ int dondolo_try_file(const char *path)
 /* 1: all that was written to a file, or to the list of files of a folder, is on the disk */
 static int synchronize(int descriptor)
 {
+#ifdef F_FULLFSYNC
+   /* fsync of macOS leaves it in the memory of the disk. */
+   if (fcntl(descriptor, F_FULLFSYNC) == 0)
+      return 1;
+#endif
    /* Some file systems have nothing to synchronize, and say so. */
    return fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP;
 }
@@ -162,10 +246,10 @@ static void read_text(int descriptor, char *text, size_t room)
 int dondolo_take_lock(const char *path, int *descriptor, char *text, size_t room)
 {
    struct stat ours, there;
-   int tries = 0;
+   int tries = 0, is_made;
 
    while (tries < 5) {
-      *descriptor = open(path, O_RDWR | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0666 | S_ISVTX);
+      *descriptor = open_marked(path, O_RDWR, &is_made);
       if (*descriptor < 0)
          return 2;
       if (flock(*descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
@@ -180,7 +264,7 @@ int dondolo_take_lock(const char *path, int *descriptor, char *text, size_t room
       if (fstat(*descriptor, &ours) == 0 && S_ISREG(ours.st_mode) && lstat(path, &there) == 0 &&
           ours.st_ino == there.st_ino && ours.st_dev == there.st_dev) {
          read_text(*descriptor, text, room);
-         if (text[0] != '\0' || (ours.st_mode & S_ISVTX) != 0)
+         if (text[0] != '\0' || is_made || (ours.st_mode & S_ISVTX) != 0)
             return 0;
          close(*descriptor);
          return 3;
@@ -240,23 +324,13 @@ int dondolo_publish_part(const char *part, const char *path)
 /* Remove the parts FILE.RUN.new of a file that nobody writes any more */
 void dondolo_remove_dead_parts(const char *folder, const char *file)
 {
-   const char *form = "00000000T000000Z-xxxxxxxxxxxxxxxx.new";
-   size_t begin = strlen(file) + 1;
    DIR *list = opendir(folder);
    struct dirent *entry;
 
    while (list != NULL && (entry = readdir(list)) != NULL) {
       const char *name = entry->d_name;
-      int is_part = strncmp(name, file, begin - 1) == 0 && name[begin - 1] == '.' && strlen(name + begin) == strlen(form);
 
-      for (size_t i = 0; is_part && form[i] != '\0'; i++) {
-         char letter = name[begin + i];
-
-         is_part = form[i] == '0' ? strchr("0123456789", letter) != NULL
-                   : form[i] == 'x' ? strchr("0123456789abcdef", letter) != NULL
-                                    : letter == form[i];
-      }
-      if (is_part) {
+      if (dondolo_is_part(name, file)) {
          int descriptor = openat(dirfd(list), name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
 
          if (descriptor < 0)
@@ -327,9 +401,4 @@ double dondolo_seconds_since(const char *since)
       return -1.0;
    return difftime(time(NULL), timegm(&parts));
 }
-
-/* Number of the last error of the system */
-int dondolo_errno(void)
-{
-   return errno;
-}
+#endif

@@ -1,4 +1,6 @@
-/* Signals while histories run: handlers that take note of them. Fortran knows no signals. */
+/* Signals while histories run: handlers that take note of them. Fortran knows no signals. For Windows see
+   windows_process.c. */
+#ifndef _WIN32
 #include <signal.h>
 #include <stddef.h>
 
@@ -92,3 +94,4 @@ void dondolo_look_for_interrupt(int *is_noted)
 {
    *is_noted = heard >= 0 && come != heard;
 }
+#endif

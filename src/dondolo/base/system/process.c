@@ -1,5 +1,9 @@
 /* What processes need of the system: the path of their own program, to become another one, and how much memory they may
-   have. */
+   have. For Windows see windows_process.c. */
+#ifndef _WIN32
+#define _GNU_SOURCE
+#include "standard.h"
+#include <signal.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -30,43 +34,33 @@ void dondolo_own_path(char *path, size_t room)
    free(real);
 }
 
-/* Take the current folder out of PYTHONPATH, where an empty entry means it too, as in the common PYTHONPATH=$PYTHONPATH:more */
-static void leave_current_folder(void)
+/* Settle what a program of its own may meet: where a file would grow beyond the limit of the process (ulimit -f), writing fails
+   as on a full disk. */
+void dondolo_set_up_process(void)
 {
-   const char *given = getenv("PYTHONPATH");
-   char *kept, *end;
+#ifdef SIGXFSZ
+   signal(SIGXFSZ, SIG_IGN);
+#endif
+}
 
-   if (given == NULL || (kept = malloc(strlen(given) + 1)) == NULL)
-      return;
-   end = kept;
-   for (const char *entry = given; entry != NULL;) {
-      const char *colon = strchr(entry, ':');
-      size_t length = colon == NULL ? strlen(entry) : (size_t)(colon - entry);
-
-      if (strspn(entry, "./") < length || memcmp(entry, "/", 1) == 0 || strncmp(entry, "..", 2) == 0) {
-         if (end > kept)
-            *end++ = ':';
-         memcpy(end, entry, length);
-         end += length;
-      }
-      entry = colon == NULL ? NULL : colon + 1;
-   }
-   *end = '\0';
-   if (end > kept)
-      setenv("PYTHONPATH", kept, 1);
-   else
-      unsetenv("PYTHONPATH");
-   free(kept);
+/* 1: a file descriptor is a terminal */
+int dondolo_is_terminal(int descriptor)
+{
+   return isatty(descriptor);
 }
 
 /* Become Python, with its name and arguments in words that a NUL ends each. Returns only if there is none. */
 void dondolo_become(char *words, int count)
 {
-   char **arguments = calloc((size_t)count + 1, sizeof *arguments);
+   char **arguments = calloc((size_t)count + 1, sizeof *arguments), *modules = dondolo_modules_elsewhere(':');
 
    if (arguments == NULL)
       return;
-   leave_current_folder();
+   if (modules != NULL && *modules != '\0')
+      setenv("PYTHONPATH", modules, 1);
+   else if (modules != NULL)
+      unsetenv("PYTHONPATH");
+   free(modules);
    for (int i = 0; i < count; i++) {
       arguments[i] = words;
       words += strlen(words) + 1;
@@ -95,3 +89,4 @@ int dondolo_is_limited(void)
          return 1;
    return !promises_all;
 }
+#endif

@@ -1,14 +1,16 @@
 !> The few things of the operating system that Fortran does not give: folders, renaming, writing that notices a full
-!> disk (gfortran's own WRITE and CLOSE report success there), terminals. All are C and POSIX functions, or in files.c.
+!> disk (gfortran's own WRITE and CLOSE report success there), terminals. Every function in C is dondolo's: standard.c has what all
+!> systems have, files.c and process.c what POSIX has, windows_*.c the same for Windows.
 module dondolo_base_system
-   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_int, c_intptr_t, c_null_char, c_long, &
-      & c_null_ptr, c_ptr, c_size_t
+   use, intrinsic :: iso_c_binding, only : c_associated, c_char, c_int, c_int64_t, c_null_char, c_null_ptr, &
+      & c_ptr, c_size_t
    use, intrinsic :: iso_fortran_env, only : int64, output_unit
    implicit none
    private
 
    public :: make_folder, remove_folder, rename_file, remove_file, cut_file, is_folder, same_file, synchronize_folder, try_file
-   public :: writer_type, stderr_is_terminal, output_arrives, outlive_file_limit
+   public :: is_free, is_absolute, last_separator, folder_of
+   public :: writer_type, stderr_is_terminal, output_arrives, set_up_process
 
    !> A file being written
    type :: writer_type
@@ -31,24 +33,22 @@ module dondolo_base_system
 
    interface
 
-      !> Make a folder
-      integer(c_int) function c_mkdir(path, mode) bind(c, name='mkdir')
+      !> Make a folder; 1: done, as in all that follow
+      integer(c_int) function c_make_folder(path) bind(c, name='dondolo_make_folder')
          import :: c_char, c_int
          !> Path
          character(kind=c_char), intent(in) :: path(*)
-         !> Permissions
-         integer(c_int), value :: mode
-      end function c_mkdir
+      end function c_make_folder
 
       !> Remove an empty folder
-      integer(c_int) function c_rmdir(path) bind(c, name='rmdir')
+      integer(c_int) function c_remove_folder(path) bind(c, name='dondolo_remove_folder')
          import :: c_char, c_int
          !> Path
          character(kind=c_char), intent(in) :: path(*)
-      end function c_rmdir
+      end function c_remove_folder
 
       !> Give a file another name, in place of a file that has it
-      integer(c_int) function c_rename(from, to) bind(c, name='rename')
+      integer(c_int) function c_rename(from, to) bind(c, name='dondolo_rename')
          import :: c_char, c_int
          !> Present path
          character(kind=c_char), intent(in) :: from(*)
@@ -57,50 +57,79 @@ module dondolo_base_system
       end function c_rename
 
       !> Remove a file
-      integer(c_int) function c_unlink(path) bind(c, name='unlink')
+      integer(c_int) function c_remove_file(path) bind(c, name='dondolo_remove_file')
          import :: c_char, c_int
          !> Path
          character(kind=c_char), intent(in) :: path(*)
-      end function c_unlink
+      end function c_remove_file
 
-      !> Cut a file to a length; 1: it has it
-      integer(c_int) function c_cut(path, length) bind(c, name='dondolo_cut')
-         import :: c_char, c_int, c_long
+      !> Does no other program keep a file from being replaced?
+      integer(c_int) function c_is_free(path) bind(c, name='dondolo_is_free')
+         import :: c_char, c_int
          !> Path
          character(kind=c_char), intent(in) :: path(*)
-         !> Length [bytes]; off_t is a long on 64-bit systems
-         integer(c_long), value :: length
+      end function c_is_free
+
+      !> Cut a file to a length
+      integer(c_int) function c_cut(path, length) bind(c, name='dondolo_cut')
+         import :: c_char, c_int, c_int64_t
+         !> Path
+         character(kind=c_char), intent(in) :: path(*)
+         !> Length [bytes]
+         integer(c_int64_t), value :: length
       end function c_cut
 
-      !> The one absolute path of a file
-      type(c_ptr) function c_realpath(path, resolved) bind(c, name='realpath')
-         import :: c_char, c_ptr
+      !> What is at a path: 3 is a folder
+      integer(c_int) function c_thing(path, follows) bind(c, name='dondolo_thing')
+         import :: c_char, c_int
          !> Path
          character(kind=c_char), intent(in) :: path(*)
-         !> Room for the result
-         character(kind=c_char), intent(out) :: resolved(*)
-      end function c_realpath
+         !> 1: what a link leads to
+         integer(c_int), value :: follows
+      end function c_thing
+
+      !> Are two paths one file that exists?
+      integer(c_int) function c_same_file(first, second) bind(c, name='dondolo_same_file')
+         import :: c_char, c_int
+         !> A path
+         character(kind=c_char), intent(in) :: first(*)
+         !> Another
+         character(kind=c_char), intent(in) :: second(*)
+      end function c_same_file
+
+      !> Where the folders of a path end: number of bytes with the last separator
+      pure integer(c_size_t) function c_last_separator(path) bind(c, name='dondolo_last_separator')
+         import :: c_char, c_size_t
+         !> Path
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_last_separator
+
+      !> Is a path independent of the current folder?
+      pure integer(c_int) function c_is_absolute(path) bind(c, name='dondolo_is_absolute')
+         import :: c_char, c_int
+         !> Path
+         character(kind=c_char), intent(in) :: path(*)
+      end function c_is_absolute
 
       !> Is a file descriptor a terminal?
-      integer(c_int) function c_isatty(descriptor) bind(c, name='isatty')
+      integer(c_int) function c_is_terminal(descriptor) bind(c, name='dondolo_is_terminal')
          import :: c_int
          !> File descriptor
          integer(c_int), value :: descriptor
-      end function c_isatty
+      end function c_is_terminal
 
-      !> Number of the last error of the system
+      !> Number of the last error of the C library
       integer(c_int) function c_errno() bind(c, name='dondolo_errno')
          import :: c_int
       end function c_errno
 
-      !> Say what a signal is to do
-      type(c_ptr) function c_signal(number, handler) bind(c, name='signal')
-         import :: c_int, c_intptr_t, c_ptr
-         !> Number of the signal
-         integer(c_int), value :: number
-         !> A handler; 1: none, the signal is ignored
-         integer(c_intptr_t), value :: handler
-      end function c_signal
+      !> Forget the last error of the C library
+      subroutine c_forget_error() bind(c, name='dondolo_forget_error')
+      end subroutine c_forget_error
+
+      !> Settle what a program of its own may meet; see process.c and windows_process.c
+      subroutine set_up_process() bind(c, name='dondolo_set_up_process')
+      end subroutine set_up_process
 
       !> Open a regular file to write behind what is there; it is made if it is not, and no link is followed
       type(c_ptr) function c_append(path) bind(c, name='dondolo_append')
@@ -117,40 +146,38 @@ module dondolo_base_system
       end function c_create
 
       !> Write bytes
-      integer(c_size_t) function c_fwrite(bytes, size, count, handle) bind(c, name='fwrite')
-         import :: c_char, c_ptr, c_size_t
+      integer(c_int) function c_write(bytes, count, handle) bind(c, name='dondolo_write')
+         import :: c_char, c_int, c_ptr, c_size_t
          !> The bytes
          character(kind=c_char), intent(in) :: bytes(*)
-         !> Bytes of an item
-         integer(c_size_t), value :: size
-         !> Number of items
+         !> Number of bytes
          integer(c_size_t), value :: count
          !> File
          type(c_ptr), value :: handle
-      end function c_fwrite
+      end function c_write
 
       !> Give what was written to the system
-      integer(c_int) function c_fflush(handle) bind(c, name='fflush')
+      integer(c_int) function c_flush(handle) bind(c, name='dondolo_flush')
          import :: c_int, c_ptr
          !> File
          type(c_ptr), value :: handle
-      end function c_fflush
+      end function c_flush
 
-      !> Bring what was written to the disk; 1: it is there
+      !> Bring what was written to the disk
       integer(c_int) function c_synchronize(handle) bind(c, name='dondolo_synchronize')
          import :: c_int, c_ptr
          !> File
          type(c_ptr), value :: handle
       end function c_synchronize
 
-      !> Make an empty file and remove it; 1: that can be done
+      !> Make an empty file and remove it
       integer(c_int) function c_try_file(path) bind(c, name='dondolo_try_file')
          import :: c_char, c_int
          !> Path
          character(kind=c_char), intent(in) :: path(*)
       end function c_try_file
 
-      !> Bring the names of the files of a folder to the disk; 1: they are there
+      !> Bring the names of the files of a folder to the disk
       integer(c_int) function c_synchronize_folder(path) bind(c, name='dondolo_synchronize_folder')
          import :: c_char, c_int
          !> Path
@@ -158,11 +185,11 @@ module dondolo_base_system
       end function c_synchronize_folder
 
       !> Close a file
-      integer(c_int) function c_fclose(handle) bind(c, name='fclose')
+      integer(c_int) function c_close(handle) bind(c, name='dondolo_close')
          import :: c_int, c_ptr
          !> File
          type(c_ptr), value :: handle
-      end function c_fclose
+      end function c_close
 
    end interface
 
@@ -175,9 +202,7 @@ contains
       !> It was made
       logical, intent(out) :: ok
 
-      integer(c_int), parameter :: everybody = int(o'777', c_int)
-
-      ok = c_mkdir(path//c_null_char, everybody) == 0
+      ok = c_make_folder(path//c_null_char) == 1
    end subroutine make_folder
 
    !> Remove an empty folder
@@ -187,7 +212,7 @@ contains
 
       integer(c_int) :: stat
 
-      stat = c_rmdir(path//c_null_char)
+      stat = c_remove_folder(path//c_null_char)
    end subroutine remove_folder
 
    !> Give a file another name, in place of a file that has it
@@ -199,7 +224,7 @@ contains
       !> It has the new name
       logical, intent(out) :: ok
 
-      ok = c_rename(from//c_null_char, to//c_null_char) == 0
+      ok = c_rename(from//c_null_char, to//c_null_char) == 1
    end subroutine rename_file
 
    !> Remove a file, if there is one
@@ -209,7 +234,7 @@ contains
 
       integer(c_int) :: stat
 
-      stat = c_unlink(path//c_null_char)
+      stat = c_remove_file(path//c_null_char)
    end subroutine remove_file
 
    !> Cut a file to a length; a link is not followed
@@ -221,7 +246,7 @@ contains
       !> It has this length now
       logical, intent(out) :: ok
 
-      ok = c_cut(path//c_null_char, int(bytes, c_long)) == 1
+      ok = c_cut(path//c_null_char, int(bytes, c_int64_t)) == 1
    end subroutine cut_file
 
    !> Bring the names of the files of a folder to the disk
@@ -231,8 +256,7 @@ contains
       !> Set to false when that failed; left alone otherwise
       logical, intent(inout) :: ok
 
-      if (c_synchronize_folder('./'(:merge(0, 2, path(1:1) == '/'))//path(:index(path, '/', back=.true.))//c_null_char) &
-         & /= 1) ok = .false.
+      if (c_synchronize_folder(folder_of(path)//c_null_char) /= 1) ok = .false.
    end subroutine synchronize_folder
 
    !> Try whether a file can be made; an empty one that a killed trial has left is removed, any other stays
@@ -252,8 +276,47 @@ contains
       !> It is
       logical :: is_folder
 
-      inquire (file=path//'/.', exist=is_folder)
+      integer(c_int), parameter :: follows = 1_c_int, folder = 3_c_int
+
+      is_folder = c_thing(trim(path)//c_null_char, follows) == folder
    end function is_folder
+
+   !> May a file be replaced? On Windows not while another program has it open
+   function is_free(path)
+      !> Path of a file; one that is not there is free
+      character(len=*), intent(in) :: path
+      !> It may
+      logical :: is_free
+
+      is_free = c_is_free(path//c_null_char) == 1
+   end function is_free
+
+   !> Does a path begin at a root, so that it does not depend on the current folder?
+   pure logical function is_absolute(path)
+      !> Path
+      character(len=*), intent(in) :: path
+
+      is_absolute = c_is_absolute(path//c_null_char) == 1
+   end function is_absolute
+
+   !> Where the folders of a path end: position of the last separator, 0 if there is none
+   pure integer function last_separator(path)
+      !> Path, as users of the system write it
+      character(len=*), intent(in) :: path
+
+      last_separator = int(c_last_separator(path//c_null_char))
+   end function last_separator
+
+   !> The folder of a file, with a separator at its end
+   pure function folder_of(path) result(folder)
+      !> Path of the file
+      character(len=*), intent(in) :: path
+      !> Its folder, the current one if it names none
+      character(len=max(last_separator(path), 2*merge(0, 1, last_separator(path) > 0))) :: folder
+
+      folder = './'
+      if (last_separator(path) > 0) folder = path(:last_separator(path))
+   end function folder_of
 
    !> Are two paths one file that exists?
    function same_file(first, second)
@@ -264,16 +327,7 @@ contains
       !> They are
       logical :: same_file
 
-      ! PATH_MAX of Linux and macOS is 4096 or less
-      integer, parameter :: room = 8192
-      character(kind=c_char, len=:), allocatable :: real_first, real_second
-
-      real_first = repeat(' ', room)
-      real_second = real_first
-      same_file = .false.
-      if (.not. c_associated(c_realpath(first//c_null_char, real_first))) return
-      if (.not. c_associated(c_realpath(second//c_null_char, real_second))) return
-      same_file = real_first(:index(real_first, c_null_char)) == real_second(:index(real_second, c_null_char))
+      same_file = c_same_file(first//c_null_char, second//c_null_char) == 1
    end function same_file
 
    !> Is standard error a terminal?
@@ -283,7 +337,7 @@ contains
 
       integer(c_int), parameter :: standard_error = 2_c_int
 
-      stderr_is_terminal = c_isatty(standard_error) == 1
+      stderr_is_terminal = c_is_terminal(standard_error) == 1
    end function stderr_is_terminal
 
    !> Does all that was printed reach standard output? FLUSH of gfortran reports no error, but leaves its number
@@ -291,25 +345,10 @@ contains
       !> It does
       logical :: output_arrives
 
-      integer(c_int) :: number
-
-      ! Nothing sets the number to 0, but a call that fails sets it: to remove a folder without a name.
-      call remove_folder('')
-      number = c_errno()
+      call c_forget_error()
       flush (output_unit)
-      output_arrives = c_errno() == number
+      output_arrives = c_errno() == 0
    end function output_arrives
-
-   !> Go on where a file would grow beyond the limit of the process (ulimit -f): writing then fails as on a full disk
-   subroutine outlive_file_limit()
-
-      ! SIGXFSZ has this number on Linux and macOS; SIG_IGN is 1 there.
-      integer(c_int), parameter :: file_limit = 25_c_int
-      integer(c_intptr_t), parameter :: ignore = 1_c_intptr_t
-      type(c_ptr) :: before
-
-      before = c_signal(file_limit, ignore)
-   end subroutine outlive_file_limit
 
    !> Make a file that is not there yet; nothing is replaced, and no link followed
    subroutine create(self, path, ok)
@@ -343,10 +382,7 @@ contains
       !> Set to false when it could not be written; left alone otherwise
       logical, intent(inout) :: ok
 
-      integer(c_size_t) :: length
-
-      length = len(text, c_size_t)
-      if (c_fwrite(text, 1_c_size_t, length, self%handle) /= length) ok = .false.
+      if (c_write(text, len(text, c_size_t), self%handle) /= 1) ok = .false.
    end subroutine write_text
 
    !> Give what was written to the system: it then outlives the process
@@ -355,7 +391,7 @@ contains
       !> Set to false when it could not be written; left alone otherwise
       logical, intent(inout) :: ok
 
-      if (c_fflush(self%handle) /= 0) ok = .false.
+      if (c_flush(self%handle) /= 1) ok = .false.
    end subroutine flush_writer
 
    !> Bring what was written to the disk: it then outlives a loss of power
@@ -374,7 +410,7 @@ contains
       logical, intent(inout) :: ok
 
       if (.not. c_associated(self%handle)) return
-      if (c_fclose(self%handle) /= 0) ok = .false.
+      if (c_close(self%handle) /= 1) ok = .false.
       self%handle = c_null_ptr
    end subroutine close_writer
 

@@ -5,7 +5,7 @@ module dondolo_base_whole_file
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_null_char, c_size_t
    use dondolo_base_error, only : error_type, raise_failure
    use dondolo_base_lock, only : new_run, run_length
-   use dondolo_base_system, only : remove_file
+   use dondolo_base_system, only : folder_of, last_separator, remove_file
    implicit none
    private
 
@@ -73,10 +73,9 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       integer(c_int) :: number
-      integer :: i, slash
+      integer :: i
 
-      slash = index(path, '/', back=.true.)
-      call c_remove_dead('./'(:merge(0, 2, slash > 0))//path(:slash)//c_null_char, path(slash + 1:)//c_null_char)
+      call c_remove_dead(folder_of(path)//c_null_char, path(last_separator(path) + 1:)//c_null_char)
       self%path = path
       do i = 1, tries
          call new_run(self%run)

@@ -1,5 +1,6 @@
 !> Paths that are relative to the file they stand in.
 module dondolo_case_paths
+   use dondolo_base_system, only : is_absolute, last_separator
    implicit none
    private
 
@@ -14,10 +15,10 @@ contains
       !> The file
       character(len=*), intent(in) :: file
       !> The path relative to the current folder, or absolute
-      character(len=len(path) + merge(0, index(file, '/', back=.true.), path(1:1) == '/')) :: resolved
+      character(len=len(path) + merge(0, last_separator(file), is_absolute(path))) :: resolved
 
       resolved = path
-      if (path(1:1) /= '/') resolved = file(:index(file, '/', back=.true.))//path
+      if (.not. is_absolute(path)) resolved = file(:last_separator(file))//path
    end function beside
 
 end module dondolo_case_paths

@@ -4,6 +4,7 @@ module dondolo_case_replaced
    use, intrinsic :: iso_c_binding, only : c_char, c_null_char, c_size_t
    use dondolo_base_lines, only : lines_type
    use dondolo_base_origin, only : derived_kinds, look_at_origin, origin_type, run_length
+   use dondolo_base_system, only : folder_of
    use dondolo_case_result_files, only : published_run, run_suffix
    implicit none
    private
@@ -93,7 +94,7 @@ contains
       allocate (character(len=room) :: names)
       do i = 1, size(stems)
          names(1:1) = c_null_char
-         call c_list('./'(:merge(0, 2, prefix(1:1) == '/'))//prefix(:slash)//c_null_char, prefix(slash + 1:)// &
+         call c_list(folder_of(prefix)//c_null_char, prefix(slash + 1:)// &
             & trim(stems(i))//c_null_char, names, int(room, c_size_t))
          at = 1
          do while (names(at:at) /= c_null_char)

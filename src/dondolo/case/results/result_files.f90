@@ -20,8 +20,8 @@ module dondolo_case_result_files
    use dondolo_base_lines, only : lines_type
    use dondolo_base_lock, only : lock_type
    use dondolo_base_origin, only : check_replaced, look_at_origin, origin_type, run_length
-   use dondolo_base_system, only : is_folder, make_folder, remove_file, remove_folder, rename_file, same_file, &
-      & synchronize_folder, try_file, writer_type
+   use dondolo_base_system, only : folder_of, is_folder, is_free, make_folder, remove_file, remove_folder, rename_file, &
+      & same_file, synchronize_folder, try_file, writer_type
    use dondolo_base_version, only : dondolo_version_text
    implicit none
    private
@@ -114,6 +114,8 @@ contains
             return
          end do
          call check_replaced(path, kind_of(suffixes(i)), error)
+         if (.not. allocated(error) .and. .not. is_free(path)) call raise_input(error, 'the result file '//path// &
+            & ' is open in another program, which keeps it from being replaced')
          if (allocated(error)) return
       end do
       do i = 1, tries
@@ -124,7 +126,7 @@ contains
          if (ok) exit
       end do
       if (.not. ok) then
-         if (is_folder('./'(:merge(0, 2, folder_end(prefix) > 0))//prefix(:folder_end(prefix)))) then
+         if (is_folder(folder_of(prefix))) then
             call raise_input(error, 'the file '//prefix//'_histories.csv cannot be written')
          else
             call raise_input(error, 'the folder '//prefix(:folder_end(prefix))//' cannot be made')
@@ -344,7 +346,7 @@ contains
       end do
       call rename_file(staged(self%prefix//run_suffix, self%lock%run), self%prefix//run_suffix, ok)
       if (.not. ok) then
-         call raise_failure(error, self%prefix//run_suffix//': cannot be replaced')
+         call raise_failure(error, self%prefix//run_suffix//': cannot be replaced: is it open in another program?')
          return
       end if
       ! The new set is in force.
@@ -353,8 +355,8 @@ contains
          associate (path => self%prefix//trim(self%written(i)%suffix))
             if (self%written(i)%suffix /= run_suffix .and. ok) call rename_file(staged(path, self%lock%run), path, ok)
             if (ok) cycle
-            call raise_failure(error, path//': cannot be replaced; it is '//staged(path, self%lock%run)// &
-               & ', where dondolo finds it')
+            call raise_failure(error, path//': cannot be replaced: is it open in another program? The new table is '// &
+               & staged(path, self%lock%run)//', where dondolo finds it')
             return
          end associate
       end do

@@ -1,0 +1,221 @@
+/* What process.c and interrupt.c do on POSIX, for Windows; see there what each function promises. */
+#ifdef _WIN32
+#include "windows_files.h"
+#include <io.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* No shell of Windows replaces * and ? by the names of files: the C library's start of the program does, if this says so. */
+int _dowildcard = -1;
+
+void dondolo_own_path(char *path, size_t room)
+{
+   enum { longest = 32768 };
+   wchar_t *wide = malloc(longest * sizeof *wide);
+   DWORD length = wide == NULL ? 0 : GetModuleFileNameW(NULL, wide, longest);
+
+   path[0] = '\0';
+   if (length > 0 && length < longest)
+      dondolo_narrow(wide, path, room);
+   free(wide);
+   for (; *path != '\0'; path++)
+      if (*path == '\\')
+         *path = '/';
+}
+
+static UINT code_page_before;
+
+static void restore_code_page(void)
+{
+   SetConsoleOutputCP(code_page_before);
+}
+
+/* The console shows texts in UTF-8, and in the code page from before when the program has ended; it knows escape sequences. */
+void dondolo_set_up_process(void)
+{
+   HANDLE console = GetStdHandle(STD_ERROR_HANDLE);
+   DWORD mode;
+
+   if (GetConsoleMode(console, &mode))
+      SetConsoleMode(console, mode | ENABLE_VIRTUAL_TERMINAL_PROCESSING);
+   code_page_before = GetConsoleOutputCP();
+   if (code_page_before != 0 && code_page_before != CP_UTF8 && SetConsoleOutputCP(CP_UTF8))
+      atexit(restore_code_page);
+}
+
+int dondolo_is_terminal(int descriptor)
+{
+   DWORD mode;
+
+   return GetConsoleMode((HANDLE)_get_osfhandle(descriptor), &mode) != 0;
+}
+
+/* Put a word behind others as the start of the other program takes it apart, and return its end */
+static wchar_t *quote(wchar_t *to, const wchar_t *word)
+{
+   size_t backslashes = 0;
+
+   *to++ = L'"';
+   for (;; word++) {
+      if (*word == L'\\') {
+         backslashes++;
+      } else {
+         /* Those before a quotation mark are doubled, and it has one more. */
+         if (*word == L'"' || *word == L'\0')
+            for (size_t i = 0; i < backslashes + (*word == L'"'); i++)
+               *to++ = L'\\';
+         backslashes = 0;
+      }
+      if (*word == L'\0')
+         break;
+      *to++ = *word;
+   }
+   *to++ = L'"';
+   *to++ = L' ';
+   *to = L'\0';
+   return to;
+}
+
+/* The program of a name: with a folder, or else in one of PATH, never in the current folder; 1: found */
+static int find_program(const char *name, wchar_t *path, DWORD room)
+{
+   size_t length = strlen(name);
+   char *plain = malloc(length + 5);
+   const wchar_t *folders = _wgetenv(L"PATH");
+   wchar_t *wide = NULL;
+   DWORD found = 0;
+
+   if (plain != NULL) {
+      /* It has no number there. */
+      if (length >= 7 && strcmp(name + length - 7, "python3") == 0)
+         length--;
+      snprintf(plain, length + 5, "%.*s.exe", (int)length, name);
+      wide = dondolo_wide(plain);
+   }
+   if (wide != NULL && strchr(name, '/') != NULL)
+      found = GetFileAttributesW(wide) != INVALID_FILE_ATTRIBUTES ? GetFullPathNameW(wide, room, path, NULL) : 0;
+   else if (wide != NULL && folders != NULL)
+      found = SearchPathW(folders, wide, NULL, room, path, NULL);
+   free(plain);
+   free(wide);
+   return found > 0 && found < room;
+}
+
+/* Ctrl-C is the other program's; this one waits for it. */
+static BOOL WINAPI leave_to_other(DWORD event)
+{
+   return event == CTRL_C_EVENT || event == CTRL_BREAK_EVENT;
+}
+
+/* Windows cannot become another program, and the shell would not wait for it: this one waits, and ends as it does. */
+void dondolo_become(char *words, int count)
+{
+   enum { longest = 32768 };
+   wchar_t *path = malloc(longest * sizeof *path), *line = NULL, *end;
+   char *modules = dondolo_modules_elsewhere(';');
+   STARTUPINFOW start = {.cb = sizeof start};
+   PROCESS_INFORMATION other;
+   const char *word = words;
+   size_t room = 1;
+   DWORD stat = 1;
+   int is_found = path != NULL && find_program(words, path, longest);
+
+   for (int i = 0; i < count; i++) {
+      room += 2 * strlen(word) + 3;
+      word += strlen(word) + 1;
+   }
+   if (is_found)
+      line = malloc(room * sizeof *line);
+   if (line != NULL) {
+      end = line;
+      for (int i = 0; i < count; i++) {
+         wchar_t *wide = dondolo_wide(words);
+
+         if (wide != NULL)
+            end = quote(end, wide);
+         free(wide);
+         words += strlen(words) + 1;
+      }
+      if (modules != NULL)
+         _putenv_s("PYTHONPATH", modules);
+      SetConsoleCtrlHandler(leave_to_other, TRUE);
+      if (CreateProcessW(path, line, NULL, NULL, TRUE, 0, NULL, NULL, &start, &other)) {
+         WaitForSingleObject(other.hProcess, INFINITE);
+         GetExitCodeProcess(other.hProcess, &stat);
+         exit((int)stat);
+      }
+      SetConsoleCtrlHandler(leave_to_other, FALSE);
+   }
+   free(path);
+   free(line);
+   free(modules);
+}
+
+/* Windows promises no more memory than it has. */
+int dondolo_is_limited(void)
+{
+   return 1;
+}
+
+static volatile LONG come, is_ending;
+static _Thread_local int heard = -1;
+
+/* Runs in a thread of its own. What it does not take (FALSE) goes to the handlers from before, Python's among them. */
+static BOOL WINAPI note(DWORD event)
+{
+   LONG count = InterlockedIncrement(&come);
+
+   if (!is_ending || count > 1)
+      return FALSE;
+   /* A console that is closed ends the program when this returns. */
+   if (event != CTRL_C_EVENT && event != CTRL_BREAK_EVENT)
+      Sleep(INFINITE);
+   return TRUE;
+}
+
+void dondolo_listen(void)
+{
+   static int is_listening;
+
+   heard = come;
+   if (!is_listening)
+      is_listening = SetConsoleCtrlHandler(note, TRUE);
+}
+
+void dondolo_end_listening(void)
+{
+   heard = -1;
+}
+
+int dondolo_watched(void)
+{
+   return heard;
+}
+
+void dondolo_watch(int since)
+{
+   heard = since;
+}
+
+void dondolo_end_in_order(void)
+{
+   heard = come;
+   is_ending = 1;
+   SetConsoleCtrlHandler(note, TRUE);
+}
+
+/* With the status of a program that Ctrl-C has ended */
+void dondolo_die_of_signal(void)
+{
+   if (is_ending && come != 0) {
+      restore_code_page();
+      ExitProcess((UINT)STATUS_CONTROL_C_EXIT);
+   }
+}
+
+void dondolo_look_for_interrupt(int *is_noted)
+{
+   *is_noted = heard >= 0 && come != heard;
+}
+#endif
