@@ -17,7 +17,7 @@ module dondolo_arguments
 
    !> Every option, in the order of the help page
    character(len=*), parameter :: option_names(*) = [character(len=12) :: '--check', '--walls', '--merge', '--status', &
-      & '--template', '--example', '--benchmark', '--completion', '--threads', '--quiet', '--version', '--help']
+      & '--template', '--example', '--benchmark', '--completion', '--cite', '--threads', '--quiet', '--version', '--help']
 
    !> Shells that --completion knows
    character(len=*), parameter :: shell_names(*) = [character(len=4) :: 'bash', 'zsh']
@@ -27,9 +27,9 @@ module dondolo_arguments
 
    !> What the command line asks for
    type :: arguments_type
-      !> 'run', 'check', 'merge', 'status', 'template', 'example', 'benchmark', 'completion', 'version', 'help' or 'python'
+      !> 'run', 'check', 'merge', 'status', 'template', 'example', 'benchmark', 'completion', 'cite', 'version', 'help' or 'python'
       character(len=:), allocatable :: action
-      !> Path of the case; of 'status' the output
+      !> Path of the case, which 'cite' may leave out; of 'status' the output
       character(len=:), allocatable :: case_file
       !> Task of the template
       integer :: task = stripes_task
@@ -79,7 +79,7 @@ contains
          i = i + 1
          if (word == '--check') then
             call set_action('check')
-         else if (word == '--version' .or. word == '--help') then
+         else if (word == '--version' .or. word == '--help' .or. word == '--cite') then
             call set_action(word(3:))
          else if (word == '-h') then
             call set_action('help')

@@ -7,11 +7,13 @@ program dondolo_main
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
    use dondolo_base_plain, only : visible
+   use dondolo_base_references, only : list_bibtex
    use dondolo_base_system, only : output_arrives, set_up_process, stderr_is_terminal
    use dondolo_base_threads, only : available_threads, given_threads
    use dondolo_base_version, only : dondolo_version_text
    use dondolo_benchmark, only : run_benchmark
    use dondolo_case, only : case_type
+   use dondolo_case_cited, only : list_used
    use dondolo_case_job_group, only : typology_task
    use dondolo_case_population_case, only : merge_population
    use dondolo_case_read_case, only : read_case
@@ -54,6 +56,9 @@ program dondolo_main
       if (allocated(error)) call give_up(error)
    case ('completion')
       call print_completion(arguments%name)
+   case ('cite')
+      call cite(error)
+      if (allocated(error)) call give_up(error)
    case ('python')
       call hand_over(arguments%command, error)
       if (allocated(error)) call give_up(error)
@@ -133,6 +138,28 @@ contains
          & threads, error)
       call files%close()
    end subroutine serve
+
+   !> Print BibTeX of dondolo and of the sources of what a case uses, of the paper alone without a case
+   subroutine cite(error)
+      !> The case cannot be read
+      type(error_type), allocatable, intent(out) :: error
+
+      ! On the heap: stacks may be small.
+      type(case_type), allocatable :: case
+      type(lines_type) :: used, bibtex
+      integer :: i
+
+      if (allocated(arguments%case_file)) then
+         allocate (case)
+         call read_case(arguments%case_file, case, error)
+         if (allocated(error)) return
+         call list_used(case, used)
+      end if
+      call list_bibtex(used, bibtex)
+      do i = 1, bibtex%count
+         write (output_unit, '(a)') bibtex%line(i)%text
+      end do
+   end subroutine cite
 
    !> Write the reports, unless the run was one part of a population, and print the results at a glance
    subroutine finish_run(case, results, files, seconds, threads, error)

@@ -115,7 +115,8 @@ check "stripes: header of stripes" equal "$(header out/deep/wall_stripes.csv)" \
    "wall,mechanism,im,im_level,histories,collapses,fraction,edp_threshold"
 check "stripes: header of fragility" equal "$(header out/deep/wall_fragility.csv)" \
    "wall,mechanism,im,theta,beta,se_ln_theta,se_beta,log_likelihood,status,bracket_low,bracket_high,edp_threshold,\
-theta_low,theta_high,beta_low,beta_high,errors,clusters,degrees_of_freedom,naive_se_ln_theta,naive_se_beta,cov_ln_theta_beta"
+theta_low,theta_high,beta_low,beta_high,errors,clusters,degrees_of_freedom,naive_se_ln_theta,naive_se_beta,cov_ln_theta_beta,\
+deviance,deviance_dof"
 check "stripes: rows of walls" equal "$(rows out/deep/wall_walls.csv)" 1
 check "stripes: rows of histories" equal "$(rows out/deep/wall_histories.csv)" 40
 check "stripes: rows of stripes" equal "$(rows out/deep/wall_stripes.csv)" 5
@@ -131,6 +132,7 @@ check "stripes: tolerances in the head" contains out/deep/wall_walls.csv 'rtol =
 check "stripes: the file of the run" python3 -c 'import json, zlib
 run = json.load(open("out/deep/wall_run.json", encoding="utf-8"))
 assert run["format"] == "dondolo run 2" and run["settings"]["job"]["title"] == "It'"'"'s a wall"
+assert run["commit"] and run["references"][:2] == ["nale2021", "baker2015"] and "clustered" not in run["references"]
 assert run["settings"]["stripes"]["levels"] == [0.1, 0.2, 0.4, 0.6, 1] and run["work"]["histories"] == 40
 assert {one["role"] for one in run["inputs"]} == {"case", "catalogue", "record"}
 for one in run["inputs"]:
@@ -445,7 +447,7 @@ rm -rf example
 
 run --help
 check "help: exit code" equal "$rc" 0
-for option in --check --walls --merge --status --template --example --benchmark --completion --threads --quiet --version --help; do
+for option in --check --walls --merge --status --template --example --benchmark --completion --cite --threads --quiet --version --help; do
    check "help: $option" contains stdout "$option"
    check "unknown option: $option is offered" grep -q -- " $option" <("$exe" --fast 2>&1)
 done

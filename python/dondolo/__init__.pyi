@@ -24,6 +24,7 @@ from dondolo.errors import InputError as InputError
 from dondolo.errors import Interrupted as Interrupted
 from dondolo.errors import MissingFileError as MissingFileError
 from dondolo.exchange.cases import read_case as read_case
+from dondolo.exchange.citing import cite as cite
 from dondolo.exchange.reading import read_results as read_results
 from dondolo.exchange.running import run_case as run_case
 from dondolo.exchange.workbook import write_workbook as write_workbook

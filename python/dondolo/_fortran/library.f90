@@ -11,11 +11,13 @@ module library
    use dondolo_base_error, only : error_type, raise_input
    use dondolo_base_interrupt, only : begin => listen, finish => end_listening
    use dondolo_base_limits, only : longest_name
+   use dondolo_base_lines, only : lines_type
    use dondolo_base_plain, only : name_problem, shown
    use dondolo_base_property, only : describe_property, property_type
+   use dondolo_base_references, only : list_bibtex
    use dondolo_base_text, only : join
    use dondolo_base_threads, only : threads_here => available_threads
-   use dondolo_base_version, only : dondolo_version_text
+   use dondolo_base_version, only : build_commit, dondolo_version_text
    use dondolo_case_property_tables, only : property_table, table_names
    use dondolo_fragility, only : error_names, least_ratio, fit_status_names, statuses_with_curve
    use dondolo_fragility_clustered, only : fewest_clusters
@@ -29,19 +31,20 @@ module library
    implicit none
    private
 
-   public :: constants, properties, check_text, variant, available_threads, listen, end_listening, work_alone, take_parcel, &
+   public :: cite, constants, properties, check_text, variant, available_threads, listen, end_listening, work_alone, take_parcel, &
       & take_series, free
 
 contains
 
    !> Version, defaults and limits that Python must not repeat
-   subroutine constants(longest, fewest, fitted, defaults, version, statuses, errors)
+   subroutine constants(longest, fewest, fitted, defaults, version, commit, statuses, errors)
       ! Bytes of a name, clusters that standard errors need, and how many of the statuses, the first ones, have a curve
       integer(c_int), intent(out) :: longest, fewest, fitted
       ! rtol, atol, edp_limit, gravity; the part of a distribution that must be left where it is cut off, and of a level by
       ! which another differs; likelihood ratio from which on a slope is significant
       real(c_double), intent(out) :: defaults(7)
       character(len=32), intent(out) :: version
+      character(len=48), intent(out) :: commit
       character(len=256), intent(out) :: statuses, errors
       type(solver_type) :: solver
       integer :: i
@@ -52,6 +55,7 @@ contains
       defaults = [solver%rtol, solver%atol, solver%edp_limit, standard_gravity, least_share, same_level, &
          & least_ratio]
       version = dondolo_version_text
+      commit = build_commit()
       statuses = ''
       do i = 1, size(fit_status_names)
          statuses = trim(statuses)//' '//fit_status_names(i)
@@ -81,6 +85,25 @@ contains
       if (size(table) == 0) call raise_input(error, 'group = '''//group//''': must be one of '//join(table_names))
       call send(parcel, error, sent)
    end subroutine properties
+
+   !> BibTeX of dondolo and of the sources of what was used, said in words that commas separate (dondolo_base_references)
+   subroutine cite(words, sent)
+      character(len=*), intent(in) :: words
+      integer(c_int64_t), intent(out) :: sent(5)
+      type(lines_type) :: used
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+      integer :: first, last
+
+      first = 1
+      do while (first <= len_trim(words))
+         last = index(words(first:)//',', ',') + first - 2
+         call used%add(words(first:last))
+         first = last + 2
+      end do
+      call list_bibtex(used, parcel%lines)
+      call send(parcel, error, sent)
+   end subroutine cite
 
    !> Check a name, a title or another word of the user's
    subroutine check_text(what, text, failure)

@@ -48,6 +48,7 @@ class Constants(NamedTuple):
     same_level: float
     least_ratio: float
     version: str
+    commit: str
     statuses: tuple[str, ...]
     fitted: tuple[str, ...]
     errors: tuple[str, ...]
@@ -130,7 +131,7 @@ _NOTHING = Parcel(np.empty(0, dtype=np.int32), np.empty(0), [], 0)
 @functools.cache
 def constants() -> Constants:
     """Ask Fortran for its version, defaults and the names of its statuses."""
-    longest, fewest, fitted, defaults, version, statuses, errors = _core.library.constants()
+    longest, fewest, fitted, defaults, version, commit, statuses, errors = _core.library.constants()
     names = tuple(statuses.decode().split())
     rtol, atol, edp_limit, gravity, least_share, same_level, least_ratio = (float(value) for value in defaults)
     return Constants(
@@ -144,6 +145,7 @@ def constants() -> Constants:
         same_level,
         least_ratio,
         version=version.decode().strip(),
+        commit=commit.decode().strip(),
         statuses=names,
         fitted=names[:fitted],
         errors=tuple(errors.decode().split()),
@@ -187,6 +189,11 @@ def with_units(group: str, facts: Iterable[tuple[str, str]]) -> list[tuple[str, 
 def _raised(power: re.Match[str]) -> str:
     """A power of ten as people write it."""
     return "\N{MULTIPLICATION SIGN}10" + str(int(power[1])).translate(_SUPERSCRIPTS)
+
+
+def bibtex(used: Iterable[str]) -> list[str]:
+    """Lines of BibTeX of dondolo and of the sources of what was used, in the words of dondolo_base_references."""
+    return receive(_core.library.cite(",".join(used).encode())).lines
 
 
 def build_variant() -> str:

@@ -73,6 +73,10 @@ class RunFile:
     ----------
     version : str
         Of the dondolo that ran.
+    commit : str
+        That it was built from, with '-dirty' behind it if its sources differed; 'unknown' outside a repository.
+    references : tuple of str
+        Keys of the sources of what the case uses; `dd.cite` has their entries.
     compiler, engine : str
         Compiler of the executable; engines that ran, with the build variant. Empty if unknown.
     real_bits : int
@@ -124,6 +128,8 @@ class RunFile:
     shape: Mapping[str, int] = field(default_factory=dict)
     files: tuple[Written, ...] = ()
     confidence: float = float("nan")
+    commit: str = "unknown"
+    references: tuple[str, ...] = ()
     content: Mapping[str, Any] = field(default_factory=dict, repr=False)
 
     def setting(self, group: str, name: str, default: Any) -> Any:
@@ -154,6 +160,7 @@ class RunFile:
             files = [file._asdict() for file in self.files]
             return _text_of({**self.content, "run": self.run, "files": files})
         content: dict[str, Any] = {"format": FORMAT, "run": self.run, "version": self.version}
+        content["commit"] = constants().commit
         content |= {name: getattr(self, name) for name in ("compiler", "engine") if getattr(self, name)}
         content |= {"settings": self.settings, "inputs": self.inputs, "shape": self.shape, "records": self.records}
         content["files"] = [file._asdict() for file in self.files]
@@ -227,6 +234,8 @@ def parse_run_file(text: str, path: str, written: datetime | None = None) -> Run
             {name: _member(shape, name, int) for name in shape},
             tuple(_written(one) for one in _all(content, "files", dict)),
             _member(_member(content, "standard_errors", dict, {}), "confidence", float, float("nan")),
+            _member(content, "commit", str, "unknown"),
+            tuple(_all(content, "references", str)),
             content,
         )
     except (LookupError, TypeError, ValueError) as error:

@@ -19,6 +19,7 @@ from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import Stripes
 from dondolo.checks.ntc import CodeCheck
 from dondolo.errors import InputError, silent
+from dondolo.exchange.citing import cite
 from dondolo.exchange.results import Results
 from dondolo.figures import style
 from dondolo.figures.style import mechanism_name
@@ -230,6 +231,8 @@ def _chapters(run: Run, hazard: HazardCurve | None) -> list[Chapter]:
     measure = style.im_label(getattr(results, "im", "pga"))
     checked = run.checks if run.check is None else (run.check,)
     found_verdict = verdict(checked, run.population.walls, without_soil=hazard is not None and hazard.rigid_ground)
+    known = run.file is not None and run.file.references
+    cited = [run.file] if known else [results, run.curve, run.check, run.uncertain, *run.records]
     return [
         Chapter("summary", "Summary", "summary", {"verdict": found_verdict, "warnings": found, **summary}),
         *chapters,
@@ -251,6 +254,7 @@ def _chapters(run: Run, hazard: HazardCurve | None) -> list[Chapter]:
         ),
         Chapter("symbols", "Symbols and terms", "symbols", {"measure": measure, "is_alike": run.is_alike}),
         Chapter("software", "Software", "facts", inputs.software(run)),
+        Chapter("references", "References", "references", cite(*(one for one in cited if one is not None))),
     ]
 
 

@@ -18,12 +18,13 @@ module dondolo_case_survey
    use dondolo_population_reader, only : population_reader_type
    use dondolo_population_table, only : population_table_type
    use dondolo_population_wall_row, only : wall_row_type
+   use dondolo_wall, only : wall_type
    use dondolo_wall_properties, only : wall_properties
    use dondolo_wall_support_notes, only : supports_type
    implicit none
    private
 
-   public :: survey_type, survey_population, check_size
+   public :: survey_type, survey_population, check_size, add_wall_words
 
    !> What a survey has found
    type :: survey_type
@@ -54,6 +55,8 @@ module dondolo_case_survey
       !> Rows of walls with friction, and the name of the first
       integer :: with_friction = 0
       character(len=:), allocatable :: first_with_friction
+      !> What its walls use of the methods of others, in the words of dondolo_base_references, each once
+      type(lines_type) :: used
       !> How the table was read, where there is something to say of it, else empty
       character(len=:), allocatable :: note
    end type survey_type
@@ -94,6 +97,7 @@ contains
                & row%continues)
             survey%lengths = max(survey%lengths, row%wall%input%lengths())
             call survey%supports%look(row%wall)
+            call add_wall_words(survey%used, row%wall)
             call add_wall(survey%walls_fingerprint, row%wall)
             if (row%wall%mechanism%has_friction()) then
                if (survey%with_friction == 0) survey%first_with_friction = row%wall%name()
@@ -123,6 +127,31 @@ contains
       call problems%take(error)
       call problems%raise(error)
    end subroutine survey_population
+
+   !> Add what a wall uses of the methods of others, unless it is listed: its mechanism, with its model of restitution, its building
+   subroutine add_wall_words(used, wall)
+      type(lines_type), intent(inout) :: used
+      type(wall_type), intent(in) :: wall
+
+      call add_once(wall%mechanism_name())
+      call add_once(wall%mechanism_name()//'/'//wall%input%word('restitution'))
+      if (allocated(wall%building)) call add_once('building')
+
+   contains
+
+      !> Add a word that is not listed
+      subroutine add_once(word)
+         character(len=*), intent(in) :: word
+
+         integer :: i
+
+         do i = 1, used%count
+            if (used%line(i)%text == word) return
+         end do
+         call used%add(word)
+      end subroutine add_once
+
+   end subroutine add_wall_words
 
    !> Refuse a group that is one too many
    subroutine refuse_group(groups, error)

@@ -5,9 +5,12 @@ module dondolo_case_run_file
    use dondolo_base_checksum, only : crc32_length, crc32_of_file, crc32_of_reals
    use dondolo_base_json, only : json_type
    use dondolo_base_kinds, only : wp
-   use dondolo_base_version, only : dondolo_version_text
+   use dondolo_base_lines, only : lines_type
+   use dondolo_base_references, only : list_keys
+   use dondolo_base_version, only : build_commit, dondolo_version_text
    use dondolo_building, only : building_type
    use dondolo_case, only : case_type
+   use dondolo_case_cited, only : list_used
    use dondolo_case_echo, only : echo_type
    use dondolo_case_job_group, only : history_task, typology_task
    use dondolo_case_paths, only : beside
@@ -54,12 +57,14 @@ contains
       call json%put('format', format)
       call json%put('run', run)
       call json%put('version', dondolo_version_text)
+      call json%put('commit', trim(build_commit()))
       call json%put('compiler', compiler_version())
       call json%put('real_bits', storage_size(1.0_wp))
       call results%name_engines(engines)
       call json%put('engine', engines)
       call case%echo(echo)
       call echo%to_json(json)
+      call put_references(case, json)
       call put_inputs(case, json)
       call put_shape(case, json)
       if (allocated(case%wall%building)) call put_floor(case%wall%building, case%suite%records%dt, json)
@@ -75,6 +80,23 @@ contains
       call json%close_object()
       call json%get(text)
    end subroutine make_run
+
+   !> Put the keys of the sources of what the case uses; `--cite` prints their entries
+   subroutine put_references(case, json)
+      type(case_type), intent(in) :: case
+      type(json_type), intent(inout) :: json
+
+      type(lines_type) :: used, keys
+      integer :: i
+
+      call list_used(case, used)
+      call list_keys(used, keys)
+      call json%open_array('references')
+      do i = 1, keys%count
+         call json%put('', keys%line(i)%text)
+      end do
+      call json%close_array()
+   end subroutine put_references
 
    !> Put the files that the case is made of, with their lengths and checksums
    subroutine put_inputs(case, json)
