@@ -84,7 +84,7 @@ dondolo_history *dondolo_run_history(dondolo_error *error, const dondolo_wall *w
  * stripes   edp_limit; of each level levels, histories, collapses; of each history of a level record (from 0), polarity,
  *           cluster; of each history scale, ran, edp, collapsed, impacts, time_of_peak, edp_error;   texts im, warnings
  * curve     has_curve, theta, beta, has_errors, se_ln_theta, se_beta, covariance (of ln theta, of both, of beta), clusters,
- *           degrees_of_freedom, log_likelihood, bracket (2);                        texts status, errors, warnings
+ *           degrees_of_freedom, log_likelihood, bracket (2), deviance, deviance_dof;   texts status, errors, warnings
  * history   edp, collapsed, impacts, time_of_peak, edp_error; of each row time, acceleration, rotation, velocity, side,
  *           after_impact;                                                           text warnings
  * settings                                                                          text variables (a line each)

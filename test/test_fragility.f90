@@ -11,6 +11,7 @@ program test_fragility
    use dondolo_fragility, only : fit_fragility, fit_status_names, fragility_type, normal_cdf
    use dondolo_fragility_clustered, only : cluster_errors, parameter_intervals
    use dondolo_fragility_even_levels, only : even_levels, settle_levels
+   use dondolo_fragility_logit, only : fit_logit, logit_type
    use dondolo_fragility_ordinal, only : fit_ordinal, ordinal_errors
    use dondolo_fragility_stripes, only : stripes_type
    use dondolo_wall, only : wall_type
@@ -73,6 +74,7 @@ contains
          & 1.246_wp, 1.564_wp, 2.014_wp, 2.417_wp, 3.021_wp, 3.625_wp, 4.028_wp, 4.431_wp, 5.035_wp]
       real(wp), parameter :: collapses(16) = [0, 0, 0, 0, 0, 4, 13, 23, 38, 41, 44, 45, 45, 45, 45, 45]
       type(fragility_type) :: curve
+      type(logit_type) :: logit
       type(wall_type) :: wall
       type(stripes_type) :: stripes
       type(warnings_type) :: warnings
@@ -84,6 +86,15 @@ contains
       call check_close(curve%theta, 1.2194475_wp, 5.0e-8_wp, 'theta')
       call check_close(curve%beta, 0.3100660_wp, 2.0e-7_wp, 'beta')
       call check_close(curve%log_likelihood, -12.8704444_wp, 5.0e-9_wp, 'log likelihood')
+      call check_close(curve%deviance, 5.432952609028534_wp, 1.0e-9_wp, 'deviance')
+      call check(curve%deviance_dof == 14, 'degrees of freedom of the deviance')
+      ! statsmodels 0.14
+      call fit_logit(logit, levels, collapses, spread(45.0_wp, 1, 16), spread(1, 1, 16))
+      call check(logit%has_fit .and. .not. logit%is_clustered, 'logistic curve')
+      call check_close(logit%b(1), -1.12548946_wp, 1.0e-8_wp, 'intercept')
+      call check_close(logit%b(2), 5.84207005_wp, 1.0e-8_wp, 'slope')
+      call check_close(sqrt(logit%covariance(1, 1)), 0.19802024_wp, 1.0e-7_wp, 'standard error of the intercept')
+      call check_close(sqrt(logit%covariance(2, 2)), 0.53136118_wp, 1.0e-7_wp, 'standard error of the slope')
       call check_close(curve%se_ln_theta(), 0.02926_wp, 2.0e-4_wp, 'standard error of ln theta')
       call check_close(curve%se_beta(), 0.02532_wp, 2.0e-4_wp, 'standard error of beta')
 

@@ -17,6 +17,7 @@ from dondolo.checks.ntc import CodeCheck as CodeCheck
 from dondolo.curves.bootstrap import Bootstrap as Bootstrap
 from dondolo.curves.comparison import Comparison as Comparison
 from dondolo.curves.fragility_model import FragilityModel as FragilityModel
+from dondolo.curves.goodness import GoodnessOfFit as GoodnessOfFit
 from dondolo.curves.regression import Logistic as Logistic
 from dondolo.curves.regression import Regression as Regression
 from dondolo.curves.risk import Risk as Risk

@@ -26,6 +26,7 @@ pytestmark = pytest.mark.slow
         ("facade", ["facade.png"]),
         ("which_tie", ["which_tie.png"]),
         ("how_sure", ["how_sure.png", "how_sure.csv"]),
+        ("goodness_of_fit", ["goodness_of_fit.png"]),
         ("risk", ["incremental.png", "cloud.png", "risk.png", "parapet.xml"]),
     ],
 )

@@ -75,6 +75,7 @@ def results(stripes, few, wall):
         ),
         "hinges": dd.weakest_hinge(strip, shaking, wide, hinges=[0.5, 0.6, 0.7], progress=False),
         "bootstrap": curve.bootstrap(n_resamples=20),
+        "goodness": curve.goodness_of_fit(n_resamples=20),
         "hazard": hazard,
         "power law": dd.HazardCurve.power_law(1e-4, 2.0),
         "risk": curve.risk(hazard),

@@ -65,7 +65,8 @@ def things(wall, stripes, few, records, root, tmp_path_factory):
     found = [
         wall, dd.FreeStandingWall(1.5, 0.25), two_block, dd.Population([wall, other]), house,
         records[0], dd.RecordSet(few), dd.RecordSet(records).select(target, 5), records[0].spectrum([0.1, 1.0]), site,
-        target, stripes, curve, curve.bootstrap(n_resamples=20), ida, ida.fit(), dd.cloud(wall, records),
+        target, stripes, curve, curve.bootstrap(n_resamples=20), curve.goodness_of_fit(), ida, ida.fit(),
+        dd.cloud(wall, records),
         curve.compare(dd.multiple_stripe(other, records, levels, **quiet).fit()), people, people["all"],
         people["all"].bootstrap(n_resamples=20), hazard, risk, risk.uncertainty(n_draws=100),
         dd.simulate(wall, few[0]), case, dd.run_case(path, progress=False), dd.check_ntc(wall, site),

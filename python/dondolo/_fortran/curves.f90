@@ -8,6 +8,7 @@ module curves
    use dondolo_case_warning, only : warnings_type
    use dondolo_fragility, only : error_names, fit_fragility, fit_ok, fragility_type
    use dondolo_fragility_clustered, only : cluster_errors
+   use dondolo_fragility_logit, only : fit_one_logit => fit_logit, logit_type
    use dondolo_fragility_ordinal, only : ordinal_fit => fit_ordinal, ordinal_errors
    use dondolo_fragility_stripes, only : stripes_type
    use dondolo_interface_handles, only : find_walls
@@ -17,8 +18,8 @@ module curves
    implicit none
    private
 
-   public :: fit_curves, cluster_changes, fit_ordinal, probability, in_series, series_slopes, warn_of_curve, warn_of_union
-   public :: student_quantile
+   public :: fit_curves, cluster_changes, fit_logit, fit_ordinal, probability, in_series, series_slopes, warn_of_curve
+   public :: student_quantile, warn_of_union
 
 contains
 
@@ -27,7 +28,7 @@ contains
       !f2py threadsafe
       integer(c_int), intent(in) :: m, k
       real(c_double), intent(in) :: levels(m), collapses(m, k), histories(m, k)
-      real(c_double), intent(out) :: curves(8, k)
+      real(c_double), intent(out) :: curves(10, k)
       integer(c_int), intent(out) :: statuses(k)
       integer(c_int64_t), intent(out) :: failure(5)
       type(fragility_type) :: curve
@@ -86,7 +87,7 @@ contains
    subroutine fit_ordinal(levels, reached, histories, m, k, g, curves, statuses, changes, errors, failure)
       integer(c_int), intent(in) :: m, k, g
       real(c_double), intent(in) :: levels(m), reached(m, k, g), histories(m, g)
-      real(c_double), intent(out) :: curves(8, k), changes(2, k, g)
+      real(c_double), intent(out) :: curves(10, k), changes(2, k, g)
       integer(c_int), intent(out) :: statuses(k), errors(k)
       integer(c_int64_t), intent(out) :: failure(5)
       type(fragility_type) :: curve(k)
@@ -109,6 +110,28 @@ contains
       end if
       call report(error, failure)
    end subroutine fit_ordinal
+
+   !> A logistic curve of k counts, each of a cluster from 1; all 1: the histories are independent. Numbers: b0, b1, var b0,
+   !> covariance, var b1, log likelihood; done: 0 without a finite maximum, 1 with naive errors, 2 with clustered
+   subroutine fit_logit(levels, collapses, histories, cluster, k, numbers, done, failure)
+      !f2py threadsafe
+      integer(c_int), intent(in) :: k, cluster(k)
+      real(c_double), intent(in) :: levels(k), collapses(k), histories(k)
+      real(c_double), intent(out) :: numbers(6)
+      integer(c_int), intent(out) :: done
+      integer(c_int64_t), intent(out) :: failure(5)
+      type(logit_type) :: curve
+      type(error_type), allocatable :: error
+
+      numbers = 0
+      done = 0
+      call check_room(error, reals=20.0_c_double*k)
+      call report(error, failure)
+      if (allocated(error)) return
+      call fit_one_logit(curve, levels, collapses, histories, cluster)
+      numbers = [curve%b, curve%covariance(1, 1), curve%covariance(1, 2), curve%covariance(2, 2), curve%log_likelihood]
+      if (curve%has_fit) done = merge(2, 1, curve%is_clustered)
+   end subroutine fit_logit
 
    !> Probabilities of collapse of a lognormal curve, equation (5) of Nale et al.
    subroutine probability(theta, beta, x, n, p)
@@ -169,7 +192,7 @@ contains
    subroutine warn_of_curve(walls, levels, m, largest_edp, curve, status, sent)
       integer(c_int64_t), intent(in) :: walls
       integer(c_int), intent(in) :: m, status
-      real(c_double), intent(in) :: levels(m), largest_edp, curve(8)
+      real(c_double), intent(in) :: levels(m), largest_edp, curve(10)
       integer(c_int64_t), intent(out) :: sent(5)
       type(wall_type), pointer :: list(:), wall
       type(stripes_type) :: stripes
@@ -214,15 +237,16 @@ contains
       call send(parcel, error, sent)
    end subroutine warn_of_union
 
-   !> A curve as flat numbers: theta, beta, var ln theta, covariance, var beta, log likelihood, bracket
+   !> A curve as flat numbers: theta, beta, var ln theta, covariance, var beta, log likelihood, bracket, deviance and its
+   !> degrees of freedom
    pure function pack_curve(curve) result(numbers)
       !> The curve
       type(fragility_type), intent(in) :: curve
       !> Its numbers
-      real(c_double) :: numbers(8)
+      real(c_double) :: numbers(10)
 
       numbers = [curve%theta, curve%beta, curve%covariance(1, 1), curve%covariance(1, 2), curve%covariance(2, 2), &
-         & curve%log_likelihood, curve%bracket]
+         & curve%log_likelihood, curve%bracket, curve%deviance, real(curve%deviance_dof, c_double)]
    end function pack_curve
 
 end module curves

@@ -20,6 +20,11 @@ class CurveData(NamedTuple):
     status: str
     numbers: FloatArray
 
+    @classmethod
+    def of(cls, status: str, theta: float, beta: float, bracket: tuple[float, float] = (0.0, 0.0)) -> CurveData:
+        """What a warning of a curve needs; the other numbers are 0."""
+        return cls(status, np.array([theta, beta, 0.0, 0.0, 0.0, 0.0, *bracket, 0.0, 0.0]))
+
 
 def fit_curves(levels: FloatArray, collapses: FloatArray, histories: FloatArray) -> tuple[FloatArray, list[str]]:
     """Fit many curves in one call: collapses and histories are (curves, levels)."""
@@ -60,6 +65,19 @@ def fit_ordinal(
     ]
 
 
+def fit_logit(
+    levels: FloatArray, collapses: FloatArray, histories: FloatArray, cluster: NDArray[np.integer[Any]]
+) -> tuple[FloatArray, str]:
+    """Logistic curve of counts, each at a level and of a cluster from 1; all 1 for independent histories.
+
+    Gives b0, b1, their covariance (var b0, both, var b1) and log likelihood, and what errors there are: '' without a
+    finite maximum, 'naive' or 'clustered'.
+    """
+    numbers, done, failure = _core.curves.fit_logit(levels, collapses, histories, cluster.astype(np.int32))
+    check(failure)
+    return numbers, ("", "naive", "clustered")[done]
+
+
 def rows_in_series(probabilities: FloatArray, rows: NDArray[np.integer[Any]]) -> FloatArray:
     """Probability that any mechanism of each wall happens (walls, n), from those of all rows (rows, n)."""
     whole: FloatArray = _core.curves.in_series(np.ascontiguousarray(probabilities).T, rows.astype(np.int32)).T
@@ -98,3 +116,11 @@ def probability(theta: float, beta: float, x: FloatArray) -> FloatArray:
 def student_quantile(p: float, degrees: float) -> float:
     """Quantile of Student's t with a finite number of degrees of freedom, of a probability of at least one half."""
     return float(_core.curves.student_quantile(p, degrees))
+
+
+def normal_or_student(p: float, degrees: float) -> float:
+    """Quantile of Student's t, or with infinite degrees of freedom of the normal distribution."""
+    from statistics import NormalDist
+
+    # scipy.special, which has both too, takes longer to import than a figure to draw
+    return student_quantile(p, degrees) if np.isfinite(degrees) else NormalDist().inv_cdf(p)

@@ -118,8 +118,9 @@ contains
       if (.not. allocated(error)) call curves%finish(population, error)
    end subroutine add_flags
 
-   !> Put curves in, number after number: status and errors (places among the names), theta, beta, log likelihood, bracket
-   !> (2, curves), naive covariance (var ln theta, covariance, var beta; 3, curves), standard errors as the tables have them,
+   !> Put curves in, number after number: status and errors (places among the names), theta, beta, log likelihood, deviance
+   !> and its degrees of freedom (2, curves), bracket (2, curves), naive covariance (var ln theta, covariance, var beta; 3, curves), standard
+   !> errors as the tables have them,
    !> clusters, degrees of freedom
    subroutine put_curves(parcel, prefix, curves)
       type(parcel_type), intent(inout) :: parcel
@@ -136,6 +137,7 @@ contains
       call parcel%put(prefix//'theta', [(curves(i)%theta, i=1, n)])
       call parcel%put(prefix//'beta', [(curves(i)%beta, i=1, n)])
       call parcel%put(prefix//'log_likelihood', [(curves(i)%log_likelihood, i=1, n)])
+      call parcel%put(prefix//'deviance', [([curves(i)%deviance, real(curves(i)%deviance_dof, c_double)], i=1, n)], [2, n])
       call parcel%put(prefix//'bracket', [(curves(i)%bracket, i=1, n)], [2, n])
       call parcel%put(prefix//'naive_covariance', [(triangle(curves(i)%naive), i=1, n)], [3, n])
       call parcel%put(prefix//'se_ln_theta', [(curves(i)%se_ln_theta(), i=1, n)])

@@ -95,7 +95,7 @@ def fitted_curves(parcel: Parcel, prefix: str) -> list[FittedCurve]:
     def columns(*words: str) -> list[Any]:
         return [parcel[prefix + word] for word in words]
 
-    fit = np.column_stack(columns("theta", "beta", "naive_covariance", "log_likelihood", "bracket"))
+    fit = np.column_stack(columns("theta", "beta", "naive_covariance", "log_likelihood", "bracket", "deviance"))
     data = [CurveData(names[code - 1], own) for code, own in zip(parcel[prefix + "status"].tolist(), fit, strict=True)]
     errors = [kinds[code - 1] for code in parcel[prefix + "errors"].tolist()]
     numbers = (one.tolist() for one in columns("se_ln_theta", "se_beta", "cov_ln_theta_beta"))

@@ -49,8 +49,19 @@ if TYPE_CHECKING:
 _VERSION = 1
 # Fields that archives of earlier versions do not have, and what they are there
 _ADDED: dict[str, dict[str, Any]] = {
+    **{
+        kind: {"deviance": math.nan, "deviance_dof": 0}
+        for kind in ("Fragility", "FirstCollapseFragility", "LimitedFragility")
+    },
     "HazardCurve": {"rigid_ground": False},
-    "Logistic": {"likelihood_ratio": math.nan, "im": ""},
+    "Logistic": {
+        "likelihood_ratio": math.nan,
+        "im": "",
+        "covariance": np.full((2, 2), math.nan),
+        "errors": "given",
+        "degrees_of_freedom": math.inf,
+        "deviance": math.nan,
+    },
 }
 _CONTENT = "dondolo.json"
 # What every file has in its first bytes: the first member is not compressed

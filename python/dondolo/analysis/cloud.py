@@ -45,7 +45,7 @@ motion records, Earthquake Engineering and Structural Dynamics 46, 2639-2663; Al
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
@@ -63,6 +63,7 @@ from dondolo.analysis.solver import Solver, as_solver
 from dondolo.analysis.work import Work
 from dondolo.curves.curve import Curve
 from dondolo.curves.regression import Logistic, Regression, logistic_regression, regress
+from dondolo.curves.sample import cluster_labels
 from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted
 from dondolo.records.record import Record
 from dondolo.records.record_set import scaled_records
@@ -165,7 +166,8 @@ class Cloud(tables.Tabular, Saved):
         """
         intensity, name = _intensities(self.wall, self.records, im, self.scale, 0)
         intensity = intensity[self.record_index]
-        found = replace(self, im=name, intensity=intensity, **fit(intensity, self.edp, self.collapsed, name))
+        labels = _labels(self.records, self.record_index)
+        found = replace(self, im=name, intensity=intensity, **fit(intensity, self.edp, self.collapsed, name, labels))
         warn(found._doubts())
         return found
 
@@ -521,7 +523,7 @@ def cloud(
         collapsed=outcome.collapsed,
         record_index=plan.record,
         polarity=plan.polarity,
-        **fit(points, outcome.edp, outcome.collapsed, name),
+        **fit(points, outcome.edp, outcome.collapsed, name, _labels(several, plan.record)),
         edp_limit=float(settings[2]),
         work=outcome.work,
     )
@@ -544,12 +546,21 @@ def _intensities(
     return SMALL_LEVEL * (factor / scale) ** describe_measure(request.im).power, request.im
 
 
-def fit(intensity: FloatArray, edp: FloatArray, collapsed: BoolArray, im: str) -> dict[str, Any]:
-    """Fit the three models to points: regression, rocking and collapse, by name."""
+def _labels(records: tuple[Record, ...], record_index: np.ndarray[Any, np.dtype[np.int32]]) -> list[str]:
+    """Label of the cluster of each history: its event, else its record."""
+    labels = cluster_labels(len(records), [one.event for one in records], [one.checksum for one in records])
+    return [labels[i] for i in record_index]
+
+
+def fit(
+    intensity: FloatArray, edp: FloatArray, collapsed: BoolArray, im: str, labels: Sequence[str] = ()
+) -> dict[str, Any]:
+    """Fit the three models to points, of the clusters of their labels if there are any, by name."""
     x = np.log(intensity)
     stands = ~collapsed
+    rest = [labels[i] for i in np.flatnonzero(stands)] if labels else ()
     return {
         "regression": regress(x[stands & (edp > 0.0)], np.log(edp[stands & (edp > 0.0)])),
-        "rocking": logistic_regression(intensity[stands], edp[stands] > 0.0, im),
-        "collapse": logistic_regression(intensity, collapsed, im),
+        "rocking": logistic_regression(intensity[stands], edp[stands] > 0.0, im, rest),
+        "collapse": logistic_regression(intensity, collapsed, im, labels),
     }

@@ -415,9 +415,7 @@ class Stripes(Shown, Saved):
     def _warn_of(self, curve: Fragility, where: str) -> None:
         """Warn of a curve as the executable does."""
         low, high = curve.bracket
-        numbers = np.zeros(8)
-        numbers[[0, 1, 6, 7]] = curve.theta, curve.beta, low, min(high, np.finfo(np.float64).max)
-        data = CurveData(curve.status, numbers)
+        data = CurveData.of(curve.status, curve.theta, curve.beta, (low, min(high, np.finfo(np.float64).max)))
         sentences = warnings_of_curve(upload((self.wall,)), self.levels, float(np.nanmax(self.edp)), data)
         warn(sentence.placed(where) for sentence in sentences)
 

@@ -103,8 +103,7 @@ def fit_fragility(
 
 def warnings_of_fit(curve: Fragility) -> list[DondoloWarning]:
     """Warnings of a fitted curve of counts without a wall: it extrapolates, or is nearly flat."""
-    numbers = np.array([curve.theta, curve.beta, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0])
-    return warnings_of_curve(None, curve.levels, 0.0, CurveData(curve.status, numbers))
+    return warnings_of_curve(None, curve.levels, 0.0, CurveData.of(curve.status, curve.theta, curve.beta))
 
 
 def counts_are_flat(levels: FloatArray, collapses: ArrayLike, histories: int) -> bool:
@@ -132,9 +131,9 @@ def curve_of(
     data: CurveData, levels: FloatArray, collapses: FloatArray, histories: FloatArray, **origin: Any
 ) -> Fragility:
     """A curve as Fortran has fitted it."""
-    theta, beta, var_theta, both, var_beta, height, low, high = (float(value) for value in data.numbers)
+    theta, beta, var_theta, both, var_beta, height, low, high, deviance, dof = (float(value) for value in data.numbers)
     if data.status not in constants().fitted:
-        theta = beta = var_theta = both = var_beta = height = np.nan
+        theta = beta = var_theta = both = var_beta = height = deviance = np.nan
     largest = np.finfo(np.float64).max
     covariance = np.array([[var_theta, both], [both, var_beta]])
     return Fragility(
@@ -143,6 +142,8 @@ def curve_of(
         covariance=covariance,
         status=data.status,
         log_likelihood=height,
+        deviance=deviance,
+        deviance_dof=int(dof),
         bracket=(low, np.inf if high >= largest else high),
         levels=levels,
         collapses=collapses,

@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_levels, as_number, as_probabilities, shaped, tails
 from dondolo._base.shown import Shown
-from dondolo._fortran.curves import probability, student_quantile
+from dondolo._fortran.curves import normal_or_student, probability
 from dondolo._fortran.library import constants
 from dondolo._fortran.records import blank_unit, name_of_measure, unit_of
 from dondolo._storage import tables
@@ -30,6 +30,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from dondolo.curves.discrete import DiscreteFragility
+    from dondolo.curves.goodness import GoodnessOfFit
+    from dondolo.curves.regression import Logistic
 
 Interval = tuple[float, float]
 
@@ -59,6 +61,12 @@ class Fragility(Curve, Shown, Saved):
         'separated', 'single_level', 'decreasing' or 'not_converged'; the first three have a curve.
     log_likelihood : float
         With the binomial coefficients; NaN without a fit.
+    deviance : float
+        Twice what the likelihood is below that of the fractions themselves; NaN without a fit. Of curves that were
+        fitted together (`Stripes.fit_damage_states` with 'ordinal') that of all of them. `goodness_of_fit` says what it
+        means.
+    deviance_dof : int
+        Levels less parameters: the mean of `deviance` if all histories were independent.
     bracket : (float, float)
         Levels between which half of the histories begin to collapse; 0 or inf where a side is open.
     levels, collapses, histories : ndarray, shape (levels,)
@@ -116,6 +124,8 @@ class Fragility(Curve, Shown, Saved):
     degrees_of_freedom: float = np.inf
     naive_covariance: FloatArray = field(default_factory=lambda: np.full((2, 2), np.nan))
     parts: tuple[Clusters, ...] = ()
+    deviance: float = math.nan
+    deviance_dof: int = 0
 
     @classmethod
     def of_parameters(cls, theta: float, beta: float, *, im: str = "") -> Fragility:
@@ -380,6 +390,103 @@ class Fragility(Curve, Shown, Saved):
         labels = self.sample.clusters if events is None else given_labels(self.sample.n_records, events)
         return resample(self.sample, draw_records(labels, n_resamples, seed))
 
+    def goodness_of_fit(self, *, n_resamples: int = 0, seed: int | np.random.Generator | None = 0) -> GoodnessOfFit:
+        """How well the lognormal fits: deviance, residuals, and on demand the p-value of a bootstrap under the curve.
+
+        The same records run at every level, so that the deviance is not distributed as chi-square: its p-value by that
+        is close to 1 whatever the curve. The bootstrap draws whole records or events from histories of which the curve
+        is true; `dondolo.curves.goodness` has the method, docs/goodness_of_fit.md what it finds.
+
+        Parameters
+        ----------
+        n_resamples : int
+            Number of samples of the bootstrap, 0 for none; 999 resolve a p-value of 0.05.
+        seed : int, Generator or None
+            Of the random numbers; None: different every time.
+
+        Returns
+        -------
+        GoodnessOfFit
+
+        Raises
+        ------
+        DondoloError
+            There is no curve, it was not fitted to levels, or its counts cannot be drawn.
+        InputError
+            Samples of a single record or event.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> curve = dd.fit_fragility([0.2, 0.4, 0.6, 0.8], [4, 13, 25, 38], 44, im="pga")
+        >>> fit = curve.goodness_of_fit(n_resamples=999)
+        >>> round(fit.deviance, 3), fit.degrees_of_freedom, fit.p_value > 0.05
+        (3.496, 2, True)
+        """
+        from dondolo.curves.goodness import goodness_of_fit
+
+        self._need_fit()
+        return goodness_of_fit(self, n_resamples, seed)
+
+    def refit(self, *, low: float = 0.0, high: float = math.inf) -> Fragility:
+        """Fit the curve again to the levels of a range: how much its parameters depend on where the stripes lie.
+
+        Parameters
+        ----------
+        low, high : float
+            Lowest and highest level that take part.
+
+        Returns
+        -------
+        Fragility
+            With standard errors of the same kind.
+
+        Raises
+        ------
+        InputError
+            There are no levels between them.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> curve = dd.fit_fragility([0.2, 0.4, 0.6, 0.8], [4, 13, 25, 38], 44, im="pga")
+        >>> round(curve.theta, 3), round(curve.refit(high=0.6).theta, 3)
+        (0.497, 0.551)
+        """
+        from dondolo.curves.goodness import refit
+
+        return refit(self, low, high)
+
+    def logit(self) -> Logistic:
+        """Fit a logistic curve to the same histories, beside the lognormal, which is a probit regression.
+
+        Returns
+        -------
+        Logistic
+            With its parameters' standard errors, clustered if those of this curve are, and a deviance to compare.
+
+        Raises
+        ------
+        DondoloError
+            The curve was not fitted to levels.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> curve = dd.fit_fragility([0.2, 0.4, 0.6, 0.8], [4, 13, 25, 38], 44, im="pga")
+        >>> logit = curve.logit()
+        >>> round(logit.theta, 3), round(logit.se_b1, 3), logit.deviance < curve.deviance
+        (0.504, 0.474, True)
+        """
+        from dondolo.curves.regression import logistic_of_stripes
+
+        if not len(self.levels):
+            raise DondoloError("logit: the curve was not fitted to levels")
+        if self.sample is None:
+            return logistic_of_stripes(self.levels, self.collapses[None, :], self.histories[None, :], self.im, ())
+        labels = tuple(dict.fromkeys(self.sample.clusters))
+        return logistic_of_stripes(self.sample.levels, *self.sample.by_cluster(labels), self.im, labels)
+
     def plot(
         self,
         ax: Axes | None = None,
@@ -473,12 +580,9 @@ class Fragility(Curve, Shown, Saved):
 
     def _quantile(self, level: float) -> float:
         """Quantile of Student's t for an interval."""
-        from statistics import NormalDist
-
-        # The executable's; scipy.special, which has it too, takes longer to import than a figure to draw
         upper = tails(level)[1]
         self._need_errors()
-        return student_quantile(upper, self.degrees_of_freedom) if self.clusters else NormalDist().inv_cdf(upper)
+        return normal_or_student(upper, self.degrees_of_freedom if self.clusters else np.inf)
 
     def _facts(self) -> list[tuple[str, str]]:
         unit = blank_unit(self.im)

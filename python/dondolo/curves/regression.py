@@ -3,21 +3,24 @@
 The line, ln y = a + b ln x + sigma epsilon, is fitted by least squares; sigma^2 is the sum of the squared residuals
 over n - 2. The logistic curve P(x) = 1/(1 + exp(-(b0 + b1 ln x))) maximises the likelihood of what happened at each x.
 Its logarithm is concave, and has a finite maximum only where the two kinds overlap strictly in x; where they do not,
-they are separated, and any steep enough curve fits (Albert and Anderson 1984, Biometrika 71, 1-10).
+they are separated, and any steep enough curve fits (Albert and Anderson 1984, Biometrika 71, 1-10). Its standard errors
+are clustered as those of a lognormal (dondolo_fragility_logit).
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_levels, as_probabilities, shaped
+from dondolo._base.arguments import FloatArray, as_levels, as_probabilities, shaped, tails
+from dondolo._fortran.curves import fit_logit, normal_or_student
 from dondolo._storage.saved import part_of_results
 from dondolo.curves.curve import Curve
-from dondolo.errors import DondoloError
+from dondolo.errors import DondoloError, InputError
 
 BoolArray = np.ndarray[Any, np.dtype[np.bool_]]
 
@@ -77,6 +80,16 @@ class Logistic(Curve):
         Likelihood ratio statistic against no slope; NaN without a curve.
     im : str
         Intensity measure.
+    covariance : ndarray, shape (2, 2)
+        Covariance of b0 and b1, of the kind that `errors` says; NaN without standard errors.
+    errors : str
+        'clustered': histories of one record or event depend on each other; 'naive': all are taken for independent, for
+        counts, fewer than three clusters, or one that alone determines the curve; 'given': the curve was not fitted
+        here.
+    degrees_of_freedom : float
+        Of Student's t in intervals: clusters - 1; inf for 'naive'.
+    deviance : float
+        Of a curve of stripes, as `Fragility.deviance`, to be compared with that; NaN for points.
     """
 
     b0: float
@@ -87,6 +100,67 @@ class Logistic(Curve):
     count: int
     likelihood_ratio: float = np.nan
     im: str = ""
+    covariance: FloatArray = field(default_factory=lambda: np.full((2, 2), np.nan))
+    errors: str = "given"
+    degrees_of_freedom: float = np.inf
+    deviance: float = np.nan
+
+    @property
+    def theta(self) -> float:
+        """Median, in the unit of the intensities."""
+        return float(np.exp(-self.b0 / self.b1))
+
+    @property
+    def se_b0(self) -> float:
+        """Standard error of b0."""
+        return float(np.sqrt(self.covariance[0, 0]))
+
+    @property
+    def se_b1(self) -> float:
+        """Standard error of b1."""
+        return float(np.sqrt(self.covariance[1, 1]))
+
+    def interval(self, x: ArrayLike, *, confidence: float = 0.95) -> tuple[Any, Any]:
+        """Confidence interval of the probability at intensities (of each on its own), on the scale of the logit.
+
+        Parameters
+        ----------
+        x : array_like
+            Intensities, positive.
+        confidence : float
+            Confidence, between 0 and 1.
+
+        Returns
+        -------
+        low, high : float or ndarray, shape of x
+
+        Raises
+        ------
+        DondoloError
+            There is no curve, or it has no standard errors.
+        InputError
+            Intensities that are not positive, a confidence beyond 0 and 1.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> curve = dd.fit_fragility([0.2, 0.4], [11, 33], 44).logit()
+        >>> [round(float(end), 4) for end in curve.interval(0.4)]
+        [0.6026, 0.8558]
+        """
+        from scipy.special import expit
+
+        self._need_fit()
+        if self.errors == "given":
+            raise DondoloError("no standard errors: the parameters were given")
+        quantile = normal_or_student(tails(confidence)[1], self.degrees_of_freedom)
+        values = as_levels(x)
+        if not np.all(values > 0.0):
+            raise InputError(f"x = {values.min():g}: must be positive")
+        design = np.stack([np.ones(values.size), np.log(values.ravel())])
+        logit = np.array([self.b0, self.b1]) @ design
+        half = quantile * np.sqrt(np.einsum("ik,ij,jk->k", design, self.covariance, design))
+        return shaped(expit(logit - half), values), shaped(expit(logit + half), values)
 
     def __call__(self, x: ArrayLike) -> Any:
         """Probability at intensities.
@@ -189,43 +263,59 @@ def regress(x: FloatArray, y: FloatArray) -> Regression:
     )
 
 
-def logistic_regression(x: FloatArray, kind: BoolArray, im: str = "") -> Logistic:
-    """Logistic regression on ln x by maximum likelihood, of an intensity measure."""
-    n, count = len(x), int(kind.sum())
-    none = Logistic(b0=np.nan, b1=np.nan, status="none", bracket=(0.0, np.inf), histories=n, count=count, im=im)
-    if count in (0, n):
+def logistic_regression(x: FloatArray, kind: BoolArray, im: str = "", labels: Sequence[str] = ()) -> Logistic:
+    """Logistic regression of points on ln x by maximum likelihood; each is of the cluster of its label, if any."""
+    return _logistic(x, kind.astype(np.float64), np.ones(len(x)), im, labels or [""] * len(x))
+
+
+def logistic_of_stripes(
+    levels: FloatArray, collapses: FloatArray, histories: FloatArray, im: str, labels: Sequence[str]
+) -> Logistic:
+    """Logistic curve of counts (clusters, levels) of labelled clusters; without labels, of independent histories."""
+    from scipy.special import xlogy
+
+    known = labels or [""]
+    several = np.tile(levels, len(known)), collapses.ravel(), histories.ravel()
+    curve = _logistic(*several, im, [label for label in known for _ in levels])
+    if curve.status != "ok":
+        return curve
+    z, n = collapses.sum(axis=0), histories.sum(axis=0)
+    p = curve(levels)
+    # 0 ln(0/0) = 0 at levels without histories
+    whole = np.where(n > 0.0, n, 1.0)
+    deviance = 2.0 * float(np.sum(xlogy(z, z / (whole * p)) + xlogy(n - z, (n - z) / (whole * (1.0 - p)))))
+    return replace(curve, deviance=max(deviance, 0.0))
+
+
+def _logistic(x: FloatArray, z: FloatArray, n: FloatArray, im: str, labels: Sequence[str]) -> Logistic:
+    """Logistic curve of counts, each of a cluster; clusters that all have one label are independent histories."""
+    histories, count = float(n.sum()), float(z.sum())
+    many, some = round(histories), round(count)
+    none = Logistic(b0=np.nan, b1=np.nan, status="none", bracket=(0.0, np.inf), histories=many, count=some, im=im)
+    if count in (0.0, histories):
         return replace(none, status="all") if count else none
-    here, there = x[kind], x[~kind]
+    here, there = x[z > 0.0], x[z < n]
     low, high = sorted((float(here.min()), float(there.max())))
     decreasing = replace(none, status="decreasing", bracket=(low, high))
     if here.max() <= there.min():
         return decreasing
     if here.min() >= there.max():
         return replace(decreasing, status="separated")
-    from scipy.optimize import minimize
-    from scipy.special import expit
-
-    u = np.log(x)
-    shift, unit = u.mean(), u.std()
-    design = np.stack([np.ones(n), (u - shift) / unit])
-
-    def height(b: FloatArray) -> float:
-        eta = b @ design
-        return float(np.logaddexp(0.0, eta).sum() - eta[kind].sum())
-
-    def gradient(b: FloatArray) -> FloatArray:
-        found: FloatArray = design @ (expit(b @ design) - kind)
-        return found
-
-    def hessian(b: FloatArray) -> FloatArray:
-        p = expit(b @ design)
-        found: FloatArray = (design * (p * (1.0 - p))) @ design.T
-        return found
-
-    found = minimize(height, np.zeros(2), jac=gradient, hess=hessian, method="trust-exact", options={"gtol": 1e-9})
-    b1 = float(found.x[1] / unit)
-    if b1 <= 0.0:
+    ran = n > 0.0
+    places = {label: place for place, label in enumerate(dict.fromkeys(np.array(labels)[ran].tolist()), 1)}
+    cluster = np.array([places.get(label, 0) for label in labels])
+    numbers, errors = fit_logit(x[ran], z[ran], n[ran], cluster[ran])
+    b0, b1, var0, both, var1, height = (float(number) for number in numbers)
+    if not errors or b1 <= 0.0:
         return decreasing
-    flat = -count * np.log(count / n) - (n - count) * np.log1p(-count / n)
-    ratio = float(2.0 * (flat - found.fun))
-    return replace(decreasing, b0=float(found.x[0] - b1 * shift), b1=b1, status="ok", likelihood_ratio=ratio)
+    flat = count * np.log(count / histories) + (histories - count) * np.log1p(-count / histories)
+    return replace(
+        decreasing,
+        b0=b0,
+        b1=b1,
+        status="ok",
+        likelihood_ratio=2.0 * (height - float(flat)),
+        covariance=np.array([[var0, both], [both, var1]]),
+        errors=errors,
+        degrees_of_freedom=float(len(places) - 1) if errors == "clustered" else np.inf,
+    )

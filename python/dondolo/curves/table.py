@@ -40,6 +40,8 @@ def fragility_table(walls: Sequence[Wall | None], curves: Sequence[Fragility]) -
         "naive_se_ln_theta": [float(np.sqrt(curve.naive_covariance[0, 0])) for curve in curves],
         "naive_se_beta": [float(np.sqrt(curve.naive_covariance[1, 1])) for curve in curves],
         "cov_ln_theta_beta": [float(curve.covariance[0, 1]) for curve in curves],
+        "deviance": [curve.deviance for curve in curves],
+        "deviance_dof": [curve.deviance_dof if curve.has_fit else None for curve in curves],
     }
 
 

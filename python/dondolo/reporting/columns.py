@@ -15,7 +15,7 @@ from dondolo._base.shown import shown_dispersion
 from dondolo.curves.fragility import Fragility
 from dondolo.figures.style import mechanism_name
 from dondolo.reporting.content import BETA, THETA, Column, Piece, Symbol, Table, level_head, level_unit
-from dondolo.reporting.numerals import number, parameter, percent, probability, whole
+from dondolo.reporting.numerals import NONE, number, parameter, percent, probability, whole
 
 
 class _Shown(NamedTuple):
@@ -53,6 +53,8 @@ _COLUMNS: dict[str, _Shown] = {
     "se_ln_theta": _Shown(("standard error of ln ", THETA), _three),
     "se_beta": _Shown(("standard error of ", BETA), _three),
     "log_likelihood": _Shown("log likelihood", parameter),
+    "deviance": _Shown("deviance", _three),
+    "deviance_dof": _Shown("its degrees of freedom", lambda value: NONE if value is None else whole(value)),
     "theta_low": _Shown((THETA, " from"), parameter),
     "theta_high": _Shown((THETA, " to"), parameter),
     "beta_low": _Shown((BETA, " from"), parameter),

@@ -77,7 +77,7 @@ def numbers(stripes: Stripes, fits: Sequence[Fragility]) -> dict[str, Any]:
     levels = chosen(stripes._tables()["stripes"](), "im_level", "histories", "collapses", "fraction")
     levels |= of_curve(curve, stripes.levels) | {"median_edp": np.median(stripes.edp, axis=1)}
     names = [state_name(float(one.edp_threshold or 0.0), stripes.edp_limit) for one in fits]
-    kept = ("theta", "se_ln_theta", "beta", "se_beta", "log_likelihood", "status")
+    kept = ("theta", "se_ln_theta", "beta", "se_beta", "log_likelihood", "deviance", "deviance_dof", "status")
     states = {"damage_state": names} | chosen(fragility_table([None] * len(fits), fits), *kept)
     crossed = None
     if all(one.has_fit for one in fits):

@@ -19,7 +19,7 @@ module dondolo_fragility_clustered
    private
 
    public :: cluster_errors, leave_out_type, parameter_intervals
-   public :: confidence, fewest_clusters, correction
+   public :: confidence, determinant, fewest_clusters, correction
 
    !> Confidence of the intervals that the executable gives
    real(wp), parameter :: confidence = 0.95_wp

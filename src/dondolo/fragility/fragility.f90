@@ -17,7 +17,7 @@ module dondolo_fragility
    public :: fragility_type, fit_fragility
    public :: fit_ok, fit_extrapolated, fit_nearly_flat, fit_no_collapse, fit_all_collapse, fit_separated, fit_single_level, &
       & fit_decreasing, fit_not_converged, fit_status_names, statuses_with_curve
-   public :: error_names, is_flat, least_ratio, log_normal_cdf, mills, normal_cdf
+   public :: deviance_of, error_names, is_flat, least_ratio, log_normal_cdf, log_share, mills, normal_cdf, outer
 
    !> Statuses of a fit, and their names in files. The first three have a curve: `extrapolated` has its theta outside the levels,
    !> `nearly_flat` a slope that is not significant
@@ -57,6 +57,10 @@ module dondolo_fragility
       real(wp) :: naive(2, 2) = 0.0_wp
       !> Logarithm of the likelihood, binomial coefficients included
       real(wp) :: log_likelihood = 0.0_wp
+      !> Deviance: twice what the likelihood is below that of the fractions themselves; and levels less parameters, the mean that
+      !> it would have if all histories were independent
+      real(wp) :: deviance = 0.0_wp
+      integer :: deviance_dof = 0
       !> Levels between which half of the histories begin to collapse; 0 or huge where the side is open
       real(wp) :: bracket(2) = [0.0_wp, huge(0.0_wp)]
    contains
@@ -125,6 +129,8 @@ contains
       height = log_likelihood(b, x, collapses, histories)
       if (is_flat(height - log_likelihood_of_share(collapses, histories))) fragility%status = fit_nearly_flat
       if (fragility%theta < minval(levels) .or. fragility%theta > maxval(levels)) fragility%status = fit_extrapolated
+      fragility%deviance = deviance_of(height, collapses, histories)
+      fragility%deviance_dof = count(histories > 0.0_wp) - 2
       fragility%log_likelihood = height &
          & + sum(log_gamma(histories + 1.0_wp) - log_gamma(collapses + 1.0_wp) &
          & - log_gamma(histories - collapses + 1.0_wp))
@@ -228,6 +234,29 @@ contains
 
       height = sum(z)*log(sum(z)/sum(n)) + sum(n - z)*log(sum(n - z)/sum(n))
    end function log_likelihood_of_share
+
+   !> Deviance of a curve
+   pure function deviance_of(height, z, n) result(deviance)
+      !> Its log likelihood, without the binomial coefficients
+      real(wp), intent(in) :: height
+      !> Collapses
+      real(wp), intent(in) :: z(:)
+      !> Histories
+      real(wp), intent(in) :: n(:)
+      !> Twice what it is below the largest that there is
+      real(wp) :: deviance
+
+      deviance = max(2.0_wp*(sum(log_share(z, n) + log_share(n - z, n)) - height), 0.0_wp)
+   end function deviance_of
+
+   !> What histories of one outcome add to the largest log likelihood that there is: part ln(part/whole), 0 for none
+   elemental real(wp) function log_share(part, whole)
+      !> Those of the outcome, and all
+      real(wp), intent(in) :: part, whole
+
+      log_share = 0.0_wp
+      if (part > 0.0_wp) log_share = part*log(part/whole)
+   end function log_share
 
    !> Is a slope so small that it is not significant?
    pure logical function is_flat(gain)

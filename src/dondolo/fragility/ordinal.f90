@@ -12,7 +12,8 @@ module dondolo_fragility_ordinal
    use dondolo_base_lapack, only : invert_symmetric, solve_symmetric
    use dondolo_base_text, only : to_text
    use dondolo_fragility, only : fit_all_collapse, fit_decreasing, fit_extrapolated, fit_fragility, fit_nearly_flat, &
-      & fit_no_collapse, fit_not_converged, fit_ok, fit_separated, fit_single_level, fragility_type, is_flat, log_normal_cdf, mills
+      & fit_no_collapse, fit_not_converged, fit_ok, fit_separated, fit_single_level, fragility_type, is_flat, log_normal_cdf, &
+      & log_share, mills
    use dondolo_fragility_clustered, only : cluster_errors, fewest_clusters
    implicit none
    private
@@ -23,7 +24,7 @@ contains
 
    !> Fit the curves of all damage states with one dispersion
    subroutine fit_ordinal(curves, levels, reached, histories, error)
-      !> Curve of each state; their log likelihood is that of all together
+      !> Curve of each state; log likelihood and deviance are those of all together
       type(fragility_type), intent(out) :: curves(:)
       !> Levels of intensity
       real(wp), intent(in) :: levels(:)
@@ -75,6 +76,8 @@ contains
             curve%status = fit_ok
             if (is_flat(height - flat)) curve%status = fit_nearly_flat
             if (curve%theta < minval(levels) .or. curve%theta > maxval(levels)) curve%status = fit_extrapolated
+            curve%deviance = max(2.0_wp*(saturated(counts, histories) - height), 0.0_wp)
+            curve%deviance_dof = last*count(histories > 0.0_wp) - (last + 1)
             curve%log_likelihood = height + sum(log_gamma(histories + 1.0_wp)) - sum(log_gamma(counts + 1.0_wp))
             jacobian = 0.0_wp
             jacobian(1, of(k)) = curve%beta
@@ -271,6 +274,16 @@ contains
       ok = i <= most_steps
       call expect(x, sum(counts, dim=2), b, information)
    end subroutine maximise
+
+   !> Largest log likelihood that there is, without the multinomial coefficients: that of the fractions themselves
+   pure real(wp) function saturated(counts, histories)
+      !> Histories between one state and the next (levels, 0 to states)
+      real(wp), intent(in) :: counts(:, 0:)
+      !> Histories at each level
+      real(wp), intent(in) :: histories(:)
+
+      saturated = sum(log_share(counts, spread(histories, 2, size(counts, 2))))
+   end function saturated
 
    !> Log likelihood without the multinomial coefficients; -huge where the cuts do not increase
    pure real(wp) function log_likelihood(x, counts, b) result(height)

@@ -35,8 +35,9 @@ module dondolo_interface_c_results
       & 'collapses', 'record', 'polarity', 'scale', 'ran', 'edp', 'collapsed', 'impacts', 'time_of_peak', 'edp_error', 'cluster']
 
    !> Numbers of a curve
-   character(len=longest), parameter :: curve_numbers(11) = [character(len=longest) :: 'has_curve', 'theta', 'beta', &
-      & 'has_errors', 'se_ln_theta', 'se_beta', 'covariance', 'clusters', 'degrees_of_freedom', 'log_likelihood', 'bracket']
+   character(len=longest), parameter :: curve_numbers(13) = [character(len=longest) :: 'has_curve', 'theta', 'beta', &
+      & 'has_errors', 'se_ln_theta', 'se_beta', 'covariance', 'clusters', 'degrees_of_freedom', 'log_likelihood', 'bracket', &
+      & 'deviance', 'deviance_dof']
 
    !> Numbers of a motion: one each, then columns of its time history
    character(len=longest), parameter :: history_numbers(11) = [character(len=longest) :: 'edp', 'collapsed', 'impacts', &
@@ -311,6 +312,10 @@ contains
             values = [known(curve%log_likelihood, curve%has_fit())]
          case ('bracket')
             values = curve%bracket
+         case ('deviance')
+            values = [known(curve%deviance, curve%has_fit())]
+         case ('deviance_dof')
+            values = [known(real(curve%deviance_dof, wp), curve%has_fit())]
          end select
       end associate
    end subroutine numbers_of_curve

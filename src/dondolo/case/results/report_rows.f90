@@ -160,6 +160,8 @@ contains
       call table%put('naive_se_ln_theta', sqrt(curve%naive(1, 1)), has_fit)
       call table%put('naive_se_beta', sqrt(curve%naive(2, 2)), has_fit)
       call table%put('cov_ln_theta_beta', curve%covariance(1, 2), has_errors)
+      call table%put('deviance', curve%deviance, has_fit)
+      call table%put('deviance_dof', curve%deviance_dof, has_fit)
    end subroutine put_fragility
 
    !> A bound, empty where its side is open: 0 or huge
