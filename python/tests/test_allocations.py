@@ -22,6 +22,7 @@ ASKED = {
     "src/dondolo/case/results/columns.f90": r"src/dondolo/case/results/columns",
     "src/dondolo/population/store.f90": r"src/dondolo/population/store\.",
     "src/dondolo/interface/c_records.f90": r"src/dondolo/interface/c_records",
+    "python/dondolo/_fortran/curves.f90": r"src/dondolo/fragility/logit",
     "python/dondolo/_fortran/populations.f90": r"python/dondolo/_fortran/populations",
     "python/dondolo/_fortran/histories.f90": r"python/dondolo/_fortran/histories",
     "python/dondolo/_fortran/record_parcel.f90": r"python/dondolo/_fortran/(record_)?parcel",

@@ -119,9 +119,8 @@ contains
    end subroutine add_flags
 
    !> Put curves in, number after number: status and errors (places among the names), theta, beta, log likelihood, deviance
-   !> and its degrees of freedom (2, curves), bracket (2, curves), naive covariance (var ln theta, covariance, var beta; 3, curves), standard
-   !> errors as the tables have them,
-   !> clusters, degrees of freedom
+   !> and its degrees of freedom (2, curves), bracket (2, curves), naive covariance (var ln theta, covariance, var beta; 3,
+   !> curves), standard errors as the tables have them, clusters, degrees of freedom
    subroutine put_curves(parcel, prefix, curves)
       type(parcel_type), intent(inout) :: parcel
       !> What the names begin with

@@ -558,7 +558,7 @@ def fit(
     """Fit the three models to points, of the clusters of their labels if there are any, by name."""
     x = np.log(intensity)
     stands = ~collapsed
-    rest = [labels[i] for i in np.flatnonzero(stands)] if labels else ()
+    rest = [label for label, one in zip(labels, stands, strict=bool(labels)) if one]
     return {
         "regression": regress(x[stands & (edp > 0.0)], np.log(edp[stands & (edp > 0.0)])),
         "rocking": logistic_regression(intensity[stands], edp[stands] > 0.0, im, rest),
