@@ -2,8 +2,9 @@
 
 meson-python's own editable installation has neither the executable nor the example records, and after a build in
 isolation, which is what ``pip install -e .`` does, it calls a ninja that no longer exists. Here an editable wheel holds
-the path of the Python sources, and everything outside the package as an ordinary wheel does. The extension module is
-put beside the sources that import it. After a change of a Fortran source, install again: only changes are compiled.
+the path of the Python sources, and everything outside the package as an ordinary wheel does. The extension module and
+the compiled catalogues of languages are put beside the sources that use them. After a change of a Fortran source,
+install again: only changes are compiled.
 """
 
 import base64
@@ -46,14 +47,14 @@ def build_editable(
 
 
 def make_editable(wheel: Path, editable: Path, sources: Path) -> None:
-    """Write the editable wheel of a wheel, and its extension modules into the folder of the sources."""
+    """Write the editable wheel of a wheel, and what is compiled into the folder of the sources."""
     path = f"{sources}\n".encode()
     digest = base64.urlsafe_b64encode(hashlib.sha256(path).digest()).rstrip(b"=").decode()
     with ZipFile(wheel) as whole, ZipFile(editable, "w", ZIP_DEFLATED) as made:
         for member in whole.infolist():
             content = whole.read(member)
             if member.filename.startswith("dondolo/"):
-                if member.filename.endswith(".so"):
+                if member.filename.endswith((".so", ".mo")):
                     place = sources / member.filename
                     # A program that has the old one loaded keeps it.
                     place.unlink(missing_ok=True)

@@ -15,6 +15,7 @@ class PyDondolo(PythonPackage):
     depends_on("lapack")
     depends_on("python@3.11:", type=("build", "run"))
     depends_on("py-meson-python@0.18:", type="build")
+    depends_on("py-babel@2.14:", type="build")
     depends_on("py-numpy@2.0:", type=("build", "run"))
     depends_on("py-scipy@1.15:", type="run")
     depends_on("py-matplotlib@3.9:", type="run")

@@ -44,6 +44,7 @@ from dondolo.records.record_set import RecordSet as RecordSet
 from dondolo.records.synthetic import synthetic_records as synthetic_records
 from dondolo.records.target import TargetSpectrum as TargetSpectrum
 from dondolo.reporting.page import report as report
+from dondolo.reporting.relazione.writing import calculation_report as calculation_report
 from dondolo.retrofit.designs import compare_designs as compare_designs
 from dondolo.walls import distributions as distributions
 from dondolo.walls.mechanisms import FreeStandingWall as FreeStandingWall

@@ -120,6 +120,26 @@ def _parser() -> argparse.ArgumentParser:
     )
     report.set_defaults(run=_report)
     report.add_argument("--pdf", action="store_true", help="write PREFIX_report.pdf instead, by Chromium or WeasyPrint")
+    relazione = commands.add_parser(
+        "relazione",
+        help="write a calculation report of checks by NTC 2018: Word, HTML or PDF",
+        description="Write the calculation report (relazione di calcolo) of runs with a group &check: a wall as it "
+        "stands and its designs, the designs of a case, or one facade. What only the engineer can write is marked "
+        "[TO BE COMPLETED: ...] or [DA COMPLETARE: ...].",
+    )
+    relazione.add_argument(
+        "prefixes", nargs="+", help="prefix of the result files; as it stands first", metavar="PREFIX"
+    )
+    relazione.add_argument(
+        "-o",
+        "--output",
+        help="path of the document, .docx, .html or .pdf; PREFIX_relazione.html by default",
+        metavar="FILE",
+    )
+    relazione.add_argument("--lang", help="en or it; DONDOLO_LANG by default, or en", metavar="LANGUAGE")
+    relazione.add_argument("--data", help="TOML file of the project: title page and texts", metavar="FILE")
+    relazione.add_argument("--template", help="Word file with the styles of the office, for .docx", metavar="FILE")
+    relazione.set_defaults(run=_relazione)
     workbook = commands.add_parser(
         "xlsx",
         help="write the tables of a run into a workbook",
@@ -189,6 +209,20 @@ def _report(options: argparse.Namespace) -> None:
     hazard = None if options.hazard is None else dd.HazardCurve.from_csv(options.hazard)
     dd.report(dd.read_results(options.prefix), path, hazard=hazard)
     _report_done("written", path)
+
+
+def _relazione(options: argparse.Namespace) -> None:
+    """Write the calculation report of runs."""
+    import matplotlib
+
+    matplotlib.use("agg")
+    path = options.output or f"{options.prefixes[0]}_relazione.html"
+    results = [dd.read_results(prefix) for prefix in options.prefixes]
+    given = {"lang": options.lang, "project": options.data, "template": options.template}
+    left = dd.calculation_report(results, path, **given)
+    _report_done("written", path)
+    if left:
+        print(f"{len(left)} field{'s' if len(left) > 1 else ''} to be completed by the engineer: {', '.join(left)}")
 
 
 def _workbook(options: argparse.Namespace) -> None:

@@ -15,7 +15,8 @@ from costs import growth
 from dondolo._base.shown import html_of
 from dondolo._storage.run_file import described
 from dondolo.reporting import content
-from dondolo.reporting.page import _environment
+from dondolo.reporting.language import Language
+from dondolo.reporting.page import environment
 
 import dondolo as dd
 
@@ -230,7 +231,7 @@ def texts_of(page):
 def in_html(name, _, __):
     assert texts_of(html_of(name, [(name, name)])) == [name] * 3
     table = content.Table.of({"wall": [name]})
-    page = texts_of(_environment().get_template("macros.html.j2").module.table(table, name))
+    page = texts_of(environment(Language("en")).get_template("macros.html.j2").module.table(table, name))
     assert page.count(name) >= 2
     assert None not in page
 

@@ -18,7 +18,8 @@ import matplotlib
 import numpy as np
 import pytest
 from dondolo.reporting import content, numerals
-from dondolo.reporting.page import _environment
+from dondolo.reporting.language import Language
+from dondolo.reporting.page import environment
 from refusals import refused
 
 import dondolo as dd
@@ -412,7 +413,7 @@ def test_texts_are_escaped(few, tmp_path):
 
 def test_long_tables_are_cut_and_say_so():
     table = content.Table.of({"number": [str(i) for i in range(content.ROWS + 7)]})
-    page = Page(_environment().get_template("macros.html.j2").module.table(table, "Much"))
+    page = Page(environment(Language("en")).get_template("macros.html.j2").module.table(table, "Much"))
     (rows,) = page.tables.values()
     assert len(rows) == content.ROWS + 1
     assert f"First {content.ROWS} of {content.ROWS + 7} rows" in page.text
@@ -420,7 +421,7 @@ def test_long_tables_are_cut_and_say_so():
 
 def test_tables_fit_printed_pages():
     """Wide ones have small letters, short ones stay on one page."""
-    table = _environment().get_template("macros.html.j2").module.table
+    table = environment(Language("en")).get_template("macros.html.j2").module.table
     for columns, rows, wide, short in ((11, 15, False, False), (12, 14, True, True)):
         shown = table(content.Table.of({f"{i}": ["x"] * rows for i in range(columns)}), "Caption.")
         assert ('<table class="wide">' in shown) == wide
@@ -440,7 +441,7 @@ def test_numbers_are_shown_as_people_write_them():
     assert plain(numerals.parameter(0.373)) == "0.3730"
     assert chances([0.0, 1e-9, 0.5, 1.0 - 1e-9, 1.0]) == ["0", "<0.0001", "0.5000", ">0.9999", "1"]
     # The templates set the power of ten, and say that there is none.
-    module = _environment().get_template("macros.html.j2").module
+    module = environment(Language("en")).get_template("macros.html.j2").module
     assert str(module.piece(numerals.number(4.5e-7))) == "4.5 \N{MULTIPLICATION SIGN} 10<sup>\N{MINUS SIGN}7</sup>"
     assert str(module.piece(numerals.NONE)) == '<span title="none">\N{EN DASH}</span>'
 

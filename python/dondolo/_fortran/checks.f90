@@ -22,7 +22,7 @@ module checks
    implicit none
    private
 
-   public :: ntc_parameters, code_spectrum, check_ntc, check_histories, check_notes, calculation_items
+   public :: ntc_parameters, code_spectrum, check_ntc, check_histories, check_notes, calculation_items, capacity_curve
 
 contains
 
@@ -174,6 +174,31 @@ contains
       end if
       call send(parcel, error, sent)
    end subroutine calculation_items
+
+   !> Curve of capacity of a wall: spectral accelerations [m/s2] at n displacements [m] from 0 to d_0*, equally spaced
+   subroutine capacity_curve(walls, knowledge_factor, displacements, accelerations, n, failure)
+      integer(c_int64_t), intent(in) :: walls
+      real(c_double), intent(in) :: knowledge_factor
+      integer(c_int), intent(in) :: n
+      real(c_double), intent(out) :: displacements(n), accelerations(n)
+      integer(c_int64_t), intent(out) :: failure(5)
+      type(wall_type), pointer :: wall(:)
+      type(kinematic_type) :: kinematic
+      type(error_type), allocatable :: error
+      integer :: i
+
+      displacements = 0
+      accelerations = 0
+      call find_walls(walls, wall, error)
+      if (.not. allocated(error)) call new_kinematic(kinematic, wall(1), error)
+      if (.not. allocated(error)) then
+         do i = 1, n
+            displacements(i) = kinematic%end_displacement*real(i - 1, c_double)/real(n - 1, c_double)
+            accelerations(i) = kinematic%capacity(displacements(i), knowledge_factor)
+         end do
+      end if
+      call report(error, failure)
+   end subroutine capacity_curve
 
    !> Notes on a sheet, whose lines have a tab between method, limit state and name: lines, their sentences
    subroutine check_notes(texts, values, n, sent)

@@ -134,6 +134,13 @@ def calculation_items(wall: Handle) -> tuple[CalculationItem, ...]:
     return tuple(CalculationItem(name, *row) for name, row in zip(parcel.lines, numbers, strict=True))
 
 
+def capacity_curve(wall: Handle, knowledge_factor: float, points: int) -> tuple[FloatArray, FloatArray]:
+    """Displacements [m] from 0 to d_0*, and the spectral accelerations of capacity there [m/s2]."""
+    displacements, accelerations, failure = _core.checks.capacity_curve(wall.number, knowledge_factor, points)
+    check(failure)
+    return np.asarray(displacements), np.asarray(accelerations)
+
+
 def _rows(parcel: Parcel) -> tuple[SheetRow, ...]:
     """Lines of a sheet."""
     rows = []

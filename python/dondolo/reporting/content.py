@@ -26,10 +26,11 @@ _MARGIN = 0.1
 
 @dataclass(frozen=True)
 class Symbol:
-    """A quantity: an italic letter, and an upright index below."""
+    """A quantity: an italic letter, an upright index below, and a mark above, such as a star."""
 
     letter: str
     index: str = ""
+    mark: str = ""
 
 
 THETA, BETA = Symbol("θ"), Symbol("β")
@@ -88,6 +89,11 @@ class Table:
     def is_wide(self) -> bool:
         """Whether it needs small letters on a page."""
         return len(self.columns) > _WIDE
+
+    @property
+    def all_rows(self) -> Iterable[tuple[Piece, ...]]:
+        """All rows."""
+        return zip(*(column.cells for column in self.columns), strict=True)
 
     @property
     def rows(self) -> Iterable[tuple[Piece, ...]]:

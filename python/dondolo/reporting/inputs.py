@@ -55,13 +55,13 @@ def inputs(run: Run) -> dict[str, Any]:
     """The case with all its variables, and the files that it is made of."""
     case, files = "", None
     if run.file is not None and "records" in run.file.settings:
-        case = _case_text(run.file.settings)
+        case = case_text(run.file.settings)
     if run.file is not None and run.file.inputs:
         files = _files_table(run.file)
     return {"case": case, "settings": [*run.settings, *_levels(run)], "files": files}
 
 
-def _case_text(settings: Mapping[str, Mapping[str, Any]]) -> str:
+def case_text(settings: Mapping[str, Mapping[str, Any]]) -> str:
     """Settings in the notation of a case file."""
     lines = []
     for group, variables in settings.items():

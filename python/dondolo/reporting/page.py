@@ -29,6 +29,7 @@ from dondolo.populations.uncertain_wall import UncertainWall
 from dondolo.reporting import designs, facade, inputs, typology, uncertain, wall
 from dondolo.reporting.code_check import code_check, code_checks, verdict
 from dondolo.reporting.content import BETA, THETA, Symbol, date_in_words
+from dondolo.reporting.language import Language
 from dondolo.reporting.numerals import NONE, whole
 from dondolo.reporting.pdf import write_pdf
 from dondolo.reporting.risk import risk_facts
@@ -115,7 +116,7 @@ def report(
     plt.draw_if_interactive()  # type: ignore[no-untyped-call]
     with plt.ioff(), silent():
         chapters = _chapters(run, hazard)
-    version, template = constants().version, _environment().get_template("page.html.j2")
+    version, template = constants().version, environment(Language("en")).get_template("page.html.j2")
     mark = derived_mark("report", "" if run.file is None else run.file.run)
     text = template.render(
         title=run.title,
@@ -142,12 +143,12 @@ def _check_ground(run: Run) -> None:
         )
 
 
-def _environment() -> Environment:
-    """The templates, which escape all that they set."""
+def environment(language: Language) -> Environment:
+    """The templates, which escape all that they set, with the decimal mark of a language."""
     from jinja2 import Environment, FunctionLoader, StrictUndefined
 
     folder = resources.files("dondolo.reporting") / "templates"
-    environment = Environment(
+    made = Environment(
         loader=FunctionLoader(lambda name: (folder / name).read_text(encoding="utf-8")),
         autoescape=True,
         undefined=StrictUndefined,
@@ -155,8 +156,9 @@ def _environment() -> Environment:
         lstrip_blocks=True,
     )
     letters = {f"beta_{index}": Symbol("β", index) for index in ("walls", "records", "total")}
-    environment.globals |= {"theta": THETA, "beta": BETA, "none_text": NONE.text, **letters}
-    return environment
+    made.filters["decimal"] = language.decimal
+    made.globals |= {"theta": THETA, "beta": BETA, "none_text": NONE.text, **letters}
+    return made
 
 
 def _chapters(run: Run, hazard: HazardCurve | None) -> list[Chapter]:

@@ -34,7 +34,7 @@ def write_pdf(path: str | os.PathLike[str], html: str, mark: str) -> None:
     """
     import tempfile
 
-    browser = next(filter(None, map(shutil.which, _BROWSERS)), None)
+    browser = _browser()
     with whole_file(path) as part, tempfile.TemporaryDirectory() as folder:
         page = Path(folder) / "report.html"
         _write_page(page, html)
@@ -46,6 +46,15 @@ def write_pdf(path: str | os.PathLike[str], html: str, mark: str) -> None:
             raise DondoloError(f"{os.fspath(path)}: {browser or 'WeasyPrint'} has not printed the report as PDF")
         with part.open("a", encoding="ascii") as file:
             file.write(f"% {mark}\n")
+
+
+def sets_formulas() -> bool:
+    """Whether the program that prints sets formulas of MathML: browsers do, WeasyPrint does not."""
+    return _browser() is not None
+
+
+def _browser() -> str | None:
+    return next(filter(None, map(shutil.which, _BROWSERS)), None)
 
 
 def _write_page(path: Path, html: str) -> None:

@@ -1,0 +1,172 @@
+"""What a calculation report is made of: blocks, of which HTML, PDF and Word are three views."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from dondolo.reporting.content import Piece, Symbol, Table
+from dondolo.reporting.numerals import Numeral
+
+# Letters of symbols by their names in the sheet of a check
+_LETTERS = {"alpha": "\N{GREEK SMALL LETTER ALPHA}", "xi": "ξ"}
+_TOKEN = re.compile(r"([^\W\d_]+)(?:_([A-Za-z0-9,]+))?(\*?)|([\W\d_]+)")
+
+
+@dataclass(frozen=True)
+class Field:
+    """What the engineer has to write, a piece that is seen as such until then.
+
+    Attributes
+    ----------
+    key : str
+        Its name in the file of the project.
+    text : str
+        The prompt, in the language of the document.
+    """
+
+    key: str
+    text: str
+
+
+@dataclass(frozen=True)
+class Heading:
+    """The title of a chapter (level 1) or of a part of one (2); level 0 is that of the document."""
+
+    text: str
+    level: int = 1
+
+
+@dataclass(frozen=True)
+class Paragraph:
+    """Pieces in a row."""
+
+    pieces: tuple[Any, ...]
+
+
+@dataclass(frozen=True)
+class Note:
+    """A sentence that is set apart: a verdict ('failed', 'doubt', 'fine') or a remark ('plain')."""
+
+    kind: Literal["failed", "doubt", "fine", "plain"]
+    pieces: tuple[Any, ...]
+
+
+@dataclass(frozen=True)
+class Facts:
+    """Names and what they are."""
+
+    pairs: tuple[tuple[Piece, Any], ...]
+
+
+@dataclass(frozen=True)
+class CaptionedTable:
+    """A table with its caption; `strong` rows at its end are sums."""
+
+    table: Table
+    caption: str
+    strong: int = 0
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A drawing, its caption, and what there is to see for those who cannot see it."""
+
+    draw: Callable[[], Any]
+    caption: str
+    alt: str
+
+
+@dataclass(frozen=True)
+class Fraction:
+    """A part of a formula over another."""
+
+    top: Any
+    bottom: Any
+
+
+@dataclass(frozen=True)
+class Root:
+    """The square root of a part of a formula."""
+
+    inside: Any
+
+
+@dataclass(frozen=True)
+class Formula:
+    """Sides that are equal: in symbols, with the numbers put in, and the value."""
+
+    sides: tuple[Any, ...]
+
+
+@dataclass(frozen=True)
+class Annexes:
+    """Here the document ends, and its annexes begin, on a new page."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Listing:
+    """Lines of a file."""
+
+    text: str
+
+
+Block = Heading | Paragraph | Note | Facts | CaptionedTable | Picture | Formula | Annexes | Listing
+
+
+def fields_of(blocks: Sequence[Block]) -> list[Field]:
+    """All that is left to write, in the order of the document."""
+    return [piece for block in blocks for piece in _pieces(block) if isinstance(piece, Field)]
+
+
+def _pieces(block: Block) -> Iterator[Any]:
+    """The pieces of a block, one by one."""
+    stack: list[Any] = []
+    if isinstance(block, Paragraph | Note):
+        stack = [block.pieces]
+    elif isinstance(block, Facts):
+        stack = [value for _, value in block.pairs]
+    elif isinstance(block, CaptionedTable):
+        stack = [cell for row in block.table.all_rows for cell in row]
+    stack.reverse()
+    while stack:
+        piece = stack.pop()
+        if isinstance(piece, tuple):
+            stack.extend(reversed(piece))
+        else:
+            yield piece
+
+
+def symbol_of(text: str) -> Piece:
+    """A symbol of the sheet of a check, such as ``a_0*``, ``S_eZ(T)`` or ``a_gC S``."""
+    pieces: list[Piece] = []
+    for word, index, star, other in _TOKEN.findall(text):
+        if other:
+            pieces.append(other)
+        elif word == "FC":
+            pieces.append(word)
+        else:
+            pieces.append(Symbol(_LETTERS.get(word, word), index, star))
+    return pieces[0] if len(pieces) == 1 else tuple(pieces)
+
+
+def linear(part: Any) -> tuple[Any, ...]:
+    """A part of a formula in one line, for what sets no fractions."""
+    if isinstance(part, Fraction):
+        return (*_grouped(part.top), "/", *_grouped(part.bottom))
+    if isinstance(part, Root):
+        return ("√(", *linear(part.inside), ")")
+    if isinstance(part, tuple):
+        return tuple(piece for one in part for piece in linear(one))
+    return (part,)
+
+
+def _grouped(part: Any) -> tuple[Any, ...]:
+    """A part in one line, in brackets if it is more than one symbol or number."""
+    pieces = linear(part)
+    alone = len(pieces) == 1 and (isinstance(pieces[0], Symbol | Numeral) or " " not in str(pieces[0]))
+    return pieces if alone else ("(", *pieces, ")")

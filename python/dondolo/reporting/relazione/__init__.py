@@ -1,0 +1,1 @@
+"""Calculation reports: what an office hands in, as Word, HTML or PDF, in Italian or English."""

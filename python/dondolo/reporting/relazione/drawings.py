@@ -1,0 +1,233 @@
+"""Drawings of a calculation report, in greys that survive a photocopy, with words of its language."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from dondolo._fortran.checks import capacity_curve
+from dondolo.figures import style
+from dondolo.records.building import Building
+from dondolo.records.codes import LimitState
+from dondolo.reporting.relazione.document import Document, _
+from dondolo.reporting.relazione.subjects import Subject
+from dondolo.walls.mechanisms import TwoBlockWall
+from dondolo.walls.shape import shape
+from dondolo.walls.wall import upload
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+# Damping ratios of the nonlinear checks
+_DAMPINGS = {"SLV": 0.08, "SLC": 0.10}
+_STATES: tuple[LimitState, ...] = ("SLD", "SLV", "SLC")
+_DARK, _MIDDLE, _PALE, _LINES = "#000000", "#6e6e6e", "#e2e2e2", ("-", "--", ":", "-.", (0, (5, 1)), (0, (1, 1)))
+_POINTS = 400
+_CENTIMETRES = 100.0
+
+
+def _axes(document: Document, size: tuple[float, float], columns: int = 1) -> Any:
+    """Axes whose numbers have the decimal mark of the language."""
+    from matplotlib.ticker import FuncFormatter
+
+    made = style.new_axes(1, size, columns)
+    for ax in np.ravel(made):
+        for axis in (ax.xaxis, ax.yaxis):
+            axis.set_major_formatter(FuncFormatter(lambda value, place: document.language.decimal(f"{value:.6g}")))
+    return made
+
+
+def draw_wall(document: Document, one: Subject) -> Any:
+    """A wall at rest with the items of its table, and displaced with the reactions at its hinge."""
+    rest, moved = _axes(document, (6.6, 5.2), 2)
+    wall, items = one.wall, one.check.items
+    now, later = shape(wall, 0.0), shape(wall, 0.45 * wall.capacity_angle)
+    hinge, reach = now.hinges[0], max(1.3 * wall.thickness, 0.26 * wall.height)
+    for ax in (rest, moved):
+        for block in now.blocks:
+            ax.fill(*block.T, facecolor=_PALE if ax is rest else "none", edgecolor=_DARK if ax is rest else _MIDDLE,
+                    linewidth=0.9, linestyle="-" if ax is rest else "--")  # fmt: skip
+        ax.plot([-reach, wall.thickness + reach], [0.0, 0.0], color=_DARK, linewidth=1.4)
+        ax.set_aspect("equal")
+        ax.axis("off")
+        ax.set_xlim(-1.25 * reach, wall.thickness + 1.5 * reach)
+        ax.set_ylim(-0.13 * wall.height, 1.14 * wall.height)
+    for block in later.blocks:
+        moved.fill(*block.T, facecolor=_PALE, edgecolor=_DARK, linewidth=0.9)
+    for ax, points in ((rest, now.hinges), (moved, later.hinges)):
+        ax.plot(*points.T, linestyle="none", marker="o", markersize=5, color=_DARK, zorder=5)
+    _dimensions(document, rest, one, reach)
+    _items(document, rest, one, reach)
+    held = sum(item.force for item in items if _is_held(item.item))
+    weight = sum(item.force for item in items if item.item.startswith(("section", "load", "lower", "upper")))
+    pushed = sum(item.force for item in items if item.item.startswith("thrust"))
+    base = later.hinges[0]
+    if not isinstance(wall, TwoBlockWall):
+        _arrow(moved, base, (base[0], -0.11 * wall.height), f"V = {_kilo(document, weight)} kN/m", up=True)
+        words = f"H = {_kilo(document, abs(pushed - held))} kN/m"
+        side = -1.0 if pushed >= held else 1.0
+        moved.annotate("", base, (base[0] - side * 0.7 * reach, 0.0), arrowprops=_ARROW)
+        moved.annotate(words, (base[0] - side * 0.42 * reach, 0.015 * wall.height), ha="center", fontsize=7.5)
+    rest.set_title(document.text(_("at rest")), fontsize=9)
+    moved.set_title(document.text(_("displaced, not to scale")), fontsize=9)
+    rest.annotate(document.text(_("hinge")), hinge, (6, -11), textcoords="offset points", fontsize=7.5)
+    return rest
+
+
+_ARROW = {"arrowstyle": "-|>", "color": _DARK, "linewidth": 1.1, "shrinkA": 0.0, "shrinkB": 0.0}
+
+
+def _is_held(name: str) -> bool:
+    return name.startswith(("tie", "friction"))
+
+
+def _kilo(document: Document, value: float) -> str:
+    """A force in kN/m, in characters."""
+    return document.language.decimal(f"{1e-3 * value:.4g}")
+
+
+def _arrow(ax: Axes, to: Any, start: Any, words: str, *, up: bool = False) -> None:
+    ax.annotate("", to, start, arrowprops=_ARROW)
+    ax.annotate(words, start, (5, -2 if up else 1), textcoords="offset points", fontsize=7.5, va="center")
+
+
+def _dimensions(document: Document, ax: Axes, one: Subject, reach: float) -> None:
+    """Heights of the storeys and thicknesses, in centimetres."""
+    x, bottom = -0.55 * reach, 0.0
+    parts = getattr(one.wall, "sections", ()) or ()
+    sizes = [(part.height, part.thickness) for part in parts] or [(one.wall.height, one.wall.thickness)]
+    right = one.wall.thickness
+    if isinstance(one.wall, TwoBlockWall):
+        middle = one.wall.hinge * one.wall.height
+        sizes = [(middle, right), (one.wall.height - middle, right)]
+    line = {
+        "arrowstyle": "|-|, widthA=0.25, widthB=0.25",
+        "color": _MIDDLE,
+        "linewidth": 0.7,
+        "shrinkA": 0.0,
+        "shrinkB": 0.0,
+    }
+    for height, thickness in sizes:
+        ax.annotate("", (x, bottom), (x, bottom + height), arrowprops=line)
+        words = document.language.decimal(f"{_CENTIMETRES * height:.5g}")
+        ax.annotate(words, (x, bottom + 0.5 * height), (-3, 0), textcoords="offset points", rotation=90, ha="right",
+                    va="center", fontsize=7)  # fmt: skip
+        words = document.language.decimal(f"{_CENTIMETRES * thickness:.5g}")
+        ax.annotate(words, (right - 0.5 * thickness, bottom + 0.12 * height), ha="center", fontsize=7)
+        bottom += height
+    ax.annotate("cm", (x, -0.06 * one.wall.height), ha="center", fontsize=7)
+
+
+def _items(document: Document, ax: Axes, one: Subject, reach: float) -> None:
+    """Weights, thrusts and ties where they act."""
+    wall, right = one.wall, one.wall.thickness
+    for item in one.check.items:
+        if item.item == "masonry" or np.isnan(item.depth):
+            continue
+        word, _blank, count = item.item.rpartition(" ")
+        letter = {"section": "P", "load": "N", "mass": "Q", "thrust": "H", "tie": "T", "friction": "F"}.get(word, "P")
+        words = f"{letter}{count} = {_kilo(document, item.force)}"
+        x, z = right - item.depth, item.lever
+        if word == "thrust":
+            _arrow(ax, (x, z), (x - 0.75 * reach, z), "")
+            ax.annotate(words, (x - 0.75 * reach, z), (0, 3), textcoords="offset points", fontsize=7.5)
+        elif _is_held(word):
+            ax.plot([right, -0.9 * reach], [z, z], color=_DARK, linewidth=1.4)
+            ax.plot(
+                [right + 0.02, right + 0.02], [z - 0.03 * wall.height, z + 0.03 * wall.height], color=_DARK, linewidth=3
+            )
+            ax.annotate(words, (right + 0.06, z), (4, -8), textcoords="offset points", fontsize=7.5)
+        elif word == "section":
+            ax.plot(x, z, marker="+", markersize=8, color=_DARK)
+            ax.annotate(words, (right, z), (6, 0), textcoords="offset points", fontsize=7.5, va="center")
+        else:
+            ax.annotate("", (x, z), (x, z + 0.09 * wall.height), arrowprops=_ARROW)
+            ax.annotate(words, (right, z + 0.05 * wall.height), (6, 0), textcoords="offset points", fontsize=7.5)
+    ax.annotate("kN/m", (right + 0.9 * reach, -0.06 * wall.height), ha="center", fontsize=7)
+
+
+def draw_capacity(document: Document, one: Subject) -> Any:
+    """The curve of capacity, and the demand of SLV and SLC at their damping, in acceleration and displacement."""
+    ax = _axes(document, (6.0, 3.6))
+    check, wall = one.check, one.wall
+    factor = check.value("mechanism", "SLV", "knowledge_factor")
+    d, a = capacity_curve(upload((wall,)), factor, _POINTS)
+    ax.plot(_CENTIMETRES * d, a, color=_DARK, linewidth=1.8, label=document.text(_("capacity, a(d)")))
+    longest = 0.0
+    lines: tuple[tuple[LimitState, str], ...] = (("SLV", "--"), ("SLC", ":"))
+    for state, line in lines:
+        reached, period = (check.value("nonlinear", state, name) for name in ("displacement", "period"))
+        height = check.value("nonlinear", state, "acceleration")
+        longest = max(longest, reached, check.value("nonlinear", state, "demand"))
+        periods = np.geomspace(0.02, max(4.0, 1.3 * period), _POINTS)
+        building = wall.building if one.is_on_floor else None
+        demand = check.site.spectrum(periods=periods, damping=_DAMPINGS[state], limit_state=state, building=building).sa
+        words = document.text(_("demand, {state}"), state=state)
+        if not _is_demand_of(one, state, period, building):
+            # The code's spectrum of a strip is that between its floors: of it only the point at T is at hand.
+            ax.plot(_CENTIMETRES * check.value("nonlinear", state, "demand"),
+                    wall.gravity * check.value("nonlinear", state, "spectral_demand"),
+                    marker="^" if state == "SLV" else "v", color=_MIDDLE, linestyle="none", label=words)  # fmt: skip
+            continue
+        ax.plot(_CENTIMETRES * wall.gravity * demand * (periods / (2.0 * np.pi)) ** 2, wall.gravity * demand,
+                color=_MIDDLE, linestyle=line, label=words)  # fmt: skip
+        ax.plot(_CENTIMETRES * reached, height, marker="o" if state == "SLV" else "s", color=_DARK, linestyle="none",
+                label=document.text(_("capacity of displacement, {state}"), state=state))  # fmt: skip
+    ax.set_xlim(0.0, _CENTIMETRES * max(1.02 * d[-1], 1.1 * longest))
+    ax.set_ylim(bottom=0.0)
+    ax.set_xlabel("d [cm]")
+    ax.set_ylabel("a [m/s²]")
+    style.legend(ax)
+    return ax
+
+
+def _is_demand_of(one: Subject, state: LimitState, period: float, building: Building | None) -> bool:
+    """Whether the spectrum of a building, or of the ground, is that of the check."""
+    spectrum = one.check.site.spectrum(
+        periods=[period, 1.01 * period], damping=_DAMPINGS[state], limit_state=state, building=building
+    )
+    return math.isclose(spectrum.sa[0], one.check.value("nonlinear", state, "spectral_demand"), rel_tol=1e-9)
+
+
+def draw_spectra(document: Document) -> Any:
+    """Elastic spectra of the limit states, with the equivalent periods of the first wall."""
+    ax = _axes(document, (6.0, 3.1))
+    check = document.subjects.several[0].check
+    periods = np.linspace(0.0, 4.0, _POINTS)[1:]
+    states = _STATES if np.size(check.site.ag) > 1 else ("SLV",)
+    for state, line in zip(states, _LINES, strict=False):
+        ax.plot(periods, check.site.spectrum(periods=periods, limit_state=state).sa, color=_DARK, linestyle=line,
+                label=state if len(states) > 1 else None)  # fmt: skip
+    ax.set_xlabel("T [s]")
+    ax.set_ylabel("S_e [g]")
+    ax.set_xlim(0.0, 4.0)
+    ax.set_ylim(bottom=0.0)
+    if len(states) > 1:
+        style.legend(ax)
+    return ax
+
+
+def draw_fragility(document: Document) -> Any:
+    """Fragility curves of the walls, with the peak acceleration of the site."""
+    ax = _axes(document, (6.0, 3.4))
+    named = [(name, one.curve) for name, one in document.each()]
+    if document.subjects.facade:
+        named.append((document.subjects.facade, document.subjects.union))
+    right = 0.0
+    for place, (name, curve) in enumerate(named):
+        if curve is None or not curve.has_fit:
+            continue
+        right = max(right, float(curve.ppf(0.98)))
+        x = np.linspace(0.0, right, _POINTS)[1:]
+        ax.plot(x, curve(x), color=_DARK, linestyle=_LINES[place % len(_LINES)], linewidth=1.5, label=name)
+    pga = document.subjects.several[0].check.pga
+    words = document.text(_("a_g S of the site, SLV"))
+    ax.axvline(pga, color=_MIDDLE, linewidth=1.0, linestyle=(0, (6, 3)), label=words)
+    ax.set_xlim(0.0, max(right, 1.2 * pga))
+    ax.set_ylim(0.0, 1.0)
+    ax.set_xlabel("PGA [g]")
+    ax.set_ylabel(document.text(_("probability of collapse")))
+    style.legend(ax)
+    return ax

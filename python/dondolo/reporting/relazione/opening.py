@@ -1,0 +1,363 @@
+"""Chapters 0 to 9 of a calculation report: the work, the norms, the site, materials, models, analysis, and the code."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from dondolo._fortran.checks import ntc_parameters
+from dondolo._fortran.library import constants
+from dondolo.figures.style import mechanism_name
+from dondolo.records.codes import LimitState
+from dondolo.reporting.blocks import Block, CaptionedTable, Facts, Heading, Note, Picture, symbol_of
+from dondolo.reporting.code_check import unchecked_anchors
+from dondolo.reporting.content import Piece, Table
+from dondolo.reporting.numerals import NONE, number, whole
+from dondolo.reporting.relazione.document import Document, _
+from dondolo.reporting.relazione.drawings import draw_spectra
+from dondolo.reporting.relazione.subjects import Subject
+from dondolo.reporting.relazione.terms import MECHANISMS
+from dondolo.reporting.units import CENTIMETRES, UNITS, cell, quantity
+from dondolo.walls.mechanisms import OneSidedWall, TwoBlockWall
+from dondolo.walls.parts import parts_of
+
+_STATES: tuple[LimitState, ...] = ("SLD", "SLV", "SLC")
+
+
+def title_page(document: Document) -> list[Block]:
+    """Chapter 0."""
+    words = document.project.words
+    pairs: list[tuple[Piece, Any]] = [
+        (document.text(_("Work")), document.word("work", _("work"))),
+        (document.text(_("Place")), document.word("place", _("municipality and address"))),
+        (document.text(_("Client")), document.word("client", _("client"))),
+        (document.text(_("Designer")), document.word("designer", _("designer"))),
+        (document.text(_("Date")), document.word("date", _("date"))),
+        (document.text(_("Revision")), words.get("revision", "0")),
+        (document.text(_("Walls")), "; ".join(document.names)),
+    ]
+    return [
+        Heading(document.text(_("Calculation report: local mechanisms of masonry walls")), 0),
+        Facts(tuple(pairs)),
+        *(_verdict(document, name, one) for name, one in document.each()),
+    ]
+
+
+def _verdict(document: Document, name: str, one: Subject) -> Note:
+    """What the checks of a wall come to; never 'fine' where anchors are not checked."""
+    verdicts = list(one.check.verified.values())
+    loose = bool(unchecked_anchors((one.wall,)))
+    values = {"wall": name, "many": whole(len(verdicts)), "zeta": symbol_of("ζ_E"), "index": number(one.index)}
+    if not all(verdicts):
+        sentence = _("{wall}: {failed} of {many} checks NOT satisfied; {zeta} = {index} (nonlinear SLV).")
+        return Note("failed", document.say(sentence, failed=whole(verdicts.count(False)), **values).pieces)
+    if loose:
+        sentence = _(
+            "{wall}: {many} of {many} checks satisfied but anchors of ties NOT checked; {zeta} = {index}"
+            " (nonlinear SLV)."
+        )
+        return Note("doubt", document.say(sentence, **values).pieces)
+    return Note(
+        "fine",
+        document.say(
+            _("{wall}: {many} of {many} checks satisfied; {zeta} = {index} (nonlinear SLV)."), **values
+        ).pieces,
+    )
+
+
+def description(document: Document) -> list[Block]:
+    """Chapter 1."""
+    return [
+        Heading(document.text(_("Description of the work"))),
+        *document.written("description", _("description of the building, its structural type and its use")),
+        *document.written("survey", _("survey, cracks, connections of walls and floors")),
+        document.say(_("Drawings of the walls are in the chapter on the mechanism.")),
+    ]
+
+
+def norms(document: Document) -> list[Block]:
+    """Chapter 2."""
+    return [
+        Heading(document.text(_("Normative frame and purpose"))),
+        document.say(
+            _(
+                "The checks follow the D.M. of 17 January 2018 (NTC 2018), chapters 3, 8 and 10, and the"
+                " Circolare of 21"
+                " January 2019, n. 7, C8.7.1.2.1, for local mechanisms of collapse. The evaluation concludes"
+                " whether use"
+                " may continue, be changed, or safety be raised (NTC 8.3). The safety index {zeta} is the"
+                " largest seismic"
+                " action sustained over that of a new building, compared in {ags} (Circolare, C8.3), as it stands and"
+                " with the design."
+            ),
+            zeta=symbol_of("ζ_E"),
+            ags=symbol_of("a_g S"),
+        ),
+        *document.written(
+            "purpose", _("purpose: evaluation, improvement (NTC 8.4.2), adjustment (NTC 8.4.3) or local work")
+        ),
+    ]
+
+
+def site(document: Document) -> list[Block]:
+    """Chapter 3."""
+    check, numbers = document.subjects.several[0].check, document.project.numbers
+    assumed = document.text(_("value assumed by the designer"))
+
+    def given(name: str, prompt: str, unit: str = "") -> Any:
+        if name not in numbers:
+            return document.field(name, prompt)
+        return (number(numbers[name], 8, unit), f" ({assumed})")
+
+    pairs: list[tuple[Piece, Any]] = [
+        (
+            document.text(_("Latitude, longitude")),
+            (given("latitude", _("latitude")), ", ", given("longitude", _("longitude"))),
+        ),
+        (
+            (document.text(_("Nominal life")), " ", symbol_of("V_N")),
+            given("nominal_life", _("nominal life"), _years(document)),
+        ),
+        (
+            (document.text(_("Coefficient of use")), " ", symbol_of("C_U")),
+            given("use_coefficient", _("coefficient of use")),
+        ),
+    ]
+    if {"nominal_life", "use_coefficient"} <= numbers.keys():
+        life = numbers["nominal_life"] * numbers["use_coefficient"]
+        sides = (symbol_of("C_U"), " ", symbol_of("V_N"), " = ", number(life, 8, _years(document)), " (NTC, [3.2.0])")
+        pairs.append(((document.text(_("Reference life")), " ", symbol_of("V_R")), sides))
+    ground = document.text(
+        _("soil {soil}, topography {topography}"), soil=check.site.soil, topography=check.site.topography
+    )
+    pairs += [
+        (document.text(_("Ground")), ground),
+        (document.text(_("Reference of the class of soil")), document.word("soil_reference", _("geological report"))),
+    ]
+    states = _STATES if np.size(check.site.ag) > 1 else ("SLV",)
+    heads: list[tuple[str, str]] = [
+        ("a_g", "g"),
+        ("F_0", ""),
+        ("T_C*", "s"),
+        ("S", ""),
+        ("T_B", "s"),
+        ("T_C", "s"),
+        ("T_D", "s"),
+        ("a_g S", "g"),
+    ]
+    columns: dict[Piece, Sequence[Piece]] = {
+        document.text(_("limit state")): [one if len(states) > 1 else document.text(_("all")) for one in states]
+    }
+    rows = []
+    for state in states:
+        pga, _amplified, tb, tc, td = ntc_parameters(check.site._input(), state).tolist()
+        names = ("ag", "f0", "tc_star", "soil_factor")
+        rows.append([*(check.value("site", state, name) for name in names), tb, tc, td, pga])
+    for place, (symbol, unit) in enumerate(heads):
+        columns[(symbol_of(symbol), f" [{unit}]" if unit else "")] = [number(row[place], 4) for row in rows]
+    blocks: list[Block] = [
+        Heading(document.text(_("Parameters of design"))),
+        Facts(tuple(pairs)),
+        CaptionedTable(Table.of(columns), document.text(_("Hazard of the site and spectra (NTC 3.2.3.2.1)."))),
+        Picture(
+            lambda: draw_spectra(document),
+            document.text(_("Elastic spectra of horizontal acceleration, damping 5 %.")),
+            document.text(_("Elastic spectra of acceleration against period.")),
+        ),
+    ]
+    if len(states) == 1:
+        words = _("One hazard is given for all limit states: that of the code is lower for SLD and higher for SLC.")
+        blocks.append(Note("doubt", document.say(words).pieces))
+    return blocks
+
+
+def _years(document: Document) -> str:
+    return " " + document.text(_("years"))
+
+
+def materials(document: Document) -> list[Block]:
+    """Chapter 4."""
+    walls = [one.wall for one in document.subjects.several]
+    strengths = [getattr(wall, "compressive_strength", None) for wall in walls]
+    rows: list[tuple[Piece, Sequence[Piece]]] = [
+        (document.text(_("density [kg/m³]")), [number(wall.density) for wall in walls]),
+        (
+            document.text(_("compressive strength [MPa]")),
+            [cell(one, UNITS["Pa"]) if one else NONE for one in strengths],
+        ),
+        (
+            document.text(_("depth of the hinge [cm]")),
+            [cell(wall.base_hinge_depth, CENTIMETRES) for wall in walls],
+        ),
+        (
+            document.text(_("confidence factor FC")),
+            [number(one.check.value("mechanism", "SLV", "knowledge_factor")) for one in document.subjects.several],
+        ),
+    ]
+    level = document.word("knowledge_level", _("level of knowledge: LC1, LC2 or LC3"))
+    return [
+        Heading(document.text(_("Materials and level of knowledge"))),
+        Facts(((document.text(_("Level of knowledge")), level),)),
+        document.beside(document.text(_("property")), rows, document.text(_("Masonry and confidence factor."))),
+        document.say(_("The confidence factor divides the capacity (Circolare, C8.7.1.2.1.3).")),
+        *document.written("tests", _("tests and inspections, and the strengths that follow from them")),
+    ]
+
+
+def modelling(document: Document) -> list[Block]:
+    """Chapter 5."""
+    blocks: list[Block] = [Heading(document.text(_("Criteria of modelling")))]
+    walls = [one.wall for one in document.subjects.several]
+    for name, one in document.each():
+        words = mechanism_name(one.wall.mechanism) if document.language.code == "en" else MECHANISMS[one.wall.mechanism]
+        sizes = {
+            "height": quantity(one.wall.height, UNITS["m"]),
+            "thickness": quantity(one.wall.thickness, CENTIMETRES),
+        }
+        blocks.append(
+            document.say(
+                _("{wall}: {mechanism}, height {height}, thickness at the base {thickness}."),
+                wall=name,
+                mechanism=words,
+                **sizes,
+            )
+        )
+    if any(not isinstance(wall, TwoBlockWall) for wall in walls):
+        blocks.append(
+            document.say(
+                _(
+                    "The wall is a macroelement of rigid blocks without tensile strength that turns about a"
+                    " hinge near its"
+                    " outer face. The masonry is one rigid body: the fraction of participating mass has its overall"
+                    " centroid (Circolare, C8.7.1.2.1.1)."
+                )
+            )
+        )
+    if any(wall.base_hinge_depth > 0.0 for wall in walls):
+        blocks.append(
+            document.say(_("The hinge is set back from the face by the compressive strength of the masonry."))
+        )
+    if any(isinstance(wall, TwoBlockWall) for wall in walls):
+        blocks.append(
+            document.say(
+                _(
+                    "A strip between two floors bends: two rigid blocks turn about hinges at the base, at an"
+                    " intermediate"
+                    " height and at the top, which the floor holds. The load on top is held sideways by the"
+                    " floor: it is"
+                    " neither in the denominator of the multiplier nor in the participating mass. Other"
+                    " programs count it"
+                    " there, and obtain greater accelerations of activation."
+                )
+            )
+        )
+    if any(isinstance(wall, OneSidedWall) for wall in walls):
+        blocks.append(document.say(_("Transverse walls prevent rotation inwards.")))
+    if any(parts_of(wall, "ties") for wall in walls):
+        blocks.append(
+            document.say(_("Ties hold with their yield force until they break; they do not act up to collapse."))
+        )
+    if any(parts_of(wall, "interlock") for wall in walls):
+        blocks.append(document.say(_("Interlocking with the transverse walls acts by friction, course by course.")))
+    if any(one.is_on_floor for one in document.subjects.several):
+        blocks.append(
+            document.say(
+                _("The demand is that of the building at the level of the wall (Circolare, C7.2.3, C8.7.1.12).")
+            )
+        )
+    return blocks + document.written("mechanism", _("reasons for the mechanism chosen, from survey and details"))
+
+
+def actions(document: Document) -> list[Block]:
+    """Chapter 6."""
+    return [
+        Heading(document.text(_("Actions and seismic combination"))),
+        document.say(
+            _(
+                "Forces are per metre of wall. Loads carried by the wall are positive downwards, thrusts"
+                " outwards, forces of"
+                " ties inwards; heights are above the hinge, depths behind the outer face. Their values are in"
+                " the table of"
+                " the calculation of each wall. In the seismic combination permanent loads are increased by the part"
+                " {psi} of variable ones."
+            ),
+            psi=(symbol_of("ψ_2"), " ", symbol_of("Q_k")),
+        ),
+        *document.written("load_analysis", _("analysis of loads of floors and roof")),
+        *document.written("combinations", _("combinations of loads, and why they are exhaustive (NTC 10.2.1)")),
+    ]
+
+
+def analysis(document: Document) -> list[Block]:
+    """Chapter 7."""
+    blocks: list[Block] = [
+        Heading(document.text(_("Type of analysis"))),
+        document.say(
+            _(
+                "Linear kinematic analysis: SLD, and SLV with the behaviour factor (Circolare, C8.7.1.2.1.5,"
+                " C8.7.1.2.1.7)."
+                " Nonlinear kinematic analysis: SLV and SLC, with the capacity curve of the equivalent"
+                " oscillator and the"
+                " displacement spectrum at the secant period (C8.7.1.2.1.6, C8.7.1.2.1.8)."
+            )
+        ),
+    ]
+    if document.subjects.has_histories:
+        blocks.append(
+            document.say(
+                _(
+                    "Nonlinear dynamic analysis: time histories of the rocking wall with impacts"
+                    " (C8.7.1.2.1.9), none of"
+                    " which may go beyond the displacement of collapse."
+                )
+            )
+        )
+    return blocks + document.written("analysis_reason", _("reasons for the type of analysis (NTC 10.2.1)"))
+
+
+def code(document: Document) -> list[Block]:
+    """Chapters 8 and 9."""
+    several = document.subjects.several
+    runs = list({one.results.run.run: one.results.run for one in several}.values())
+    pairs: list[tuple[Piece, Any]] = [
+        (document.text(_("Title")), "dondolo"),
+        (document.text(_("Authors, producer and distributor")), _contributors(document)),
+        (document.text(_("Version")), constants().version),
+        (document.text(_("Licence")), "MIT"),
+    ]
+    for run in runs:
+        parts = [run.run or NONE]
+        if run.written is not None:
+            parts.append(", " + document.language.date(run.written))
+        if run.compiler:
+            parts.append(", " + document.text(_("compiled by {compiler}"), compiler=run.compiler))
+        if run.version != constants().version:
+            parts.append(", " + document.text(_("version {version}"), version=run.version))
+        pairs.append((document.text(_("Run")), tuple(parts)))
+    return [
+        Heading(document.text(_("Code of calculation"))),
+        Facts(tuple(pairs)),
+        document.say(_("Files of the calculation and their checksums are in the annexes.")),
+        Heading(document.text(_("Reliability and validation of the code"))),
+        document.say(
+            _(
+                "The documentation of the producer contains the theoretical basis ({theory}), the fields of use"
+                " and limits"
+                " ({check}), and the comparison with independent solutions and with a reference of 33 digits"
+                " ({verification})."
+            ),
+            theory="docs/theory.md",
+            check="docs/code_checks.md",
+            verification="docs/verification.md",
+        ),
+        *document.written(
+            "code_suitability",
+            _("preliminary examination of the suitability of the code to this case (Circolare, C10.2.1)"),
+        ),
+    ]
+
+
+def _contributors(document: Document) -> str:
+    return document.text(_("the dondolo contributors"))

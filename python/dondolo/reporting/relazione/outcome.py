@@ -1,0 +1,374 @@
+"""Chapters 13 to 17 of a calculation report and its annexes: histories, fragility, summary, run and comparisons."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping, Sequence
+from fractions import Fraction as Exact
+
+import numpy as np
+
+from dondolo._storage.run_file import RECORD_FACTS, RunFile
+from dondolo.curves.fragility import Fragility
+from dondolo.reporting.blocks import (
+    Annexes,
+    Block,
+    CaptionedTable,
+    Heading,
+    Listing,
+    Note,
+    Picture,
+    symbol_of,
+)
+from dondolo.reporting.content import BETA, THETA, Piece, Table
+from dondolo.reporting.inputs import case_text
+from dondolo.reporting.numerals import NONE, Numeral, number, probability, whole
+from dondolo.reporting.relazione.checks import method_name, outcome, sums_of
+from dondolo.reporting.relazione.document import Document, _
+from dondolo.reporting.relazione.drawings import draw_fragility
+from dondolo.reporting.relazione.subjects import Subject
+from dondolo.reporting.relazione.terms import status, warning
+from dondolo.reporting.units import CENTIMETRES, UNITS, cell
+from dondolo.walls.mechanisms import TwoBlockWall
+
+_CHECKS = (("linear", "SLD"), ("linear", "SLV"), ("nonlinear", "SLV"), ("nonlinear", "SLC"))
+_DYNAMIC = (("dynamic", "SLV"), ("dynamic", "SLC"))
+_DECIMAL = re.compile(r"\d+\.\d+")
+# T_SLV of a curve of capacity that is a straight line: 1.68 pi sqrt(0.4/0.6)
+_STRAIGHT = 1.68 * math.pi * math.sqrt(0.4 / 0.6)
+
+
+def histories(document: Document) -> list[Block]:
+    """Chapter 13."""
+    blocks: list[Block] = [Heading(document.text(_("Dynamic analysis")))]
+    if not document.subjects.has_histories:
+        return [*blocks, document.say(_("No check by time histories is part of this calculation."))]
+    heads = {
+        "records": document.text(_("records")),
+        "histories": document.text(_("histories")),
+        "beyond": document.text(_("beyond collapse")),
+        "mean_displacement": document.text(_("mean of the largest displacements [cm]")),
+        "displacement": document.text(_("capacity [cm]")),
+    }
+    made = [(name, one, key) for name, one in document.each() for key in _DYNAMIC if key in one.check.verified]
+    columns: dict[Piece, Sequence[Piece]] = {
+        document.text(_("wall")): [name for name, *_rest in made],
+        document.text(_("limit state")): [state for *_rest, (_method, state) in made],
+        "PGA [g]": [number(one.check.value(*key, "pga")) for _name, one, key in made],
+    }
+    for quantity, head in heads.items():
+        values = [one.check.value(*key, quantity) for _name, one, key in made]
+        lengths = "displacement" in quantity
+        columns[head] = [cell(x, CENTIMETRES) if lengths else whole(x) for x in values]
+    columns[document.text(_("outcome"))] = [outcome(document, one.check.verified[key]) for _name, one, key in made]
+    text = document.text(_("outcome"))
+    return [
+        *blocks,
+        CaptionedTable(
+            Table.of(columns, (document.text(_("limit state")), text)),
+            document.text(_("Time histories at the peak acceleration of the site (Circolare, C8.7.1.2.1.9).")),
+        ),
+        document.say(
+            _(
+                "Records with their event, date, magnitude, station and component are in the annexes. NTC"
+                " 3.2.3.6 asks for"
+                " records that are compatible with the spectrum of the site, which the code does not check."
+            )
+        ),
+        *document.written("record_selection", _("selection of the records and their compatibility with the spectrum")),
+    ]
+
+
+def _curves(document: Document) -> list[tuple[str, Fragility]]:
+    """Curves of the walls, and of the facade that they are mechanisms of."""
+    found = [(name, one.curve) for name, one in document.each() if one.curve is not None]
+    if document.subjects.facade and document.subjects.union is not None:
+        found.insert(0, (document.subjects.facade, document.subjects.union))
+    return found
+
+
+def fragility(document: Document) -> list[Block]:
+    """Chapter 14."""
+    curves = _curves(document)
+    blocks: list[Block] = [
+        Heading(document.text(_("Fragility curve and probability of collapse"))),
+        document.say(_("Further information, which NTC 2018 do not ask for: the curve is that of the time histories.")),
+    ]
+    if not curves:
+        return [*blocks, document.say(_("The results have no fragility curve."))]
+    pga = document.subjects.several[0].check.pga
+    ends = [
+        curve.parameter_interval()["theta"] if curve.has_errors else (math.nan, math.nan) for _name, curve in curves
+    ]
+    columns: dict[Piece, Sequence[Piece]] = {
+        document.text(_("wall")): [name for name, _curve in curves],
+        (document.text(_("median")), " ", THETA, " [g]"): [number(curve.theta) for _name, curve in curves],
+        document.text(_("95 % interval from")): [number(low) for low, _high in ends],
+        document.text(_("to")): [number(high) for _low, high in ends],
+        (document.text(_("dispersion")), " ", BETA): [number(curve.beta) for _name, curve in curves],
+        (document.text(_("probability at")), " ", symbol_of("a_g S")): [
+            probability(float(curve(pga))) if curve.has_fit else NONE for _name, curve in curves
+        ],
+        document.text(_("status")): [status(document.language, curve.status) for _name, curve in curves],
+    }
+    blocks.append(
+        CaptionedTable(
+            Table.of(columns, (document.text(_("status")),)), document.text(_("Fragility curves of collapse."))
+        )
+    )
+    if any(curve.has_fit for _name, curve in curves):
+        blocks.append(
+            Picture(
+                lambda: draw_fragility(document),
+                document.text(_("Fragility curves, and the peak acceleration of the site.")),
+                document.text(_("Probability of collapse against peak acceleration.")),
+            )
+        )
+    return blocks
+
+
+def summary(document: Document) -> list[Block]:
+    """Chapter 15."""
+    several = document.subjects.several
+    rows: list[tuple[Piece, Sequence[Piece]]] = []
+    for name in ("alpha_0", "a_0"):
+        unit = UNITS["m/s2"] if name == "a_0" else UNITS[""]
+        head = (symbol_of("a_0*"), " [m/s²]") if name == "a_0" else (symbol_of("alpha_0"),)
+        rows.append((head, [cell(one.check.value("mechanism", "SLV", name), unit, 5) for one in several]))
+    for method, state in _CHECKS:
+        name = f"{method_name(document, method)} {state}"
+        ratios = [one.check.value(method, state, "ratio") for one in several]
+        words = ", ".join((name, document.text(_("capacity / demand"))))
+        head_of: Piece = (f"{name}, ", symbol_of("ζ_E")) if state == "SLV" else words
+        rows.append((head_of, [number(ratio, 4) for ratio in ratios]))
+        rows.append(
+            (
+                f"{name}, {document.text(_('outcome'))}",
+                [outcome(document, one.check.verified[method, state]) for one in several],
+            )
+        )
+    for method, state in _DYNAMIC:
+        if document.subjects.has_histories:
+            name = f"{method_name(document, method)} {state}, {document.text(_('outcome'))}"
+            holds = [one.check.verified.get((method, state)) for one in several]
+            rows.append((name, [NONE if one is None else outcome(document, one) for one in holds]))
+    blocks: list[Block] = [
+        Heading(document.text(_("Summary of the checks"))),
+        document.beside(document.text(_("quantity")), rows, document.text(_("Checks of all walls."))),
+    ]
+    least = document.subjects.least
+    if document.subjects.facade:
+        index = _("The least safety index of the facade is {index}, of the mechanism {name}.")
+        blocks.append(document.say(index, index=number(least.index, 4), name=least.wall.name))
+    elif len(several) > 1:
+        for name, one in document.each()[1:]:
+            sentence = _("{name}: {difference} with respect to the state as it stands.")
+            change = ("Δ", symbol_of("ζ_E"), " = ", number(one.index - several[0].index, 4))
+            blocks.append(document.say(sentence, name=name, difference=change))
+    blocks += [
+        document.say(
+            _(
+                "The site spectrum keeps its shape and its factor of soil while it is scaled to the capacity, so that"
+                " {zeta} is the ratio of peak accelerations {ags}. It is that of the local mechanism. The"
+                " safety index of"
+                " the building is the least of all mechanisms and of the global analysis."
+            ),
+            zeta=symbol_of("ζ_E"),
+            ags=symbol_of("a_g S"),
+        ),
+        *document.written(
+            "building_index", _("safety index of the building, and the other mechanisms that were checked")
+        ),
+        document.say(
+            _(
+                "For information: improvement asks for {zeta} of at least {schools} for schools of class III"
+                " and for class IV,"
+                " and for an increase of at least {increase} for other buildings of class III and for class II"
+                " (NTC 8.4.2);"
+                " adjustment asks for at least {full}, or {reduced} in cases c and e (NTC 8.4.3). Class and"
+                " kind of work are"
+                " for the designer to state."
+            ),
+            zeta=symbol_of("ζ_E"),
+            schools=number(0.6),
+            increase=number(0.1),
+            full=Numeral("1.0"),
+            reduced=Numeral("0.80"),
+        ),
+    ]
+    return blocks
+
+
+def run(document: Document) -> list[Block]:
+    """Chapter 16."""
+    blocks: list[Block] = [Heading(document.text(_("General information on the calculation")))]
+    for title, one in _runs(document):
+        found = [warning(document.language, each) for each in one.warnings]
+        blocks.append(Heading(title, 2))
+        head = document.text(_("Warnings on the calculation: "))
+        if not found:
+            blocks.append(document.say(_("No warnings on the calculation.")))
+        blocks += [Note("plain", (head, text, ".")) for text in found]
+        if one.work:
+            blocks.append(
+                document.say(
+                    _("{histories} histories, {steps} steps of integration, {impacts} impacts located."),
+                    **{name: whole(one.work.get(name, 0)) for name in ("histories", "steps", "impacts")},
+                )
+            )
+    return blocks
+
+
+def _runs(document: Document) -> list[tuple[str, RunFile]]:
+    """The runs of the document, each once, and what they are called."""
+    found: dict[int, tuple[list[str], RunFile]] = {}
+    for name, one in document.each():
+        found.setdefault(id(one.results), ([], one.results.run))[0].append(name)
+    return [(", ".join(names), one) for names, one in found.values()]
+
+
+def comparisons(document: Document) -> list[Block]:
+    """Chapter 17."""
+    rows: list[tuple[Piece, Sequence[Piece]]] = []
+    several = document.subjects.several
+
+    def compare(head: Piece, values: Sequence[float], figures: int = 6) -> None:
+        rows.append((head, [number(value, figures) for value in values]))
+
+    exact = [_exact_multiplier(one) for one in several]
+    compare((symbol_of("alpha_0"), document.text(_(" of the check"))), [_of(one, "alpha_0") for one in several])
+    compare((symbol_of("alpha_0"), document.text(_(" from the items, in fractions"))), exact)
+    balance = [_balance(one) for one in several]
+    compare(document.text(_("sum of moments at activation / stabilising moment")), balance, 1)
+    compare((symbol_of("d_0*"), document.text(_(" of the check [cm]"))), [100.0 * _of(one, "d_0") for one in several])
+    compare(
+        (symbol_of("d_0*"), document.text(_(" of the weights alone, from their moment [cm]"))),
+        [100.0 * _bare_displacement(one) for one in several],
+    )
+    periods = [one.check.value("nonlinear", "SLV", "period") for one in several]
+    compare((symbol_of("T_SLV"), document.text(_(" of the check [s]"))), periods)
+    straight = [_STRAIGHT * math.sqrt(_of(one, "d_0") / _of(one, "a_0")) for one in several]
+    compare((symbol_of("T_SLV"), document.text(_(" of a straight capacity curve [s]"))), straight)
+    return [
+        Heading(document.text(_("Reasoned judgement of acceptability of the results"))),
+        document.beside(
+            document.text(_("comparison")), rows, document.text(_("Comparisons with simple calculations (NTC 10.2.1)."))
+        ),
+        document.say(
+            _(
+                "Fractions use the items of the table of the calculation alone. A straight line from {a0} to"
+                " {d0} has the period"
+                " {period}; ties and thrusts make the capacity curve another one."
+            ),
+            a0=symbol_of("a_0*"),
+            d0=symbol_of("d_0*"),
+            period=("1.68 π √(0.4/0.6) √(", symbol_of("d_0*"), "/", symbol_of("a_0*"), ")")
+            if document.language.code == "en"
+            else ("1,68 π √(0,4/0,6) √(", symbol_of("d_0*"), "/", symbol_of("a_0*"), ")"),
+        ),
+        *document.written("judgement", _("reasoned judgement of the designer on the results")),
+    ]
+
+
+def _of(one: Subject, name: str) -> float:
+    return one.check.value("mechanism", "SLV", name)
+
+
+def _exact_multiplier(one: Subject) -> float:
+    """alpha_0 from the items, in exact arithmetic."""
+    top = bottom = Exact(0)
+    for item in one.check.items:
+        for name, sign in (("stabilising", 1), ("overturning", -1)):
+            if not math.isnan(value := getattr(item, name)):
+                top += sign * Exact(value)
+        if not math.isnan(item.force_lever):
+            bottom += Exact(item.force_lever)
+    return float(top / bottom)
+
+
+def _balance(one: Subject) -> float:
+    """Moments about the hinge that are left at activation, by the sheet, over those that hold."""
+    sums = sums_of(one.check.items)
+    left = sums["stabilising"] - sums["overturning"] - _of(one, "alpha_0") * sums["force_lever"]
+    return abs(left) / sums["stabilising"]
+
+
+def _bare_displacement(one: Subject) -> float:
+    """Displacement at which the weights alone hold no longer: where their centroid is above the hinge."""
+    if isinstance(one.wall, TwoBlockWall):
+        return one.check.items[0].arm
+    weights = [item for item in one.check.items if not math.isnan(item.arm) and not math.isnan(item.stabilising)]
+    sums = sums_of(one.check.items)
+    arm = math.fsum(item.stabilising for item in weights) / sums["carried"]
+    height = sums["force_lever"] / sums["weight"]
+    return arm * height / math.hypot(arm, height)
+
+
+def annexes(document: Document) -> list[Block]:
+    """What belongs to the calculation and not into the report."""
+    blocks: list[Block] = [Annexes(document.text(_("Annexes")))]
+    for title, one in _runs(document):
+        text = case_text(one.settings)
+        if text:
+            blocks += [Heading(document.text(_("Data of the calculation: {wall}"), wall=title), 2), Listing(text)]
+    for title, one in _runs(document):
+        if one.inputs:
+            blocks.append(Heading(document.text(_("Files and checksums: {wall}"), wall=title), 2))
+            blocks.append(_files(document, one))
+        if one.records:
+            blocks.append(Heading(document.text(_("Records: {wall}"), wall=title), 2))
+            blocks.append(_records(document, one, _factors(document, one)))
+    return blocks
+
+
+def _files(document: Document, one: RunFile) -> CaptionedTable:
+    """Files of a run."""
+    columns: dict[Piece, Sequence[Piece]] = {
+        document.text(_("file")): [str(each["path"]) for each in one.inputs],
+        document.text(_("bytes")): [NONE if each["bytes"] is None else whole(each["bytes"]) for each in one.inputs],
+        "CRC-32": [str(each["crc32"]) for each in one.inputs],
+    }
+    return CaptionedTable(Table.of(columns), document.text(_("Files that the results are of.")))
+
+
+def _factors(document: Document, one: RunFile) -> Mapping[str, tuple[float, float]]:
+    """Least and greatest factor of each record, of one wall."""
+    stripes = next((each.results.stripes for each in document.subjects.several if each.results.run is one), None)
+    if stripes is None:
+        return {}
+    found: dict[str, tuple[float, float]] = {}
+    for name, low, high in zip(
+        stripes.record_names, np.nanmin(stripes.scale, axis=0), np.nanmax(stripes.scale, axis=0), strict=True
+    ):
+        least, most = found.get(name, (math.inf, -math.inf))
+        found[name] = (min(least, float(low)), max(most, float(high)))
+    return found
+
+
+def _stated(text: str) -> Piece:
+    """What a header states of a record: a number has the decimal mark of the language."""
+    return Numeral(text) if _DECIMAL.fullmatch(text) else text
+
+
+def _records(document: Document, one: RunFile, factors: Mapping[str, tuple[float, float]]) -> CaptionedTable:
+    """Records of a run."""
+    heads = {
+        "event": document.text(_("event")),
+        "date": document.text(_("date")),
+        "magnitude": document.text(_("magnitude")),
+        "station": document.text(_("station")),
+        "component": document.text(_("component")),
+    }
+    none = document.text(_("not given"))
+    columns: dict[Piece, Sequence[Piece]] = {document.text(_("record")): [each["name"] for each in one.records]}
+    for name in ("event", *RECORD_FACTS):
+        columns[heads[name]] = [_stated(each.get(name) or none) for each in one.records]
+    if factors:
+        ends = [factors.get(each["name"], (math.nan, math.nan)) for each in one.records]
+        columns[document.text(_("factor from"))] = [number(low) for low, _high in ends]
+        columns[document.text(_("to"))] = [number(high) for _low, high in ends]
+    words = list(heads.values())
+    return CaptionedTable(
+        Table.of(columns, words), document.text(_("Records, and the range of their factors of scale."))
+    )

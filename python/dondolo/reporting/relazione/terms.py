@@ -1,0 +1,156 @@
+"""Italian of what has a key: quantities of the sheet of a check, items of a calculation, statuses of fits, warnings.
+
+English sentences are those of the library. Nothing translates sentences: a warning is worded from its numbers.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+
+from dondolo.errors import DondoloWarning
+from dondolo.reporting.language import Language
+from dondolo.reporting.numerals import number
+from dondolo.reporting.statuses import STATUSES
+
+# Quantities of the sheet
+MEANINGS = {
+    "ag": "accelerazione di picco su suolo rigido e orizzontale",
+    "f0": "massima amplificazione su tale suolo",
+    "tc_star": "periodo d'inizio del tratto a velocità costante su tale suolo",
+    "soil_factor": "coefficiente di sottosuolo e topografico, prodotto di S_S e S_T",
+    "tc": "periodo d'inizio del tratto a velocità costante nel sito",
+    "pga": "accelerazione di picco nel sito",
+    "floor_pga": "accelerazione di picco alla quota della parete",
+    "knowledge_factor": "fattore di confidenza",
+    "behaviour": "fattore di comportamento",
+    "alpha_0": "moltiplicatore di attivazione del meccanismo",
+    "mass": "massa partecipante",
+    "mass_ratio": "frazione di massa partecipante",
+    "a_0": "accelerazione spettrale di attivazione",
+    "d_0": "spostamento per cui il moltiplicatore si annulla",
+    "weakest_hinge": "quota relativa della cerniera per cui il moltiplicatore di attivazione è minimo",
+    "weakest_alpha_0": "moltiplicatore per tale cerniera",
+    "level": "quota rispetto al suolo dello spettro di domanda",
+    "diaphragm_period": "periodo del solaio deformabile in sommità, non compreso nella domanda",
+    "tie_fracture": "spostamento per cui si rompono le catene che danno più di metà della resistenza",
+    "capacity_ag": "capacità in termini di accelerazione su suolo rigido",
+    "capacity_pga": "capacità in termini di accelerazione di picco nel sito",
+    "displacement": "capacità di spostamento",
+    "acceleration": "accelerazione spettrale di capacità per tale spostamento",
+    "period": "periodo secante",
+    "damping": "smorzamento equivalente",
+    "spectral_demand": "accelerazione spettrale alla quota della parete",
+    "demand": "domanda di spostamento",
+    "ratio": "rapporto capacità/domanda",
+    "records": "accelerogrammi",
+    "histories": "analisi dinamiche con l'accelerazione di picco del sito",
+    "beyond": "di esse oltre lo spostamento di collasso (nessuna è ammessa)",
+    "mean_displacement": "media degli spostamenti massimi",
+    "verified": "esito",
+    "probability": "probabilità di collasso con la curva di fragilità",
+}
+
+# Items of the calculation
+ITEMS = {
+    "section": "tratto",
+    "masonry": "muratura, corpo rigido unico",
+    "load": "carico",
+    "mass": "massa trattenuta",
+    "thrust": "spinta",
+    "tie": "catena",
+    "friction": "attrito",
+    "lower block": "blocco inferiore",
+    "upper block": "blocco superiore",
+    "load on top": "carico in sommità",
+}
+
+MECHANISMS = {
+    "one_sided": "ribaltamento semplice verso l'esterno",
+    "free_standing": "parete libera, oscillazione sui due lati",
+    "two_block": "flessione verticale",
+}
+
+# Statuses of fits
+FITS = {
+    "ok": "curva determinata",
+    "extrapolated": "mediana fuori dai livelli dell'analisi: da usare con cautela",
+    "nearly_flat": "pendenza non significativa: parametri non affidabili",
+    "no_collapse": "nessun collasso ad alcun livello: nessuna curva",
+    "all_collapse": "collasso in tutte le analisi: nessuna curva",
+    "separated": "nessuna sovrapposizione tra livelli con e senza collassi: nessuna curva",
+    "single_level": "un solo livello: nessuna curva",
+    "decreasing": "collassi non crescenti con il livello: nessuna curva",
+    "not_converged": "stima non convergente: nessuna curva",
+}
+
+_NO_CURVE = "nessuna curva di fragilità per la parete {wall}: "
+# Warnings by their codes, with their subjects and numbers
+WARNINGS = {
+    "value_below_usual": "il valore {value} di {variable} è minore di {limit}: unità di misura da controllare",
+    "value_above_usual": "il valore {value} di {variable} è maggiore di {limit}: unità di misura da controllare",
+    "height_below_thickness": "parete {wall}: altezza minore dello spessore, dati forse scambiati",
+    "load_place_without_load": "parete {wall}: posizione di un carico sovrastante nullo",
+    "overlap_above_thickness": "parete {wall}: ammorsamento maggiore dello spessore della parete ortogonale",
+    "levels_above_usual": "livelli fino a {largest} di {im}, oltre il limite usuale {limit}: unità di misura da"
+    " controllare",
+    "record_without_motion": "accelerogramma {record}: accelerazione di picco nulla",
+    "records_without_event": "terremoto non indicato per {records_beyond} accelerogrammi su {records}: gli"
+    " errori standard li"
+    " considerano indipendenti",
+    "record_pga": "accelerogramma {record}: accelerazione di picco {pga_g} g fuori dal campo usuale (limite"
+    " {limit_g} g)",
+    "record_pgv_pga": "accelerogramma {record}: rapporto PGV/PGA di {ratio_s} s fuori dal campo usuale (limite"
+    " {limit_s} s)",
+    "vertical_beyond_g": "accelerazione verticale verso il basso maggiore di g in {histories_beyond} analisi su"
+    " {histories} (accelerogramma"
+    " {record} dal livello {level})",
+    "scale_factors_large": "fattori di scala maggiori di {limit} in {histories_beyond} analisi su {histories},"
+    " il massimo"
+    " {largest} (accelerogramma {record} al livello {level})",
+    "factors_off_levels": "fattori assegnati che scostano {factors_beyond} accelerogrammi su {factors} dal loro"
+    " livello di più"
+    " del {limit} %, il più lontano {record} con {im} = {value} al livello {level}",
+    "no_collapse": _NO_CURVE
+    + "nessun collasso ai livelli da {first_level} a {last_level}, rotazione massima {largest_edp}",
+    "no_motion": _NO_CURVE + "nessun moto ai livelli da {first_level} a {last_level}, attivazione a {trigger_g} g",
+    "all_collapse": _NO_CURVE + "collasso in tutte le analisi ai livelli da {first_level} a {last_level}",
+    "single_level": _NO_CURVE + "un solo livello, {first_level}",
+    "decreasing": _NO_CURVE + "i collassi non crescono con il livello",
+    "not_converged": _NO_CURVE + "la stima non converge",
+    "separated": _NO_CURVE + "nessuna sovrapposizione tra livelli con e senza collassi",
+    "extrapolated": "mediana della curva di fragilità {theta}, fuori dai livelli da {first_level} a {last_level}",
+    "nearly_flat": "pendenza della curva di fragilità non significativa: mediana {theta} e dispersione {beta}"
+    " non affidabili",
+    "curves_without_fit": "{curves} curve su {of_curves} senza stima",
+    "curves_extrapolated": "{curves} curve su {of_curves} con mediana fuori dai livelli",
+    "curves_nearly_flat": "{curves} curve su {of_curves} con pendenza non significativa",
+    "population_without_fit": "curva dell'insieme delle pareti senza stima",
+    "population_extrapolated": "mediana dell'insieme delle pareti {theta}, fuori dai livelli",
+    "population_nearly_flat": "pendenza della curva dell'insieme delle pareti non significativa",
+    "union_without_fit": "curva di {wall} senza stima",
+    "union_extrapolated": "mediana di {wall} {theta}, fuori dai livelli",
+    "union_nearly_flat": "mediana di {wall} {theta}: pendenza della curva non significativa",
+    "ill_conditioned": "errore stimato della rotazione massima maggiore di {limit}, fino a {largest}, in"
+    " {histories_beyond} analisi su {histories}",
+    "collapse_in_doubt": "esito incerto, secondo l'errore stimato, in {histories_in_doubt} analisi su {histories}",
+    "one_level": "un solo livello: nessuna curva di fragilità",
+    "all_below_trigger": "nessuna analisi in cui la parete si muove",
+    "one_record": "un solo accelerogramma",
+    "few_clusters": "solo {clusters} terremoti per {records} accelerogrammi",
+}
+
+
+def status(language: Language, name: str) -> str:
+    """Status of a fit in words."""
+    return STATUSES[name] if language.code == "en" else FITS[name]
+
+
+def warning(language: Language, found: DondoloWarning) -> str:
+    """A warning in words."""
+    if language.code == "en":
+        return str(found)
+    if found.code not in WARNINGS:
+        return f"avvertenza {found.code} (v. file dei risultati)"
+    values = defaultdict(lambda: "\N{EN DASH}", found.subject)
+    values |= {name: language.plain(number(value)) for name, value in found.numbers.items()}
+    return WARNINGS[found.code].format_map(values)

@@ -1,0 +1,109 @@
+"""Writing a calculation report: its blocks, and the file that they become."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+
+from dondolo._base.arguments import instance_of
+from dondolo._base.files import as_file
+from dondolo._fortran.origins import check_replaced, derived_mark
+from dondolo._storage import tables
+from dondolo.errors import InputError, silent
+from dondolo.exchange.results import Results
+
+
+def calculation_report(
+    results: Results | Sequence[Results],
+    path: str | os.PathLike[str],
+    *,
+    lang: str | None = None,
+    project: str | os.PathLike[str] | None = None,
+    template: str | os.PathLike[str] | None = None,
+) -> tuple[str, ...]:
+    """Write the calculation report (relazione di calcolo) of checks by NTC 2018: Word, HTML or PDF.
+
+    Parameters
+    ----------
+    results : Results, or sequence of Results
+        Of cases with a group &check, from `read_results` or `run_case`: a wall as it stands, then its designs; or the
+        designs of a case, or one facade.
+    path : path
+        The file, ``*.docx``, ``*.html``, ``*.htm`` or ``*.pdf``; its folder must exist. Word needs python-docx, PDF
+        Chromium or WeasyPrint. An earlier report that dondolo wrote is replaced, any other file is not.
+    lang : {'en', 'it'}, optional
+        Language; that of the environment variable ``DONDOLO_LANG`` if left out, or English.
+    project : path, optional
+        TOML file with what the engineer states of the project: groups ``[project]`` and ``[texts]``
+        (docs/relazione.md).
+    template : path, optional
+        A Word file with the styles, header and footer of the office, for ``*.docx``.
+
+    Returns
+    -------
+    tuple of str
+        Names of the fields that are left to write, which the document marks ``[TO BE COMPLETED: ...]``. The reasoned
+        judgement of acceptability is one of them unless the project has it: it is never generated.
+
+    Raises
+    ------
+    InputError
+        Results without a check or of a population; an unknown name in the project; another suffix.
+    DondoloError
+        A program that the format needs is missing; the file cannot be written.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> import dondolo as dd
+    >>> dd.RecordSet(dd.synthetic_records(6.5, 10.0, "shallow", n_records=10)).to_catalogue("records.csv")
+    >>> _ = Path("parapet.nml").write_text(
+    ...     '''
+    ...     &wall    mechanism = 'one_sided', height = 1.5, thickness = 0.25 /
+    ...     &records catalogue = 'records.csv' /
+    ...     &stripes levels = 0.6, 0.8, 1.0 /
+    ...     &check   ag = 0.2, f0 = 2.5, tc_star = 0.35, soil = 'B' /
+    ...     '''
+    ... )
+    >>> results = dd.run_case("parapet.nml", progress=False)
+    >>> left = dd.calculation_report(results, "relazione.html", lang="it")
+    >>> "judgement" in left
+    True
+    """
+    import matplotlib.pyplot as plt
+
+    from dondolo.reporting.blocks import fields_of
+    from dondolo.reporting.language import Language
+    from dondolo.reporting.pdf import sets_formulas, write_pdf
+    from dondolo.reporting.relazione.chapters import CHAPTERS
+    from dondolo.reporting.relazione.document import Document
+    from dondolo.reporting.relazione.project import read_project
+    from dondolo.reporting.relazione.subjects import subjects_of
+    from dondolo.reporting.relazione.web import page
+
+    target = as_file("path", path, ".docx", ".html", ".htm", ".pdf")
+    suffix = target.suffix.lower()
+    if template is not None and suffix != ".docx":
+        raise InputError(
+            f"template = {os.fspath(template)!r}: must be left out for {suffix}, which has no styles of Word"
+        )
+    several = [results] if isinstance(results, Results) else list(results)
+    found = [instance_of("results", one, Results) for one in several]
+    if not found:
+        raise InputError("results: must be at least one")
+    language = Language(lang)
+    document = Document(language, read_project(project), subjects_of(found))
+    check_replaced(target, "report")
+    mark = derived_mark("report", found[0].run.run)
+    plt.draw_if_interactive()  # type: ignore[no-untyped-call]
+    with plt.ioff(), silent():
+        blocks = [block for chapter in CHAPTERS for block in chapter(document)]
+        if suffix == ".docx":
+            from dondolo.reporting.relazione.word import write_word
+
+            write_word(target, blocks, document, mark, template)
+        elif suffix == ".pdf":
+            write_pdf(target, page(blocks, document, mark, formulas=sets_formulas()), mark)
+        else:
+            tables.write_lines(target, [page(blocks, document, mark, formulas=True).rstrip("\n")])
+    return tuple(dict.fromkeys(field.key for field in fields_of(blocks)))

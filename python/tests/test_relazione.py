@@ -1,0 +1,431 @@
+"""The calculation report: three formats of the same numbers, two languages, and what only the engineer writes."""
+
+import dataclasses
+import html
+import math
+import re
+import shutil
+import subprocess
+import sys
+import zipfile
+
+import pytest
+from dondolo.reporting.blocks import Fraction, linear, symbol_of
+from dondolo.reporting.content import Symbol
+from dondolo.reporting.language import Language
+from dondolo.reporting.numerals import Numeral
+from dondolo.reporting.relazione import project, terms
+from dondolo.reporting.relazione.checks import sums_of
+from dondolo.reporting.statuses import STATUSES
+from dondolo.reporting.units import CENTIMETRES, UNITS, quantity
+
+import dondolo as dd
+
+WALL = (
+    "name = '{name}', mechanism = 'one_sided', section_height = 3.8, 3.4, section_thickness = 0.70, 0.55,"
+    " density = 2000\n"
+    "load = 9e3, 7e3, load_height = 3.8, 7.2, load_depth = 0.55, 0.40, load_inertia = 'both',"
+    " compressive_strength = 1e6\n"
+    "thrust = 2.5e3, thrust_height = 6.6, thrust_depth = 0.55 {tie}"
+)
+TIE = (
+    "\ntie_height = 6.6, tie_area = 1e-4, tie_length = 10, tie_strength = 235e6, tie_preload = 50e6, tie_strain"
+    " = 0.02,"
+    " tie_modulus = 2.06e11"
+)
+CHECK = "&check ag = 0.104, 0.261, 0.334, f0 = 2.332, 2.364, 2.4, tc_star = 0.281, 0.347, 0.364, soil = 'B' /\n"
+STRIP = (
+    "name = 'fascia', mechanism = 'two_block', height = 3, thickness = 0.25, overburden = 2e4, overburden_inertia = 1,"
+    " eccentricity = 0.02"
+)
+# What no Italian document may have
+ENGLISH = (
+    "the of and with from wall walls check checks not is are tie ties load loads section hinge records record"
+    " year years mass"
+    " satisfied capacity displacement level unit value table figure warning warnings histories collapse at by for on"
+)
+
+
+def run_in(folder, executable, root, name, wall, check=CHECK):
+    """Results of a case."""
+    catalogue = root / "data/records/synthetic44.csv"
+    (folder / f"{name}.nml").write_text(
+        f"&job task = 'stripes', output = '{name}' /\n&wall\n{wall}\n/\n"
+        f"&records catalogue = '{catalogue}' /\n{check}&stripes levels = 0.1, 0.2, 0.3, 0.5, 0.8, 1.2 /\n"
+    )
+    subprocess.run([executable, "--quiet", f"{name}.nml"], cwd=folder, capture_output=True, check=True)
+    return dd.read_results(folder / name)
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory, executable, root):
+    """Runs of a facade as it stands and with a tie: the example of the design page."""
+    place = tmp_path_factory.mktemp("relazione")
+    run_in(place, executable, root, "fatto", WALL.format(name="facciata", tie=""))
+    run_in(place, executable, root, "progetto", WALL.format(name="facciata con catena", tie=TIE))
+    return place
+
+
+@pytest.fixture(scope="module")
+def both(folder):
+    return [dd.read_results(folder / name) for name in ("fatto", "progetto")]
+
+
+@pytest.fixture(scope="module")
+def written(folder, both):
+    """Documents by language and suffix."""
+    made = {}
+    suffixes = [".html"]
+    if "docx" in sys.modules or __import__("importlib.util").util.find_spec("docx"):
+        suffixes.append(".docx")
+    if shutil.which("chromium"):
+        suffixes.append(".pdf")
+    for lang in ("en", "it"):
+        for suffix in suffixes:
+            made[lang, suffix] = folder / f"{lang}{suffix}"
+            dd.calculation_report(both, made[lang, suffix], lang=lang)
+    return made
+
+
+def of_page(path):
+    """Lines of text of a page: a line for each block, parts of formulas apart."""
+    text = path.read_text(encoding="utf-8").partition("<main>")[2]
+    text = re.sub(r"<math.*?</math>", lambda found: re.sub(r"<[^>]+>", " ", found[0]), text, flags=re.S)
+    text = re.sub(r"<pre>.*?</pre>", "", text, flags=re.S)
+    text = re.sub(r"</?(p|h\d|div|d[dt]|t[hdr]|caption|figcaption|thead|tbody|table|figure|img)\b[^>]*>", "\n", text)
+    return html.unescape(re.sub(r"<[^>]+>", "", text))
+
+
+def of_word(path):
+    """The same of a file of Word."""
+    import docx
+
+    lines = []
+    for paragraph in docx.Document(path).element.body.iter("{*}p"):
+        runs = [*paragraph.iter("{*}t")]
+        if "Courier New" in paragraph.xml:
+            continue
+        is_math = paragraph.find(".//{*}oMath") is not None
+        lines.append((" " if is_math else "").join(one.text for one in runs))
+    return "\n".join(lines)
+
+
+def of_pdf(path):
+    return subprocess.run(["pdftotext", path, "-"], capture_output=True, text=True, check=True).stdout
+
+
+def numbers(text):
+    """All numbers of a text, in its order."""
+    return re.findall(r"(?<!\w)\d+(?:[.,]\d+)?", text.replace("\N{NARROW NO-BREAK SPACE}", " "))
+
+
+# --- The same in three formats and two languages
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("lang", ["en", "it"])
+def test_three_formats_have_the_same_numbers(lang, written):
+    pytest.importorskip("docx")
+    page = numbers(of_page(written[lang, ".html"]))
+    assert len(page) > 600
+    assert numbers(of_word(written[lang, ".docx"])) == page
+    if (lang, ".pdf") in written and shutil.which("pdftotext"):
+        text = of_pdf(written[lang, ".pdf"])
+        pages = {str(number) for number in range(1, text.count("\f") + 1)}
+        # Names of files are broken at the ends of lines, and annexes have the case too.
+        body = of_page(written[lang, ".html"]).partition({"en": "Annexes", "it": "Allegati"}[lang])[0]
+        assert set(numbers(body)) - set(numbers(text)) == set()
+        text = text.partition({"en": "Annexes\n", "it": "Allegati\n"}[lang])[0]
+        assert set(numbers(text)) - set(numbers(body)) - pages == set()
+
+
+def test_both_languages_have_the_same_numbers(written):
+    found = [[one.replace(",", ".") for one in numbers(of_page(written[lang, ".html"]))] for lang in ("en", "it")]
+    assert sorted(found[0]) == sorted(found[1])
+    assert "0,2753" in of_page(written["it", ".html"])
+    assert not re.search(r"(?<![.\d])\d+\.\d{3,}", of_page(written["it", ".html"]))
+
+
+def test_no_english_in_an_italian_document(written):
+    text = of_page(written["it", ".html"])
+    # Names of files and records are not prose.
+    words = set(re.findall(r"(?<![\w./-])[a-z]+(?![\w./-])", re.sub(r"\S*[_/]\S*", " ", text.lower())))
+    assert words & set(ENGLISH.split()) == set()
+    assert '<html lang="it">' in written["it", ".html"].read_text()
+    assert "[DA COMPLETARE: " in text
+    assert "verifiche su 6 NON soddisfatte" in text
+
+
+def test_the_numbers_are_those_of_the_check(written, both):
+    """alpha_0, a_0* and zeta_E of both states follow from the table of items with a calculator."""
+    expected = [
+        (0.034069403402041, 0.264084169029353, 0.275290807164503),
+        (0.436350625832744, 3.38231025265253, 1.14551266763424),
+    ]
+    text = of_page(written["en", ".html"])
+    for results, values in zip(both, expected, strict=True):
+        check = results.check
+        sums = sums_of(check.items)
+        assert sums["alpha_0"] == pytest.approx(values[0], rel=1e-12)
+        found = (
+            *(check.value("mechanism", "SLV", name) for name in ("alpha_0", "a_0")),
+            check.value("nonlinear", "SLV", "ratio"),
+        )
+        assert found == pytest.approx(values, rel=1e-12)
+        for value in values:
+            assert f"{value:.6g}" in text
+        mass = sums["force_lever"] ** 2 / (9.81 * sums["force_lever2"])
+        assert mass == pytest.approx(check.value("mechanism", "SLV", "mass"), rel=1e-12)
+    assert math.isclose(expected[1][2] - expected[0][2], 0.87022186, rel_tol=1e-6)
+    assert "0.8702" in text
+
+
+# --- What the engineer writes
+
+
+def test_what_is_not_written_is_seen_and_counted(both, written, folder):
+    left = dd.calculation_report(both, folder / "left.html")
+    assert set(left) == set(project.TEXTS) | (set(project.WORDS) - {"revision"}) | set(project.NUMBERS)
+    page = written["en", ".html"].read_text()
+    assert page.count("<mark>[TO BE COMPLETED: ") == len(left)
+    data = folder / "project.toml"
+    lines = ["[project]", *(f"{name} = 'written {name}'" for name in project.WORDS)]
+    lines += [f"{name} = 42" for name in project.NUMBERS] + ["[texts]"]
+    data.write_text(
+        "\n".join([*lines, *(f"{name} = 'first {name}\\n\\nsecond'" for name in project.TEXTS)]).replace("'", '"')
+    )
+    assert dd.calculation_report(both, folder / "left.html", project=data) == ()
+    text = of_page(folder / "left.html")
+    assert "TO BE COMPLETED" not in text
+    assert [name for name in project.TEXTS if f"first {name}" not in text] == []
+    assert "42 (value assumed by the designer)" in " ".join(text.split())
+    assert "1764" in text.replace("\N{NARROW NO-BREAK SPACE}", "")
+
+
+@pytest.mark.parametrize(
+    ("content", "words"),
+    [
+        ("[project", "project.toml: "),
+        ("[projekt]\nwork = 'a'", "must be one of the groups"),
+        ("[project]\nwerk = 'a'", "werk: must be one of work, place"),
+        ("[project]\nwork = 1", "work: must be a text"),
+        ("[project]\nnominal_life = '50'", "nominal_life: must be a number"),
+        ("[texts]\njudgment = 'a'", "judgment: must be one of description"),
+    ],
+)
+def test_wrong_data(content, words, both, tmp_path):
+    (tmp_path / "project.toml").write_text(content)
+    with pytest.raises(dd.InputError, match=re.escape(words)):
+        dd.calculation_report(both, tmp_path / "a.html", project=tmp_path / "project.toml")
+
+
+def test_wrong_input(both, tmp_path, stripes_of):
+    target = tmp_path / "a.html"
+    with pytest.raises(dd.InputError, match="has no check"):
+        dd.calculation_report(stripes_of(""), target)
+    with pytest.raises(dd.InputError, match="the site of its check is another"):
+        dd.calculation_report([both[0], stripes_of(CHECK.replace("'B'", "'C'"))], target)
+    with pytest.raises(dd.InputError, match="template = "):
+        dd.calculation_report(both, target, template="a.docx")
+    with pytest.raises(dd.InputError, match="lang = 'de': must be one of 'en', 'it'"):
+        dd.calculation_report(both, target, lang="de")
+    with pytest.raises(dd.InputError, match="must end in"):
+        dd.calculation_report(both, tmp_path / "a.odt")
+    with pytest.raises(dd.InputError, match="at least one"):
+        dd.calculation_report([], target)
+    target.write_text("notes of the office")
+    with pytest.raises(dd.InputError, match="is not a report of dondolo"):
+        dd.calculation_report(both, target)
+
+
+@pytest.fixture
+def stripes_of(tmp_path, executable, root):
+    return lambda check: run_in(tmp_path, executable, root, "other", WALL.format(name="a", tie=""), check)
+
+
+def test_language_of_the_environment(both, tmp_path, monkeypatch):
+    monkeypatch.setenv("DONDOLO_LANG", "it")
+    monkeypatch.setenv("LANG", "de_DE.UTF-8")
+    dd.calculation_report(both[0], tmp_path / "a.html")
+    assert "Relazione di calcolo" in of_page(tmp_path / "a.html")
+    monkeypatch.setenv("DONDOLO_LANG", "fr")
+    with pytest.raises(dd.InputError, match="DONDOLO_LANG = 'fr'"):
+        dd.calculation_report(both[0], tmp_path / "a.html")
+
+
+# --- Word
+
+
+def test_word(written, both, folder):
+    docx = pytest.importorskip("docx")
+    path = written["it", ".docx"]
+    file = docx.Document(path)
+    assert file.core_properties.comments == zipfile.ZipFile(path).comment.decode()
+    assert file.core_properties.comments.endswith(f"of run {both[0].run.run}")
+    assert next(one.text for one in file.paragraphs if one.style.name == "Heading 1") == "1. Descrizione dell'opera"
+    xml = file.element.xml
+    assert xml.count("<w:tblHeader") == sum(one.text.startswith("Tabella") for one in file.paragraphs)
+    assert "SEQ Tabella \\* ARABIC" in xml
+    assert 'w:val="it-IT"' in file.styles["Normal"].element.xml
+    assert re.findall(r'<wp:docPr [^>]*descr="([^"]+)"', xml)
+    assert all("descr" in one for one in re.findall(r"<wp:docPr [^>]*>", xml))
+    marked = list(file.element.iter("{*}highlight"))
+    assert len(marked) == xml.count("[DA COMPLETARE: ")
+    # The office's own template, with its header
+    office = docx.Document()
+    office.sections[0].header.paragraphs[0].text = "Studio Bianchi"
+    office.save(folder / "office.docx")
+    dd.calculation_report(both[0], folder / "own.docx", template=folder / "office.docx")
+    assert docx.Document(folder / "own.docx").sections[0].header.paragraphs[0].text == "Studio Bianchi"
+    (folder / "no.docx").write_text("no file of Word")
+    with pytest.raises(dd.InputError, match="is not a file of Word"):
+        dd.calculation_report(both[0], folder / "own.docx", template=folder / "no.docx")
+
+
+def test_no_python_docx(both, tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, "docx", None)
+    with pytest.raises(dd.DondoloError, match="python-docx is not installed"):
+        dd.calculation_report(both[0], tmp_path / "a.docx")
+    assert list(tmp_path.iterdir()) == []
+    dd.calculation_report(both[0], tmp_path / "a.html")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("suffix", [".pdf", ".docx"])
+def test_pages(suffix, written, tmp_path):
+    """At most 15 pages without annexes: as printed by a browser, and of Word as LibreOffice lays it out."""
+    path = written.get(("it", suffix))
+    if path is None or not shutil.which("pdftotext") or (suffix == ".docx" and not shutil.which("soffice")):
+        pytest.skip("Chromium, pdftotext or LibreOffice is not installed")
+    if suffix == ".docx":
+        command = ["soffice", f"-env:UserInstallation=file://{tmp_path}/office", "--headless", "--convert-to", "pdf"]
+        subprocess.run([*command, "--outdir", tmp_path, path], check=True, capture_output=True, timeout=180)
+        path = tmp_path / "it.pdf"
+    pages = of_pdf(path).split("\f")
+    assert next(number for number, page in enumerate(pages) if page.strip().startswith("Allegati")) <= 15
+
+
+# --- Walls of other kinds
+
+
+@pytest.mark.parametrize("lang", ["en", "it"])
+def test_vertical_bending(lang, executable, root, tmp_path):
+    results = run_in(tmp_path, executable, root, "fascia", STRIP)
+    dd.calculation_report(results, tmp_path / "a.html", lang=lang)
+    text = of_page(tmp_path / "a.html")
+    assert {"en": "A strip between two floors bends", "it": "Una parete tra due solai si inflette"}[lang] in text
+    assert {"en": "lower block", "it": "blocco inferiore"}[lang] in text
+    assert (
+        f"{results.check.value('mechanism', 'SLV', 'alpha_0'):.6g}".replace(".", {"en": ".", "it": ","}[lang]) in text
+    )
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("case", ["designs", "facade_hinges"])
+def test_designs_and_facades(case, executable, root, tmp_path):
+    text = (root / f"data/cases/{case}.nml").read_text()
+    if "&check" not in text:
+        text += CHECK
+    (tmp_path / "case.nml").write_text(text.replace("'../", f"'{root}/data/").replace(f"'out/{case}'", "'out'"))
+    subprocess.run([executable, "--quiet", "case.nml"], cwd=tmp_path, capture_output=True, check=True)
+    found = dd.read_results(tmp_path / "out")
+    dd.calculation_report(found, tmp_path / "a.html", lang="it")
+    page = of_page(tmp_path / "a.html")
+    for check in found.checks:
+        assert check.wall.name in page
+        assert f"{check.value('nonlinear', 'SLV', 'ratio'):.4g}".replace(".", ",") in page
+    if case == "facade_hinges":
+        least = min(found.checks, key=lambda one: one.value("nonlinear", "SLV", "ratio"))
+        assert f"del meccanismo {least.wall.name}" in page
+
+
+def test_a_population_has_no_report(executable, root, tmp_path):
+    (tmp_path / "walls.csv").write_text("name,mechanism,height,thickness\na,one_sided,3,0.3\nb,one_sided,2,0.3\n")
+    (tmp_path / "case.nml").write_text(
+        "&job task = 'typology', output = 'out' /\n&population file = 'walls.csv' /\n"
+        f"&records catalogue = '{root / 'data/records/synthetic44.csv'}' /\n{CHECK}&stripes levels = 0.2, 0.4, 0.8 /\n"
+    )
+    subprocess.run([executable, "--quiet", "case.nml"], cwd=tmp_path, capture_output=True, check=True)
+    with pytest.raises(dd.InputError, match="not a population"):
+        dd.calculation_report(dd.read_results(tmp_path / "out"), tmp_path / "a.html")
+
+
+def test_an_anchor_that_is_given_is_not_in_doubt(executable, root, tmp_path):
+    results = run_in(tmp_path, executable, root, "a", WALL.format(name="a", tie=TIE + ", tie_anchor_force = 30e3"))
+    dd.calculation_report(results, tmp_path / "a.html")
+    assert "anchors of ties NOT checked" not in of_page(tmp_path / "a.html")
+
+
+# --- The command, and files that are out of date
+
+
+def test_command(folder, executable, root, tmp_path):
+    run_in(tmp_path, executable, root, "a", WALL.format(name="a", tie=""))
+    command = [sys.executable, "-m", "dondolo", "relazione", "a", "--lang", "it"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines()[0] == "written: a_relazione.html"
+    count = (tmp_path / "a_relazione.html").read_text().count("[DA COMPLETARE: ")
+    assert done.stdout.splitlines()[1].startswith(
+        f"{count} fields to be completed by the engineer: work, place, client"
+    )
+    again = subprocess.run([executable, "--quiet", "a.nml"], cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert "a_relazione.html" in again.stderr + again.stdout
+
+
+# --- Catalogues and tables
+
+
+def test_every_sentence_is_translated(root):
+    extract = pytest.importorskip("babel.messages.extract")
+    from babel.messages.pofile import read_po
+
+    package = root / "python/dondolo/reporting"
+    found = {one[2] for one in extract.extract_from_dir(str(package / "relazione"), keywords={"_": None})}
+    catalogue = read_po((package / "locale/it.po").open("rb"))
+    known = {one.id: one for one in catalogue if one.id}
+    assert found == set(known)
+    assert len(known) > 200
+    for sentence, one in known.items():
+        assert one.string
+        assert not one.fuzzy
+        assert set(re.findall(r"\{\w+\}", one.string)) == set(re.findall(r"\{\w+\}", sentence)), sentence
+        assert Language("it").text(sentence) == one.string, "build again"
+
+
+def test_tables_have_every_key(root):
+    sheet = (root / "src/dondolo/check/check_sheet.f90").read_text()
+    assert set(terms.MEANINGS) == set(re.findall(r"quantity_type\('(\w+)'", sheet))
+    assert set(terms.FITS) == set(STATUSES)
+    page = (root / "docs/files.md").read_text().partition("### Warnings")[2].partition("These are of Python alone")[0]
+    codes = {
+        code
+        for row in page.splitlines()
+        for code in re.findall(
+            r"`([a-z_]+_[a-z_]+|separated|decreasing|extrapolated)`", row.split("|")[1] if row.count("|") > 2 else row
+        )
+    }
+    assert codes - set(terms.WARNINGS) - {"code"} - {"interlock_overlap"} == set()
+    warning = dd.DondoloWarning(
+        "sentence", "scale_factors_large", {"record": "a"}, {"limit": 10.0, "largest": 18.03, "level": 0.3}
+    )
+    assert "il massimo 18,03 (accelerogramma a al livello 0,3)" in terms.warning(Language("it"), warning)
+    assert terms.warning(Language("en"), warning) == "sentence"
+
+
+def test_symbols_units_and_formulas():
+    assert symbol_of("a_0*") == Symbol("a", "0", "*")
+    assert symbol_of("S_eZ(T)") == (Symbol("S", "eZ"), "(", Symbol("T"), ")")
+    assert symbol_of("ζ_E") == Symbol("ζ", "E")
+    assert linear(Fraction((Symbol("a"), " ", Symbol("g")), Symbol("e"))) == (
+        "(",
+        Symbol("a"),
+        " ",
+        Symbol("g"),
+        ")",
+        "/",
+        Symbol("e"),
+    )
+    assert quantity(23500.0, UNITS["N/m"]) == Numeral("23.5", unit=" kN/m")
+    assert quantity(0.053240120, CENTIMETRES) == Numeral("5.324", unit=" cm")
+    assert Language("it").plain(quantity(0.053240120, CENTIMETRES)) == "5,324 cm"
+    assert dataclasses.replace(Numeral("1.5"), power="3") == Numeral("1.5", "3")
