@@ -26,6 +26,8 @@ _STATES: tuple[LimitState, ...] = ("SLD", "SLV", "SLC")
 _DARK, _MIDDLE, _PALE, _LINES = "#000000", "#6e6e6e", "#e2e2e2", ("-", "--", ":", "-.", (0, (5, 1)), (0, (1, 1)))
 _POINTS = 400
 _CENTIMETRES = 100.0
+# Least rotation that is drawn [rad]
+_SEEN = 0.08
 
 
 def _axes(document: Document, size: tuple[float, float], columns: int = 1) -> Any:
@@ -43,7 +45,10 @@ def draw_wall(document: Document, one: Subject) -> Any:
     """A wall at rest with the items of its table, and displaced with the reactions at its hinge."""
     rest, moved = _axes(document, (6.6, 5.2), 2)
     wall, items = one.wall, one.check.items
-    now, later = shape(wall, 0.0), shape(wall, 0.45 * wall.capacity_angle)
+    rotation = 0.45 * wall.capacity_angle
+    if not isinstance(wall, TwoBlockWall):
+        rotation = max(rotation, _SEEN)
+    now, later = shape(wall, 0.0), shape(wall, rotation)
     hinge, reach = now.hinges[0], max(1.3 * wall.thickness, 0.26 * wall.height)
     for ax in (rest, moved):
         for block in now.blocks:

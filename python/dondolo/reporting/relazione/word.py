@@ -289,7 +289,7 @@ class _Writer:
         texts = [[self._document.language.plain(piece) for piece in column] for column in zip(*rows, strict=True)]
         words = [max(len(word) for text in column for word in text.split() or [""]) for column in texts]
         longest = [min(_LONGEST, max(map(len, column[1:]), default=0)) for column in texts]
-        sizes = [2 + max(word, long // 2) for word, long in zip(words, longest, strict=True)]
+        sizes = [4 + max(word, long // 2) for word, long in zip(words, longest, strict=True)]
         return [_TEXT * size / sum(sizes) for size in sizes]
 
     def _picture(self, block: Picture) -> None:
@@ -353,7 +353,7 @@ class _Writer:
             if part.index:
                 _math_text(_child(made, "m:sub"), part.index, upright=True)
             if part.mark:
-                _math_text(_child(made, "m:sup"), part.mark)
+                _math_text(_child(made, "m:sup"), part.mark, upright=True)
         elif isinstance(part, Numeral):
             _math_text(parent, self._document.language.decimal(part.text), upright=True)
             if part.power:
@@ -363,7 +363,7 @@ class _Writer:
             if part.unit:
                 _math_text(parent, part.unit, upright=True)
         else:
-            _math_text(parent, part, upright=True)
+            _math_text(parent, part.replace(" · ", "\N{THIN SPACE}·\N{THIN SPACE}"), upright=True)
 
     def _listing(self, block: Listing) -> None:
         from docx.shared import Pt
@@ -410,7 +410,8 @@ def _math_text(parent: Any, text: str, *, upright: bool = False) -> None:
     """Characters of a formula."""
     run = _child(parent, "m:r")
     if upright:
-        _value(_child(_child(run, "m:rPr"), "m:sty"), "p")
+        # Text, not operators: LibreOffice takes a star for a product that lacks a factor.
+        _child(_child(run, "m:rPr"), "m:nor")
     made = _child(run, "m:t")
     made.text = text
     made.set("{http://www.w3.org/XML/1998/namespace}space", "preserve")
