@@ -461,12 +461,12 @@ complete_word() {
    bash -c '. <("$1" --completion bash); shift; COMP_WORDS=(dondolo "$@"); COMP_CWORD=$#; _dondolo; echo "${COMPREPLY[*]}"' - "$exe" "$@"
 }
 check "completion: options" equal "$(complete_word --ex)" --example
-check "completion: commands" equal "$(complete_word re)" 'report records'
+check "completion: commands" equal "$(complete_word re)" 'report relazione records'
 check "completion: examples" equal "$(complete_word --example pin)" pinnacle
 # Commands that Python carries out, and the line where there is no Python with the package
 mkdir alone
 cp "$exe" alone/dondolo
-for command in plot report xlsx nrml records catalogue; do
+for command in plot report relazione xlsx nrml records catalogue; do
    check "$command: in the help" grep -q "^   dondolo $command " <("$exe" --help)
    said=$(PATH=/nowhere alone/dondolo $command nothing 2>&1)
    check "$command without Python: exit code" equal $? 1

@@ -337,6 +337,7 @@ def test_designs_and_facades(case, executable, root, tmp_path):
     if case == "facade_hinges":
         least = min(found.checks, key=lambda one: one.value("nonlinear", "SLV", "ratio"))
         assert f"del meccanismo {least.wall.name}" in page
+        assert f"il minimo tra i suoi meccanismi, per {least.wall.name}" in page.partition("1. Descrizione")[0]
 
 
 def test_a_population_has_no_report(executable, root, tmp_path):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -41,8 +41,20 @@ def title_page(document: Document) -> list[Block]:
     return [
         Heading(document.text(_("Calculation report: local mechanisms of masonry walls")), 0),
         Facts(tuple(pairs)),
+        *_whole(document),
         *(_verdict(document, name, one) for name, one in document.each()),
     ]
+
+
+def _whole(document: Document) -> list[Block]:
+    """The safety index of a facade: the least of its mechanisms."""
+    if not document.subjects.facade:
+        return []
+    least = document.subjects.least
+    sentence = _("{facade}: {zeta} = {index}, the least of its mechanisms, that of {name}.")
+    values = {"facade": document.subjects.facade, "zeta": symbol_of("ζ_E"), "name": least.wall.name}
+    kind: Literal["failed", "plain"] = "plain" if least.index >= 1.0 else "failed"
+    return [Note(kind, document.say(sentence, index=number(least.index), **values).pieces)]
 
 
 def _verdict(document: Document, name: str, one: Subject) -> Note:
