@@ -168,7 +168,7 @@ def flags(study):
         place = f"({where[0]}, {where[1]}, rtol = {power(where[2])})"
         kind = "taken as if all histories were independent"
         moved = f"Its largest shift is {shift:.2f} standard errors, {kind} {place}."
-    lines += paragraph("The fragility curve depends on the flags only. " + moved)
+    lines += paragraph("The fragility curve, at the levels of the next table, depends on the flags only. " + moved)
     lines += [*curves(study), *stripes(study)]
     rows = []
     for wall, name, i in near:
