@@ -185,7 +185,9 @@ def shortcuts(study):
                     f"{fit.beta:.4f} ({signed(by_beta)})",
                 ]
             )
-        lines += paragraph(f"`{wall}`, {len(errors.edp)} histories, 0.05 to 1 g; in brackets the shift in standard errors")
+        lines += paragraph(
+            f"`{wall}`, {len(errors.edp)} histories, 0.05 to 1 g; in brackets the shift in standard errors"
+        )
         lines += table(["shortcut", "wrong flags", "> 1e-6", "> 1e-3", "worst", "median", "θ, g", "β"], rows)
     return lines + closing(study, found)
 
