@@ -147,7 +147,7 @@ def test_tables(name, ran):
         for column, cells in zip(names, zip(*rows, strict=True), strict=True):
             given = [table.given(column, i) for i in range(len(rows))]
             assert given == [bool(cell) for cell in cells], f"{end}: {column}"
-            own = table._columns[column]
+            own = table.column(column).values
             if isinstance(own, list):
                 assert own == list(cells), f"{end}: {column}"
             else:

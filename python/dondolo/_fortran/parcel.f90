@@ -34,6 +34,8 @@ module dondolo_parcel
       type(series_type), allocatable, private :: series(:)
       !> How many of them have been put in, and taken
       integer, private :: given = 0, taken = 0
+      !> How many lines there are, those inside of blocks too
+      integer, private :: line_count = 0
    contains
       procedure, private :: add_integers
       procedure, private :: add_reals
@@ -42,6 +44,8 @@ module dondolo_parcel
       procedure, private :: put_integer, put_integers, put_real, put_reals, put_text, put_lines, name
       !> Put something in under a name
       generic :: put => put_integer, put_integers, put_real, put_reals, put_text, put_lines
+      !> Put lines in that stand in one text
+      procedure :: put_block
       !> Make room for series
       procedure :: expect_series
       !> Put a series in
@@ -142,9 +146,25 @@ contains
       !> One line
       character(len=*), intent(in) :: text
 
-      call self%name(name, 'lines', self%lines%count, [integer ::])
+      call self%name(name, 'lines', self%line_count, [integer ::])
       call self%lines%add(text)
+      self%line_count = self%line_count + 1
    end subroutine put_text
+
+   !> Put lines in that stand in one text, under a name
+   subroutine put_block(self, name, text, number)
+      class(parcel_type), intent(inout) :: self
+      !> Their name
+      character(len=*), intent(in) :: name
+      !> The lines, with new_line between them
+      character(len=*), intent(in) :: text
+      !> How many there are
+      integer, intent(in) :: number
+
+      call self%name(name, 'lines', self%line_count, [number])
+      call self%lines%add(text)
+      self%line_count = self%line_count + number
+   end subroutine put_block
 
    !> Put lines in under a name
    subroutine put_lines(self, name, lines)
@@ -155,10 +175,11 @@ contains
 
       integer :: i
 
-      call self%name(name, 'lines', self%lines%count, [lines%count])
+      call self%name(name, 'lines', self%line_count, [lines%count])
       do i = 1, lines%count
          call self%lines%add(lines%line(i)%text)
       end do
+      self%line_count = self%line_count + lines%count
    end subroutine put_lines
 
    !> Name what is put in

@@ -1,8 +1,9 @@
-!> Results of a case, on their way to Python: the tables of its files as columns, and the text of the file of the run.
+!> Results on their way to Python: tables as columns, and of a case the text of the file of the run.
 module dondolo_results_parcel
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : lines_type
    use dondolo_boundary, only : check_room
    use dondolo_case, only : case_type
    use dondolo_case_columns, only : columns_type, text_column
@@ -14,13 +15,11 @@ module dondolo_results_parcel
    implicit none
    private
 
-   public :: pack_results
+   public :: pack_results, pack_table, number_columns
 
 contains
 
-   !> The tables of a case. Integers: their number; of each its columns, its rows, and what each column holds (text_column,
-   !> real_column, integer_column). Lines: of each what the name of its file ends with, names of its columns, and of each
-   !> column of texts its rows; then the lines of the file of the run. Series: columns of numbers, NaN where there is none
+   !> The tables of a case: their names, as 'tables'; each, as pack_table has it; and the lines of the file of the run, as 'run'
    subroutine pack_results(case, results, parcel, error)
       type(case_type), intent(in), target :: case
       type(results_type), intent(inout) :: results
@@ -32,6 +31,7 @@ contains
       type(table_kind_type), allocatable :: kinds(:)
       type(columns_type), allocatable :: tables(:)
       type(written_type) :: no_files(0)
+      type(lines_type) :: names
       character(len=:), allocatable :: text
       integer :: i, k
 
@@ -44,33 +44,44 @@ contains
       end do
       call check_room(error, reals=sum([(real(tables(k)%rows, c_double)*tables(k)%names%count, k=1, size(tables))]))
       if (allocated(error)) return
-      call parcel%expect_series(sum([(count(tables(k)%columns%kind /= text_column), k=1, size(tables))]))
-      call parcel%add([int(size(tables), c_int)])
+      call parcel%expect_series(sum([(number_columns(tables(k)), k=1, size(tables))]))
       do k = 1, size(tables)
-         call parcel%add(int([tables(k)%names%count, tables(k)%rows, tables(k)%columns%kind], c_int))
-         call parcel%lines%add(trim(kinds(k)%suffix))
-         do i = 1, tables(k)%names%count
-            call parcel%lines%add(tables(k)%names%line(i)%text)
-         end do
-         call pack_columns(tables(k), parcel)
+         call names%add(trim(kinds(k)%suffix))
+         call pack_table(tables(k), trim(kinds(k)%suffix), parcel)
       end do
+      call parcel%put('tables', names)
       call make_run(case, results, '', no_files, text)
-      call parcel%lines%add(text)
+      call parcel%put_block('run', text, 1 + count([(text(i:i) == new_line('a'), i=1, len(text))]))
    end subroutine pack_results
 
-   !> The columns of a table, which are moved away
-   subroutine pack_columns(table, parcel)
+   !> How many columns of a table are numbers
+   pure integer function number_columns(table)
+      type(columns_type), intent(in) :: table
+
+      number_columns = count(table%columns%kind /= text_column)
+   end function number_columns
+
+   !> A table under a name, its columns moved away: their names; NAME:kinds, what each holds (text_column, real_column,
+   !> integer_column, degrees_column); NAME:rows, how many there are; NAME:COLUMN, texts; and series of numbers, NaN where there
+   !> is none
+   subroutine pack_table(table, name, parcel)
       type(columns_type), intent(inout) :: table
+      !> Without blanks
+      character(len=*), intent(in) :: name
+      !> Has room for the series
       type(parcel_type), intent(inout) :: parcel
 
       real(wp), allocatable :: values(:)
       integer :: i
 
+      call parcel%put(name, table%names)
+      call parcel%put(name//':kinds', int(table%columns%kind, c_int))
+      call parcel%put(name//':rows', int(table%rows, c_int))
       do i = 1, size(table%columns)
          associate (column => table%columns(i))
             if (column%kind == text_column) then
-               ! Its texts, each ended but the last, which the parcel ends
-               call parcel%lines%add(column%text(:column%length - 1))
+               ! Each of its texts is ended, and the parcel ends the last
+               call parcel%put_block(name//':'//table%names%line(i)%text, column%text(:column%length - 1), table%rows)
                deallocate (column%text)
             else
                values = column%number(:table%rows)
@@ -79,6 +90,6 @@ contains
             end if
          end associate
       end do
-   end subroutine pack_columns
+   end subroutine pack_table
 
 end module dondolo_results_parcel

@@ -16,8 +16,8 @@ contains
 
    !> What a store has of its rows: histories of a stripe of each row, how many of them have reached each state (levels, states,
    !> rows), and ties of each row, 0 for rows that are not there; then of the rows that are there tie_counts, how many histories
-   !> make each tie yield and how many break it (ties, levels, 2), elongations, mean and largest plastic ones (ties, levels, 2)
-   !> [m], and the flags, eight a byte, each row from a byte of its own on, and flag_bytes, their number
+   !> make each tie yield and how many break it (2, ties of all levels of all rows), elongations, mean and largest plastic ones
+   !> (the same) [m], and the flags, eight a byte, each row from a byte of its own on, and flag_bytes, their number
    subroutine pack_store(store, parcel, error)
       type(store_type), intent(inout) :: store
       !> Empty
@@ -26,8 +26,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(row_result_type) :: row
-      integer(c_int), allocatable :: histories(:), reached(:, :, :), ties(:), counts(:)
-      real(c_double), allocatable :: elongations(:)
+      integer(c_int), allocatable :: histories(:), reached(:, :, :), ties(:), counts(:, :)
+      real(c_double), allocatable :: elongations(:, :)
       character(len=:), allocatable :: flags, more
       integer :: i, at, bytes, number
 
@@ -38,7 +38,7 @@ contains
          if (allocated(error)) return
          allocate (histories(rows), reached(shape%levels, shape%states, rows), ties(rows), source=0)
          allocate (character(len=1024) :: flags)
-         allocate (counts(1024), elongations(1024))
+         allocate (counts(2, 1024), elongations(2, 1024))
          do i = 1, rows
             if (.not. store%has(i)) cycle
             call store%read(i, row, error)
@@ -62,42 +62,39 @@ contains
       call parcel%put('histories', histories)
       call parcel%put('reached', reshape(reached, [size(reached)]), shape(reached))
       call parcel%put('ties', ties)
-      call parcel%put('tie_counts', counts(:number))
-      call parcel%put('elongations', elongations(:number))
+      call parcel%put('tie_counts', reshape(counts(:, :number), [2*number]), [2, number])
+      call parcel%put('elongations', reshape(elongations(:, :number), [2*number]), [2, number])
       call parcel%put('flags', transfer(flags(:(at + 3)/4*4), [0_c_int]))
       call parcel%put('flag_bytes', at)
    end subroutine pack_store
 
-   !> Add what the histories of a row do to its ties behind that of others, as many numbers of each kind; there is room for as
-   !> many again
+   !> Add what the histories of a row do to its ties behind that of others; there is room for as many again
    subroutine add_tallies(counts, elongations, number, more)
-      integer(c_int), allocatable, intent(inout) :: counts(:)
-      real(c_double), allocatable, intent(inout) :: elongations(:)
-      !> How many there are of each
+      integer(c_int), allocatable, intent(inout) :: counts(:, :)
+      real(c_double), allocatable, intent(inout) :: elongations(:, :)
+      !> How many there are
       integer, intent(inout) :: number
       !> Those of the row (ties, levels)
       type(tie_tally_type), intent(in) :: more(:, :)
 
-      integer(c_int), allocatable :: wider(:)
-      real(c_double), allocatable :: longer(:)
-      integer :: i, j, k
+      integer(c_int), allocatable :: wider(:, :)
+      real(c_double), allocatable :: longer(:, :)
+      integer :: i, j
 
-      k = size(more)
-      if (number + 2*k > size(counts)) then
-         allocate (wider(2*(number + 2*k)), longer(2*(number + 2*k)))
-         wider(:number) = counts(:number)
-         longer(:number) = elongations(:number)
+      if (number + size(more) > size(counts, 2)) then
+         allocate (wider(2, 2*(number + size(more))), longer(2, 2*(number + size(more))))
+         wider(:, :number) = counts(:, :number)
+         longer(:, :number) = elongations(:, :number)
          call move_alloc(wider, counts)
          call move_alloc(longer, elongations)
       end if
       do j = 1, size(more, 2)
          do i = 1, size(more, 1)
             number = number + 1
-            counts([number, number + k]) = [more(i, j)%yielded, more(i, j)%broken]
-            elongations([number, number + k]) = [more(i, j)%mean, more(i, j)%largest]
+            counts(:, number) = [more(i, j)%yielded, more(i, j)%broken]
+            elongations(:, number) = [more(i, j)%mean, more(i, j)%largest]
          end do
       end do
-      number = number + k
    end subroutine add_tallies
 
 end module dondolo_store_parcel

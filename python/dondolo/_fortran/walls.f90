@@ -4,7 +4,9 @@ module walls
    use dondolo_base_error, only : error_type, raise_input
    use dondolo_base_text, only : to_text
    use dondolo_boundary, only : check_room
+   use dondolo_fragility_tie_tallies, only : tally => tally_ties, tie_tally_type
    use dondolo_interface_handles, only : find_walls, hold, walls_type
+   use dondolo_motion_response, only : response_type
    use dondolo_parcel, only : parcel_type, report, send
    use dondolo_population_reader, only : read_population
    use dondolo_population_wall_row, only : wall_row_type
@@ -15,7 +17,7 @@ module walls
    implicit none
    private
 
-   public :: new_walls, describe_walls, wall_terms, tie_states, read_walls
+   public :: new_walls, describe_walls, wall_terms, tie_states, tally_ties, read_walls
 
 contains
 
@@ -110,6 +112,35 @@ contains
       end if
       call report(error, failure)
    end subroutine tie_states
+
+   !> What the histories of m stripes of n each, of which some ran, do to the k ties of a wall
+   subroutine tally_ties(walls, edp, ran, n, m, k, counts, elongations, failure)
+      integer(c_int64_t), intent(in) :: walls
+      integer(c_int), intent(in) :: n, m, k, ran(n, m)
+      real(c_double), intent(in) :: edp(n, m)
+      integer(c_int), intent(out) :: counts(2, k, m)
+      real(c_double), intent(out) :: elongations(2, k, m)
+      integer(c_int64_t), intent(out) :: failure(5)
+      type(wall_type), pointer :: wall(:)
+      type(response_type), allocatable :: response(:, :)
+      type(tie_tally_type), allocatable :: tallies(:, :)
+      type(error_type), allocatable :: error
+
+      counts = 0
+      elongations = 0
+      call check_room(error, histories=real(n, c_double)*m)
+      if (.not. allocated(error)) call find_walls(walls, wall, error)
+      if (.not. allocated(error)) then
+         allocate (response(n, m))
+         response%edp = edp
+         call tally(wall(1)%mechanism, response, ran == 1, tallies)
+         counts(1, :, :) = tallies%yielded
+         counts(2, :, :) = tallies%broken
+         elongations(1, :, :) = tallies%mean
+         elongations(2, :, :) = tallies%largest
+      end if
+      call report(error, failure)
+   end subroutine tally_ties
 
    !> Check that a mechanism can have rotations
    subroutine check_rotations(mechanism, rotation, error)

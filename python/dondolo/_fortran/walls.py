@@ -119,6 +119,18 @@ def tie_states(wall: Handle, edp: ArrayLike, ties: int) -> tuple[FloatArray, Flo
     return elongation.T.reshape(shape), energy.T.reshape(shape), broken.T.reshape(shape) == 1
 
 
+def tie_tallies(
+    wall: Handle, edp: FloatArray, ran: NDArray[np.bool_], ties: int
+) -> tuple[NDArray[np.int32], FloatArray]:
+    """What the histories (levels, histories) that ran do to the ties of a wall, both (2, n), n all ties of all levels.
+
+    Integers: how many stretch it for good and break it; reals: mean and largest plastic elongation [m].
+    """
+    counts, elongations, failure = _core.walls.tally_ties(wall.number, edp.T, ran.T, ties)
+    check(failure)
+    return counts.reshape(2, -1, order="F"), elongations.reshape(2, -1, order="F")
+
+
 def unpack_walls(parcel: Parcel) -> list[WallData]:
     """Walls out of a parcel."""
     words, texts = len(WALL_TEXTS), parcel["walls_texts"]

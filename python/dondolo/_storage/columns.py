@@ -109,23 +109,21 @@ class ColumnsInMemory(Columns):
     name : str
         What the name of its file would end with.
     columns : mapping
-        Lists of texts and arrays of numbers, NaN where there is none.
-    kinds : mapping
-        Kind of each column, for its numbers.
+        Its columns.
     """
 
-    def __init__(self, name: str, columns: Mapping[str, list[str] | FloatArray], kinds: Mapping[str, int]) -> None:
+    def __init__(self, name: str, columns: Mapping[str, Column]) -> None:
         self.path = name
-        self._columns, self._kinds = columns, kinds
+        self._columns = columns
 
     def column(self, name: str) -> Column:
         """A column as it is written."""
-        return Column(self._kinds[name], self._column(name))
-
-    def _column(self, name: str) -> Any:
         if name not in self._columns:
             raise ValueError(f"no column '{name}'")
         return self._columns[name]
+
+    def _column(self, name: str) -> Any:
+        return self.column(name).values
 
     def texts(self, name: str) -> list[str]:
         """A column; '' where there is nothing."""
@@ -150,4 +148,4 @@ class ColumnsInMemory(Columns):
         return iter(self._columns)
 
     def __len__(self) -> int:
-        return len(next(iter(self._columns.values())))
+        return len(next(iter(self._columns.values())).values)

@@ -6,32 +6,14 @@ import dataclasses
 import os
 from collections.abc import Mapping
 
-import numpy as np
-
 from dondolo._base.arguments import as_flag
 from dondolo._base.files import as_file
-from dondolo._fortran.files import DEGREES, INTEGER, REAL, RUN_FILE, TEXT, Column, result_set
+from dondolo._fortran.files import RUN_FILE, Column, result_set
 from dondolo._fortran.library import warn
 from dondolo._fortran.origins import check_replaced, outdated, replaced
 from dondolo._fortran.records import unit_of
 from dondolo._storage.run_file import RunFile
-from dondolo._storage.tables import Table
 from dondolo.errors import DondoloWarning
-
-
-def columns_of(table: Table) -> dict[str, Column]:
-    """Columns of lists and arrays; None and NaN are empty cells."""
-    return {name: _column(list(values)) for name, values in table.items()}
-
-
-def _column(values: list[object]) -> Column:
-    """A column: texts if any of its values is one, else numbers."""
-    if any(isinstance(value, str) for value in values):
-        return Column(TEXT, ["" if value is None else str(value) for value in values])
-    given = [value for value in values if value is not None]
-    whole = [isinstance(value, (int, np.integer, np.bool_)) for value in given]
-    kind = REAL if not any(whole) else INTEGER if all(whole) else DEGREES
-    return Column(kind, np.array([np.nan if value is None else value for value in values], dtype=np.float64))
 
 
 def write_set(

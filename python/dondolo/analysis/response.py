@@ -16,6 +16,7 @@ from dondolo._base.shown import Shown
 from dondolo._fortran import _core
 from dondolo._fortran.histories import warnings_of_errors, warnings_of_motion
 from dondolo._fortran.library import Stoppable, as_text, check, receive, warn
+from dondolo._fortran.tables import plain, trace_columns
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.solver import Solver, as_solver
@@ -295,8 +296,8 @@ class Response(Shown, Saved):
         return [*facts, *notes_on_supports((self.wall,))]
 
     def _table(self) -> tables.Table:
-        self._motion()
-        return history_table(self)
+        reals = (*self._motion()[:3], self.velocity)
+        return plain(trace_columns(reals, self.side, self.after_impact, self.wall.capacity_angle))
 
     def to_frame(self) -> Any:
         """The time history as a pandas DataFrame."""
@@ -452,16 +453,3 @@ def _mass_of_block(wall: Wall) -> float:
 def _warnings(wall: Wall, record: tuple[int, int], scale: float) -> list[DondoloWarning]:
     """What looks odd about a wall and a record; kept, since one motion takes little longer."""
     return warnings_of_motion(upload((wall,)), record, scale)
-
-
-def history_table(response: Response) -> tables.Table:
-    """Columns of ``_history.csv``."""
-    return {
-        "time_s": response.time,
-        "ground_acceleration_m_s2": response.ground_acceleration,
-        "rotation_rad": response.rotation,
-        "velocity_rad_s": response.velocity,
-        "edp": np.abs(np.asarray(response.rotation)) / response.wall.capacity_angle,
-        "side": np.asarray(response.side, dtype=int),
-        "after_impact": np.asarray(response.after_impact, dtype=int),
-    }

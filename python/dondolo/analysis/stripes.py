@@ -16,13 +16,14 @@ from dondolo._base.shown import Shown, span
 from dondolo._fortran.curves import CurveData, warnings_of_curve
 from dondolo._fortran.library import constants, warn
 from dondolo._fortran.records import levels_in_words, unit_of
+from dondolo._fortran.tables import TableColumns, plain, stripe_columns
 from dondolo._fortran.uncertainty import restitution_sentence
 from dondolo._storage import tables
-from dondolo._storage.result_set import columns_of, write_set
+from dondolo._storage.result_set import write_set
 from dondolo._storage.run_file import RunFile
 from dondolo._storage.saved import Saved
 from dondolo.analysis.histories import cut, join
-from dondolo.analysis.stripe_tables import histories_table, stripes_table
+from dondolo.analysis.stripe_tables import histories_table
 from dondolo.analysis.work import Work
 from dondolo.curves.damage_states import fit_states
 from dondolo.curves.fitting import fit
@@ -31,9 +32,8 @@ from dondolo.curves.sample import Sample, cluster_labels, given_labels
 from dondolo.curves.table import fragility_table
 from dondolo.errors import InputError, silent
 from dondolo.records.record import Record
-from dondolo.walls.table import walls_table
-from dondolo.walls.ties import states_of_ties
-from dondolo.walls.wall import Wall, notes_on_supports, upload
+from dondolo.walls.ties import TieCounts, number_of_ties, tallies_of_ties, tie_table
+from dondolo.walls.wall import Wall, notes_on_supports, upload, walls_table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -270,11 +270,14 @@ class Stripes(Shown, Saved):
         return self.edp_lowest, self.edp_highest
 
     @property
+    def ties(self) -> TieCounts:
+        """What the histories of each stripe do to the ties of the wall."""
+        return tallies_of_ties(self.wall, self.edp, self.ran)
+
+    @property
     def broken_ties(self) -> FloatArray:
         """Share of the histories of each stripe that break each tie, shape (levels, ties)."""
-        broken = states_of_ties(self.wall, np.where(self.ran, self.edp, 0.0)).broken
-        share: FloatArray = broken.sum(axis=1) / self.histories[:, None]
-        return share
+        return self.ties.broken / self.histories[:, None]
 
     def exceedances(self, edp_threshold: float) -> np.ndarray[Any, np.dtype[np.int64]]:
         """Histories of each stripe that reach a threshold, shape (levels,).
@@ -620,21 +623,19 @@ class Stripes(Shown, Saved):
     def _tables(self) -> dict[_Table, Any]:
         return {
             "histories": lambda: histories_table(self),
-            "stripes": lambda: stripes_table(
-                [self.wall],
-                self.im,
-                self.levels,
-                [self.edp_limit],
-                self.collapses[None, :, None],
-                self.histories[:, None],
-                self.uplifts,
-            ),
-            "walls": lambda: walls_table([self.wall]),
+            "stripes": lambda: self._stripes_table([self.edp_limit]),
+            "walls": lambda: walls_table((self.wall,)),
         }
+
+    def _stripes_table(self, edp_thresholds: Sequence[float]) -> TableColumns:
+        reached = np.array([self.exceedances(edp) for edp in edp_thresholds])[:, :, None]
+        wall = [(self.wall.name, self.wall.mechanism)]
+        sizes = self.histories[:, None]
+        return stripe_columns(wall, self.im, self.levels, np.array(edp_thresholds), sizes, reached, self.uplifts)
 
     def to_frame(self, table: _Table = "histories") -> Any:
         """One of the tables 'histories', 'stripes' and 'walls' as a pandas DataFrame."""
-        return tables.frame(tables.choose(self._tables(), table))
+        return tables.frame(plain(tables.choose(self._tables(), table)))
 
     def to_csv(
         self, path: str | os.PathLike[str], table: _Table = "histories", *, spreadsheet_safe: bool = False
@@ -648,7 +649,8 @@ class Stripes(Shown, Saved):
             f"engine = '{self.engine}', rtol = {self.rtol!r}, atol = {self.atol!r}, edp_limit = {self.edp_limit!r}",
             f"unit of im_level: {unit_of(self.im) or '1'}",
         ]
-        tables.write_csv(path, tables.choose(self._tables(), table), comments, spreadsheet_safe=spreadsheet_safe)
+        chosen = plain(tables.choose(self._tables(), table))
+        tables.write_csv(path, chosen, comments, spreadsheet_safe=spreadsheet_safe)
 
     def write_results(
         self,
@@ -688,14 +690,14 @@ class Stripes(Shown, Saved):
         levels = [self.edp_limit] if edp_thresholds is None else self._thresholds(edp_thresholds)
         with silent():
             curves = self.fit_damage_states(levels, states=states)
-        counts = np.array([self.exceedances(edp) for edp in levels])[:, :, None]
-        of_wall = [self.wall], self.im, self.levels
-        tables_ = {
-            "_walls.csv": walls_table([self.wall]),
+        found = {
+            "_walls.csv": walls_table((self.wall,)),
             "_histories.csv": histories_table(self),
-            "_stripes.csv": stripes_table(*of_wall, levels, counts, self.histories[:, None], self.uplifts),
+            "_stripes.csv": self._stripes_table(levels),
             "_fragility.csv": fragility_table([self.wall] * len(curves), curves),
         }
+        if number_of_ties(self.wall):
+            found["_ties.csv"] = tie_table((self.wall,), self.im, self.levels, (self.ties,), self.histories[:, None])
         events, checksums = (one or ("",) * self.n_records for one in (self.events, self.checksums))
         run = RunFile(
             constants().version,
@@ -717,8 +719,7 @@ class Stripes(Shown, Saved):
             work=self.work._asdict(),
             shape={"walls": 1, "levels": len(self.levels), "states": len(levels), "records": self.n_records},
         )
-        columns = {name: columns_of(table) for name, table in tables_.items()}
-        write_set(prefix, columns, run, spreadsheet_safe=spreadsheet_safe)
+        write_set(prefix, found, run, spreadsheet_safe=spreadsheet_safe)
 
     def _facts(self) -> list[tuple[str, str]]:
         facts = [

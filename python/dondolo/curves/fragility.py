@@ -16,6 +16,7 @@ from dondolo._base.shown import Shown
 from dondolo._fortran.curves import normal_or_student, probability
 from dondolo._fortran.library import constants
 from dondolo._fortran.records import blank_unit, name_of_measure, unit_of
+from dondolo._fortran.tables import plain
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.curves.bootstrap import Bootstrap, draw_records, resample
@@ -531,7 +532,7 @@ class Fragility(Curve, Shown, Saved):
         """The curve as a pandas DataFrame of one row."""
         from dondolo.curves.table import fragility_table
 
-        return tables.frame(fragility_table([self.wall], [self]))
+        return tables.frame(plain(fragility_table([self.wall], [self])))
 
     def to_csv(self, path: str | os.PathLike[str], *, spreadsheet_safe: bool = False) -> None:
         """Write the curve as the executable's ``_fragility.csv``.
@@ -541,7 +542,8 @@ class Fragility(Curve, Shown, Saved):
         from dondolo.curves.table import fragility_table
 
         comments = [f"unit of theta: {unit_of(self.im) or '1'}"] if self.im else []
-        tables.write_csv(path, fragility_table([self.wall], [self]), comments, spreadsheet_safe=spreadsheet_safe)
+        table = plain(fragility_table([self.wall], [self]))
+        tables.write_csv(path, table, comments, spreadsheet_safe=spreadsheet_safe)
 
     def _fitted(self) -> Fragility:
         return self

@@ -11,11 +11,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dondolo._base.arguments import FloatArray, as_flag, as_path
+from dondolo._base.arguments import as_flag, as_path
 from dondolo._base.interrupts import deferred
 from dondolo._fortran import _core
-from dondolo._fortran.files import TEXT
 from dondolo._fortran.library import Parcel, Stoppable, receive, warn
+from dondolo._fortran.tables import unpack_table
 from dondolo._storage.columns import ColumnsInMemory
 from dondolo._storage.run_file import parse_run_file
 from dondolo.analysis.request import progress_bar
@@ -108,24 +108,8 @@ def _results(path: str, case: Case, contents: Contents | None, parcel: Parcel) -
 
 def _tables(parcel: Parcel) -> tuple[dict[str, ColumnsInMemory], str]:
     """The tables of a parcel by what their names end with, and the text of the file of the run."""
-    tables: dict[str, ColumnsInMemory] = {}
-    at, line = 1, 0
-    for _ in range(int(parcel.integers[0])):
-        number, rows = parcel.integers[at : at + 2].tolist()
-        kinds = parcel.integers[at + 2 : at + 2 + number].tolist()
-        name, *heads = parcel.lines[line : line + 1 + number]
-        at, line = at + 2 + number, line + 1 + number
-        columns: dict[str, list[str] | FloatArray] = {}
-        for head, kind in zip(heads, kinds, strict=True):
-            if kind == TEXT:
-                columns[head] = parcel.lines[line : line + rows]
-                line += rows
-            else:
-                values = parcel.series(rows)
-                values.flags.writeable = False
-                columns[head] = values
-        tables[name] = ColumnsInMemory(name, columns, dict(zip(heads, kinds, strict=True)))
-    return tables, "\n".join(parcel.lines[line:])
+    tables = {name: ColumnsInMemory(name, unpack_table(parcel, name)) for name in parcel["tables"]}
+    return tables, "\n".join(parcel["run"])
 
 
 def _contents(case: Case, parcel: Parcel) -> Contents:

@@ -16,11 +16,13 @@ from dondolo.curves.clusters import Errors, errors_of_table, no_errors
 from dondolo.curves.fitting import curve_of, with_errors
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.series import in_series
-from dondolo.curves.table import ERRORS
 from dondolo.populations.curve import Group
 from dondolo.populations.stored_curves import StoredCurves
 from dondolo.populations.typology import Typology
 from dondolo.populations.unions import grouped, mean_curve
+
+# Numbers that standard errors are made of
+_ERRORS = ("se_ln_theta", "se_beta", "cov_ln_theta_beta", "degrees_of_freedom")
 
 
 def stored_curves(typology: Typology, curves: Columns, groups: Columns | None, unions: Columns | None) -> StoredCurves:
@@ -160,7 +162,7 @@ def errors_of_row(table: Columns, row: int, prefix: str = "") -> Errors:
     clusters = table.count(prefix + "clusters", row)
     if kind != "clustered":
         return no_errors(kind, clusters)
-    of_theta, of_beta, both, degrees = _numbers(table, row, [prefix + name for name in (*ERRORS[:3], ERRORS[-1])])
+    of_theta, of_beta, both, degrees = _numbers(table, row, [prefix + name for name in _ERRORS])
     return errors_of_table(of_theta, of_beta, both, clusters, degrees)
 
 

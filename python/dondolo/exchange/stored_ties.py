@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from dondolo._storage.columns import Columns
-from dondolo.populations.tie_counts import TieCounts
 from dondolo.populations.typology import Typology
-from dondolo.walls.ties import number_of_ties
+from dondolo.walls.ties import TieCounts, number_of_ties
 
 
 def stored_ties(typology: Typology, table: Columns | None) -> tuple[TieCounts, ...]:
@@ -32,26 +31,10 @@ def stored_ties(typology: Typology, table: Columns | None) -> tuple[TieCounts, .
     """
     levels, ties = len(typology.levels), [number_of_ties(wall) for wall in typology.walls]
     if table is None:
-        return tuple(_counts(np.zeros((4, 0)), levels, number) for number in ties)
+        return TieCounts.of_walls(ties, levels, *np.zeros((2, 0), np.int32), *np.zeros((2, 0)))
     with table.reading():
         if len(table) != levels * sum(ties):
             raise ValueError(f"{len(table)} rows: must be {levels * sum(ties)}, one for each tie and level")
-        columns = np.array(
-            [
-                table.counts("yielded"),
-                table.counts("broken"),
-                table.numbers("mean_plastic_elongation_m"),
-                table.numbers("largest_plastic_elongation_m"),
-            ],
-            dtype=float,
-        )
-    ends = levels * np.cumsum(ties)[:-1]
-    return tuple(
-        _counts(own, levels, number) for own, number in zip(np.split(columns, ends, axis=1), ties, strict=True)
-    )
-
-
-def _counts(columns: np.ndarray[tuple[int, int], np.dtype[np.float64]], levels: int, ties: int) -> TieCounts:
-    """Of one row: four columns, level by level."""
-    yielded, broken, mean, largest = columns[:, : levels * ties].reshape(4, levels, ties)
-    return TieCounts(yielded.astype(np.int32), broken.astype(np.int32), mean, largest)
+        counts = table.counts("yielded"), table.counts("broken")
+        lengths = (table.numbers(f"{which}_plastic_elongation_m") for which in ("mean", "largest"))
+        return TieCounts.of_walls(ties, levels, *counts, *lengths)

@@ -22,8 +22,8 @@ from dondolo.analysis.request import Request
 from dondolo.analysis.work import Work
 from dondolo.curves.sample import cluster_labels
 from dondolo.populations.flags import Flags
-from dondolo.populations.tie_counts import TieCounts
 from dondolo.records.record import Record
+from dondolo.walls.ties import TieCounts
 
 IntArray = NDArray[np.int32]
 
@@ -114,8 +114,7 @@ def contents_of(parcel: Parcel, records: Iterable[Record], runs: FloatArray, wor
     """What a store has, as Fortran sends it; `runs` are (records, levels)."""
     histories, reached, ties = (parcel[name] for name in ("histories", "reached", "ties"))
     complete, (_, states, levels) = histories > 0, reached.shape
-    of_ties = ties[complete], levels, parcel["tie_counts"], parcel["elongations"]
-    tied = TieCounts.of_rows(*of_ties) if complete.any() else ()
+    tied = TieCounts.of_walls(ties[complete].tolist(), levels, *parcel["tie_counts"].T, *parcel["elongations"].T)
     exceedances = np.ascontiguousarray(np.moveaxis(reached, 0, -1))
     packed = parcel["flags"].view(np.uint8)[: parcel["flag_bytes"]]
     events, checksums = zip(*((record.event, record.checksum) for record in records), strict=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import os
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -17,22 +17,22 @@ from dondolo._fortran.curves import warnings_of_union
 from dondolo._fortran.library import constants, warn
 from dondolo._fortran.populations import FlatPopulation, coded
 from dondolo._fortran.records import levels_in_words, unit_of
+from dondolo._fortran.tables import TableColumns, plain, stripe_columns, typology_columns
 from dondolo._storage import tables
-from dondolo._storage.result_set import columns_of, write_set
+from dondolo._storage.result_set import write_set
 from dondolo._storage.run_file import RunFile
 from dondolo._storage.saved import Saved
-from dondolo.analysis.stripe_tables import stripes_table
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.fragility_model import Function
 from dondolo.curves.plots import parameters
-from dondolo.curves.table import errors_table, fragility_table
+from dondolo.curves.table import flat, fragility_table
 from dondolo.errors import DondoloWarning, InputError
 from dondolo.populations.curve import Group, IntArray, PopulationCurve, flat_population
 from dondolo.populations.flags import Flags
 from dondolo.populations.stored_curves import StoredCurves
-from dondolo.populations.tie_counts import TieCounts, tie_table
 from dondolo.walls.population import Population
+from dondolo.walls.ties import TieCounts, tie_table
 from dondolo.walls.wall import Wall, notes_on_supports
 
 if TYPE_CHECKING:
@@ -497,8 +497,13 @@ class Typology(Shown, Saved):
         found: dict[_Table, Any] = {} if self.are_alternatives else {"typology": lambda: typology_table(self)}
         found |= {
             "fragility": self._curves_table,
-            "stripes": lambda: stripes_table(
-                self.walls, self.im, self.levels, self.edp_thresholds, self.exceedances, self.histories
+            "stripes": lambda: stripe_columns(
+                [(wall.name, wall.mechanism) for wall in self.walls],
+                self.im,
+                self.levels,
+                self.edp_thresholds,
+                self.histories,
+                self.exceedances,
             ),
             "walls": lambda: self.population._table(),
         }
@@ -511,14 +516,14 @@ class Typology(Shown, Saved):
             found["ties"] = lambda: tie_table(self.walls, self.im, self.levels, ties, self.histories)
         return found
 
-    def _curves_table(self) -> tables.Table:
+    def _curves_table(self) -> TableColumns:
         states = [self.at(edp).curves for edp in self.edp_thresholds]
         walls = [wall for wall in self.walls for _ in states]
         return fragility_table(walls, [curve for row in zip(*states, strict=True) for curve in row])
 
     def to_frame(self, table: _Table = "typology") -> Any:
         """One of the tables 'typology', 'fragility', 'stripes', 'walls', 'unions' and 'ties' as a pandas DataFrame."""
-        return tables.frame(tables.choose(self._tables(), table))
+        return tables.frame(plain(tables.choose(self._tables(), table)))
 
     def to_csv(
         self, path: str | os.PathLike[str], table: _Table = "typology", *, spreadsheet_safe: bool = False
@@ -530,9 +535,8 @@ class Typology(Shown, Saved):
 
         With `spreadsheet_safe` an apostrophe stands before names that a spreadsheet would take for formulas.
         """
-        tables.write_csv(
-            path, tables.choose(self._tables(), table), self._comments(), spreadsheet_safe=spreadsheet_safe
-        )
+        chosen = plain(tables.choose(self._tables(), table))
+        tables.write_csv(path, chosen, self._comments(), spreadsheet_safe=spreadsheet_safe)
 
     def _comments(self) -> list[str]:
         counts = ", ".join(f"{name} = {count}" for name, count in self.work._asdict().items())
@@ -591,7 +595,7 @@ class Typology(Shown, Saved):
     def _write(
         self,
         prefix: str | os.PathLike[str],
-        more: dict[str, tables.Table],
+        more: dict[str, TableColumns],
         settings: dict[str, dict[str, Any]],
         spreadsheet_safe: bool,
     ) -> None:
@@ -604,8 +608,7 @@ class Typology(Shown, Saved):
         found = {f"_{name}.csv": table() for name, table in self._tables().items()} | more
         run = self._run_file(pulls.pop())
         run = dataclasses.replace(run, settings={**run.settings, **settings})
-        columns = {name: columns_of(table) for name, table in found.items()}
-        write_set(prefix, columns, run, spreadsheet_safe=spreadsheet_safe)
+        write_set(prefix, found, run, spreadsheet_safe=spreadsheet_safe)
 
     def _shape(self) -> dict[str, int]:
         return {"walls": len(self.walls), "levels": len(self.levels), "states": len(self.edp_thresholds)}
@@ -649,36 +652,14 @@ class Typology(Shown, Saved):
         return [*facts, ("work", str(self.work)), *notes]
 
 
-def typology_table(typology: Typology) -> tables.Table:
+def typology_table(typology: Typology) -> TableColumns:
     """Columns of ``_typology.csv``, one block of rows a damage state."""
-    blocks = [_typology_of(typology.at(edp)) for edp in typology.edp_thresholds]
-    return {name: [value for block in blocks for value in block[name]] for name in blocks[0]}
-
-
-def _typology_of(typology: Typology) -> tables.Table:
-    """Columns of ``_typology.csv`` of one damage state."""
-    number, groups = len(typology.levels), typology.groups
-
-    def repeated(values: Iterable[Any]) -> list[Any]:
-        return [value for value in values for _ in range(number)]
-
-    return {
-        "mechanism": repeated(group.mechanism for group in groups),
-        "im": [typology.im] * (number * len(groups)),
-        "im_level": np.tile(typology.levels, len(groups)),
-        "weight": repeated(group.weight for group in groups),
-        "mean_fraction": np.concatenate([group.mean_fraction for group in groups]),
-        "mean_curve": np.concatenate([group.mean_curve for group in groups]),
-        "theta": repeated(group.fit.theta for group in groups),
-        "beta": repeated(group.fit.beta for group in groups),
-        "status": repeated(group.fit.status for group in groups),
-        "group": repeated(group.group for group in groups),
-        "fractile_16": np.concatenate([group.level_fractiles[0] for group in groups]),
-        "fractile_50": np.concatenate([group.level_fractiles[1] for group in groups]),
-        "fractile_84": np.concatenate([group.level_fractiles[2] for group in groups]),
-        "beta_walls": repeated(group.beta_walls for group in groups),
-        "beta_records": repeated(group.beta_records for group in groups),
-        "saturation": repeated(group.saturation for group in groups),
-        "edp_threshold": [typology.edp_thresholds[-1]] * (number * len(groups)),
-        **{name: repeated(values) for name, values in errors_table([group.fit for group in groups]).items()},
-    }
+    groups = [group for edp in typology.edp_thresholds for group in typology.at(edp).groups]
+    return typology_columns(
+        [(one.mechanism, one.group) for one in groups],
+        typology.im,
+        typology.levels,
+        [flat(one.fit) for one in groups],
+        [(one.weight, one.beta_walls, one.beta_records, one.saturation, one.fitted) for one in groups],
+        [np.array([one.mean_fraction, one.mean_curve, *one.level_fractiles]) for one in groups],
+    )

@@ -15,6 +15,7 @@ from dondolo._base.arguments import FloatArray, as_count, instance_of
 from dondolo._fortran.buildings import BUILDING_NAMES, BUILDING_PROPERTIES
 from dondolo._fortran.library import warn
 from dondolo._fortran.records import blank_unit
+from dondolo._fortran.tables import TableColumns, plain, source_columns
 from dondolo._fortran.uncertainty import check_factor, published_factors, sensitivity, smallest_sample
 from dondolo._fortran.walls import WALL_LISTS, WALL_NUMBERS
 from dondolo._storage import tables
@@ -25,6 +26,7 @@ from dondolo.analysis.stripe_runs import multiple_stripe
 from dondolo.analysis.stripes import Stripes
 from dondolo.curves.fitting import fit_fragility
 from dondolo.curves.fragility import Fragility
+from dondolo.curves.table import flat
 from dondolo.errors import DondoloError, DondoloWarning, InputError, silent
 from dondolo.populations.curve import PopulationCurve
 from dondolo.populations.study import typology
@@ -188,26 +190,23 @@ class UncertainWall(tables.Tabular, Saved):
         DondoloError
             A file cannot be written.
         """
-        self.typology._write(prefix, {"_sources.csv": self._table()}, {"uncertainty": {}}, spreadsheet_safe)
+        self.typology._write(prefix, {"_sources.csv": self._columns()}, {"uncertainty": {}}, spreadsheet_safe)
 
     def _comments(self) -> list[str]:
         return [f"unit of theta: {blank_unit(self.im).strip() or '1'}", *tables.lines_of(self._facts())]
 
+    def _columns(self) -> TableColumns:
+        """Columns of ``_sources.csv``."""
+        first, total = self.first_interval.T, self.total_interval.T
+        return source_columns(
+            list(zip(self.sources, self.distributions, strict=True)),
+            self.values,
+            [(flat(low), flat(high)) for low, high in self.ends],
+            [self.first, *first, self.total, *total],
+        )
+
     def _table(self) -> tables.Table:
-        low, high = zip(*self.ends, strict=True)
-        return {
-            "source": list(self.sources),
-            "distribution": list(self.distributions),
-            **dict(zip(("value_5", "value_50", "value_95"), self.values.T, strict=True)),
-            "theta_5": [curve.theta for curve in low],
-            "theta_95": [curve.theta for curve in high],
-            "first": self.first,
-            "first_low": self.first_interval[:, 0],
-            "first_high": self.first_interval[:, 1],
-            "total": self.total,
-            "total_low": self.total_interval[:, 0],
-            "total_high": self.total_interval[:, 1],
-        }
+        return plain(self._columns())
 
     def _facts(self) -> list[tuple[str, str]]:
         unit = blank_unit(self.im)

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
-from dondolo._storage import tables
+from dondolo._fortran.tables import FlatCurve, TableColumns, union_columns
 from dondolo.curves.fitting import fit
 from dondolo.curves.fragility import Fragility
-from dondolo.curves.table import errors_table
+from dondolo.curves.table import flat
 from dondolo.populations.curve import Group
 
 if TYPE_CHECKING:
@@ -27,61 +27,38 @@ def grouped(typology: Typology) -> list[Group]:
     return [one for one in typology.groups if one.mechanism == "all" and (not one.group or one.group in several)]
 
 
-def unions_table(typology: Typology) -> tables.Table:
+def unions_table(typology: Typology) -> TableColumns:
     """Columns of ``_unions.csv``: walls, then means, of each all damage states, of these all levels."""
-    states = [typology.at(edp) for edp in typology.edp_thresholds]
-    blocks = [
-        _rows(state, name, state.unions[name], state.combined[name]) for name in typology.unions for state in states
-    ]
-    for group in grouped(typology):
+    states, people = [typology.at(edp) for edp in typology.edp_thresholds], typology.population
+    names: list[tuple[str, str]] = []
+    mechanisms: list[int] = []
+    curves: list[tuple[FlatCurve, FlatCurve]] = []
+    counts: list[FloatArray] = []
+
+    def add(name: tuple[str, str], number: int, union: Fragility, product: Fragility, *counted: FloatArray) -> None:
+        names.append(name)
+        mechanisms.append(number)
+        curves.append((flat(union), flat(product)))
+        counts.append(np.array([*counted, product.saturation * product.collapses / product.histories]))
+
+    for name in typology.unions:
+        group, number = people.groups[people.wholes.index(name)], people.wholes.count(name)
         for state in states:
-            product = next(one.fit for one in grouped(state) if one.group == group.group)
-            fraction = _counted(state)[f"group {group.group}"]
-            blocks.append(_block(state, "", group.group, state.group_unions[group.group], product, fraction))
-    return {name: [value for block in blocks for value in block[name]] for name in blocks[0]}
-
-
-def _rows(state: Typology, name: str, union: Fragility, product: Fragility) -> tables.Table:
-    """Rows of a facade or a wall in a damage state."""
-    people = state.population
-    place = people.wholes.index(name)
-    counts = _counted(state)[f"wall {name}"]
-    rows = _block(state, name, people.groups[place], union, product, counts / union.histories)
-    rows |= {"mechanisms": [people.wholes.count(name)] * len(state.levels), "histories": union.histories.astype(int)}
-    return rows | {"collapses": counts}
+            union, found = state.unions[name], _counted(state)[f"wall {name}"]
+            fraction = found / union.histories
+            add((name, group), number, union, state.combined[name], union.histories, found, fraction)
+    for one in grouped(typology):
+        for state in states:
+            product = next(other.fit for other in grouped(state) if other.group == one.group)
+            fraction = _counted(state)[f"group {one.group}"]
+            none = np.zeros(len(state.levels))
+            add(("", one.group), 0, state.group_unions[one.group], product, none, none, fraction)
+    return union_columns(names, typology.im, typology.levels, mechanisms, curves, counts)
 
 
 def _counted(state: Typology) -> dict[str, FloatArray]:
     assert state.union_counts is not None
     return state.union_counts
-
-
-def _block(
-    state: Typology, name: str, group: str, union: Fragility, product: Fragility, fraction: FloatArray
-) -> tables.Table:
-    """Rows of a union in a damage state, in the order of the columns; a mean has no counts."""
-    number = len(state.levels)
-    nothing = [None] * number
-    independent = product.saturation * product.collapses / product.histories
-    return {
-        "wall": [name] * number,
-        "group": [group] * number,
-        "mechanisms": nothing,
-        "im": [state.im] * number,
-        "im_level": state.levels,
-        "histories": nothing,
-        "collapses": nothing,
-        "fraction": fraction,
-        "independent_fraction": independent,
-        "edp_threshold": [float(state.edp_thresholds[-1])] * number,
-        "theta": [union.theta] * number,
-        "beta": [union.beta] * number,
-        "status": [union.status] * number,
-        **{name: values * number for name, values in errors_table([union]).items()},
-        "independent_theta": [product.theta] * number,
-        "independent_beta": [product.beta] * number,
-        **{f"independent_{name}": values * number for name, values in errors_table([product]).items()},
-    }
 
 
 def _walls(typology: Typology) -> list[tuple[int, int]]:

@@ -6,7 +6,7 @@ from the results' own tables.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from typing import Any, NamedTuple
 
@@ -148,6 +148,12 @@ def shown(columns: Mapping[str, Any], im: str = "") -> Table:
 def chosen(table: Mapping[str, Any], *names: str) -> dict[str, Any]:
     """Some columns of a table of results, in this order."""
     return {name: table[name] for name in names}
+
+
+def parameters_of(curves: Iterable[Fragility], *names: str) -> dict[str, Any]:
+    """Columns of parameters of curves, by the names of their attributes."""
+    several = list(curves)
+    return {name: [getattr(curve, name) for curve in several] for name in names}
 
 
 def of_curve(curve: Fragility, levels: FloatArray) -> dict[str, Any]:

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from dondolo.curves.table import fragility_table
 from dondolo.populations.typology import Typology
 from dondolo.reporting import wall
-from dondolo.reporting.columns import chosen, of_curve, shown
+from dondolo.reporting.columns import of_curve, parameters_of, shown
 from dondolo.reporting.content import BETA, THETA, Piece, Table, figure, level, state_name
 from dondolo.reporting.numerals import number
 from dondolo.reporting.statuses import crossings, in_words
@@ -75,7 +74,7 @@ def _curves_table(people: Typology) -> Table:
     columns = {
         "curve": [people.facade, *(row.name for row in people.walls)],
         "mechanism": ["any of them", *(row.mechanism for row in people.walls)],
-        **chosen(fragility_table([None] * len(curves), curves), "theta", "se_ln_theta", "beta", "se_beta"),
+        **parameters_of(curves, "theta", "se_ln_theta", "beta", "se_beta"),
         "saturation": [union.saturation, *people.population.p_occ],
         "status": [curve.status for curve in curves],
     }

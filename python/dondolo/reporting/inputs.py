@@ -13,11 +13,10 @@ from dondolo._fortran.walls import WALL_EXTRAS, WALL_PROPERTIES
 from dondolo._storage.run_file import RECORD_FACTS, RunFile
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import Stripes
-from dondolo.curves.table import fragility_table
 from dondolo.figures.style import mechanism_name
 from dondolo.populations.typology import Typology
 from dondolo.records.record import Record
-from dondolo.reporting.columns import chosen, shown
+from dondolo.reporting.columns import parameters_of, shown
 from dondolo.reporting.content import (
     Facts,
     Piece,
@@ -32,7 +31,6 @@ from dondolo.reporting.numerals import number, percent, whole
 from dondolo.reporting.run import Run
 from dondolo.reporting.statuses import status_table
 from dondolo.walls.population import Population
-from dondolo.walls.table import walls_table
 from dondolo.walls.wall import Wall, effective_property, notes_on_supports
 
 # What stands behind properties of a wall in place of their units
@@ -225,12 +223,13 @@ def _statics(run: Run) -> Table:
         "wall": [wall.name for wall in walls],
         "mechanism": [wall.mechanism for wall in walls],
         "trigger": [wall.trigger_acceleration / wall.gravity for wall in walls],
-        **chosen(walls_table(walls), "capacity_rad", "p_rad_s", "restitution"),
+        "capacity_rad": [wall.capacity_angle for wall in walls],
+        "p_rad_s": [wall.frequency_parameter for wall in walls],
+        "restitution": [wall.restitution_coefficient for wall in walls],
     }
     if not isinstance(results, Typology):
         return shown(columns)
-    curves = fragility_table(walls, results.curves)
-    return shown(columns | chosen(curves, "theta", "beta", "status"), results.im)
+    return shown(columns | parameters_of(results.curves, "theta", "beta", "status"), results.im)
 
 
 def has_vertical(run: Run) -> bool | None:

@@ -13,7 +13,7 @@ from dondolo.populations.typology import Typology
 from dondolo.reporting.content import Piece, Table, level_unit
 from dondolo.reporting.numerals import number, percent
 from dondolo.walls.parts import parts_of
-from dondolo.walls.ties import number_of_ties, states_of_ties
+from dondolo.walls.ties import number_of_ties
 from dondolo.walls.wall import Wall
 
 # Columns of levels of a table: what fits across a page
@@ -25,9 +25,8 @@ def ties(results: Typology | Stripes) -> dict[str, Any] | None:
     if isinstance(results, Stripes):
         if not number_of_ties(results.wall):
             return None
-        states = states_of_ties(results.wall, np.where(results.ran, results.edp, 0.0))
-        stretched: FloatArray = (states.plastic_elongation > 0.0).sum(axis=1) / results.histories[:, None]
-        return _tables((results.wall,), results, (stretched,), (results.broken_ties,))
+        runs, ties_ = results.histories[:, None], results.ties
+        return _tables((results.wall,), results, (ties_.yielded / runs,), (ties_.broken / runs,))
     if results.ties is None or not any(map(number_of_ties, results.walls)):
         return None
     histories = results.histories.T.astype(np.float64)

@@ -10,13 +10,12 @@ import numpy as np
 
 from dondolo._base.shown import shown_dispersion
 from dondolo.curves.fragility import Fragility
-from dondolo.curves.table import fragility_table
 from dondolo.errors import DondoloError
 from dondolo.figures import style
 from dondolo.figures.style import counted, mechanism_name
 from dondolo.populations.curve import Group
 from dondolo.populations.typology import Typology
-from dondolo.reporting.columns import chosen, shown
+from dondolo.reporting.columns import parameters_of, shown
 from dondolo.reporting.content import (
     BETA,
     THETA,
@@ -152,11 +151,10 @@ def _unions_table(people: Typology) -> Table | None:
     if not (found := unions(people)):
         return None
     products = [people.combined[name] for name in found]
-    table = fragility_table([None] * len(found), list(found.values()))
     columns = {
         "whole": list(found),
         "mechanisms": [people.population.wholes.count(name) for name in found],
-        **chosen(table, "theta", "beta", "se_ln_theta", "status"),
+        **parameters_of(found.values(), "theta", "beta", "se_ln_theta", "status"),
         "independent_theta": [curve.theta for curve in products],
         "independent_beta": [curve.beta for curve in products],
     }
@@ -200,17 +198,14 @@ def _curves_table(people: Typology, words: Words) -> Table:
         "mechanism": [curve.mechanism for curve in curves],
         "walls": [curve.n_walls for curve in curves],
         "weight": [curve.weight for curve in curves],
-        **chosen(
-            fragility_table([None] * len(curves), [curve.fit for curve in curves]),
-            "theta", "se_ln_theta", "beta", "se_beta",
-        ),
+        **parameters_of((curve.fit for curve in curves), "theta", "se_ln_theta", "beta", "se_beta"),
         "beta_walls": [curve.beta_walls for curve in curves],
         "beta_records": [curve.beta_records for curve in curves],
         "beta_total": [curve.beta_total for curve in curves],
         "misfit": [misfit(curve) for curve in curves],
         "fitted": [curve.fitted for curve in curves],
         "status": [curve.fit.status for curve in curves],
-    }  # fmt: skip
+    }
     return shown(columns, people.im)
 
 

@@ -9,13 +9,13 @@ import numpy as np
 
 from dondolo._base.shown import span
 from dondolo._fortran.records import blank_unit
+from dondolo._fortran.tables import plain
 from dondolo.analysis.certificate import Certified
 from dondolo.analysis.plots_stripes import draw_damage_states
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import States, Stripes
 from dondolo.curves.fragility import Fragility
-from dondolo.curves.table import fragility_table
-from dondolo.reporting.columns import chosen, of_curve, shown
+from dondolo.reporting.columns import chosen, of_curve, parameters_of, shown
 from dondolo.reporting.content import (
     BETA,
     THETA,
@@ -74,11 +74,11 @@ def curves(stripes: Stripes, states: Sequence[Fragility]) -> dict[str, Any]:
 def numbers(stripes: Stripes, fits: Sequence[Fragility]) -> dict[str, Any]:
     """Tables of the damage states and of the stripes."""
     curve = fits[-1]
-    levels = chosen(stripes._tables()["stripes"](), "im_level", "histories", "collapses", "fraction")
+    levels = chosen(plain(stripes._tables()["stripes"]()), "im_level", "histories", "collapses", "fraction")
     levels |= of_curve(curve, stripes.levels) | {"median_edp": np.median(stripes.edp, axis=1)}
     names = [state_name(float(one.edp_threshold or 0.0), stripes.edp_limit) for one in fits]
     kept = ("theta", "se_ln_theta", "beta", "se_beta", "log_likelihood", "deviance", "deviance_dof", "status")
-    states = {"damage_state": names} | chosen(fragility_table([None] * len(fits), fits), *kept)
+    states = {"damage_state": names} | parameters_of(fits, *kept)
     crossed = None
     if all(one.has_fit for one in fits):
         crossed = crossings({stripes.wall.name: fits}, names, stripes.levels, stripes.im)

@@ -17,14 +17,15 @@ from numpy.typing import ArrayLike, NDArray
 from dondolo._base.arguments import FloatArray, as_array, instance_of, one_of
 from dondolo._base.shown import Shown, html_of
 from dondolo._fortran.library import as_text
+from dondolo._fortran.tables import TableColumns, plain
 from dondolo._fortran.walls import WALL_LISTS, WALL_PROPERTIES, describe_walls, read_walls
 from dondolo._storage import tables
 from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
 from dondolo.figures.style import Panels
 from dondolo.walls.mechanisms import wall_from
-from dondolo.walls.table import property_columns, walls_table
-from dondolo.walls.wall import Wall, property_of
+from dondolo.walls.table import property_columns
+from dondolo.walls.wall import Wall, property_of, walls_table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -518,7 +519,7 @@ class Population(Shown):
         DondoloError
             There is no pandas.
         """
-        return tables.frame(self._table())
+        return tables.frame(plain(self._table()))
 
     def to_csv(self, path: str | os.PathLike[str], *, spreadsheet_safe: bool = False) -> None:
         """Write the table that `Population.from_csv` and the executable read.
@@ -544,8 +545,8 @@ class Population(Shown):
         lines = tables.csv_lines(population_table(self), self.origin, tables.shortest, spreadsheet_safe)
         tables.write_lines(path, lines)
 
-    def _table(self) -> tables.Table:
-        return walls_table(self.walls, self.weights, self.groups, self.p_occ, self.facades)
+    def _table(self) -> TableColumns:
+        return walls_table(self.walls, self.groups, self.facades, self.weights, self.p_occ)
 
 
 def _several(name: str, values: Any, what: str) -> tuple[Any, ...]:

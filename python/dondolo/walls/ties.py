@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from dondolo._base.arguments import FloatArray
-from dondolo._fortran.walls import tie_states
+from dondolo._fortran.tables import TableColumns, tie_columns
+from dondolo._fortran.walls import tie_states, tie_tallies
+from dondolo._storage.saved import part_of_results
 from dondolo.walls.parts import parts_of
 from dondolo.walls.wall import Wall, upload
+
+IntArray = NDArray[np.int32]
 
 
 class TieStates(NamedTuple):
@@ -29,6 +34,34 @@ class TieStates(NamedTuple):
     plastic_elongation: FloatArray
     energy: FloatArray
     broken: np.ndarray[Any, np.dtype[np.bool_]]
+
+
+@part_of_results
+class TieCounts(NamedTuple):
+    """What the histories of the stripes of a wall do to its ties, each of shape (levels, ties).
+
+    Attributes
+    ----------
+    yielded, broken : ndarray of int
+        How many histories stretch a tie for good, and break it.
+    mean_elongation, largest_elongation : ndarray
+        Plastic elongation: mean of the histories of a stripe, and the largest [m].
+    """
+
+    yielded: IntArray
+    broken: IntArray
+    mean_elongation: FloatArray
+    largest_elongation: FloatArray
+
+    @classmethod
+    def of_walls(cls, ties: Iterable[int], levels: int, *columns: NDArray[Any]) -> tuple[TieCounts, ...]:
+        """Those of walls with so many ties each, out of columns of all ties of all levels of all walls."""
+        found, first = [], 0
+        for number in ties:
+            rows = slice(first, first + levels * number)
+            found.append(cls(*(column[rows].reshape(levels, number) for column in columns)))
+            first = rows.stop
+        return tuple(found)
 
 
 def number_of_ties(wall: Wall) -> int:
@@ -56,3 +89,23 @@ def states_of_ties(wall: Wall, edp: ArrayLike) -> TieStates:
         none = np.zeros((*np.shape(edp), 0))
         return TieStates(none, none, none == 1.0)
     return TieStates(*tie_states(upload((wall,)), edp, ties))
+
+
+def tallies_of_ties(wall: Wall, edp: FloatArray, ran: NDArray[np.bool_]) -> TieCounts:
+    """What histories, (levels, histories) of which some ran, do to the ties of a wall."""
+    ties, levels = number_of_ties(wall), len(edp)
+    counts, elongations = np.zeros((2, 0), np.int32), np.zeros((2, 0))
+    if ties:
+        counts, elongations = tie_tallies(upload((wall,)), edp, ran, ties)
+    (found,) = TieCounts.of_walls([ties], levels, *counts, *elongations)
+    return found
+
+
+def tie_table(
+    walls: Sequence[Wall], im: str, levels: FloatArray, counts: Sequence[TieCounts], histories: NDArray[np.integer[Any]]
+) -> TableColumns:
+    """Columns of ``_ties.csv``, which has no rows of walls without ties; histories are (levels, walls)."""
+    columns = zip(*counts, strict=True)
+    yielded, broken, mean, largest = (np.concatenate([one.ravel() for one in column]) for column in columns)
+    names, ties = [(wall.name, wall.mechanism) for wall in walls], [number_of_ties(wall) for wall in walls]
+    return tie_columns(names, im, levels, ties, histories, np.array([yielded, broken]), np.array([mean, largest]))

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import copy
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
 
+import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_number, instance_of, one_of
@@ -16,6 +17,7 @@ from dondolo._fortran import _core
 from dondolo._fortran.buildings import BUILDING_NAMES, Motion, felt_motion, support_notes
 from dondolo._fortran.handles import Handle
 from dondolo._fortran.library import check, with_units
+from dondolo._fortran.tables import TableColumns, plain, wall_columns
 from dondolo._fortran.walls import (
     WALL_ABSENT,
     WALL_PROPERTIES,
@@ -347,9 +349,7 @@ class Wall:
 
     def to_frame(self) -> Any:
         """The wall and its static quantities as a pandas DataFrame of one row."""
-        from dondolo.walls.table import walls_table
-
-        return tables.frame(walls_table([self]))
+        return tables.frame(plain(walls_table((self,))))
 
 
 def _in_words(value: Any) -> str:
@@ -375,6 +375,19 @@ def upload(walls: tuple[Wall, ...]) -> Handle:
     # Another thread may have uploaded it in the meantime, and uses its handle.
     handle: Handle = alone.setdefault("_handle", Handle(number))
     return handle
+
+
+def walls_table(
+    walls: tuple[Wall, ...],
+    groups: Sequence[str] | None = None,
+    facades: Sequence[str] | None = None,
+    weights: FloatArray | None = None,
+    p_occ: FloatArray | None = None,
+) -> TableColumns:
+    """Columns of ``_walls.csv``; by themselves walls have a weight of 1 and no group."""
+    words, ones = ("",) * len(walls), np.ones(len(walls))
+    shares = (ones if weights is None else weights, ones if p_occ is None else p_occ)
+    return wall_columns(upload(walls), groups or words, facades or words, *shares)
 
 
 def notes_on_supports(walls: tuple[Wall, ...]) -> list[tuple[str, str]]:

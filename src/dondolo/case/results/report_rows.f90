@@ -6,7 +6,7 @@ module dondolo_case_report_rows
    use dondolo_fragility, only : fit_status_names, fragility_type
    use dondolo_fragility_clustered, only : parameter_intervals
    use dondolo_motion_certificate, only : certified_type, status_names
-   use dondolo_motion_response, only : response_type
+   use dondolo_motion_response, only : response_type, trace_type
    use dondolo_population_typology, only : typology_type
    use dondolo_population_unions, only : union_type
    use dondolo_population_wall_row, only : wall_row_type
@@ -15,17 +15,19 @@ module dondolo_case_report_rows
    implicit none
    private
 
-   public :: put_names, put_wall, put_stripe, put_fragility, put_typology, put_union, put_history, put_certified
+   public :: put_names, put_wall, put_stripe, put_fragility, put_typology, put_union, put_history, put_certified, &
+      & put_trace
 
 contains
 
    !> Name and mechanism of a wall, which most rows begin with
-   subroutine put_names(table, wall)
+   subroutine put_names(table, name, mechanism)
       class(table_type), intent(inout) :: table
-      type(wall_type), intent(in) :: wall
+      !> Empty for a curve without a wall
+      character(len=*), intent(in) :: name, mechanism
 
-      call table%put('wall', wall%name())
-      call table%put('mechanism', wall%mechanism_name())
+      call table%put('wall', name)
+      call table%put('mechanism', mechanism)
    end subroutine put_names
 
    !> A wall: its properties, empty cells for those that it does not have, and what follows from them
@@ -132,7 +134,7 @@ contains
       !> Intensity measure
       character(len=*), intent(in) :: im
       type(fragility_type), intent(in) :: curve
-      !> Its EDP threshold
+      !> Its EDP threshold; 0: that of the histories is not known
       real(wp), intent(in) :: threshold
 
       real(wp) :: bounds(2, 2)
@@ -151,7 +153,7 @@ contains
       call table%put('status', trim(fit_status_names(curve%status)))
       call put_bound(table, 'bracket_low', curve%bracket(1))
       call put_bound(table, 'bracket_high', curve%bracket(2))
-      call table%put('edp_threshold', threshold)
+      call table%put('edp_threshold', threshold, threshold > 0.0_wp)
       call put_bound(table, 'theta_low', bounds(1, 1))
       call put_bound(table, 'theta_high', bounds(2, 1))
       call put_bound(table, 'beta_low', bounds(1, 2))
@@ -311,14 +313,39 @@ contains
       call table%put('time_of_peak_s', response%time_of_peak)
    end subroutine put_history
 
-   !> How a history is certified
+   !> How a history is certified; an empty cell where an interrupted run has left its doubt
    subroutine put_certified(table, certified)
       class(table_type), intent(inout) :: table
       type(certified_type), intent(in) :: certified
 
-      call table%put('status', trim(status_names(certified%status)))
+      if (certified%status > 0) then
+         call table%put('status', trim(status_names(certified%status)))
+      else
+         call table%put('status', '')
+      end if
       call table%put('edp_lowest', certified%lowest)
       call table%put('edp_highest', certified%highest)
    end subroutine put_certified
+
+   !> The rows of a time history
+   subroutine put_trace(table, trace, capacity)
+      class(table_type), intent(inout) :: table
+      type(trace_type), intent(in) :: trace
+      !> Rotation that the EDP is measured by [rad]
+      real(wp), intent(in) :: capacity
+
+      integer :: i
+
+      do i = 1, trace%rows
+         call table%put('time_s', trace%time(i))
+         call table%put('ground_acceleration_m_s2', trace%acceleration(i))
+         call table%put('rotation_rad', trace%rotation(i))
+         call table%put('velocity_rad_s', trace%velocity(i))
+         call table%put('edp', abs(trace%rotation(i))/capacity)
+         call table%put('side', nint(trace%side(i)))
+         call table%put('after_impact', trace%after_impact(i))
+         call table%end_row()
+      end do
+   end subroutine put_trace
 
 end module dondolo_case_report_rows

@@ -1,6 +1,7 @@
 !> The tables of results: one list of what their names end with, when there is one, and what stands in it.
 module dondolo_case_result_tables
    use dondolo_base_error, only : error_type, raise_failure
+   use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
    use dondolo_base_property, only : find_property
    use dondolo_base_text, only : to_table, to_text
@@ -8,12 +9,12 @@ module dondolo_case_result_tables
    use dondolo_case_check_rows, only : put_item, put_sheet_row
    use dondolo_case_design_rows, only : put_design
    use dondolo_case_job_group, only : history_task, stripes_task, typology_task
-   use dondolo_case_report_rows, only : put_typology, put_union
+   use dondolo_case_report_rows, only : put_trace, put_typology, put_union
    use dondolo_case_result_files, only : suffix_length
    use dondolo_case_results, only : results_type
    use dondolo_case_row_tables, only : each_row, put_check_row, put_fragility_rows, put_history_rows, put_stripe_rows, &
       & put_tie_rows, put_wall_row, row_interface
-   use dondolo_case_source_rows, only : put_source
+   use dondolo_case_source_rows, only : collapse_of, put_source
    use dondolo_case_table, only : table_type
    use dondolo_case_tie_rows, only : make_tie_comment
    use dondolo_check_calculation, only : item_type, list_items
@@ -291,12 +292,22 @@ contains
       class(table_type), intent(inout) :: table
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: i
+      real(wp) :: indices(6)
+      integer :: i, j
 
-      do i = 1, size(case%table%base_wall%sources)
-         call put_source(table, case, results, i)
-         call table%end_row()
-      end do
+      indices = 0.0_wp
+      associate (wall => case%table%base_wall)
+         do i = 1, size(wall%sources)
+            if (allocated(results%sensitivity)) then
+               indices(:3) = [results%sensitivity%first(i), results%sensitivity%first_interval(:, i)]
+               indices(4:) = [results%sensitivity%total(i), results%sensitivity%total_interval(:, i)]
+            end if
+            call put_source(table, trim(wall%sources(i)), case%uncertainty%word(trim(wall%sources(i))), &
+               & [wall%values(i, wall%row_of_end(i, 1)), wall%values(i, wall%samples + 2), wall%values(i, wall%row_of_end(i, 2))], &
+               & [(collapse_of(results, wall%row_of_end(i, j)), j=1, 2)], indices, allocated(results%sensitivity))
+            call table%end_row()
+         end do
+      end associate
    end subroutine put_sources
 
    !> The sheet of the check
@@ -339,20 +350,7 @@ contains
       class(table_type), intent(inout) :: table
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: i
-
-      associate (trace => results%trace, capacity => case%wall%mechanism%capacity)
-         do i = 1, trace%rows
-            call table%put('time_s', trace%time(i))
-            call table%put('ground_acceleration_m_s2', trace%acceleration(i))
-            call table%put('rotation_rad', trace%rotation(i))
-            call table%put('velocity_rad_s', trace%velocity(i))
-            call table%put('edp', abs(trace%rotation(i))/capacity)
-            call table%put('side', nint(trace%side(i)))
-            call table%put('after_impact', trace%after_impact(i))
-            call table%end_row()
-         end do
-      end associate
+      call put_trace(table, results%trace, case%wall%mechanism%capacity)
    end subroutine put_motion
 
    !> What comes of a time history

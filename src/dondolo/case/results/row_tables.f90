@@ -141,7 +141,7 @@ contains
       do j = 1, size(plan%levels)
          do i = 1, size(plan%record)
             if (.not. plan%ran(i, j)) cycle
-            call put_names(table, row%wall)
+            call put_names(table, row%wall%name(), row%wall%mechanism_name())
             call put_history(table, case%suite%records(plan%record(i))%name, plan%polarity(i), plan%im, plan%levels(j), &
                & plan%scale(i, j), counts%response(i, j))
             if (case%solver%solver%estimate_error) call table%put('edp_error', counts%response(i, j)%edp_error)
@@ -172,7 +172,7 @@ contains
 
       do k = 1, size(case%stripes%thresholds)
          do j = 1, size(case%stripes%levels)
-            call put_names(table, row%wall)
+            call put_names(table, row%wall%name(), row%wall%mechanism_name())
             call put_stripe(table, case%stripes%scaling%name, case%stripes%levels(j), counts%histories(j), counts%reached(j, k), &
                & case%stripes%thresholds(k))
             if (allocated(counts%uplift)) call table%put('uplift', counts%uplift(j))
@@ -193,7 +193,7 @@ contains
       integer :: k
 
       do k = 1, size(case%stripes%thresholds)
-         call put_names(table, row%wall)
+         call put_names(table, row%wall%name(), row%wall%mechanism_name())
          call put_fragility(table, case%stripes%scaling%name, counts%curve(k), case%stripes%thresholds(k))
          call table%end_row()
       end do
@@ -213,7 +213,7 @@ contains
       if (row%wall%mechanism%ties == 0) return
       do j = 1, size(case%stripes%levels)
          do i = 1, size(counts%tallies, 1)
-            call put_names(table, row%wall)
+            call put_names(table, row%wall%name(), row%wall%mechanism_name())
             call put_tally(table, case%stripes%scaling%name, case%stripes%levels(j), i, counts%tallies(i, j), counts%histories(j))
             call table%end_row()
          end do
@@ -229,7 +229,7 @@ contains
       class(table_type), intent(inout) :: table
       type(error_type), allocatable, intent(out) :: error
 
-      call put_names(table, row%wall)
+      call put_names(table, row%wall%name(), row%wall%mechanism_name())
       call put_check(table, case, row, counts%curve(size(counts%curve)), verdicts)
       call table%end_row()
    end subroutine put_check_row

@@ -10,59 +10,38 @@ module dondolo_case_source_rows
    implicit none
    private
 
-   public :: put_source, make_source_sentence, make_model_sentence
+   public :: put_source, collapse_of, make_source_sentence, make_model_sentence
 
 contains
 
    !> A source as a row
-   subroutine put_source(table, case, results, source)
+   subroutine put_source(table, name, distribution, values, curves, indices, given)
       class(table_type), intent(inout) :: table
-      type(case_type), intent(in) :: case
-      type(results_type), intent(in) :: results
-      !> Its number
-      integer, intent(in) :: source
+      !> The property, and its distribution
+      character(len=*), intent(in) :: name, distribution
+      !> Its 5 %, 50 % and 95 % fractiles
+      real(wp), intent(in) :: values(3)
+      !> Curves of collapse at the first and at the last of these
+      type(fragility_type), intent(in) :: curves(2)
+      !> Sobol indices: first-order with its interval, and total with its own
+      real(wp), intent(in) :: indices(6)
+      !> Are there any?
+      logical, intent(in) :: given
 
-      type(fragility_type) :: curve
-      integer :: i
-
-      associate (wall => case%table%base_wall, name => case%table%base_wall%sources(source))
-         call table%put('source', trim(name))
-         call table%put('distribution', case%uncertainty%word(trim(name)))
-         call table%put('value_5', wall%values(source, wall%row_of_end(source, 1)))
-         call table%put('value_50', wall%values(source, wall%samples + 2))
-         call table%put('value_95', wall%values(source, wall%row_of_end(source, 2)))
-         do i = 1, 2
-            curve = collapse_of(results, wall%row_of_end(source, i))
-            call table%put(trim(merge('theta_5 ', 'theta_95', i == 1)), curve%theta, curve%has_fit())
-         end do
-      end associate
-      call put_indices(table, results, source)
+      call table%put('source', name)
+      call table%put('distribution', distribution)
+      call table%put('value_5', values(1))
+      call table%put('value_50', values(2))
+      call table%put('value_95', values(3))
+      call table%put('theta_5', curves(1)%theta, curves(1)%has_fit())
+      call table%put('theta_95', curves(2)%theta, curves(2)%has_fit())
+      call table%put('first', indices(1), given)
+      call table%put('first_low', indices(2), given)
+      call table%put('first_high', indices(3), given)
+      call table%put('total', indices(4), given)
+      call table%put('total_low', indices(5), given)
+      call table%put('total_high', indices(6), given)
    end subroutine put_source
-
-   !> Sobol indices of a source, if there are any
-   subroutine put_indices(table, results, source)
-      class(table_type), intent(inout) :: table
-      type(results_type), intent(in) :: results
-      !> Its number
-      integer, intent(in) :: source
-
-      real(wp) :: first(3), total(3)
-      logical :: given
-
-      first = 0.0_wp
-      total = 0.0_wp
-      given = allocated(results%sensitivity)
-      if (given) then
-         first = [results%sensitivity%first(source), results%sensitivity%first_interval(:, source)]
-         total = [results%sensitivity%total(source), results%sensitivity%total_interval(:, source)]
-      end if
-      call table%put('first', first(1), given)
-      call table%put('first_low', first(2), given)
-      call table%put('first_high', first(3), given)
-      call table%put('total', total(1), given)
-      call table%put('total_low', total(2), given)
-      call table%put('total_high', total(3), given)
-   end subroutine put_indices
 
    !> A source in words
    subroutine make_source_sentence(case, results, source, line)

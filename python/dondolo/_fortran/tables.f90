@@ -1,0 +1,384 @@
+!> Tables of results that Python has as objects: their columns are those of the result files.
+!>
+!> Curves come as numbers (13, curves): theta, beta, their naive covariance, logarithm of the likelihood, bracket, covariance,
+!> degrees of freedom and EDP threshold; codes (2, curves): place of the status among the names, and clusters; and of each the
+!> kind of its standard errors among its lines.
+module tables
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
+   use dondolo_base_error, only : error_type
+   use dondolo_base_lines, only : lines_type
+   use dondolo_boundary, only : check_room, split_lines
+   use dondolo_case_columns, only : columns_type
+   use dondolo_case_design_rows, only : put_design
+   use dondolo_case_report_rows, only : put_certified, put_fragility, put_history, put_names, put_stripe, put_trace, put_typology, &
+      & put_union, put_wall
+   use dondolo_case_source_rows, only : put_source
+   use dondolo_case_tie_rows, only : put_tally
+   use dondolo_fragility, only : fragility_type
+   use dondolo_fragility_tie_tallies, only : tie_tally_type
+   use dondolo_interface_handles, only : find_walls
+   use dondolo_motion_certificate, only : certified_type
+   use dondolo_motion_response, only : response_type, trace_type
+   use dondolo_parcel, only : parcel_type, send
+   use dondolo_population_designs, only : design_type
+   use dondolo_population_typology, only : typology_type
+   use dondolo_population_unions, only : union_type
+   use dondolo_population_wall_row, only : wall_row_type
+   use dondolo_results_parcel, only : number_columns, pack_table
+   use dondolo_wall, only : wall_type
+   implicit none
+   private
+
+   public :: wall_table, history_table, stripe_table, fragility_table, typology_table, union_table, tie_table, design_table, &
+      & source_table, trace_table
+
+contains
+
+   !> Walls: of each its group and its facade as lines, and its weight and the probability of its mechanism
+   subroutine wall_table(walls, texts, shares, w, sent)
+      integer(c_int64_t), intent(in) :: walls
+      character(len=*), intent(in) :: texts
+      integer(c_int), intent(in) :: w
+      real(c_double), intent(in) :: shares(2, w)
+      integer(c_int64_t), intent(out) :: sent(5)
+      type(wall_type), pointer :: wall(:)
+      type(wall_row_type) :: row
+      type(lines_type) :: words
+      type(columns_type) :: table
+      type(error_type), allocatable :: error
+      integer, allocatable :: lengths(:)
+      logical :: has_facades
+      integer :: i
+
+      call check_room(error, walls=w)
+      if (.not. allocated(error)) call find_walls(walls, wall, error)
+      if (.not. allocated(error)) then
+         call split_lines(texts, words)
+         lengths = wall(1)%input%lengths()
+         has_facades = .false.
+         do i = 1, w
+            lengths = max(lengths, wall(i)%input%lengths())
+            has_facades = has_facades .or. len(words%line(2*i)%text) > 0
+         end do
+         do i = 1, w
+            row%wall = wall(i)
+            row%group = words%line(2*i - 1)%text
+            row%facade = words%line(2*i)%text
+            row%weight = shares(1, i)
+            row%p_occ = shares(2, i)
+            call put_wall(table, row, lengths, has_facades)
+            call table%end_row()
+         end do
+      end if
+      call send_table(table, error, sent)
+   end subroutine wall_table
+
+   !> n histories of a wall: its name, its mechanism and r names of records as lines; of each history record (from 1), polarity,
+   !> flag of collapse, impacts, how it is certified and flag of uplift; level, scale, EDP, time of the peak, error of the EDP,
+   !> and bounds of it. has: 1 where there are errors, certificates and uplifts
+   subroutine history_table(texts, im, integers, reals, has, n, sent)
+      character(len=*), intent(in) :: texts, im
+      integer(c_int), intent(in) :: n, has(3), integers(6, n)
+      real(c_double), intent(in) :: reals(7, n)
+      integer(c_int64_t), intent(out) :: sent(5)
+      type(response_type) :: response
+      type(lines_type) :: words
+      type(columns_type) :: table
+      type(error_type), allocatable :: error
+      integer :: i
+
+      call check_room(error, histories=real(n, c_double))
+      if (.not. allocated(error)) then
+         call split_lines(texts, words)
+         do i = 1, n
+            response%edp = reals(3, i)
+            response%time_of_peak = reals(4, i)
+            response%collapsed = integers(3, i) == 1
+            response%impacts = integers(4, i)
+            call put_names(table, words%line(1)%text, words%line(2)%text)
+            call put_history(table, words%line(2 + integers(1, i))%text, integers(2, i), im, reals(1, i), reals(2, i), response)
+            if (has(1) == 1) call table%put('edp_error', reals(5, i))
+            if (has(2) == 1) call put_certified(table, certified_type(integers(5, i), reals(6, i), reals(7, i)))
+            if (has(3) == 1) call table%put('uplift', integers(6, i) == 1)
+            call table%end_row()
+         end do
+      end if
+      call send_table(table, error, sent)
+   end subroutine history_table
+
+   !> Stripes of w walls at m levels in k damage states: name and mechanism of each wall as lines, histories and those that
+   !> reach each state; of one wall those with uplift too, if has_uplift = 1
+   subroutine stripe_table(texts, im, levels, thresholds, histories, reached, uplift, has_uplift, m, k, w, sent)
+      character(len=*), intent(in) :: texts, im
+      integer(c_int), intent(in) :: m, k, w, histories(m, w), reached(m, k, w), uplift(m), has_uplift
+      real(c_double), intent(in) :: levels(m), thresholds(k)
+      integer(c_int64_t), intent(out) :: sent(5)
+      type(lines_type) :: words
+      type(columns_type) :: table
+      type(error_type), allocatable :: error
+      integer :: i, j, l
+
+      call check_room(error, reals=20.0_c_double*m*k*w)
+      if (.not. allocated(error)) then
+         call split_lines(texts, words)
+         do i = 1, w
+            do l = 1, k
+               do j = 1, m
+                  call put_names(table, words%line(2*i - 1)%text, words%line(2*i)%text)
+                  call put_stripe(table, im, levels(j), histories(j, i), reached(j, l, i), thresholds(l))
+                  if (has_uplift == 1) call table%put('uplift', uplift(j))
+                  call table%end_row()
+               end do
+            end do
+         end do
+      end if
+      call send_table(table, error, sent)
+   end subroutine stripe_table
+
+   !> k curves: of each as lines the name and the mechanism of its wall, its measure and its kind of errors
+   subroutine fragility_table(texts, curves, codes, k, sent)
+      character(len=*), intent(in) :: texts
+      integer(c_int), intent(in) :: k, codes(2, k)
+      real(c_double), intent(in) :: curves(13, k)
+      integer(c_int64_t), intent(out) :: sent(5)
+      type(lines_type) :: words
+      type(columns_type) :: table
+      type(error_type), allocatable :: error
+      integer :: i
+
+      call check_room(error, reals=40.0_c_double*k)
+      if (.not. allocated(error)) then
+         call split_lines(texts, words)
+         do i = 1, k
+            associate (line => words%line(4*i - 3:4*i))
+               call put_names(table, line(1)%text, line(2)%text)
+               call put_fragility(table, line(3)%text, curve_of(curves(:, i), codes(:, i), line(4)%text), curves(13, i))
+               call table%end_row()
+            end associate
+         end do
+      end if
+      call send_table(table, error, sent)
+   end subroutine fragility_table
+
+   !> k curves of a population at m levels: of each as lines its mechanism, its group and its kind of errors; sums, weight, both
+   !> dispersions, saturation and share that is fitted; at each level the mean fraction, the mean curve and three fractiles
+   subroutine typology_table(texts, im, levels, curves, codes, sums, means, m, k, sent)
+      character(len=*), intent(in) :: texts, im
+      integer(c_int), intent(in) :: m, k, codes(2, k)
+      real(c_double), intent(in) :: levels(m), curves(13, k), sums(5, k), means(m, 5, k)
+      integer(c_int64_t), intent(out) :: sent(5)
+      type(typology_type) :: typology
+      type(lines_type) :: words
+      type(columns_type) :: table
+      type(error_type), allocatable :: error
+      integer :: i, j
+
+      call check_room(error, reals=40.0_c_double*m*k)
+      if (.not. allocated(error)) then
+         call split_lines(texts, words)
+         typology%levels = levels
+         do i = 1, k
+            typology%mechanism = words%line(3*i - 2)%text
+            typology%group = words%line(3*i - 1)%text
+            typology%fit = curve_of(curves(:, i), codes(:, i), words%line(3*i)%text)
+            typology%weight = sums(1, i)
+            typology%beta_walls = sums(2, i)
+            typology%beta_records = sums(3, i)
+            typology%saturation = sums(4, i)
+            typology%fitted = sums(5, i)
+            typology%mean_fraction = means(:, 1, i)
+            typology%mean_curve = means(:, 2, i)
+            typology%fractile = transpose(means(:, 3:5, i))
+            do j = 1, m
+               call put_typology(table, typology, im, j, curves(13, i))
+               call table%end_row()
+            end do
+         end do
+      end if
+      call send_table(table, error, sent)
+   end subroutine typology_table
+
+   !> k walls with several mechanisms, or means, at m levels: of each as lines its name, its group, and the kinds of errors of its
+   !> curve and of that of the product; how many mechanisms, 0 for a mean; at each level histories, collapses, and the
+   !> fraction, by the same histories and by the product
+   subroutine union_table(texts, im, levels, mechanisms, curves, codes, counts, m, k, sent)
+      character(len=*), intent(in) :: texts, im
+      integer(c_int), intent(in) :: m, k, mechanisms(k), codes(2, 2, k)
+      real(c_double), intent(in) :: levels(m), curves(13, 2, k), counts(m, 4, k)
+      integer(c_int64_t), intent(out) :: sent(5)
+      type(union_type) :: union
+      type(lines_type) :: words
+      type(columns_type) :: table
+      type(error_type), allocatable :: error
+      integer :: i, j
+
+      call check_room(error, reals=60.0_c_double*m*k)
+      if (.not. allocated(error)) then
+         call split_lines(texts, words)
+         do i = 1, k
+            associate (line => words%line(4*i - 3:4*i))
+               union%name = line(1)%text
+               union%group = line(2)%text
+               union%rows = [min(mechanisms(i), 1), mechanisms(i)]
+               union%histories = counts(:, 1, i)
+               union%collapses = counts(:, 2:2, i)
+               union%fraction = counts(:, 3:3, i)
+               union%independent = counts(:, 4:4, i)
+               union%curve = [curve_of(curves(:, 1, i), codes(:, 1, i), line(3)%text)]
+               union%product = [curve_of(curves(:, 2, i), codes(:, 2, i), line(4)%text)]
+            end associate
+            do j = 1, m
+               call put_union(table, union, im, levels(j), j, 1, curves(13, 1, i))
+               call table%end_row()
+            end do
+         end do
+      end if
+      call send_table(table, error, sent)
+   end subroutine union_table
+
+   !> Ties of w walls at m levels: name and mechanism of each wall as lines, its ties, its histories, and of each wall and level
+   !> t tallies in all: how many histories stretch and break each tie, and the mean and the largest plastic elongation
+   subroutine tie_table(texts, im, levels, ties, histories, counts, elongations, m, w, t, sent)
+      character(len=*), intent(in) :: texts, im
+      integer(c_int), intent(in) :: m, w, t, ties(w), histories(m, w), counts(2, t)
+      real(c_double), intent(in) :: levels(m), elongations(2, t)
+      integer(c_int64_t), intent(out) :: sent(5)
+      type(lines_type) :: words
+      type(columns_type) :: table
+      type(error_type), allocatable :: error
+      integer :: i, j, l, at
+
+      call check_room(error, reals=40.0_c_double*t)
+      if (.not. allocated(error)) then
+         call split_lines(texts, words)
+         at = 0
+         do i = 1, w
+            do j = 1, m
+               do l = 1, ties(i)
+                  at = at + 1
+                  call put_names(table, words%line(2*i - 1)%text, words%line(2*i)%text)
+                  call put_tally(table, im, levels(j), l, tie_tally_type(counts(1, at), counts(2, at), elongations(1, at), &
+                     & elongations(2, at)), histories(j, i))
+                  call table%end_row()
+               end do
+            end do
+         end do
+      end if
+      call send_table(table, error, sent)
+   end subroutine tie_table
+
+   !> k designs beside the first: of each as lines its name and its kind of errors; steel, alpha_0, ratio of the medians, its
+   !> bounds and its probability, a ratio of 0 for none
+   subroutine design_table(texts, im, curves, codes, numbers, k, sent)
+      character(len=*), intent(in) :: texts, im
+      integer(c_int), intent(in) :: k, codes(2, k)
+      real(c_double), intent(in) :: curves(13, k), numbers(6, k)
+      integer(c_int64_t), intent(out) :: sent(5)
+      type(design_type) :: designs(k)
+      type(lines_type) :: words
+      type(columns_type) :: table
+      type(error_type), allocatable :: error
+      integer :: i
+
+      call split_lines(texts, words)
+      do i = 1, k
+         associate (design => designs(i))
+            design%name = words%line(2*i - 1)%text
+            design%curve = curve_of(curves(:, i), codes(:, i), words%line(2*i)%text)
+            design%steel = numbers(1, i)
+            design%alpha_0 = numbers(2, i)
+            design%is_compared = numbers(3, i) > 0.0_c_double
+            design%ratio = numbers(3, i)
+            design%low = numbers(4, i)
+            design%high = numbers(5, i)
+            design%p_value = numbers(6, i)
+         end associate
+         call put_design(table, designs(i), designs(1), im)
+         call table%end_row()
+      end do
+      call send_table(table, error, sent)
+   end subroutine design_table
+
+   !> k sources: name and distribution of each as lines, its fractiles, its two curves, its Sobol indices with their intervals
+   !> (NaN: none) and, of the curves, kinds of errors as further lines
+   subroutine source_table(texts, values, curves, codes, indices, k, sent)
+      character(len=*), intent(in) :: texts
+      integer(c_int), intent(in) :: k, codes(2, 2, k)
+      real(c_double), intent(in) :: values(3, k), curves(13, 2, k), indices(6, k)
+      integer(c_int64_t), intent(out) :: sent(5)
+      type(lines_type) :: words
+      type(columns_type) :: table
+      type(error_type), allocatable :: error
+      integer :: i
+
+      call split_lines(texts, words)
+      do i = 1, k
+         associate (line => words%line(4*i - 3:4*i))
+            call put_source(table, line(1)%text, line(2)%text, values(:, i), [curve_of(curves(:, 1, i), codes(:, 1, i), &
+               & line(3)%text), curve_of(curves(:, 2, i), codes(:, 2, i), line(4)%text)], indices(:, i), &
+               & .not. any(indices(:, i) /= indices(:, i)))
+            call table%end_row()
+         end associate
+      end do
+      call send_table(table, error, sent)
+   end subroutine source_table
+
+   !> A time history of n rows: time, acceleration, rotation and velocity; side and flag of an impact
+   subroutine trace_table(reals, integers, capacity, n, sent)
+      integer(c_int), intent(in) :: n, integers(n, 2)
+      real(c_double), intent(in) :: reals(n, 4), capacity
+      integer(c_int64_t), intent(out) :: sent(5)
+      type(trace_type) :: trace
+      type(columns_type) :: table
+      type(error_type), allocatable :: error
+
+      call check_room(error, reals=20.0_c_double*n)
+      if (.not. allocated(error)) then
+         trace%rows = n
+         trace%time = reals(:, 1)
+         trace%acceleration = reals(:, 2)
+         trace%rotation = reals(:, 3)
+         trace%velocity = reals(:, 4)
+         trace%side = real(integers(:, 1), c_double)
+         trace%after_impact = integers(:, 2) == 1
+         call put_trace(table, trace, capacity)
+      end if
+      call send_table(table, error, sent)
+   end subroutine trace_table
+
+   !> A curve out of its numbers, its codes and its kind of errors
+   pure type(fragility_type) function curve_of(numbers, codes, errors) result(curve)
+      real(c_double), intent(in) :: numbers(:)
+      integer(c_int), intent(in) :: codes(:)
+      character(len=*), intent(in) :: errors
+
+      curve%theta = numbers(1)
+      curve%beta = numbers(2)
+      curve%naive = reshape(numbers([3, 4, 4, 5]), [2, 2])
+      curve%log_likelihood = numbers(6)
+      curve%bracket = numbers(7:8)
+      curve%covariance = reshape(numbers([9, 10, 10, 11]), [2, 2])
+      curve%degrees_of_freedom = numbers(12)
+      curve%status = codes(1)
+      curve%clusters = codes(2)
+      curve%errors = errors
+   end function curve_of
+
+   !> Send a table
+   subroutine send_table(table, error, sent)
+      type(columns_type), intent(inout) :: table
+      !> Lack of memory: may be that of the table
+      type(error_type), allocatable, intent(inout) :: error
+      integer(c_int64_t), intent(out) :: sent(5)
+
+      type(parcel_type) :: parcel
+
+      if (.not. allocated(error) .and. allocated(table%error)) call move_alloc(table%error, error)
+      if (.not. allocated(error)) then
+         call parcel%expect_series(number_columns(table))
+         call pack_table(table, 'table', parcel)
+      end if
+      call send(parcel, error, sent)
+   end subroutine send_table
+
+end module tables
