@@ -55,7 +55,7 @@ contains
       if (case%job%task == typology_task) then
          call find_start(case, store, error)
       else if (allocated(case%check)) then
-         call check_wall(case, case%wall, sheet, error)
+         call check_wall(case%wall, case%check, case%stripes%scaling%name, sheet, error)
       end if
       if (allocated(error)) return
       call collect_warnings(case, work, scales, warnings)

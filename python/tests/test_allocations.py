@@ -30,6 +30,7 @@ ASKED = {
     "python/dondolo/_fortran/store_parcel.f90": r"python/dondolo/_fortran/store_parcel",
     "python/dondolo/_fortran/stores.f90": r"python/dondolo/_fortran/stores",
     "python/dondolo/_fortran/stripes.f90": r"python/dondolo/_fortran/stripes",
+    "python/dondolo/_fortran/walls.f90": r"python/dondolo/_fortran/walls",
     "python/dondolo/_fortran/uncertainty.f90": r"src/dondolo/population/sensitivity",
     "python/dondolo/_fortran/wall_parcel.f90": r"python/dondolo/_fortran/wall_parcel",
 }

@@ -54,7 +54,7 @@ def test_steel_and_forces(found, designs):
     assert found.steel.tolist() == [0.0, 4.0, 0.0]
     table = found.to_frame()
     assert table.design.tolist() == list(designs)
-    assert table.alpha_0.tolist() == trigger
+    assert table.alpha_0_g.tolist() == trigger
 
 
 def test_ties(few):

@@ -189,7 +189,7 @@ def test_python_rooms(root):
     """Each room of the package imports only itself and those before it, for its types too."""
     rooms = [
         "errors", "_base", "_fortran", "_storage", "figures", "records", "walls", "hazard", "curves", "analysis",
-        "checks", "retrofit", "populations", "exchange", "reporting", "results", "__init__", "__main__",
+        "checks", "populations", "retrofit", "exchange", "reporting", "results", "__init__", "__main__",
     ]  # fmt: skip
     package = root / "python/dondolo"
 

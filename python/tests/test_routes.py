@@ -200,7 +200,7 @@ def test_written_objects(name, ran, tmp_path):
     """A part of the results that is written alone is read again as it is, from memory and from files."""
     prefix, mine, _ = ran(name)
     theirs = dd.read_results(prefix)
-    for part in ("stripes", "typology", "uncertain"):
+    for part in ("stripes", "typology", "uncertain", "designs"):
         for number, whole in enumerate((mine, theirs)):
             one = getattr(whole, part)
             if one is None:
@@ -236,6 +236,47 @@ def test_objects_of_python(name, ran):
     if case.designs:
         ignored |= {"Typology.group_union_curves"}
     assert [*differences(own, mine.typology, name, ignored)] == []
+
+
+def without_paths(results):
+    """Names of the tables of a set and their bytes below the comments."""
+    return {
+        end: "".join(line for line in path.read_text().splitlines(keepends=True) if not line.startswith("#"))
+        for end in TABLES
+        if (path := results.with_name(results.name + end)).is_file()
+    }
+
+
+@pytest.mark.parametrize("name", ["parapet", "tied_facade", "checked", "certified", "ordinal"])
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+def test_stripes_of_python(name, ran, tmp_path):
+    """Stripes that Python writes alone: the tables of the executable, to the byte, but for those of the case."""
+    prefix, mine, _ = ran(name)
+    mine.stripes.write_results(tmp_path / "own", edp_thresholds=mine.edp_thresholds or None, states=mine.states)
+    theirs = without_paths(prefix)
+    own = without_paths(tmp_path / "own")
+    assert set(theirs) - set(own) <= {"_check.csv", "_calculation.csv"}
+    assert own == {end: theirs[end] for end in own}
+    assert ("_ties.csv" in own) == (name in ("tied_facade", "checked"))
+
+
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+def test_designs_of_python(ran, tmp_path):
+    """Designs that Python compares: the tables of the executable's case with designs, to the byte."""
+    prefix, mine, _ = ran("designs")
+    walls = {wall.name: wall for wall in mine.population.walls}
+    site = dd.Site(0.2, 2.5, 0.35, soil="B")
+    own = dd.compare_designs(walls, mine.case.records, mine.case.levels, site=site, progress=False)
+    own.write_results(tmp_path / "own")
+    assert without_paths(tmp_path / "own") == without_paths(prefix)
+    back = dd.read_results(tmp_path / "own")
+    ignored = {*NOT_IN_FILES, "Typology.warnings", "Typology.work", "Work.walls"}
+    assert [*differences(mine.designs, back.designs, "designs", ignored)] == []
+    assert [check.rows for check in back.checks] == [check.rows for check in mine.checks]
+    levels = {name: np.array(mine.case.levels) * (1.0 if name == "bare" else 1.1) for name in walls}
+    one = dd.compare_designs(walls, mine.case.records[:4], levels | {next(iter(walls)): [0.5, 1.0]}, progress=False)
+    with pytest.raises(dd.InputError, match="levels of their own"):
+        one.write_results(tmp_path / "other")
 
 
 @pytest.mark.parametrize("name", ["population", "designs", "facade_hinges", "states", "designs_in_states"])

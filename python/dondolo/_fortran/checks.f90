@@ -5,7 +5,10 @@ module checks
    use dondolo_base_error, only : error_type, problems_type
    use dondolo_base_lines, only : lines_type
    use dondolo_base_settings, only : group_settings_type, new_settings
-   use dondolo_boundary, only : next_line
+   use dondolo_boundary, only : as_curve, next_line, split_lines
+   use dondolo_case_check_rows, only : check_wall, put_check
+   use dondolo_case_columns, only : columns_type
+   use dondolo_case_report_rows, only : put_names
    use dondolo_case_wall_warnings, only : wall_warnings_type
    use dondolo_case_warning, only : warnings_type
    use dondolo_check_calculation, only : is_given, item_type, list_items
@@ -18,11 +21,13 @@ module checks
    use dondolo_check_sheet, only : sheet_type
    use dondolo_interface_handles, only : find_walls
    use dondolo_parcel, only : parcel_type, report, send
+   use dondolo_results_parcel, only : send_table
    use dondolo_wall, only : wall_type
    implicit none
    private
 
-   public :: ntc_parameters, code_spectrum, check_ntc, check_histories, check_notes, calculation_items, capacity_curve
+   public :: ntc_parameters, code_spectrum, check_ntc, check_table, check_histories, check_notes, calculation_items, &
+      & capacity_curve
 
 contains
 
@@ -124,6 +129,36 @@ contains
       end if
       call send(parcel, error, sent)
    end subroutine check_ntc
+
+   !> Kinematic checks of the k walls of a handle with their curves of collapse: a table of a row for each wall; lines, kinds of
+   !> errors of the curves, as tables has them
+   subroutine check_table(walls, texts, numbers, n, given, im, lines, curves, codes, k, sent)
+      integer(c_int64_t), intent(in) :: walls
+      character(len=*), intent(in) :: texts, im, lines
+      integer(c_int), intent(in) :: n, given(3), k, codes(2, k)
+      real(c_double), intent(in) :: numbers(n), curves(13, k)
+      integer(c_int64_t), intent(out) :: sent(5)
+      type(wall_type), pointer :: wall(:)
+      type(check_input_type) :: input
+      type(sheet_type) :: sheet
+      type(lines_type) :: words
+      type(columns_type) :: table
+      type(error_type), allocatable :: error, reason
+      integer :: i
+
+      call read_input(texts, numbers, given, input, error)
+      if (.not. allocated(error)) call find_walls(walls, wall, error)
+      if (.not. allocated(error)) then
+         call split_lines(lines, words)
+         do i = 1, k
+            call check_wall(wall(i), input, im, sheet, reason, as_curve(curves(:, i), codes(:, i), words%line(i)%text))
+            call put_names(table, wall(i)%name(), wall(i)%mechanism_name())
+            call put_check(table, '', sheet, reason)
+            call table%end_row()
+         end do
+      end if
+      call send_table(table, error, sent)
+   end subroutine check_table
 
    !> Criterion for time histories in a limit state, 2 or 3, from their largest rotations / capacity, 1 where they collapsed
    subroutine check_histories(walls, state, pga, records, edp, n, sent)

@@ -11,6 +11,7 @@ module curves
    use dondolo_fragility_logit, only : fit_one_logit => fit_logit, logit_type
    use dondolo_fragility_ordinal, only : ordinal_fit => fit_ordinal, ordinal_errors
    use dondolo_fragility_stripes, only : stripes_type
+   use dondolo_fragility_ratio, only : compare => compare_parameters
    use dondolo_interface_handles, only : find_walls
    use dondolo_parcel, only : parcel_type, report, send
    use dondolo_population_series, only : series => in_series, slopes_of => series_slopes
@@ -19,7 +20,7 @@ module curves
    private
 
    public :: fit_curves, cluster_changes, fit_logit, fit_ordinal, probability, in_series, series_slopes, warn_of_curve
-   public :: student_quantile, warn_of_union
+   public :: compare_parameters, student_quantile, warn_of_union
 
 contains
 
@@ -62,32 +63,34 @@ contains
    end subroutine fit_curves
 
    !> Change of ln theta and beta of a fitted curve if each of g clusters is left out, to first order; errors are
-   !> places among the names
-   subroutine cluster_changes(levels, collapses, histories, theta, beta, m, g, changes, errors, failure)
+   !> places among the names; covariance is that of ln theta and beta
+   subroutine cluster_changes(levels, collapses, histories, theta, beta, m, g, changes, covariance, errors, failure)
       integer(c_int), intent(in) :: m, g
       real(c_double), intent(in) :: levels(m), collapses(m, g), histories(m, g), theta, beta
-      real(c_double), intent(out) :: changes(2, g)
+      real(c_double), intent(out) :: changes(2, g), covariance(2, 2)
       integer(c_int), intent(out) :: errors
       integer(c_int64_t), intent(out) :: failure(5)
       type(fragility_type) :: curve
       type(error_type), allocatable :: error
 
       changes = 0
+      covariance = 0
       errors = 0
       call check_room(error, reals=40.0_c_double*m)
       call report(error, failure)
       if (allocated(error)) return
       curve = fragility_type(status=fit_ok, theta=theta, beta=beta)
       call cluster_errors(curve, levels, collapses, histories, changes)
+      covariance = curve%covariance
       errors = findloc(error_names, curve%errors, dim=1)
    end subroutine cluster_changes
 
    !> Curves of k damage states with one dispersion, from the histories of each of g clusters that reach each state at each of
-   !> m levels; changes and errors are as cluster_changes has them
-   subroutine fit_ordinal(levels, reached, histories, m, k, g, curves, statuses, changes, errors, failure)
+   !> m levels; changes, covariances and errors are as cluster_changes has them
+   subroutine fit_ordinal(levels, reached, histories, m, k, g, curves, statuses, changes, covariances, errors, failure)
       integer(c_int), intent(in) :: m, k, g
       real(c_double), intent(in) :: levels(m), reached(m, k, g), histories(m, g)
-      real(c_double), intent(out) :: curves(10, k), changes(2, k, g)
+      real(c_double), intent(out) :: curves(10, k), changes(2, k, g), covariances(2, 2, k)
       integer(c_int), intent(out) :: statuses(k), errors(k)
       integer(c_int64_t), intent(out) :: failure(5)
       type(fragility_type) :: curve(k)
@@ -96,6 +99,7 @@ contains
 
       curves = 0
       changes = 0
+      covariances = 0
       statuses = 0
       errors = 0
       call check_room(error, reals=8.0_c_double*m*(real(k, c_double)*g + g))
@@ -106,7 +110,10 @@ contains
             statuses(i) = curve(i)%status
          end do
          call ordinal_errors(curve, levels, reached, histories, changes)
-         errors = [(findloc(error_names, curve(i)%errors, dim=1), i=1, k)]
+         do i = 1, k
+            covariances(:, :, i) = curve(i)%covariance
+            errors(i) = findloc(error_names, curve(i)%errors, dim=1)
+         end do
       end if
       call report(error, failure)
    end subroutine fit_ordinal
@@ -132,6 +139,15 @@ contains
       numbers = [curve%b, curve%covariance(1, 1), curve%covariance(1, 2), curve%covariance(2, 2), curve%log_likelihood]
       if (curve%has_fit) done = merge(2, 1, curve%is_clustered)
    end subroutine fit_logit
+
+   !> Compare a parameter of two curves, from their ratio and the changes of its logarithm if each cluster is left out
+   subroutine compare_parameters(ratio, changes, n, degrees, confidence, interval, p_value)
+      integer(c_int), intent(in) :: n
+      real(c_double), intent(in) :: ratio, changes(n), degrees, confidence
+      real(c_double), intent(out) :: interval(2), p_value
+
+      call compare(ratio, changes, degrees, confidence, interval, p_value)
+   end subroutine compare_parameters
 
    !> Probabilities of collapse of a lognormal curve, equation (5) of Nale et al.
    subroutine probability(theta, beta, x, n, p)

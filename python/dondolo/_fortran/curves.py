@@ -37,30 +37,33 @@ def fit_curves(levels: FloatArray, collapses: FloatArray, histories: FloatArray)
 
 def cluster_changes(
     levels: FloatArray, collapses: FloatArray, histories: FloatArray, theta: float, beta: float
-) -> tuple[FloatArray, str]:
-    """Changes (clusters, 2) of ln theta and beta if each cluster is left out, and what standard errors there are.
+) -> tuple[FloatArray, FloatArray, str]:
+    """Changes (clusters, 2) of ln theta and beta if each cluster is left out, covariance, and the kind of errors.
 
     Collapses and histories are (clusters, levels).
     """
-    changes, code, failure = _core.curves.cluster_changes(levels, collapses.T, histories.T, theta, beta)
+    changes, covariance, code, failure = _core.curves.cluster_changes(levels, collapses.T, histories.T, theta, beta)
     check(failure)
-    return changes.T, constants().errors[code - 1]
+    return changes.T, covariance, constants().errors[code - 1]
 
 
 def fit_ordinal(
     levels: FloatArray, reached: FloatArray, histories: FloatArray
-) -> list[tuple[CurveData, FloatArray, str]]:
-    """Curves of damage states with one dispersion: each with its changes, and what standard errors it has.
+) -> list[tuple[CurveData, tuple[FloatArray, FloatArray, str]]]:
+    """Curves of damage states with one dispersion: each with its changes, its covariance, and what errors it has.
 
     Histories that reach each state are (clusters, states, levels), histories (clusters, levels); changes, of ln theta
     and beta if each cluster is left out, (clusters, 2).
     """
     found = _core.curves.fit_ordinal(levels, np.ascontiguousarray(reached).T, np.ascontiguousarray(histories).T)
-    curves, statuses, changes, errors, failure = found
+    curves, statuses, changes, covariances, errors, failure = found
     check(failure)
     names, known = constants().statuses, constants().errors
     return [
-        (CurveData(names[statuses[i] - 1], curves[:, i]), changes[:, i].T.copy(), known[errors[i] - 1])
+        (
+            CurveData(names[statuses[i] - 1], curves[:, i]),
+            (changes[:, i].T.copy(), covariances[:, :, i].copy(), known[errors[i] - 1]),
+        )
         for i in range(reached.shape[1])
     ]
 
@@ -105,6 +108,17 @@ def warnings_of_union(name: str, status: str, theta: float) -> list[DondoloWarni
     """What the executable would warn of, of the curve of one facade or wall with several mechanisms."""
     code = constants().statuses.index(status) + 1
     return unpack_warnings(receive(_core.curves.warn_of_union(as_text("name", name), theta, code)).lines)
+
+
+def compare_parameters(
+    ratio: float, changes: FloatArray, degrees: float, confidence: float
+) -> tuple[tuple[float, float], float]:
+    """Interval of the ratio of a parameter of two curves, and the probability of one as far from 1 if they were equal.
+
+    Changes are those of its logarithm if each cluster is left out.
+    """
+    interval, p_value = _core.curves.compare_parameters(ratio, changes, degrees, confidence)
+    return (float(interval[0]), float(interval[1])), float(p_value)
 
 
 def probability(theta: float, beta: float, x: FloatArray) -> FloatArray:

@@ -1,6 +1,6 @@
 !> Results on their way to Python: tables as columns, and of a case the text of the file of the run.
 module dondolo_results_parcel
-   use, intrinsic :: iso_c_binding, only : c_double, c_int
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
@@ -11,11 +11,11 @@ module dondolo_results_parcel
    use dondolo_case_result_tables, only : list_tables, table_kind_type
    use dondolo_case_results, only : results_type
    use dondolo_case_run_file, only : make_run
-   use dondolo_parcel, only : parcel_type
+   use dondolo_parcel, only : parcel_type, send
    implicit none
    private
 
-   public :: pack_results, pack_table, number_columns
+   public :: pack_results, send_table
 
 contains
 
@@ -91,5 +91,22 @@ contains
          end associate
       end do
    end subroutine pack_table
+
+   !> Send a table, as 'table'
+   subroutine send_table(table, error, sent)
+      type(columns_type), intent(inout) :: table
+      !> Lack of memory: may be that of the table
+      type(error_type), allocatable, intent(inout) :: error
+      integer(c_int64_t), intent(out) :: sent(5)
+
+      type(parcel_type) :: parcel
+
+      if (.not. allocated(error) .and. allocated(table%error)) call move_alloc(table%error, error)
+      if (.not. allocated(error)) then
+         call parcel%expect_series(number_columns(table))
+         call pack_table(table, 'table', parcel)
+      end if
+      call send(parcel, error, sent)
+   end subroutine send_table
 
 end module dondolo_results_parcel

@@ -1,30 +1,27 @@
 !> Tables of results that Python has as objects: their columns are those of the result files.
 !>
-!> Curves come as numbers (13, curves): theta, beta, their naive covariance, logarithm of the likelihood, bracket, covariance,
-!> degrees of freedom and EDP threshold; codes (2, curves): place of the status among the names, and clusters; and of each the
-!> kind of its standard errors among its lines.
+!> Curves come as numbers (13, curves) and codes (2, curves), which as_curve has, and of each the kind of its standard errors among
+!> its lines; the last number is the EDP threshold.
 module tables
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_base_error, only : error_type
    use dondolo_base_lines, only : lines_type
-   use dondolo_boundary, only : check_room, split_lines
+   use dondolo_boundary, only : as_curve, check_room, split_lines
    use dondolo_case_columns, only : columns_type
    use dondolo_case_design_rows, only : put_design
    use dondolo_case_report_rows, only : put_certified, put_fragility, put_history, put_names, put_stripe, put_trace, put_typology, &
       & put_union, put_wall
    use dondolo_case_source_rows, only : put_source
    use dondolo_case_tie_rows, only : put_tally
-   use dondolo_fragility, only : fragility_type
    use dondolo_fragility_tie_tallies, only : tie_tally_type
    use dondolo_interface_handles, only : find_walls
    use dondolo_motion_certificate, only : certified_type
    use dondolo_motion_response, only : response_type, trace_type
-   use dondolo_parcel, only : parcel_type, send
    use dondolo_population_designs, only : design_type
    use dondolo_population_typology, only : typology_type
    use dondolo_population_unions, only : union_type
    use dondolo_population_wall_row, only : wall_row_type
-   use dondolo_results_parcel, only : number_columns, pack_table
+   use dondolo_results_parcel, only : send_table
    use dondolo_wall, only : wall_type
    implicit none
    private
@@ -152,7 +149,7 @@ contains
          do i = 1, k
             associate (line => words%line(4*i - 3:4*i))
                call put_names(table, line(1)%text, line(2)%text)
-               call put_fragility(table, line(3)%text, curve_of(curves(:, i), codes(:, i), line(4)%text), curves(13, i))
+               call put_fragility(table, line(3)%text, as_curve(curves(:, i), codes(:, i), line(4)%text), curves(13, i))
                call table%end_row()
             end associate
          end do
@@ -180,7 +177,7 @@ contains
          do i = 1, k
             typology%mechanism = words%line(3*i - 2)%text
             typology%group = words%line(3*i - 1)%text
-            typology%fit = curve_of(curves(:, i), codes(:, i), words%line(3*i)%text)
+            typology%fit = as_curve(curves(:, i), codes(:, i), words%line(3*i)%text)
             typology%weight = sums(1, i)
             typology%beta_walls = sums(2, i)
             typology%beta_records = sums(3, i)
@@ -224,8 +221,8 @@ contains
                union%collapses = counts(:, 2:2, i)
                union%fraction = counts(:, 3:3, i)
                union%independent = counts(:, 4:4, i)
-               union%curve = [curve_of(curves(:, 1, i), codes(:, 1, i), line(3)%text)]
-               union%product = [curve_of(curves(:, 2, i), codes(:, 2, i), line(4)%text)]
+               union%curve = [as_curve(curves(:, 1, i), codes(:, 1, i), line(3)%text)]
+               union%product = [as_curve(curves(:, 2, i), codes(:, 2, i), line(4)%text)]
             end associate
             do j = 1, m
                call put_union(table, union, im, levels(j), j, 1, curves(13, 1, i))
@@ -284,7 +281,7 @@ contains
       do i = 1, k
          associate (design => designs(i))
             design%name = words%line(2*i - 1)%text
-            design%curve = curve_of(curves(:, i), codes(:, i), words%line(2*i)%text)
+            design%curve = as_curve(curves(:, i), codes(:, i), words%line(2*i)%text)
             design%steel = numbers(1, i)
             design%alpha_0 = numbers(2, i)
             design%is_compared = numbers(3, i) > 0.0_c_double
@@ -314,8 +311,8 @@ contains
       call split_lines(texts, words)
       do i = 1, k
          associate (line => words%line(4*i - 3:4*i))
-            call put_source(table, line(1)%text, line(2)%text, values(:, i), [curve_of(curves(:, 1, i), codes(:, 1, i), &
-               & line(3)%text), curve_of(curves(:, 2, i), codes(:, 2, i), line(4)%text)], indices(:, i), &
+            call put_source(table, line(1)%text, line(2)%text, values(:, i), [as_curve(curves(:, 1, i), codes(:, 1, i), &
+               & line(3)%text), as_curve(curves(:, 2, i), codes(:, 2, i), line(4)%text)], indices(:, i), &
                & .not. any(indices(:, i) /= indices(:, i)))
             call table%end_row()
          end associate
@@ -345,40 +342,5 @@ contains
       end if
       call send_table(table, error, sent)
    end subroutine trace_table
-
-   !> A curve out of its numbers, its codes and its kind of errors
-   pure type(fragility_type) function curve_of(numbers, codes, errors) result(curve)
-      real(c_double), intent(in) :: numbers(:)
-      integer(c_int), intent(in) :: codes(:)
-      character(len=*), intent(in) :: errors
-
-      curve%theta = numbers(1)
-      curve%beta = numbers(2)
-      curve%naive = reshape(numbers([3, 4, 4, 5]), [2, 2])
-      curve%log_likelihood = numbers(6)
-      curve%bracket = numbers(7:8)
-      curve%covariance = reshape(numbers([9, 10, 10, 11]), [2, 2])
-      curve%degrees_of_freedom = numbers(12)
-      curve%status = codes(1)
-      curve%clusters = codes(2)
-      curve%errors = errors
-   end function curve_of
-
-   !> Send a table
-   subroutine send_table(table, error, sent)
-      type(columns_type), intent(inout) :: table
-      !> Lack of memory: may be that of the table
-      type(error_type), allocatable, intent(inout) :: error
-      integer(c_int64_t), intent(out) :: sent(5)
-
-      type(parcel_type) :: parcel
-
-      if (.not. allocated(error) .and. allocated(table%error)) call move_alloc(table%error, error)
-      if (.not. allocated(error)) then
-         call parcel%expect_series(number_columns(table))
-         call pack_table(table, 'table', parcel)
-      end if
-      call send(parcel, error, sent)
-   end subroutine send_table
 
 end module tables

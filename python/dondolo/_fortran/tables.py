@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from dondolo._base.arguments import FloatArray
 from dondolo._fortran import _core
+from dondolo._fortran.checks import SiteInput
 from dondolo._fortran.files import INTEGER, REAL, TEXT, Column
 from dondolo._fortran.handles import Handle
 from dondolo._fortran.library import Parcel, constants, receive
@@ -162,6 +163,12 @@ def design_columns(
     """Columns of ``_designs.csv``: steel, alpha_0, ratio with its bounds and its probability, NaN for none."""
     words = (word for name, curve in zip(names, curves, strict=True) for word in (name, curve.errors))
     return _receive(_core.tables.design_table(_lines(words), im.encode(), *_flat(curves), np.nan_to_num(numbers)))
+
+
+def check_columns(walls: Handle, site: SiteInput, im: str, curves: Sequence[FlatCurve]) -> TableColumns:
+    """Columns of ``_checks.csv`` of walls without groups, with their curves of collapse."""
+    kinds = _lines(curve.errors for curve in curves)
+    return _receive(_core.checks.check_table(walls.number, *site, im.encode(), kinds, *_flat(curves)))
 
 
 def source_columns(

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 
 from dondolo._base.arguments import as_flag
 from dondolo._base.files import as_file
-from dondolo._fortran.files import RUN_FILE, Column, result_set
+from dondolo._fortran.files import RUN_FILE, TABLES, Column, result_set
 from dondolo._fortran.library import warn
 from dondolo._fortran.origins import check_replaced, outdated, replaced
 from dondolo._fortran.records import unit_of
@@ -44,8 +44,8 @@ def write_set(
     notes = replaced(start)
     comments = _comments(run)
     with result_set(start) as files:
-        for name, columns in tables.items():
-            files.write(name, columns, comments, spreadsheet_safe=is_safe)
+        for name in sorted(tables, key=TABLES.index):
+            files.write(name, tables[name], comments, spreadsheet_safe=is_safe)
         files.publish(dataclasses.replace(run, run=files.run, files=tuple(files.written)).to_json())
     for code, sentences in (("results_replaced", notes), ("out_of_date", outdated(start))):
         warn(DondoloWarning(sentence, code, {"results": str(start)}) for sentence in sentences)

@@ -106,7 +106,7 @@ class RunFile:
     files : tuple of Written
         The tables of the set.
     confidence : float
-        Of the intervals in the tables; NaN where Python wrote them, whose tables have none.
+        Of the intervals in the tables; NaN where Python wrote them, but for designs.
     content : mapping
         All that the file has; empty for results that are in none.
     """
@@ -166,6 +166,8 @@ class RunFile:
         content["files"] = [file._asdict() for file in self.files]
         if self.work:
             content["work"] = self.work
+        if math.isfinite(self.confidence):
+            content["standard_errors"] = {"confidence": self.confidence}
         content |= {"notes": self.notes, "warnings": [one.as_data() for one in self.warnings]}
         return _text_of(content)
 

@@ -17,6 +17,7 @@ from dondolo._base.shown import Shown
 from dondolo._fortran.checks import (
     CalculationItem,
     SheetRow,
+    SiteInput,
     calculation_items,
     check_notes,
     dynamic_sheet,
@@ -233,6 +234,16 @@ class CodeCheck(Shown, Saved):
     def to_csv(self, path: str | os.PathLike[str]) -> None:
         """Write the sheet as the executable's ``_check.csv``."""
         tables.write_csv(path, self._table())
+
+    def _settings(self) -> tuple[dict[str, Any], SiteInput]:
+        """The group &check of a case with this site and these factors, and the same as Fortran takes it."""
+        factors = {
+            "knowledge_factor": self.value("mechanism", "", "knowledge_factor"),
+            "behaviour": self.value("linear", "SLV", "behaviour"),
+        }
+        site = self.site
+        hazard = {name: np.atleast_1d(getattr(site, name)).tolist() for name in ("ag", "f0", "tc_star")}
+        return {**hazard, "soil": site.soil, "topography": site.topography, **factors}, site._input(**factors)
 
     def _table(self) -> tables.Table:
         return {name: [getattr(row, name) for row in self.rows] for name in SheetRow._fields}

@@ -98,13 +98,15 @@ def errors_of_counts(
     at: tuple[float, float],
 ) -> Errors:
     """Standard errors of a curve with parameters (theta, beta), from counts (clusters, levels) of each cluster."""
-    changes, errors = cluster_changes(levels, collapses, histories, *at)
-    return errors_of_changes(kind, labels, changes, errors)
+    return errors_of_changes(kind, labels, *cluster_changes(levels, collapses, histories, *at))
 
 
-def errors_of_changes(kind: str, labels: Sequence[str], changes: FloatArray, errors: str) -> Errors:
+def errors_of_changes(
+    kind: str, labels: Sequence[str], changes: FloatArray, covariance: FloatArray, errors: str
+) -> Errors:
     """Standard errors from the changes (clusters, 2) if each cluster is left out, or why there are none."""
     if errors != "clustered":
         return no_errors(errors, len(labels))
     changes.flags.writeable = False
-    return errors_of_parts([Clusters(kind, tuple(labels), changes)])
+    parts = (Clusters(kind, tuple(labels), changes),)
+    return Errors(covariance, "clustered", len(labels), float(len(labels) - 1), parts)

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, tails, wrong_type
+from dondolo._base.arguments import FloatArray, wrong_type
 from dondolo._base.shown import Shown
+from dondolo._fortran.curves import compare_parameters
 from dondolo._storage.saved import Saved
 from dondolo.curves.clusters import freedom
 from dondolo.curves.curve import Curve
@@ -90,10 +91,9 @@ def compare(one: Curve, other: Curve, *, confidence: float = 0.95) -> Comparison
     # In ln theta and ln beta
     scales = np.array([1.0, 1.0 / first.beta]), np.array([1.0, 1.0 / second.beta])
     if first.errors == "naive":
-        covariance = sum(
-            np.outer(scale, scale) * curve.covariance for curve, scale in zip((first, second), scales, strict=True)
-        )
-        return _comparison(first, second, ("naive", 0), np.asarray(covariance), (np.inf, np.inf), confidence)
+        roots = (np.diag(scale) @ _root(curve.covariance) for curve, scale in zip((first, second), scales, strict=True))
+        changes = np.hstack(list(roots)).T
+        return _comparison(first, second, ("naive", 0), changes, (np.inf, np.inf), confidence)
     parts: list[tuple[FloatArray, int]] = []
     pairing, shared = "unpaired", 0
     for kind in dict.fromkeys(part.kind for curve in (first, second) for part in curve.parts):
@@ -112,55 +112,56 @@ def compare(one: Curve, other: Curve, *, confidence: float = 0.95) -> Comparison
             # No more degrees of freedom than the curve with fewer clusters has
             parts.append((_joint(several), min(len(labels) for labels, _ in several) - 1))
         else:
-            parts += [(changes.T @ changes, len(labels) - 1) for labels, changes in several]
-    covariance = np.sum([part for part, _ in parts], axis=0)
-    degrees = [freedom([(float(part[i, i]), number) for part, number in parts]) for i in range(2)]
-    return _comparison(first, second, (pairing, shared), covariance, degrees, confidence)
+            parts += [(changes, len(labels) - 1) for labels, changes in several]
+    variances = [(np.square(part).sum(axis=0), number) for part, number in parts]
+    degrees = [freedom([(float(own[i]), number) for own, number in variances]) for i in range(2)]
+    changes = np.concatenate([part for part, _ in parts])
+    return _comparison(first, second, (pairing, shared), changes, degrees, confidence)
+
+
+def _root(covariance: FloatArray) -> FloatArray:
+    """A matrix whose product with its transpose is a covariance."""
+    values, vectors = np.linalg.eigh(covariance)
+    root: FloatArray = vectors * np.sqrt(np.maximum(values, 0.0))
+    return root
 
 
 def _joint(several: Sequence[tuple[tuple[str, ...], FloatArray]]) -> FloatArray:
-    """Covariance of a sum of changes, of which those of the same cluster come together."""
+    """Sum of changes, of which those of the same cluster come together."""
     place = {
         label: number for number, label in enumerate(dict.fromkeys(one for labels, _ in several for one in labels))
     }
     changes = np.zeros((len(place), 2))
     for labels, own in several:
         changes[[place[label] for label in labels]] += own
-    covariance: FloatArray = changes.T @ changes
-    return covariance
+    return changes
 
 
 def _comparison(
     first: Fragility,
     second: Fragility,
     pairing: tuple[str, int],
-    covariance: FloatArray,
+    changes: FloatArray,
     degrees: Sequence[float],
     confidence: float,
 ) -> Comparison:
-    from scipy.special import stdtr, stdtrit
-
-    difference = np.log([first.theta / second.theta, first.beta / second.beta])
-    found: list[tuple[float, Interval, float]] = []
-    for value, variance, freedom_ in zip(difference, np.diag(covariance), degrees, strict=True):
-        # Student's t with more than 1e15 degrees of freedom is the normal distribution to rounding.
-        number = min(freedom_, 1e15)
-        error = float(np.sqrt(variance))
-        half = float(stdtrit(number, tails(confidence)[1])) * error
-        # Curves of the same histories do not differ at all.
-        p_value = float(2.0 * stdtr(number, -abs(value) / error)) if error > 0.0 else float(value == 0.0)
-        found.append((float(np.exp(value)), (float(np.exp(value - half)), float(np.exp(value + half))), p_value))
-    (ratio, interval, p_value), (beta_ratio, beta_interval, beta_p_value) = found
+    """A comparison from the changes (clusters, 2) of the logarithms of both ratios if each cluster is left out."""
+    ratios = np.array([first.theta / second.theta, first.beta / second.beta])
+    found = [
+        compare_parameters(ratio, np.ascontiguousarray(own), number, confidence)
+        for ratio, own, number in zip(ratios.tolist(), changes.T, degrees, strict=True)
+    ]
+    (interval, p_value), (beta_interval, beta_p_value) = found
     return Comparison(
         pairing=pairing[0],
         shared=pairing[1],
-        ratio=ratio,
+        ratio=float(ratios[0]),
         ratio_interval=interval,
         p_value=p_value,
-        beta_ratio=beta_ratio,
+        beta_ratio=float(ratios[1]),
         beta_interval=beta_interval,
         beta_p_value=beta_p_value,
-        curves_p_value=_hotelling(difference, covariance, min(degrees)),
+        curves_p_value=_hotelling(np.log(ratios), changes.T @ changes, min(degrees)),
         degrees_of_freedom=degrees[0],
     )
 

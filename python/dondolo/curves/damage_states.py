@@ -40,10 +40,8 @@ def fit_states(samples: Sequence[Sample], thresholds: Sequence[float], **origin:
     reached = np.stack([one[ran] for one, _ in counts], axis=1)
     found = []
     fits = fit_ordinal(first.levels, reached, histories[ran])
-    for i, (threshold, (data, changes, errors)) in enumerate(zip(thresholds, fits, strict=True)):
+    for i, (threshold, (data, errors)) in enumerate(zip(thresholds, fits, strict=True)):
         numbers = reached[:, i].sum(axis=0), histories.sum(axis=0)
         curve = curve_of(data, first.levels, *numbers, edp_threshold=threshold, **origin)
-        found.append(
-            with_errors(curve, errors_of_changes("records", kept, changes, errors)) if curve.has_fit else curve
-        )
+        found.append(with_errors(curve, errors_of_changes("records", kept, *errors)) if curve.has_fit else curve)
     return tuple(found)

@@ -48,6 +48,7 @@ def stored_designs(typology: Typology, table: Columns, run: RunFile) -> DesignCo
         alpha_0=table.numbers("alpha_0_g"),
         confidence=run.confidence,
         checks=complete_checks(checks_of_run(typology.walls, run)),
+        typology=typology,
     )
 
 

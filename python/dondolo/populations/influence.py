@@ -85,7 +85,7 @@ def _of_row(
     """Change of sum(slope * P(x)) of a row if each cluster is left out; counts and part are (clusters, levels)."""
     theta, beta = float(members.theta[row]), float(members.beta[row])
     if np.isfinite(theta):
-        moved, errors = cluster_changes(members.levels, counts, part, theta, beta)
+        moved, _, errors = cluster_changes(members.levels, counts, part, theta, beta)
         if errors == "clustered":
             z = np.log(x / theta) / beta
             density = slope * np.exp(-0.5 * z**2) / (np.sqrt(2.0 * np.pi) * beta)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import functools
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -590,24 +590,25 @@ class Typology(Shown, Saved):
         DondoloWarning
             Whose results are replaced, and which reports, workbooks and figures are out of date.
         """
-        self._write(prefix, {}, {}, spreadsheet_safe)
+        self._write(prefix, spreadsheet_safe)
 
     def _write(
         self,
         prefix: str | os.PathLike[str],
-        more: dict[str, TableColumns],
-        settings: dict[str, dict[str, Any]],
         spreadsheet_safe: bool,
+        more: Mapping[str, TableColumns] | None = None,
+        settings: Mapping[str, dict[str, Any]] | None = None,
+        confidence: float = np.nan,
     ) -> None:
-        """Write all tables and some more, with the settings of these."""
+        """Write all tables and some more, with the settings and the confidence of these."""
         pulls = {wall.gravity for wall in self.walls}
         if len(pulls) > 1:
             raise InputError(
                 f"gravity = {min(pulls):g} and {max(pulls):g}: must be the same for all walls that are saved"
             )
-        found = {f"_{name}.csv": table() for name, table in self._tables().items()} | more
+        found = {f"_{name}.csv": table() for name, table in self._tables().items()} | dict(more or {})
         run = self._run_file(pulls.pop())
-        run = dataclasses.replace(run, settings={**run.settings, **settings})
+        run = dataclasses.replace(run, settings={**run.settings, **(settings or {})}, confidence=confidence)
         write_set(prefix, found, run, spreadsheet_safe=spreadsheet_safe)
 
     def _shape(self) -> dict[str, int]:

@@ -190,7 +190,7 @@ class UncertainWall(tables.Tabular, Saved):
         DondoloError
             A file cannot be written.
         """
-        self.typology._write(prefix, {"_sources.csv": self._columns()}, {"uncertainty": {}}, spreadsheet_safe)
+        self.typology._write(prefix, spreadsheet_safe, {"_sources.csv": self._columns()}, {"uncertainty": {}})
 
     def _comments(self) -> list[str]:
         return [f"unit of theta: {blank_unit(self.im).strip() or '1'}", *tables.lines_of(self._facts())]

@@ -94,9 +94,9 @@ _COLUMNS: dict[str, _Shown] = {
     "ratio_low": _Shown("from", _three),
     "ratio_high": _Shown("to", _three),
     "p_value": _Shown("p of no difference", _two),
-    "steel": _Shown("steel [kg/m]", _three),
+    "steel_kg_m": _Shown("steel [kg/m]", _three),
     "gain_per_kg": _Shown("gain per kg/m", percent),
-    "alpha_0": _Shown((Symbol("α", "0"), " [g]"), number),  # noqa: RUF001
+    "alpha_0_g": _Shown((Symbol("α", "0"), " [g]"), number),  # noqa: RUF001
     "static_ratio": _Shown("its ratio", _three),
     # Sources of uncertainty
     "source": _Shown("source", str, True),

@@ -24,7 +24,7 @@ from dondolo.retrofit.designs import DesignComparison
 
 # Columns of the comparison
 _COMPARED = (
-    "design", "theta", "beta", "ratio", "ratio_low", "ratio_high", "p_value", "steel", "gain_per_kg", "alpha_0",
+    "design", "theta", "beta", "ratio", "ratio_low", "ratio_high", "p_value", "steel_kg_m", "gain_per_kg", "alpha_0_g",
     "static_ratio",
 )  # fmt: skip
 # Designs of a table of levels: what fits across a page

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,27 +12,37 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_number, instance_of, tails
 from dondolo._fortran.records import blank_unit
+from dondolo._fortran.tables import TableColumns, check_columns, design_columns, plain
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.request import Polarity
 from dondolo.analysis.solver import Solver
 from dondolo.analysis.stripe_runs import Study
 from dondolo.analysis.stripes import Stripes
+from dondolo.analysis.work import Work
 from dondolo.checks.ntc import CodeCheck, check_ntc
 from dondolo.curves.comparison import Comparison
 from dondolo.curves.fragility import Fragility
+from dondolo.curves.table import flat
 from dondolo.errors import InputError, silent
+from dondolo.populations.combination import combine_rows
+from dondolo.populations.flags import Flags
+from dondolo.populations.typology import Typology
 from dondolo.records.codes import Site
 from dondolo.records.record import Record
 from dondolo.records.record_set import lasting
 from dondolo.walls.parts import parts_of
-from dondolo.walls.wall import Wall
+from dondolo.walls.population import Population
+from dondolo.walls.wall import Wall, upload
 
 if TYPE_CHECKING:
     from dondolo.figures.style import Panels
 
 # Checks that are shown beside the curves: method and limit state
 _CHECKS = (("linear", "SLV"), ("nonlinear", "SLV"))
+
+# Of the intervals of the files
+_CONFIDENCE = 0.95
 
 # Of steel [kg/m3]
 _DENSITY = 7850.0
@@ -60,6 +71,8 @@ class DesignComparison(tables.Tabular, Saved):
         Of the intervals.
     checks : tuple of CodeCheck
         The kinematic check of each at the site, by `check_ntc`; empty without a site.
+    typology : Typology or None
+        The designs as alternatives, with the counts and curves of all; None where they have levels of their own.
     """
 
     names: tuple[str, ...]
@@ -70,6 +83,7 @@ class DesignComparison(tables.Tabular, Saved):
     alpha_0: FloatArray
     confidence: float
     checks: tuple[CodeCheck, ...] = ()
+    typology: Typology | None = None
 
     @property
     def im(self) -> str:
@@ -119,21 +133,44 @@ class DesignComparison(tables.Tabular, Saved):
 
         return draw_designs(self, ax)
 
+    def write_results(self, prefix: str | os.PathLike[str], *, spreadsheet_safe: bool = False) -> None:
+        """Write all tables into files of the names that the executable gives them, as `Typology.write_results`.
+
+        `read_results` gives the same, but for `stripes`, and in its `comparisons` the ratios of the medians alone.
+
+        Parameters
+        ----------
+        prefix, spreadsheet_safe
+            As for `Typology.write_results`.
+
+        Raises
+        ------
+        InputError
+            Designs with levels of their own, or intervals of another confidence than 95 %, for which the files have no
+            place; another run is writing them, or a file of the same name is not a result of dondolo.
+        DondoloError
+            A file cannot be written.
+        """
+        if self.typology is None:
+            raise InputError("levels: designs with levels of their own have no place in the files of results")
+        if self.confidence != _CONFIDENCE:
+            raise InputError(f"confidence = {self.confidence:g}: must be {_CONFIDENCE:g} in the files of results")
+        more, settings = {"_designs.csv": self._columns()}, {}
+        if self.checks:
+            settings["check"], site = self.checks[0]._settings()
+            curves = [flat(curve) for curve in self.curves]
+            more["_checks.csv"] = check_columns(upload(self.typology.walls), site, self.im, curves)
+        self.typology._write(prefix, spreadsheet_safe, more, settings, self.confidence)
+
+    def _columns(self) -> TableColumns:
+        """Columns of ``_designs.csv``."""
+        p_value = np.array([np.nan if one is None else one.p_value for one in self.comparisons])
+        numbers = [self.steel, self.alpha_0, self.ratio, *self.ratio_interval.T, p_value]
+        return design_columns(self.names, self.im, [flat(curve) for curve in self.curves], numbers)
+
     def _table(self) -> tables.Table:
-        low, high = self.ratio_interval.T
         return {
-            "design": list(self.names),
-            "theta": [curve.theta for curve in self.curves],
-            "beta": [curve.beta for curve in self.curves],
-            "se_ln_theta": [curve.se_ln_theta for curve in self.curves],
-            "ratio": self.ratio,
-            "ratio_low": low,
-            "ratio_high": high,
-            "p_value": [np.nan if one is None else one.p_value for one in self.comparisons],
-            "steel": self.steel,
-            "gain_per_kg": self.gain_per_kg,
-            "alpha_0": self.alpha_0,
-            "static_ratio": self.static_ratio,
+            **plain(self._columns()),
             **{
                 f"{method}_{state.lower()}": [check.capacities[method, state] for check in self.checks]
                 for method, state in _CHECKS
@@ -234,6 +271,7 @@ def compare_designs(
     alike = {id(grid): Study(several, grid, **given) for grid in grids}  # type: ignore[arg-type]
     stripes = tuple(alike[id(grid)].run(wall, progress=progress) for wall, grid in zip(walls, grids, strict=True))
     curves = tuple(one.fit() for one in stripes)
+    has_levels = all(np.array_equal(one.levels, stripes[0].levels) for one in stripes)
     return DesignComparison(
         names=names,
         stripes=stripes,
@@ -243,7 +281,28 @@ def compare_designs(
         alpha_0=np.array([wall.plastic_acceleration / wall.gravity for wall in walls]),
         confidence=float(confidence),
         checks=checks,
+        typology=_alternatives(names, stripes) if has_levels else None,
     )
+
+
+def _alternatives(names: Sequence[str], stripes: Sequence[Stripes]) -> Typology:
+    """The designs as the walls of a typology, under their names."""
+    first = stripes[0]
+    runs = np.asarray(first.ran.reshape(len(first), -1, first.n_records).any(axis=1).T, dtype=np.float64)
+    sizes = np.array([len(one.record_names) for one in stripes], dtype=np.int32)
+    bits = np.concatenate([np.packbits(one.collapsed & one.ran) for one in stripes])
+    typology = combine_rows(
+        Population(tuple(one.wall._renamed(name) for name, one in zip(names, stripes, strict=True))),
+        first.im,
+        first.levels,
+        np.array([first.edp_limit]),
+        np.array([one.collapses for one in stripes], dtype=np.int32).T[None],
+        np.array([one.histories for one in stripes], dtype=np.int32).T,
+        Work.total(work for one in stripes for work in one.runs.values()),
+        Flags(sizes, len(first), 1, runs, first._sample().clusters, bits),
+        are_alternatives=True,
+    )
+    return replace(typology, ties=tuple(one.ties for one in stripes))
 
 
 def _known(designs: Mapping[str, Wall], given: object, what: str) -> Iterable[str]:

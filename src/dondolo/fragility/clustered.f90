@@ -13,6 +13,7 @@
 module dondolo_fragility_clustered
    use dondolo_base_kinds, only : wp
    use dondolo_base_lapack, only : solve_symmetric
+   use dondolo_base_normal, only : normal_quantile
    use dondolo_base_student, only : student_quantile
    use dondolo_fragility, only : fragility_type, mills, normal_cdf
    implicit none
@@ -141,9 +142,11 @@ contains
 
       real(wp) :: quantile, half
 
-      ! Beyond so many degrees of freedom the quantile is that of the normal distribution.
-      quantile = student_quantile(0.5_wp*(1.0_wp + confidence), &
-         & merge(1.0e5_wp, curve%degrees_of_freedom, curve%errors == 'naive'))
+      if (curve%errors == 'naive') then
+         quantile = normal_quantile(0.5_wp*(1.0_wp + confidence))
+      else
+         quantile = student_quantile(0.5_wp*(1.0_wp + confidence), curve%degrees_of_freedom)
+      end if
       bounds(:, 1) = curve%theta*exp(quantile*curve%se_ln_theta()*[-1.0_wp, 1.0_wp])
       half = quantile*curve%se_beta()/curve%beta
       bounds(1, 2) = curve%beta/(1.0_wp + half)

@@ -6,9 +6,9 @@
 !> less than there are clusters.
 module dondolo_population_designs
    use dondolo_base_kinds, only : wp
-   use dondolo_base_student, only : student_cdf, student_quantile
    use dondolo_fragility, only : fragility_type
    use dondolo_fragility_clustered, only : confidence
+   use dondolo_fragility_ratio, only : compare_parameters
    use dondolo_wall, only : wall_type
    use dondolo_wall_tie_statics, only : plastic_acceleration
    implicit none
@@ -78,7 +78,7 @@ contains
       !> Designs with their curves and their changes
       type(design_type), intent(inout) :: designs(:)
 
-      real(wp) :: difference, error, half
+      real(wp) :: interval(2)
       integer :: i
 
       associate (first => designs(1))
@@ -88,16 +88,10 @@ contains
                   & .and. design%curve%has_fit() .and. first%curve%has_fit()
                if (.not. design%is_compared) cycle
                design%ratio = design%curve%theta/first%curve%theta
-               difference = log(design%ratio)
-               error = norm2(design%change - first%change)
-               associate (degrees => min(design%curve%degrees_of_freedom, first%curve%degrees_of_freedom))
-                  half = student_quantile(0.5_wp*(1.0_wp + confidence), degrees)*error
-                  ! Curves of the same histories do not differ at all.
-                  design%p_value = merge(1.0_wp, 0.0_wp, .not. abs(difference) > 0.0_wp)
-                  if (error > 0.0_wp) design%p_value = 2.0_wp*student_cdf(-abs(difference)/error, degrees)
-               end associate
-               design%low = exp(difference - half)
-               design%high = exp(difference + half)
+               call compare_parameters(design%ratio, design%change - first%change, min(design%curve%degrees_of_freedom, &
+                  & first%curve%degrees_of_freedom), confidence, interval, design%p_value)
+               design%low = interval(1)
+               design%high = interval(2)
             end associate
          end do
       end associate

@@ -1,8 +1,8 @@
 !> Distributions of an uncertain property, as a case says them: 'triangular(0.5, 0.6, 0.75)'.
 module dondolo_population_distribution
-   use dondolo_base_bracket, only : bracket_type
    use dondolo_base_error, only : error_type, raise_input
    use dondolo_base_kinds, only : wp
+   use dondolo_base_normal, only : normal_cdf, normal_quantile
    use dondolo_base_numbers, only : parse_real
    use dondolo_base_text, only : join, lower, rounded, to_text
    use dondolo_wall_restitution, only : published_factors
@@ -160,32 +160,5 @@ contains
          if (self%kind == 'lognormal') ends = normal_cdf(log(p(3:4)/p(1))/p(2))
       end associate
    end function ends
-
-   !> Distribution function of the standard normal distribution
-   elemental real(wp) function normal_cdf(x)
-      real(wp), intent(in) :: x
-
-      normal_cdf = 0.5_wp*erfc(-x/sqrt(2.0_wp))
-   end function normal_cdf
-
-   !> Quantile of the standard normal distribution, by halving: to rounding of the distribution function
-   pure real(wp) function normal_quantile(p) result(x)
-      !> Probability, between 0 and 1
-      real(wp), intent(in) :: p
-
-      !> Beyond which there is nothing in double precision
-      real(wp), parameter :: furthest = 40.0_wp
-      type(bracket_type) :: bracket
-      real(wp) :: tail
-
-      ! The smaller tail keeps its digits
-      tail = min(p, 1.0_wp - p)
-      bracket%first = -furthest
-      do while (bracket%is_divisible())
-         call bracket%halve(normal_cdf(bracket%middle()) < tail)
-      end do
-      x = bracket%middle()
-      if (p > 0.5_wp) x = -x
-   end function normal_quantile
 
 end module dondolo_population_distribution

@@ -3,9 +3,9 @@ module dondolo_case_check_rows
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : lower
-   use dondolo_case, only : case_type
    use dondolo_case_table, only : table_type
    use dondolo_check_calculation, only : is_given, item_type
+   use dondolo_check_input, only : check_input_type
    use dondolo_check_kinematic, only : kinematic_type, new_kinematic
    use dondolo_check_ntc_check, only : check_ntc
    use dondolo_check_sheet, only : sheet_type
@@ -15,7 +15,7 @@ module dondolo_case_check_rows
    implicit none
    private
 
-   public :: check_wall, put_check, put_item, put_sheet_row, verdicts_type
+   public :: check_wall, count_verdict, put_check, put_item, put_sheet_row, verdicts_type
    public :: check_methods, check_states, shown_verdicts
 
    !> The kinematic checks: method and limit state
@@ -50,10 +50,12 @@ module dondolo_case_check_rows
 
 contains
 
-   !> The kinematic check of a wall of a case that has one
-   subroutine check_wall(case, wall, sheet, error, curve)
-      type(case_type), intent(in) :: case
+   !> The kinematic check of a wall at a site
+   subroutine check_wall(wall, site, im, sheet, error, curve)
       type(wall_type), intent(in) :: wall
+      type(check_input_type), intent(in) :: site
+      !> Intensity measure of the curve
+      character(len=*), intent(in) :: im
       type(sheet_type), intent(out) :: sheet
       !> The wall cannot be checked so
       type(error_type), allocatable, intent(out) :: error
@@ -64,33 +66,28 @@ contains
 
       call new_kinematic(kinematic, wall, error)
       if (allocated(error)) return
-      if (case%stripes%scaling%name == 'pga') then
-         call check_ntc(sheet, kinematic, case%check, curve)
+      if (im == 'pga') then
+         call check_ntc(sheet, kinematic, site, curve)
       else
-         call check_ntc(sheet, kinematic, case%check)
+         call check_ntc(sheet, kinematic, site)
       end if
    end subroutine check_wall
 
    !> The check of a row of a population; why there is none in its last cell
-   subroutine put_check(table, case, row, curve, verdicts)
+   subroutine put_check(table, group, sheet, error)
       class(table_type), intent(inout) :: table
-      type(case_type), intent(in) :: case
-      type(wall_row_type), intent(in) :: row
-      !> Its curve of collapse
-      type(fragility_type), intent(in) :: curve
-      !> Counts the row
-      type(verdicts_type), intent(inout) :: verdicts
+      !> Group of the wall
+      character(len=*), intent(in) :: group
+      type(sheet_type), intent(in) :: sheet
+      !> Why there is no sheet
+      type(error_type), allocatable, intent(in) :: error
 
-      type(sheet_type) :: sheet
-      type(error_type), allocatable :: error
       character(len=:), allocatable :: note, name
       integer :: i
 
-      call check_wall(case, row%wall, sheet, error, curve)
       note = ''
       if (allocated(error)) note = error%message
-      call count_verdict(verdicts, row, sheet, .not. allocated(error))
-      call table%put('group', row%group)
+      call table%put('group', group)
       call put_value('alpha_0', 'mechanism', '', 'alpha_0')
       call put_value('mass_ratio', 'mechanism', '', 'mass_ratio')
       call put_value('d_0_m', 'mechanism', '', 'd_0')

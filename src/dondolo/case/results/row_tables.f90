@@ -3,12 +3,13 @@
 module dondolo_case_row_tables
    use dondolo_base_error, only : error_type
    use dondolo_case, only : case_type
-   use dondolo_case_check_rows, only : put_check, verdicts_type
+   use dondolo_case_check_rows, only : check_wall, count_verdict, put_check, verdicts_type
    use dondolo_case_job_group, only : stripes_task, typology_task
    use dondolo_case_report_rows, only : put_certified, put_fragility, put_history, put_names, put_stripe, put_wall
    use dondolo_case_results, only : results_type, row_counts_type
    use dondolo_case_table, only : table_type
    use dondolo_case_tie_rows, only : put_tally
+   use dondolo_check_sheet, only : sheet_type
    use dondolo_fragility_stripes, only : mark_lifts, plan_stripes, stripes_type
    use dondolo_fragility_study, only : study_type
    use dondolo_population_reader, only : population_reader_type
@@ -229,8 +230,13 @@ contains
       class(table_type), intent(inout) :: table
       type(error_type), allocatable, intent(out) :: error
 
+      type(sheet_type) :: sheet
+      type(error_type), allocatable :: reason
+
       call put_names(table, row%wall%name(), row%wall%mechanism_name())
-      call put_check(table, case, row, counts%curve(size(counts%curve)), verdicts)
+      call check_wall(row%wall, case%check, case%stripes%scaling%name, sheet, reason, counts%curve(size(counts%curve)))
+      call count_verdict(verdicts, row, sheet, .not. allocated(reason))
+      call put_check(table, row%group, sheet, reason)
       call table%end_row()
    end subroutine put_check_row
 

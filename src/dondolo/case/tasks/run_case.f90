@@ -169,7 +169,8 @@ contains
       call warn_of_fit(case%wall, stripes, results%row%curve(size(study%thresholds)), results%warnings)
       call warn_of_errors(stripes, case%suite%records, study%solver%edp_limit, results%warnings)
       if (allocated(case%check)) then
-         call check_wall(case, case%wall, results%check, error, results%row%curve(size(study%thresholds)))
+         call check_wall(case%wall, case%check, case%stripes%scaling%name, results%check, error, &
+            & results%row%curve(size(study%thresholds)))
          if (.not. allocated(error)) call check_stripes(case, stripes, results%check, error, team)
          if (.not. allocated(error)) call check_interrupt(error)
          if (allocated(error)) return
