@@ -35,7 +35,7 @@ def seconds(population: dd.Population, records: list[dd.Record], executor: Execu
 
 def main(runs: int = 5, blocks: int = 8) -> None:
     """Time all kinds of runs and print a table."""
-    warnings.simplefilter("ignore", dd.DondoloWarning)
+    warnings.simplefilter("ignore", dd.errors.DondoloWarning)
     records = dd.read_catalogue(ROOT / "data/records/synthetic44.csv")
     heights = np.random.default_rng(0).uniform(1.5, 4.5, WALLS * blocks)
     population = dd.Population([dd.OneSidedWall(h, 0.25, name=f"wall {i}") for i, h in enumerate(heights)])

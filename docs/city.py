@@ -42,7 +42,7 @@ SAMPLES = 50 if QUICK else 1000
 
 def main() -> None:
     """Compute the numbers and draw the figures."""
-    warnings.simplefilter("ignore", dd.DondoloWarning)
+    warnings.simplefilter("ignore", dd.errors.DondoloWarning)
     out.mkdir(parents=True, exist_ok=True)
     sets = {"synthetic44": dd.read_catalogue(root / "data/records/synthetic44.csv")}
     folder = Path(os.environ.get("DONDOLO_RECORDS", "none"))

@@ -46,7 +46,7 @@ def random_wall(rng):
     while True:
         try:
             return _wall(kind, mode, how, rng)
-        except dd.InputError:
+        except dd.errors.InputError:
             # Factors that leave no loss of speed, overburdens that push the wall over
             continue
 
@@ -127,7 +127,7 @@ def main():
     """Write the table of each set of accelerograms that is there."""
     folder, *numbers = sys.argv[1:]
     walls, most = (int(number) for number in numbers) if numbers else (300, 60)
-    warnings.simplefilter("ignore", dd.DondoloWarning)
+    warnings.simplefilter("ignore", dd.errors.DondoloWarning)
     for name, each in motions(folder).items():
         start = time.monotonic()
         rng = np.random.default_rng(SEEDS[name])

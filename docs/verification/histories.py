@@ -44,7 +44,7 @@ class Histories:
         """Fragility curve."""
         with warnings.catch_warnings():
             # The page itself reports extrapolated curves.
-            warnings.simplefilter("ignore", dd.DondoloWarning)
+            warnings.simplefilter("ignore", dd.errors.DondoloWarning)
             return dd.fit_fragility(*self.collapses(), im="pga")
 
 

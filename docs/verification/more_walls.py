@@ -49,7 +49,7 @@ def exact(wall, record, scale):
 
 def main():
     """Write the table of each set of accelerograms that is there."""
-    warnings.simplefilter("ignore", dd.DondoloWarning)
+    warnings.simplefilter("ignore", dd.errors.DondoloWarning)
     for name, each in motions(sys.argv[1]).items():
         start = time.monotonic()
         rng = np.random.default_rng(SEEDS[name])

@@ -155,7 +155,7 @@ def recall(each, row):
 
 def main():
     """Run the walls, but those that an earlier run left in the table."""
-    warnings.simplefilter("ignore", dd.DondoloWarning)
+    warnings.simplefilter("ignore", dd.errors.DondoloWarning)
     motions, records = next(iter(catalogues(sys.argv[1]).items()))
     count = int(sys.argv[2]) if len(sys.argv) > 2 else WALLS
     path = ROOT / "out" / f"random_supports_{motions}.csv"

@@ -133,7 +133,7 @@ def loaded(executable, records):
     errors, change = against_reference(executable, records)
     demand(change < 0.01 * LARGE, "the reference is at least a hundred times more accurate than counted errors")
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", dd.DondoloWarning)
+        warnings.simplefilter("ignore", dd.errors.DondoloWarning)
         agreement = by_engines(dd.read_catalogue(f"{records}/italy44.csv"))
     head = ["> 1e-6", "worst", "median"]
     return [

@@ -90,7 +90,7 @@ def ties(folder):
 
 def main():
     """Replace the section."""
-    warnings.simplefilter("ignore", dd.DondoloWarning)
+    warnings.simplefilter("ignore", dd.errors.DondoloWarning)
     before = PAGE.read_text(encoding="utf-8").split(TITLE)[0].rstrip()
     PAGE.write_text(before + "\n\n" + "\n".join(ties(sys.argv[1])).rstrip() + "\n", encoding="utf-8")
 

@@ -92,7 +92,7 @@ def walls(folder):
 
 def main():
     """Replace the section."""
-    warnings.simplefilter("ignore", dd.DondoloWarning)
+    warnings.simplefilter("ignore", dd.errors.DondoloWarning)
     before, _, there = PAGE.read_text(encoding="utf-8").partition(TITLE)
     _, mark, after = there.partition("\n## ")
     section = "\n".join(walls(sys.argv[1])).rstrip() + "\n"

@@ -231,7 +231,7 @@ def catalogues(folder):
 
 def main():
     """Swings and tables."""
-    warnings.simplefilter("ignore", dd.DondoloWarning)
+    warnings.simplefilter("ignore", dd.errors.DondoloWarning)
     program = Program()
     wrong = ["first swings"] if swings(program) > PRECISE else []
     quick = sys.argv[1] == "--quick"

@@ -42,7 +42,7 @@ def rows(level, records):
 
 def main():
     """Write the table, whole after each level."""
-    warnings.simplefilter("ignore", dd.DondoloWarning)
+    warnings.simplefilter("ignore", dd.errors.DondoloWarning)
     folder, *levels = sys.argv[1:]
     records = dd.read_catalogue(motions(folder)["recorded"].catalogue)
     table = [list(row.values()) for row in read_table(PATH)] if PATH.is_file() else []

@@ -1,5 +1,6 @@
 """Public names, each with its home: read by type checkers, and by the package, which loads a name on its first use."""
 
+from dondolo import errors as errors
 from dondolo import results as results
 from dondolo._storage.saved import load as load
 from dondolo.analysis.cloud import cloud as cloud
@@ -11,18 +12,12 @@ from dondolo.analysis.stripe_runs import Study as Study
 from dondolo.analysis.stripe_runs import adaptive_stripes as adaptive_stripes
 from dondolo.analysis.stripe_runs import multiple_stripe as multiple_stripe
 from dondolo.checks.ntc import check_ntc as check_ntc
-from dondolo.curves.curve import Curve as Curve
 from dondolo.curves.discrete import DiscreteFragility as DiscreteFragility
 from dondolo.curves.fitting import fit_fragility as fit_fragility
 from dondolo.curves.fragility import Fragility as Fragility
 from dondolo.curves.fragility_model import read_nrml as read_nrml
 from dondolo.curves.function import FunctionFragility as FunctionFragility
 from dondolo.curves.nrml import write_nrml as write_nrml
-from dondolo.errors import DondoloError as DondoloError
-from dondolo.errors import DondoloWarning as DondoloWarning
-from dondolo.errors import InputError as InputError
-from dondolo.errors import Interrupted as Interrupted
-from dondolo.errors import MissingFileError as MissingFileError
 from dondolo.exchange.cases import read_case as read_case
 from dondolo.exchange.citing import cite as cite
 from dondolo.exchange.reading import read_results as read_results

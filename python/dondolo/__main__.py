@@ -37,11 +37,11 @@ def main(arguments: list[str] | None = None) -> int:
     except BrokenPipeError:
         # Who reads the output has read enough, as head does; nothing may be flushed into the pipe at the end
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    except dd.InputError as error:
+    except dd.errors.InputError as error:
         _tell(error)
         return 2
-    except (dd.DondoloError, MemoryError) as error:
-        _tell(error if isinstance(error, dd.DondoloError) else "not enough memory")
+    except (dd.errors.DondoloError, MemoryError) as error:
+        _tell(error if isinstance(error, dd.errors.DondoloError) else "not enough memory")
         return 1
     except OSError as error:
         # The library gives errors of its own: this one is of standard output, which may not be flushed again either.
@@ -205,7 +205,7 @@ def _report(options: argparse.Namespace) -> None:
     matplotlib.use("agg")
     path = options.output or f"{options.prefix}_report.{'pdf' if options.pdf else 'html'}"
     if options.pdf and not path.lower().endswith(".pdf"):
-        raise dd.InputError(f"--output {path}: must end in .pdf with --pdf")
+        raise dd.errors.InputError(f"--output {path}: must end in .pdf with --pdf")
     hazard = None if options.hazard is None else dd.HazardCurve.from_csv(options.hazard)
     dd.report(dd.read_results(options.prefix), path, hazard=hazard)
     _report_done("written", path)
@@ -242,10 +242,10 @@ def _nrml(options: argparse.Namespace) -> None:
         functions, sentences = results.typology.nrml_functions()
     elif results.fragility is not None:
         if not results.fragility.has_fit:
-            raise dd.DondoloError(f"{options.prefix}: has no curve (status '{results.fragility.status}')")
+            raise dd.errors.DondoloError(f"{options.prefix}: has no curve (status '{results.fragility.status}')")
         functions = {taxonomy_of(results.population[0].name): {"collapse": results.fragility}}
     else:
-        raise dd.InputError(f"{options.prefix}: is a single motion, which has no curves")
+        raise dd.errors.InputError(f"{options.prefix}: is a single motion, which has no curves")
     for sentence in sentences:
         _tell(sentence)
     name = re.sub("[^A-Za-z0-9_-]", "_", Path(options.prefix).name)[:100]
@@ -344,10 +344,10 @@ def _save(path: str, kind: str, run: str, draw: Callable[[], Any]) -> None:
     figure = draw().figure
     try:
         save_figure(figure, path, kind, run)
-    except dd.InputError:
+    except dd.errors.InputError:
         raise
     except ValueError as error:
-        raise dd.InputError(f"--format {kind}: {str(error).splitlines()[0]}") from None
+        raise dd.errors.InputError(f"--format {kind}: {str(error).splitlines()[0]}") from None
     finally:
         plt.close(figure)
     _report_done("drawn", path)

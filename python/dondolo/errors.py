@@ -7,6 +7,8 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
 
+__all__ = ["DondoloError", "DondoloWarning", "InputError", "Interrupted", "MissingFileError"]
+
 # Longest line of a message [characters]; the middle of a longer one is left out
 _LONGEST = 2000
 
@@ -55,12 +57,12 @@ class InputError(DondoloError, ValueError):
     >>> import dondolo as dd
     >>> try:
     ...     dd.OneSidedWall(height=-1.0, thickness=0.25)
-    ... except dd.InputError as error:
+    ... except dd.errors.InputError as error:
     ...     print(error)
     height = -1: must be positive
     >>> try:
     ...     dd.HazardCurve.power_law("rare", 2.5)
-    ... except dd.InputError as error:
+    ... except dd.errors.InputError as error:
     ...     print(error.code, error.variable)
     not_a_number k0
     """
@@ -81,7 +83,7 @@ class MissingFileError(FileNotFoundError, InputError):
     >>> import dondolo as dd
     >>> try:
     ...     dd.read_catalogue("nowhere.csv")
-    ... except dd.MissingFileError as error:
+    ... except dd.errors.MissingFileError as error:
     ...     print(error)
     nowhere.csv: no such file
     """
@@ -110,7 +112,7 @@ class DondoloWarning(UserWarning):
     >>> import dondolo as dd
     >>> wall, records = dd.OneSidedWall(1.5, 0.25), dd.synthetic_records(6.5, 10.0, "shallow", n_records=4)
     >>> with warnings.catch_warnings(record=True) as found:
-    ...     warnings.simplefilter("always", dd.DondoloWarning)
+    ...     warnings.simplefilter("always", dd.errors.DondoloWarning)
     ...     stripes = dd.multiple_stripe(wall, records, levels=[8.0, 9.0], progress=False)
     >>> found[0].message.code
     'levels_above_usual'
@@ -172,7 +174,7 @@ class Interrupted(KeyboardInterrupt):
     >>> wall, records = dd.OneSidedWall(1.5, 0.25), dd.synthetic_records(6.5, 10.0, "shallow", n_records=4)
     >>> try:
     ...     stripes = dd.multiple_stripe(wall, records, [0.6, 0.8], progress=False)
-    ... except dd.Interrupted as stop:
+    ... except dd.errors.Interrupted as stop:
     ...     stripes = stop.partial
     """
 

@@ -16,6 +16,7 @@ from dondolo.analysis.work import Work as Work
 from dondolo.checks.ntc import CodeCheck as CodeCheck
 from dondolo.curves.bootstrap import Bootstrap as Bootstrap
 from dondolo.curves.comparison import Comparison as Comparison
+from dondolo.curves.curve import Curve as Curve
 from dondolo.curves.fragility_model import FragilityModel as FragilityModel
 from dondolo.curves.goodness import GoodnessOfFit as GoodnessOfFit
 from dondolo.curves.regression import Logistic as Logistic

@@ -11,7 +11,7 @@ import dondolo as dd
 @contextmanager
 def refused(code: str, variable: str) -> Iterator[None]:
     """Expect an InputError of a code that names a variable."""
-    with pytest.raises(dd.InputError) as error:
+    with pytest.raises(dd.errors.InputError) as error:
         yield
     assert (error.value.code, error.value.variable) == (code, variable)
     assert str(error.value).startswith(variable)

@@ -54,7 +54,7 @@ def test_afad(tmp_path):
     assert np.allclose(first.acceleration, 0.01 * NS, rtol=1e-9)
     # A rate in place of the interval
     assert _read(tmp_path, _afad(step="SAMPLING RATE (Hz) : 100\n"))[0].dt == 0.01
-    with pytest.warns(dd.DondoloWarning, match="2 samples beyond the 118 that the file states ignored"):
+    with pytest.warns(dd.errors.DondoloWarning, match="2 samples beyond the 118 that the file states ignored"):
         records = _read(tmp_path, _afad(rows=N - 2))
     assert len(records[0].acceleration) == N - 2
 
@@ -73,7 +73,7 @@ def test_afad(tmp_path):
     ],
 )
 def test_afad_refused(content, sentence, tmp_path):
-    with pytest.raises(dd.InputError, match=sentence):
+    with pytest.raises(dd.errors.InputError, match=sentence):
         _read(tmp_path, content)
 
 
@@ -115,5 +115,5 @@ def test_nied(tmp_path):
     ],
 )
 def test_nied_refused(content, sentence, tmp_path):
-    with pytest.raises(dd.InputError, match=sentence):
+    with pytest.raises(dd.errors.InputError, match=sentence):
         _read(tmp_path, content)

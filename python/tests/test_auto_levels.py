@@ -85,7 +85,7 @@ def test_other_measures(wall, few):
 def test_it_ends(few, wall):
     """Where nothing ever collapses, the levels double until the budget is spent or no record bears it."""
     firm = dd.OneSidedWall(1.0, 50.0, name="firm")
-    with pytest.warns(dd.DondoloWarning):
+    with pytest.warns(dd.errors.DondoloWarning):
         still = dd.adaptive_stripes(firm, few[:2], budget=200, progress=False)
     assert not still.collapses.any()
     assert 3 <= len(still.levels) < 20
@@ -101,12 +101,12 @@ def test_it_ends(few, wall):
     ],
 )
 def test_wrong_budgets(wall, few, budget, message):
-    with pytest.raises(dd.InputError, match=re.escape(message)):
+    with pytest.raises(dd.errors.InputError, match=re.escape(message)):
         dd.adaptive_stripes(wall, few, budget, progress=False)
 
 
 def test_records_with_levels(wall, few):
-    with pytest.raises(dd.InputError, match="records: have levels of their own"):
+    with pytest.raises(dd.errors.InputError, match="records: have levels of their own"):
         dd.adaptive_stripes(wall, {0.4: few}, budget=100, progress=False)
     with refused("not_numbers", "levels"):
         dd.multiple_stripe(wall, few, "auto", progress=False)
@@ -124,7 +124,7 @@ def test_interruption(wall, few, replace_procedure):
         return run_block(*arguments)
 
     replace_procedure("stripes.run_block", stopped)
-    with pytest.raises(dd.Interrupted, match="interrupted: 2 of 5 stripes are complete") as caught:
+    with pytest.raises(dd.errors.Interrupted, match="interrupted: 2 of 5 stripes are complete") as caught:
         dd.adaptive_stripes(wall, few, budget=5 * len(few), progress=False)
     assert len(caught.value.partial.levels) == 2
 
@@ -132,5 +132,5 @@ def test_interruption(wall, few, replace_procedure):
 @pytest.mark.parametrize("im", ["pga", "arias"])
 def test_a_record_without_motion(im, wall, records):
     still = dd.Record(np.zeros(10), 0.01, "flat")
-    with pytest.raises(dd.InputError, match="record 'flat': has no motion"):
+    with pytest.raises(dd.errors.InputError, match="record 'flat': has no motion"):
         dd.adaptive_stripes(wall, [*records[:4], still], budget=100, im=im, progress=False)

@@ -38,7 +38,7 @@ def test_a_record_in_any_encoding(encoding, end, tmp_path):
 def test_a_record_without_its_mark(encoding, tmp_path):
     path = tmp_path / "record.txt"
     path.write_bytes(SAMPLES.encode(encoding))
-    with pytest.raises(dd.InputError, match=r"record\.txt: line 1: byte \d is NUL"):
+    with pytest.raises(dd.errors.InputError, match=r"record\.txt: line 1: byte \d is NUL"):
         dd.read_record(path, dt=0.01, units="g")
 
 
@@ -78,22 +78,22 @@ def test_limits(table, content, sentence, tmp_path):
         "records.csv": dd.read_catalogue,
         "case.nml": dd.read_case,
     }
-    with pytest.raises(dd.InputError, match=sentence) as caught:
+    with pytest.raises(dd.errors.InputError, match=sentence) as caught:
         readers[table](path)
     assert str(caught.value).startswith(f"{path}: ")
     assert len(str(caught.value)) < len(str(path)) + 200
 
 
 def test_limits_of_records(tmp_path):
-    with pytest.raises(dd.InputError, match="number of samples = 10000001: must be at most 10000000"):
+    with pytest.raises(dd.errors.InputError, match="number of samples = 10000001: must be at most 10000000"):
         dd.Record(np.zeros(10_000_001), 0.01)
-    with pytest.raises(dd.InputError, match=r"name = 'x{60}\.\.\.': must have at most 1000 bytes"):
+    with pytest.raises(dd.errors.InputError, match=r"name = 'x{60}\.\.\.': must have at most 1000 bytes"):
         dd.Record([0.0, 1.0], 0.01, name="x" * 1001)
     # A file of 1 GiB and a byte, of which nothing is on the disk
     path = tmp_path / "huge.txt"
     with path.open("wb") as file:
         file.truncate(2**30 + 1)
-    with pytest.raises(dd.InputError, match=r"huge\.txt: has 1073741825 bytes: must be at most 1073741824"):
+    with pytest.raises(dd.errors.InputError, match=r"huge\.txt: has 1073741825 bytes: must be at most 1073741824"):
         dd.read_record(path, dt=0.01, units="g")
 
 
@@ -158,24 +158,24 @@ def test_what_a_spreadsheet_saves_is_read(few, tmp_path):
         path.write_bytes(text.replace("\n", "\r\n").encode(encoding))
         assert dd.read_results(tmp_path / "x").typology.population[0].name == "é"
     path.write_bytes(text.encode("latin-1"))
-    with pytest.raises(dd.InputError, match=r"x_walls\.csv: line \d+: byte \d+ is not UTF-8: save it as UTF-8"):
+    with pytest.raises(dd.errors.InputError, match=r"x_walls\.csv: line \d+: byte \d+ is not UTF-8: save it as UTF-8"):
         dd.read_results(tmp_path / "x")
 
 
 def test_hints(tmp_path):
     path = tmp_path / "hazard.csv"
     path.write_text("Sa(0,5);annual_frequency\n0,1;0,01\n0,2;0,001\n")
-    with pytest.warns(dd.DondoloWarning, match="decimal commas"):
+    with pytest.warns(dd.errors.DondoloWarning, match="decimal commas"):
         assert dd.HazardCurve.from_csv(path).im == "sa(0.5)"
     (tmp_path / "r.txt").write_text(SAMPLES)
     catalogue = tmp_path / "records.csv"
     catalogue.write_text("file,dt,units\nr.txt,0.01,g\n")
-    with pytest.raises(dd.InputError, match="column 'dt': the time step must stand in the column dt_s"):
+    with pytest.raises(dd.errors.InputError, match="column 'dt': the time step must stand in the column dt_s"):
         dd.read_catalogue(catalogue)
     catalogue.write_text("file,units\nr.txt,g\n")
-    with pytest.raises(dd.InputError, match="dt must be given, dt_s in a catalogue"):
+    with pytest.raises(dd.errors.InputError, match="dt must be given, dt_s in a catalogue"):
         dd.read_catalogue(catalogue)
-    with pytest.raises(dd.InputError, match=r"eccentricity = 1: must lie between -0\.15 and 0\.15 \(half"):
+    with pytest.raises(dd.errors.InputError, match=r"eccentricity = 1: must lie between -0\.15 and 0\.15 \(half"):
         dd.TwoBlockWall(3.0, 0.1 + 0.2, overburden=1.0, overburden_inertia=0.0, eccentricity=1.0)
 
 
@@ -200,7 +200,7 @@ def interlocked(overlap, **sizes):
     ],
 )
 def test_slips_are_warned_of(make, levels, code, few):
-    with pytest.warns(dd.DondoloWarning) as caught:
+    with pytest.warns(dd.errors.DondoloWarning) as caught:
         dd.multiple_stripe(make(), few, levels, progress=False)
     assert code in [warning.message.code for warning in caught]
 
@@ -255,7 +255,7 @@ def in_a_table(name, _, folder):
 def in_nrml(name, _, folder):
     curves = {"collapse": dd.fit_fragility([0.2, 0.4, 0.6], [1, 5, 9], [10, 10, 10], im="pga")}
     if not name.isascii():
-        with pytest.raises(dd.InputError, match="ASCII"):
+        with pytest.raises(dd.errors.InputError, match="ASCII"):
             dd.write_nrml(folder / "model.xml", {"a": curves}, description=name)
         return
     dd.write_nrml(folder / "model.xml", {"a": curves}, description=name)
@@ -280,7 +280,7 @@ def in_files_of_the_executable(name, run, folder):
     lines = (folder / "x_walls.csv").read_text(encoding="utf-8").splitlines()
     (row,) = csv.DictReader(line for line in lines if line[0] != "#")
     assert row["wall"] == ("'" if name.startswith(tuple("=+-@")) else "") + name
-    with pytest.warns(dd.DondoloWarning, match="no collapse"):
+    with pytest.warns(dd.errors.DondoloWarning, match="no collapse"):
         assert dd.read_results(folder / "x").population[0].name == name
 
 
@@ -308,7 +308,7 @@ def test_names_that_steer_a_terminal(name, run, tmp_path):
         lambda: dd.Record([0.0, 1.0], 0.01, name=name),
         lambda: dd.read_case(tmp_path / f"{name}.nml"),
     ):
-        with pytest.raises(dd.InputError) as caught:
+        with pytest.raises(dd.errors.InputError) as caught:
             make()
         said.append(str(caught.value))
     (tmp_path / "case.nml").write_bytes(f"&job title = '{name}' /\n".encode())
@@ -328,7 +328,9 @@ def test_archives_of_numbers_that_cannot_be(member, value, tmp_path):
     dataclasses.replace(curve, **{member: np.full((2, 2), value) if member == "covariance" else value}).save(
         tmp_path / "curve.npz"
     )
-    with pytest.raises(dd.InputError, match=r"curve\.npz: was saved by dondolo .*: (int too large|invalid value)"):
+    with pytest.raises(
+        dd.errors.InputError, match=r"curve\.npz: was saved by dondolo .*: (int too large|invalid value)"
+    ):
         dd.load(tmp_path / "curve.npz")
 
 
@@ -343,7 +345,7 @@ def test_archives_of_arrays_that_do_not_belong_together(stripes, tmp_path):
     with zipfile.ZipFile(tmp_path / "stripes.npz", "w") as archive:
         for name, content in members.items():
             archive.writestr(name, content)
-    with pytest.raises(dd.InputError, match=r"edp: must have the shape of ran, \(6, 44\)"):
+    with pytest.raises(dd.errors.InputError, match=r"edp: must have the shape of ran, \(6, 44\)"):
         dd.load(tmp_path / "stripes.npz")
 
 
@@ -353,7 +355,7 @@ def test_frequencies_beyond_all_bounds(column, tmp_path):
     path = tmp_path / "hazard.csv"
     head = "pga,return_period" if column == "return_period" else "pga,investigation_time,poe"
     path.write_text(f"{head}\n0.1,{rows.strip(',')}\n0.2,{rows.strip(',')}\n")
-    with pytest.raises(dd.InputError, match="inf"):
+    with pytest.raises(dd.errors.InputError, match="inf"):
         dd.HazardCurve.from_csv(path)
 
 
@@ -378,5 +380,5 @@ def test_histories_beyond_all_bounds(column, value, wall, sine, run, tmp_path):
         if one["name"] == "_history.csv":
             one |= described("_history.csv", path.read_text())._asdict()
     described_by.write_text(json.dumps(told))
-    with pytest.raises(dd.InputError, match=r"x_history\.csv") if column == "side" else contextlib.nullcontext():
+    with pytest.raises(dd.errors.InputError, match=r"x_history\.csv") if column == "side" else contextlib.nullcontext():
         dd.read_results(tmp_path / "x")

@@ -351,12 +351,12 @@ def test_fit_of_counts(c, error):
 
 def test_warnings(c, error, catalogue, records):
     stripes, _, _ = run(c, error, PLACES["facade"][1] | {"height": 0.4}, catalogue, levels=[0.3, 6.0])
-    with pytest.warns(dd.DondoloWarning) as caught:
+    with pytest.warns(dd.errors.DondoloWarning) as caught:
         expected = dd.multiple_stripe(dd.OneSidedWall(0.4, 0.5), records, [0.3, 6.0], progress=False)
     assert sorted(text(c, error, stripes, "warnings").split("\n")) == sorted(str(one.message) for one in caught)
     assert "are they swapped" in text(c, error, stripes, "warnings")
     curve = c.fit_stripes(error, stripes, 0.0)
-    with pytest.warns(dd.DondoloWarning) as caught:
+    with pytest.warns(dd.errors.DondoloWarning) as caught:
         expected.fit()
     assert text(c, error, curve, "warnings") == str(caught[0].message)
 
@@ -413,7 +413,7 @@ def test_walls_that_cannot_be(c, error, values):
         if values["mechanism"] == "two_block":
             own["overburden"] = values["overburden"]
         if values.get("overburden") != 5.0:
-            with pytest.raises(dd.InputError) as refused:
+            with pytest.raises(dd.errors.InputError) as refused:
                 classes.get(values["mechanism"], dd.OneSidedWall)(**own)
             assert c.message(error).decode() == str(refused.value)
     assert c.status(error) == 2

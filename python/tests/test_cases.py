@@ -65,7 +65,7 @@ def test_every_number(name, root, run, tmp_path):
 def test_the_same_warnings(root, run):
     case = root / "data/cases/parapet.nml"
     theirs = [line.removeprefix("dondolo: warning: ") for line in run(case).stderr.splitlines()]
-    with pytest.warns(dd.DondoloWarning) as caught:
+    with pytest.warns(dd.errors.DondoloWarning) as caught:
         dd.run_case(case, progress=False)
     assert [str(warning.message) for warning in caught] == theirs
 
@@ -93,7 +93,7 @@ def test_the_same_sentences(root, run, tmp_path, line):
     case.write_text(f"{line}\n&records catalogue = '{catalogue}' /\n&stripes levels = 0.1, 0.2 /\n")
     finished = run(case)
     assert finished.returncode == 2
-    with pytest.raises(dd.InputError) as caught:
+    with pytest.raises(dd.errors.InputError) as caught:
         dd.run_case(case)
     assert f"dondolo: {caught.value}\n" == finished.stderr
 
@@ -106,7 +106,7 @@ def test_a_case_with_tables_of_spreadsheets(tmp_path):
         "&job task='TYPOLOGY' /\n&population file='walls.csv' /\n&records catalogue='records.csv' polarity='BOTH' /\n"
         "&stripes im='SA(0.50)' levels=0.1, 0.2 /\n&solver engine='LANES' /\n"
     )
-    with pytest.warns(dd.DondoloWarning, match="semicolons, decimal commas") as caught:
+    with pytest.warns(dd.errors.DondoloWarning, match="semicolons, decimal commas") as caught:
         case = dd.read_case(tmp_path / "case.nml")
     assert [str(warning.message).split(": ")[0] for warning in caught] == [
         str(tmp_path / "records.csv"),
@@ -121,12 +121,12 @@ def test_a_case_with_tables_of_spreadsheets(tmp_path):
 @pytest.mark.parametrize("encoding", ["cp1252", "utf-16-be"])
 def test_a_case_that_is_no_utf8(encoding, tmp_path):
     (tmp_path / "case.nml").write_text("&job title='unità' /\n", encoding=encoding)
-    with pytest.raises(dd.InputError, match=r"case\.nml: line 1: byte \d.* is .*: save it as UTF-8"):
+    with pytest.raises(dd.errors.InputError, match=r"case\.nml: line 1: byte \d.* is .*: save it as UTF-8"):
         dd.read_case(tmp_path / "case.nml")
 
 
 def test_no_case(tmp_path):
-    with pytest.raises(dd.InputError, match=r"nothing\.nml"):
+    with pytest.raises(dd.errors.InputError, match=r"nothing\.nml"):
         dd.run_case(tmp_path / "nothing.nml")
 
 
@@ -205,7 +205,7 @@ def test_interrupted(walls, root, tmp_path, monkeypatch):
         watcher.join()
 
     monkeypatch.setattr(running, "_shown", listening)
-    with pytest.raises(dd.Interrupted) as caught:
+    with pytest.raises(dd.errors.Interrupted) as caught:
         dd.run_case(case)
     partial = caught.value.partial
     if walls == 1:

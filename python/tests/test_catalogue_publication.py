@@ -45,7 +45,7 @@ def test_every_write_that_fails_leaves_the_old_catalogue(tmp_path, monkeypatch):
     assert len(before) == 5
     write = tables.write_lines
     for k in range(5):
-        for error in (dd.DondoloError("the disk is full"), KeyboardInterrupt()):
+        for error in (dd.errors.DondoloError("the disk is full"), KeyboardInterrupt()):
             calls = []
 
             def failing(target, lines, k=k, error=error, calls=calls):
@@ -109,7 +109,7 @@ def test_a_file_of_another_version_is_refused(tmp_path, executable):
             "&records catalogue = 'list.csv' /\n&stripes levels = 0.6, 0.8 /\n"
         )
         if not is_vertical:
-            with pytest.raises(dd.InputError, match=sentence):
+            with pytest.raises(dd.errors.InputError, match=sentence):
                 dd.read_catalogue(path)
             done = subprocess.run([executable, "a.nml"], cwd=tmp_path, capture_output=True, text=True, check=False)
             assert done.returncode == 2
@@ -123,7 +123,7 @@ def test_a_file_of_another_version_is_refused(tmp_path, executable):
         cells[column] = wrong
         path.write_text("\n".join([*lines[:3], ",".join(cells), *lines[4:]]) + "\n")
         sentence = rf"line 4: crc32 = '{wrong}': must be a CRC-32 of 8 hexadecimal figures"
-        with pytest.raises(dd.InputError, match=sentence):
+        with pytest.raises(dd.errors.InputError, match=sentence):
             dd.read_catalogue(path)
     # Nothing is compared where nothing is stated, and figures in upper case are the same.
     for right in ("", lines[3].split(",")[column].upper()):
@@ -140,7 +140,7 @@ def test_a_vertical_component_of_another_version_is_refused(tmp_path):
     (back,) = dd.read_catalogue(path, vertical="recorded")
     assert np.array_equal(back.vertical, records[0].vertical)
     file.write_text(file.read_text().replace("\n0.", "\n1.", 1).replace("\n-0.", "\n-1.", 1))
-    with pytest.raises(dd.InputError, match=r"_vertical_.*: has the CRC-32"):
+    with pytest.raises(dd.errors.InputError, match=r"_vertical_.*: has the CRC-32"):
         dd.read_catalogue(path, vertical="recorded")
 
 
@@ -209,7 +209,7 @@ def test_a_disk_that_is_full(tmp_path):
     limit, handler = resource.getrlimit(resource.RLIMIT_FSIZE), signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     try:
         resource.setrlimit(resource.RLIMIT_FSIZE, (9000, limit[1]))
-        with pytest.raises(dd.DondoloError, match="cannot be written: File too large"):
+        with pytest.raises(dd.errors.DondoloError, match="cannot be written: File too large"):
             suite(2.0, vertical=False).to_catalogue(path)
     finally:
         resource.setrlimit(resource.RLIMIT_FSIZE, limit)

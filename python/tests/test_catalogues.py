@@ -258,6 +258,6 @@ def test_refused_catalogues_are_closed(tmp_path, text, vertical):
     path.write_text(text)
     before = len(os.listdir("/proc/self/fd"))
     for _ in range(3):
-        with pytest.raises(dd.InputError):
+        with pytest.raises(dd.errors.InputError):
             dd.read_catalogue(path, vertical=vertical)
     assert len(os.listdir("/proc/self/fd")) == before

@@ -60,13 +60,13 @@ def check_estimates(records, table, engine):
     return off
 
 
-@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 @pytest.mark.parametrize("engine", ["lanes", "rk45"])
 def test_estimates_find_hard_histories(synthetic, engine):
     assert check_estimates(synthetic, hard("synthetic"), engine) >= 5
 
 
-@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 @pytest.mark.parametrize("engine", ["lanes", "rk45"])
 def test_estimates_find_hard_recorded_histories(recorded, engine):
     check_estimates(recorded, hard("recorded"), engine)
@@ -91,7 +91,7 @@ def further(name):
     return histories
 
 
-@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 @pytest.mark.parametrize(("engine", "least"), [("lanes", 1), ("rk45", 5)])
 def test_further_walls(synthetic, engine, least):
     """Twelve walls: what is off is doubted. Every third history, and those that the last digit decides."""
@@ -101,13 +101,13 @@ def test_further_walls(synthetic, engine, least):
     assert check_estimates(synthetic, sample, engine) >= least
 
 
-@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 @pytest.mark.parametrize("engine", ["lanes", "rk45"])
 def test_further_walls_under_recorded_motions(recorded, engine):
     check_estimates(recorded, further("recorded")[::3], engine)
 
 
-@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 @pytest.mark.parametrize("engine", ["lanes", "rk45"])
 def test_two_ties_under_recorded_motions(recorded, engine):
     """A facade with two ties, all of whose histories are in 33 digits: every third, and those not computable."""
@@ -127,7 +127,7 @@ def test_two_ties_under_recorded_motions(recorded, engine):
 
 
 @pytest.mark.slow
-@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 def test_certificates_are_those_of_the_table(synthetic):
     """Of the hard histories that 33 digits settle: the EDP of the table, whatever double precision says."""
     table = [row for row in hard("synthetic") if row[-1] == "quadruple" and row[3] < 1.0]
@@ -165,7 +165,7 @@ def test_calm_histories_stay(wall, few):
     assert np.array_equal(told.edp, plain.edp)
     assert np.array_equal(told.time_of_peak, plain.time_of_peak)
     assert list(told.to_frame()["status"]) == ["double"] * told.edp.size
-    with pytest.raises(dd.InputError, match="theta_bounds: only of certified stripes"):
+    with pytest.raises(dd.errors.InputError, match="theta_bounds: only of certified stripes"):
         _ = plain.theta_bounds
 
 
@@ -192,16 +192,16 @@ def test_the_example_of_the_page_has_bounds(root, capsys):
 
 def test_refusals(wall, few):
     plain = dd.multiple_stripe(wall, few, [0.4], progress=False)
-    with pytest.raises(dd.InputError, match="have no estimated errors"):
+    with pytest.raises(dd.errors.InputError, match="have no estimated errors"):
         plain.certify(few)
     told = dd.multiple_stripe(wall, few, [0.4], estimate_error=True, progress=False)
-    with pytest.raises(dd.InputError, match="is not there, or is another one than in the stripes"):
+    with pytest.raises(dd.errors.InputError, match="is not there, or is another one than in the stripes"):
         told.certify(few[:1])
-    with pytest.raises(dd.InputError, match="only one is certified"):
+    with pytest.raises(dd.errors.InputError, match="only one is certified"):
         _ = told + told.certify(few, progress=False)
 
 
-@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 def test_only_stripes_are_certified(wall, few, run, tmp_path):
     """Populations and single histories are refused, by Python and by the executable."""
     others = dd.typology([wall], few, [0.2, 0.4], progress=False), dd.simulate(wall, few[0], estimate_error=True)
@@ -280,9 +280,9 @@ def test_bounds_of_damage_states(undecided, states):
 
 def test_bounds_need_certificates(wall, few):
     plain = dd.multiple_stripe(wall, few, [0.4], progress=False)
-    with pytest.raises(dd.InputError, match="state_bounds: only of certified stripes"):
+    with pytest.raises(dd.errors.InputError, match="state_bounds: only of certified stripes"):
         plain.state_bounds()
-    with pytest.raises(dd.InputError, match="exceedance_bounds: only of certified stripes"):
+    with pytest.raises(dd.errors.InputError, match="exceedance_bounds: only of certified stripes"):
         plain.exceedance_bounds(0.4)
 
 
@@ -321,7 +321,9 @@ def test_an_interrupted_run_goes_on(wall, few, replace_procedure, monkeypatch):
     replace_procedure("histories.certify", certify)
     number = int((~told.collapsed).sum())
     assert number > 6
-    with pytest.raises(dd.Interrupted, match=f"interrupted: 6 of {number} histories in doubt are certified") as caught:
+    with pytest.raises(
+        dd.errors.Interrupted, match=f"interrupted: 6 of {number} histories in doubt are certified"
+    ) as caught:
         doubted.certify(few, progress=False)
     partial = caught.value.partial
     assert (partial.status == 0).sum() == number - 6

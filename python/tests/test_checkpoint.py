@@ -131,7 +131,7 @@ def test_ctrl_c(whole, tmp_path, monkeypatch, replace_procedure):
         return run_rows(*given)
 
     replace_procedure("stores.run_rows", stop)
-    with pytest.raises(dd.Interrupted, match=r"interrupted: 15 of 60 walls are complete") as caught:
+    with pytest.raises(dd.errors.Interrupted, match=r"interrupted: 15 of 60 walls are complete") as caught:
         dd.typology(**study.arguments(checkpoint=path, block=3))
     monkeypatch.undo()
     partial = caught.value.partial
@@ -166,7 +166,7 @@ def finished(tmp_path_factory):
 
 @pytest.mark.parametrize("sentence", CHANGES)
 def test_another_study(finished, sentence):
-    with pytest.raises(dd.InputError) as caught:
+    with pytest.raises(dd.errors.InputError) as caught:
         dd.typology(**study.arguments(checkpoint=finished, **CHANGES[sentence]))
     assert str(caught.value).startswith(f"{finished}: belongs to another study: ")
     assert sentence in str(caught.value).replace("number of rows", "")
@@ -187,7 +187,7 @@ def test_another_build(finished, tmp_path):
         # Fingerprints are those of the store.
         first = b"dondolo counts 5 %08d " % len(head)
         path.write_bytes(first + fingerprint(head, b"") + b"\n" + head + rest[length:])
-        with pytest.raises(dd.InputError, match=f"another study: {why}$"):
+        with pytest.raises(dd.errors.InputError, match=f"another study: {why}$"):
             dd.typology(**study.arguments(checkpoint=path))
 
 
@@ -207,7 +207,7 @@ def fingerprint(*texts):
 def test_files_that_are_no_checkpoints(finished, whole, tmp_path):
     path = tmp_path / "study.counts"
 
-    def refused(sentence, kind=dd.InputError):
+    def refused(sentence, kind=dd.errors.InputError):
         with pytest.raises(kind, match=sentence) as caught:
             dd.typology(**study.arguments(checkpoint=path))
         assert "\n" not in str(caught.value)
@@ -220,7 +220,7 @@ def test_files_that_are_no_checkpoints(finished, whole, tmp_path):
     path.write_bytes(content[:100] + b"x" + content[101:])
     refused("not a dondolo counts file, or its header is corrupt")
     for wrong in (3, "", "a\0b", b"a"):
-        with pytest.raises(dd.InputError, match=r"checkpoint = .*: must be the path of a file"):
+        with pytest.raises(dd.errors.InputError, match=r"checkpoint = .*: must be the path of a file"):
             dd.typology(**study.arguments(checkpoint=wrong))
     # A row that is damaged is computed again, with those behind it; a file that was cut goes on.
     for cut in (5, head_of(content), len(content) // 2, len(content) - 1):
@@ -235,7 +235,7 @@ def test_files_that_are_no_checkpoints(finished, whole, tmp_path):
     path.mkdir()
     refused("not a dondolo counts file")
     path = path / "missing" / "study.counts"
-    refused("cannot be written", dd.DondoloError)
+    refused("cannot be written", dd.errors.DondoloError)
 
 
 def store_of(path):
@@ -253,7 +253,7 @@ def test_two_runs(tmp_path, monkeypatch):
     path = tmp_path / "study.counts"
     with store_of(path) as first:
         first.claim()
-        with pytest.raises(dd.DondoloError, match="is being written by another run"):
+        with pytest.raises(dd.errors.DondoloError, match="is being written by another run"):
             dd.typology(**study.arguments(checkpoint=path))
     dd.typology(**study.arguments(checkpoint=path))
     # Who has all rows needs to write nothing.
@@ -294,7 +294,7 @@ import resource
 resource.setrlimit(resource.RLIMIT_FSIZE, (3000, 3000))
 try:
     dd.typology(**study.arguments(checkpoint=sys.argv[1], block=5, progress=False))
-except dd.DondoloError as error:
+except dd.errors.DondoloError as error:
     print(error)
 """
 
@@ -318,7 +318,7 @@ def test_rows_are_counted_and_called_so(few, tmp_path):
     ]
     dd.typology(walls, few, [0.4, 0.8], checkpoint=path, progress=False)
     assert kept(path) == {0, 1, 2}
-    with pytest.raises(dd.InputError, match="another study: number of rows 3 there, 2 here"):
+    with pytest.raises(dd.errors.InputError, match="another study: number of rows 3 there, 2 here"):
         dd.typology(walls[:2], few, [0.4, 0.8], checkpoint=path, progress=False)
 
 
@@ -342,7 +342,7 @@ def test_blocks_change_nothing(whole, tmp_path):
     for block in (1, 59, 1000):
         assert of(dd.typology(**study.arguments(block=block)), tmp_path / str(block)) == whole
     for wrong in (0, 1.5, True):
-        with pytest.raises(dd.InputError, match=r"block = .*: must be an integer, at least 1"):
+        with pytest.raises(dd.errors.InputError, match=r"block = .*: must be an integer, at least 1"):
             dd.typology(**study.arguments(block=wrong))
 
 
@@ -365,5 +365,5 @@ def test_states(whole):
     same = dd.typology(**study.arguments(edp_thresholds=[0.1, 0.4, 1.0]))
     assert np.array_equal(same.flags.bits, result.flags.bits)
     for wrong, allowed in (([0.0], "positive"), ([0.4, 0.4], "increase"), ([0.4, 1.1], "at most edp_limit = 1")):
-        with pytest.raises(dd.InputError, match=f"edp_thresholds = .*: must be {allowed}|must {allowed}"):
+        with pytest.raises(dd.errors.InputError, match=f"edp_thresholds = .*: must be {allowed}|must {allowed}"):
             dd.typology(**study.arguments(edp_thresholds=wrong))

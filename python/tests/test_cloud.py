@@ -137,7 +137,7 @@ def test_total_probability(cloud):
     assert np.all(np.diff(cloud.fit(0.4)(grid)) >= 0.0)
     assert np.all(cloud.fit(0.2)(grid) >= cloud.fit(0.4)(grid))
     for threshold in (0.0, 1.2, np.nan):
-        with pytest.raises(dd.InputError, match="must be positive and at most edp_limit = 1"):
+        with pytest.raises(dd.errors.InputError, match="must be positive and at most edp_limit = 1"):
             cloud.fit(threshold)(0.5)
 
 
@@ -214,7 +214,7 @@ def test_status(collapsed, status):
 def test_without_a_line(cloud):
     made = put_in(cloud, np.array([0.1, 0.2, 0.3]), np.array([0.0, 0.1, 1.0]), np.array([False, False, True]))
     assert made.regression.status == "too_few"
-    with pytest.raises(dd.DondoloError, match="1 histories rock without collapse"):
+    with pytest.raises(dd.errors.DondoloError, match="1 histories rock without collapse"):
         made.fit()
     same = put_in(cloud, np.full(4, 0.2), np.array([0.1, 0.2, 0.3, 0.4]), np.zeros(4, dtype=bool))
     assert same.regression.status == "too_few"
@@ -237,15 +237,15 @@ def test_two_sided_walls_rock_by_the_pga(records):
 
 def test_errors(wall, records):
     for scale in (0.0, -1.0, np.inf, np.nan):
-        with pytest.raises(dd.InputError, match=r"scale = .*: must be positive"):
+        with pytest.raises(dd.errors.InputError, match=r"scale = .*: must be positive"):
             dd.cloud(wall, records, scale=scale)
-    with pytest.raises(dd.InputError, match="record 'flat': has no motion"):
+    with pytest.raises(dd.errors.InputError, match="record 'flat': has no motion"):
         dd.cloud(wall, [*records[:2], dd.Record(np.zeros(10), 0.01, "flat")])
     with refused("wrong_type", "wall"):
         dd.cloud("wall", records)
-    with pytest.raises(dd.InputError, match="im = 'pgx'"):
+    with pytest.raises(dd.errors.InputError, match="im = 'pgx'"):
         dd.cloud(wall, records, im="pgx")
-    with pytest.raises(dd.InputError, match="polarity = 'x'"):
+    with pytest.raises(dd.errors.InputError, match="polarity = 'x'"):
         dd.cloud(wall, records, polarity="x")
 
 
@@ -254,7 +254,7 @@ def test_interruption(wall, records, replace_procedure):
         raise KeyboardInterrupt
 
     replace_procedure("stripes.run_block", stop)
-    with pytest.raises(dd.Interrupted, match="interrupted: 0 of 44 histories"):
+    with pytest.raises(dd.errors.Interrupted, match="interrupted: 0 of 44 histories"):
         dd.cloud(wall, records, progress=False)
 
 

@@ -38,7 +38,7 @@ def test_numbers_of_a_wall():
     assert check.verified == {
         ("linear", "SLD"): False, ("linear", "SLV"): False, ("nonlinear", "SLV"): False, ("nonlinear", "SLC"): False,
     }  # fmt: skip
-    with pytest.raises(dd.InputError, match="quantity = 'capacity': the check has none"):
+    with pytest.raises(dd.errors.InputError, match="quantity = 'capacity': the check has none"):
         check.value("linear", "SLV", "capacity")
 
 
@@ -73,9 +73,9 @@ def test_ties():
     assert several.value("nonlinear", "SLV", "displacement") == pytest.approx(
         0.4 * expected["mechanism", "d_0"], rel=1e-11
     )
-    with pytest.raises(dd.InputError, match="the check has none"):
+    with pytest.raises(dd.errors.InputError, match="the check has none"):
         several.value("mechanism", "", "tie_fracture")
-    with pytest.raises(dd.InputError, match="the check has none"):
+    with pytest.raises(dd.errors.InputError, match="the check has none"):
         bare.value("mechanism", "", "tie_fracture")
 
 
@@ -129,11 +129,11 @@ def test_histories_at_the_level_of_the_site(stripes, records):
     # Histories that end early do not tell what is beyond d_0*; those that are run for the check do not end early.
     early = dd.Solver(edp_limit=0.5)
     assert check.dynamic(records, polarity="both", solver=early).rows == check.rows
-    with pytest.raises(dd.InputError, match=r"edp_limit = 0\.5: must be at least 1"):
+    with pytest.raises(dd.errors.InputError, match=r"edp_limit = 0\.5: must be at least 1"):
         check.dynamic(dd.multiple_stripe(WALL, records, [0.24], solver=early))
-    with pytest.raises(dd.InputError, match=r"no level of 0\.24 g"):
+    with pytest.raises(dd.errors.InputError, match=r"no level of 0\.24 g"):
         check.dynamic(stripes[1:])
-    with pytest.raises(dd.InputError, match="of the wall of the check"):
+    with pytest.raises(dd.errors.InputError, match="of the wall of the check"):
         dd.check_ntc(dd.OneSidedWall(2.0, 0.25), SITE).dynamic(stripes)
 
 
@@ -164,7 +164,7 @@ def test_lines_on_the_curve(stripes, tmp_path):
     labels = [text.get_text() for text in ax.get_legend().get_texts()]
     assert sum("withstands " in label for label in labels) == 4
     other = dd.fit_fragility([0.2, 0.4, 0.6], [1, 5, 9], 10, im="pgv")
-    with pytest.raises(dd.InputError, match="its measure is 'pgv'"):
+    with pytest.raises(dd.errors.InputError, match="its measure is 'pgv'"):
         check.probabilities(other)
     check.save(tmp_path / "check.npz")
     assert dd.load(tmp_path / "check.npz").rows == check.rows
@@ -184,7 +184,7 @@ def test_lines_on_the_curve(stripes, tmp_path):
     ],
 )
 def test_wrong_input(make, words):
-    with pytest.raises(dd.InputError, match=words) as caught:
+    with pytest.raises(dd.errors.InputError, match=words) as caught:
         make()
     assert "\n" not in str(caught.value)
 
@@ -239,15 +239,17 @@ def test_hazard_of_rigid_ground(root, executable, tmp_path):
     (tmp_path / "wall.nml").write_text(CASE.format(root=root).replace("soil = 'b'", "soil = 'D'"))
     subprocess.run([executable, "--quiet", "wall.nml"], cwd=tmp_path, check=True, capture_output=True)
     stored = dd.read_results(tmp_path / "out/wall")
-    with pytest.warns(dd.DondoloWarning, match="rigid ground"):
+    with pytest.warns(dd.errors.DondoloWarning, match="rigid ground"):
         hazard = dd.HazardCurve.from_csv(rock)
     hazard.to_csv(tmp_path / "again.csv")
-    with pytest.warns(dd.DondoloWarning, match="rigid ground"):
+    with pytest.warns(dd.errors.DondoloWarning, match="rigid ground"):
         again = dd.HazardCurve.from_csv(tmp_path / "again.csv")
     hazard.save(tmp_path / "hazard.npz")
     for one in (hazard, hazard.smoothed(), again, dd.load(tmp_path / "hazard.npz")):
         assert one.rigid_ground
-        with pytest.raises(dd.InputError, match="ag, of rigid, level ground, and the check has soil D, topography T1"):
+        with pytest.raises(
+            dd.errors.InputError, match="ag, of rigid, level ground, and the check has soil D, topography T1"
+        ):
             dd.report(stored, tmp_path / "report.html", hazard=one)
         assert not (tmp_path / "report.html").exists()
     # S = 2.4 - 1.5 F0 a_g, between 0.9 and 1.8, of class D
@@ -300,14 +302,14 @@ def test_a_wall_in_another_unit_is_warned_of():
     """As stripes warn of it, and once where both are run."""
     wall = dd.OneSidedWall(300.0, 25.0, name="in cm")
     records = dd.synthetic_records(6.5, 10.0, "shallow", n_records=2)
-    with pytest.warns(dd.DondoloWarning) as caught:
+    with pytest.warns(dd.errors.DondoloWarning) as caught:
         dd.check_ntc(wall, SITE)
-    with pytest.warns(dd.DondoloWarning) as said:
+    with pytest.warns(dd.errors.DondoloWarning) as said:
         dd.multiple_stripe(wall, records, [0.1, 0.2], progress=False)
     found = [one.message for one in caught]
     assert {one.code for one in found} == {"value_above_usual"}
     assert found == [one.message for one in said if one.message.code == "value_above_usual"]
-    with pytest.warns(dd.DondoloWarning) as both:
+    with pytest.warns(dd.errors.DondoloWarning) as both:
         dd.compare_designs({"one": wall}, records, [0.1, 0.2], site=SITE, progress=False)
     assert [one.message for one in both if one.message.code == "value_above_usual"] == found
 

@@ -132,7 +132,7 @@ def test_units_above_the_values(top, unit, tmp_path):
     records, _ = _read(tmp_path, content)
     _is(records, ACC, unit=unit)
     for other in {"m/s2", "g", "gal"} - {"g" if unit == G else "gal" if unit == 0.01 else ""}:
-        with pytest.raises(dd.InputError, match="the file states"):
+        with pytest.raises(dd.errors.InputError, match="the file states"):
             _read(tmp_path, content, units=other)
 
 
@@ -143,7 +143,7 @@ def test_units_above_the_values(top, unit, tmp_path):
      "time (s),ground velocity\n", "spostamento in cm\n"],
 )  # fmt: skip
 def test_other_quantities_are_refused_whatever_is_given(top, tmp_path):
-    with pytest.raises(dd.InputError, match="is no acceleration"):
+    with pytest.raises(dd.errors.InputError, match="is no acceleration"):
         _read(tmp_path, top + _rows(TIME, ACC), units="cm/s2")
 
 
@@ -184,7 +184,7 @@ def test_remarks_are_no_statements(top, tmp_path):
 )
 def test_what_is_not_certain_is_refused(content, given, sentence, tmp_path):
     given = given if "units: g" in content else {"units": "m/s2", **given}
-    with pytest.raises(dd.InputError, match=sentence):
+    with pytest.raises(dd.errors.InputError, match=sentence):
         _read(tmp_path, content, **given)
 
 
@@ -214,14 +214,14 @@ def test_notes_of_a_catalogue_are_reported_once(tmp_path):
     for name in "ab":
         (tmp_path / f"{name}.csv").write_text(",acc\n" + _rows(ACC, first=str))
     (tmp_path / "all.csv").write_text("file,dt_s,units\na.csv,0.02,m/s2\nb.csv,0.02,m/s2\n")
-    with pytest.warns(dd.DondoloWarning, match=r"record 'a': column 1 numbers .* \(2 of 2 records\)") as caught:
+    with pytest.warns(dd.errors.DondoloWarning, match=r"record 'a': column 1 numbers .* \(2 of 2 records\)") as caught:
         records = dd.read_catalogue(tmp_path / "all.csv")
     assert len(caught) == 1
     (tmp_path / "case.nml").write_text(
         "&records catalogue = 'all.csv' /\n&wall mechanism = 'free_standing', height = 3.0, thickness = 0.3 /\n"
         "&stripes levels = 0.1, 0.2 /\n"
     )
-    with pytest.warns(dd.DondoloWarning, match="2 of 2 records"):
+    with pytest.warns(dd.errors.DondoloWarning, match="2 of 2 records"):
         dd.read_case(tmp_path / "case.nml")
     # What was written by dondolo is read without another remark
     records.to_catalogue(tmp_path / "again.csv")

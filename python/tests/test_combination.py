@@ -241,11 +241,11 @@ def test_which_curves_there_are(people):
     assert people["all"].weight == 10.5
     assert people["all", "facades"].n_walls == 3
     assert people["two_block", "towers"].fit is people.groups[8].fit
-    with pytest.raises(dd.InputError, match="group = 'ruins': must be one of '', 'facades', 'towers'"):
+    with pytest.raises(dd.errors.InputError, match="group = 'ruins': must be one of '', 'facades', 'towers'"):
         people["all", "ruins"]
-    with pytest.raises(dd.InputError, match="mechanism = 'one_sided': must be one of 'two_block', 'all'"):
+    with pytest.raises(dd.errors.InputError, match="mechanism = 'one_sided': must be one of 'two_block', 'all'"):
         people["one_sided", "towers"](0.3)
-    with pytest.raises(dd.InputError, match="q: must be shares"):
+    with pytest.raises(dd.errors.InputError, match="q: must be shares"):
         people["all"].fractiles(0.3, q=0.0)
 
 
@@ -301,7 +301,7 @@ def test_a_wall_counts_when_all_its_mechanisms_are_complete(people):
     assert list(part.combined) == ["b", "c", "d", "e"]
     assert part.curves[0].theta == people.curves[2].theta
     complete[:] = [True, *[False] * (len(complete) - 1)]
-    with pytest.raises(dd.Interrupted, match="no wall is complete"):
+    with pytest.raises(dd.errors.Interrupted, match="no wall is complete"):
         combine(people.population, "pga", LEVELS, np.ones(1), counts, histories, complete, Work())
 
 
@@ -338,7 +338,7 @@ def test_damage_states(states, tmp_path):
         assert np.array_equal(first.curves[k].collapses, one.fit(0.1).collapses)
     assert np.all(first["all"].mean_fraction >= typology.at(0.4)["all"].mean_fraction)
     assert np.any(typology.at(0.4)["all"].mean_fraction > last["all"].mean_fraction)
-    with pytest.raises(dd.InputError, match=r"edp_threshold = 0\.2: must be one of 0\.1, 0\.4, 1"):
+    with pytest.raises(dd.errors.InputError, match=r"edp_threshold = 0\.2: must be one of 0\.1, 0\.4, 1"):
         typology.at(0.2)
     # As the executable writes them: curves of the population state by state, tables of walls wall by wall
     for table, blocks, rows in (("typology", 1, 6 * 5), ("stripes", 3, 5), ("fragility", 3, 1)):
@@ -362,7 +362,7 @@ def test_damage_states_of_one_wall(states):
     samples = curve.bootstrap(n_resamples=200)
     assert np.nanmedian(samples.theta) == pytest.approx(curve.theta, rel=0.1)
     for edp in (0.0, 1.5, np.nan):
-        with pytest.raises(dd.InputError, match="must be positive and at most edp_limit = 1"):
+        with pytest.raises(dd.errors.InputError, match="must be positive and at most edp_limit = 1"):
             stripes.exceedances(edp)
 
 
@@ -379,7 +379,7 @@ def test_warnings_name_the_state(states, edp):
         np.ones(3, dtype=bool),
         Work(),
     )
-    with pytest.warns(dd.DondoloWarning, match=f"damage state {edp:g}: 3 of 3 mechanisms of walls have no fit"):
+    with pytest.warns(dd.errors.DondoloWarning, match=f"damage state {edp:g}: 3 of 3 mechanisms of walls have no fit"):
         again.at(edp)
 
 
@@ -411,7 +411,7 @@ def test_figures(people, states, monkeypatch):
     assert np.array_equal(towers.get_ydata(), people["two_block", "towers"](towers.get_xdata()))
     labels = people.plot_groups(mechanism="one_sided").get_legend_handles_labels()[1]
     assert [label.split(" (")[0] for label in labels[:-1]] == ["facades", "population"]
-    with pytest.raises(dd.InputError, match="group: no wall of this population belongs to a group"):
+    with pytest.raises(dd.errors.InputError, match="group: no wall of this population belongs to a group"):
         typology_of(WALLS[3:4]).plot_groups()
 
     typology, stripes = states

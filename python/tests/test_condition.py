@@ -21,7 +21,7 @@ EPS = np.finfo(np.float64).eps
 CHANGE, ROUNDING = 512.0 * EPS, 8.0 * EPS
 WALLS = {"one_sided": dd.OneSidedWall, "free_standing": dd.FreeStandingWall, "two_block": dd.TwoBlockWall}
 
-pytestmark = pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 
 
 def exact_condition(wall, record, scale, guess):

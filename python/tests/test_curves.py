@@ -52,7 +52,7 @@ KINDS = (
 def test_inverse(curves, kind):
     """Probabilities rise from 0, in the shape of the levels, and levels of probabilities are those of the curve."""
     curve = curves[kind]
-    assert isinstance(curve, dd.Curve)
+    assert isinstance(curve, dd.results.Curve)
     assert curve.im == ("pgv" if kind in ("cloud", "logistic") else "pga")
     x = np.linspace(0.05, 2.0, 40).reshape(8, 5)
     p = curve(x)
@@ -65,7 +65,7 @@ def test_inverse(curves, kind):
     assert levels.shape == q.shape
     assert curve(levels) == pytest.approx(q, abs=1e-9)
     assert curve(curve.ppf(0.0)) == 0.0
-    with pytest.raises(dd.InputError, match="must lie between 0 and 1"):
+    with pytest.raises(dd.errors.InputError, match="must lie between 0 and 1"):
         curve.ppf(1.1)
 
 
@@ -79,7 +79,7 @@ def test_risk(curves, kind):
     expected = -integrate.trapezoid(curve(levels), hazard(levels))
     assert risk.inside == pytest.approx(expected, rel=1e-6)
     assert risk.fragility is curve
-    with pytest.raises(dd.InputError, match=f"im = '{curve.im}' of the fragility and 'arias' of the hazard"):
+    with pytest.raises(dd.errors.InputError, match=f"im = '{curve.im}' of the fragility and 'arias' of the hazard"):
         curve.risk(dd.HazardCurve([0.1, 1.0], [0.1, 1e-3], im="arias"))
 
 
@@ -125,9 +125,9 @@ def test_comparison(curves):
     back = curves["population"].compare(curves["fitted"])
     assert back.ratio * found.ratio == pytest.approx(1.0, rel=1e-14)
     for kind in ("discrete", "logistic", "function", "cloud"):
-        with pytest.raises(dd.InputError, match="no standard errors are known of a"):
+        with pytest.raises(dd.errors.InputError, match="no standard errors are known of a"):
             curves["fitted"].compare(curves[kind])
-    with pytest.raises(dd.DondoloError, match="no standard errors: the parameters were given"):
+    with pytest.raises(dd.errors.DondoloError, match="no standard errors: the parameters were given"):
         curves["fitted"].compare(curves["given"])
     with refused("wrong_type", "other"):
         curves["fitted"].compare(0.5)
@@ -148,5 +148,5 @@ def test_logistic_without_a_curve():
     assert np.isnan(apart.ppf(0.5))
     assert (apart.ppf(0.0), apart.ppf(1.0)) == (0.0, 0.3)
     assert dd.results.Logistic(**common, status="none", bracket=(0.0, np.inf)).ppf(0.5) == np.inf
-    with pytest.raises(dd.DondoloError, match="no curve was fitted"):
+    with pytest.raises(dd.errors.DondoloError, match="no curve was fitted"):
         apart.risk(dd.HazardCurve(*FREQUENCIES))

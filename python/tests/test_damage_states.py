@@ -21,7 +21,7 @@ STATES = [0.1, 0.4, 1.0]
 def analysis(wall, few):
     """Stripes in which every state begins and ends."""
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", dd.DondoloWarning)
+        warnings.simplefilter("ignore", dd.errors.DondoloWarning)
         return dd.multiple_stripe(wall, few, np.linspace(0.1, 1.5, 8), polarity="both", progress=False)
 
 
@@ -139,7 +139,7 @@ def test_states_without_a_curve_of_their_own():
     assert [curve.status for curve in falling] == ["decreasing"] * 2
     few = fit_states(samples(np.array([[0, 1], [1, 2], [0, 2]]), levels), [0.4, 1.0])
     assert {curve.errors for curve in few} == {"few_clusters"}
-    with pytest.raises(dd.DondoloError, match="less than three clusters"):
+    with pytest.raises(dd.errors.DondoloError, match="less than three clusters"):
         few[0].parameter_interval()
 
 
@@ -153,13 +153,13 @@ def test_stripes(analysis):
     low, _, high = analysis.fit_damage_states(STATES, states="ordinal")
     compared = low.compare(high)
     assert (compared.pairing, compared.beta_ratio, compared.beta_p_value) == ("paired", 1.0, 1.0)
-    with pytest.raises(dd.DondoloError, match="bootstrap: needs the stripes"):
+    with pytest.raises(dd.errors.DondoloError, match="bootstrap: needs the stripes"):
         low.bootstrap()
-    with pytest.raises(dd.InputError, match=r"edp_thresholds = 0\.4, 0\.1: must increase strictly"):
+    with pytest.raises(dd.errors.InputError, match=r"edp_thresholds = 0\.4, 0\.1: must increase strictly"):
         analysis.fit_damage_states([0.4, 0.1])
-    with pytest.raises(dd.InputError, match="states = 'both'"):
+    with pytest.raises(dd.errors.InputError, match="states = 'both'"):
         analysis.fit_damage_states(STATES, states="both")
-    with pytest.raises(dd.InputError, match="edp_thresholds: must be given"):
+    with pytest.raises(dd.errors.InputError, match="edp_thresholds: must be given"):
         analysis.fit_damage_states([])
     ax = analysis.plot_damage_states(edp_thresholds=STATES, states="ordinal")
     assert sum(f"β = {low.beta:.3g}" in text.get_text() for text in ax.get_legend().get_texts()) == 3

@@ -46,7 +46,7 @@ def dead(request) -> dd.Record:
 
 @pytest.mark.parametrize("im", ["pga", "pgv", "sa(0.5)", "arias", "pga/a0", "p*pgv/a0", "saavg(0.2:1.0)"])
 def test_every_measure_refuses(dead, im, wall):
-    with pytest.raises(dd.InputError, match=SENTENCE):
+    with pytest.raises(dd.errors.InputError, match=SENTENCE):
         dd.multiple_stripe(wall, [*LIVE, dead], [0.2, 0.8], im=im, progress=False)
 
 
@@ -78,8 +78,8 @@ def test_every_analysis_refuses(dead, wall):
     )
     for analysis in analyses:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", dd.DondoloWarning)
-            with pytest.raises(dd.InputError, match=SENTENCE):
+            warnings.simplefilter("ignore", dd.errors.DondoloWarning)
+            with pytest.raises(dd.errors.InputError, match=SENTENCE):
                 analysis()
 
 
@@ -90,7 +90,7 @@ def test_the_reason_is_stated(wall):
         "stuck": "(all its samples are 0.37 m/s2): must be left out",
     }
     for name, reason in reasons.items():
-        with pytest.raises(dd.InputError) as caught:
+        with pytest.raises(dd.errors.InputError) as caught:
             dd.multiple_stripe(wall, [*LIVE, dd.Record(DEAD[name], 0.01, "x")], [0.2], progress=False)
         assert str(caught.value).endswith(reason)
 
@@ -99,7 +99,7 @@ def test_a_record_that_runs_at_no_level_is_no_matter(wall):
     """Only what runs is looked at; a wall alone may be under any motion, and a rectangular pulse is one."""
     rows = dd.RecordSet([*LIVE, *LIVE], level=[0.2] * 4 + [0.8] * 4)
     assert dd.multiple_stripe(wall, rows, progress=False).ran.sum() == 8
-    with pytest.warns(dd.DondoloWarning, match="has a PGA of 0"):
+    with pytest.warns(dd.errors.DondoloWarning, match="has a PGA of 0"):
         assert dd.simulate(wall, dd.Record(np.zeros(10), 0.01), history=False).edp == 0.0
     assert dd.simulate(wall, dd.Record(np.full(50, -3.0), 0.01), history=False).edp > 0.0
 
@@ -109,17 +109,17 @@ def test_what_is_weak_is_still_a_motion(scale, wall):
     """The rule does not depend on the unit that a record was given in by mistake."""
     weak = [dd.Record(scale * one.acceleration, one.dt, one.name, metadata=one.metadata) for one in LIVE]
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", dd.DondoloWarning)
+        warnings.simplefilter("ignore", dd.errors.DondoloWarning)
         own, other = (dd.multiple_stripe(wall, some, [0.2, 0.8], progress=False) for some in (LIVE, weak))
     np.testing.assert_array_equal(own.collapsed, other.collapsed)
 
 
 def test_a_vertical_component_that_was_dead(dead, tmp_path):
-    with pytest.raises(dd.InputError, match="vertical: has no motion"):
+    with pytest.raises(dd.errors.InputError, match="vertical: has no motion"):
         LIVE[0].with_vertical(dead)
     for name, values in (("up", dead.acceleration), ("across", LIVE[0].acceleration)):
         np.savetxt(tmp_path / f"{name}.txt", values, fmt="%.17g")
     (tmp_path / "c.csv").write_text("file,vertical,dt_s,units\nacross.txt,up.txt,0.01,m/s2\n")
     assert len(dd.read_catalogue(tmp_path / "c.csv")) == 1
-    with pytest.raises(dd.InputError, match="line 2: vertical: has no motion"):
+    with pytest.raises(dd.errors.InputError, match="line 2: vertical: has no motion"):
         dd.read_catalogue(tmp_path / "c.csv", vertical="recorded")

@@ -110,7 +110,7 @@ def test_levels_of_their_own(designs, records):
 
 def test_a_design_without_a_curve(designs, few):
     both = {"as it stands": designs["as it stands"], "hardly": dd.OneSidedWall(1.5, 1.4)}
-    with pytest.warns(dd.DondoloWarning, match="no collapse at levels 0.2 to 1.2, no curve is fitted"):
+    with pytest.warns(dd.errors.DondoloWarning, match="no collapse at levels 0.2 to 1.2, no curve is fitted"):
         found = dd.compare_designs(both, few, LEVELS, progress=False)
     assert found.comparisons[1] is None
     assert np.isnan(found.ratio[1])
@@ -132,7 +132,7 @@ def test_a_design_without_a_curve(designs, few):
 )
 def test_what_cannot_be_compared(few, change, message):
     given = {"designs": {"a": dd.OneSidedWall(1.5, 0.25)}, "records": few, "levels": [0.5, 1.0]} | change
-    with pytest.raises(dd.InputError, match=message):
+    with pytest.raises(dd.errors.InputError, match=message):
         dd.compare_designs(given.pop("designs"), given.pop("records"), given.pop("levels"), progress=False, **given)
 
 
@@ -203,9 +203,9 @@ def test_the_executable_compares(root, run, tmp_path):
     for wall in walls:
         assert f"{wall.name}: at rest (dashed)" in text
         assert f"Calculation sheet of {wall.name}." in text
-    with pytest.raises(dd.InputError, match="alternatives with no curve in common"):
+    with pytest.raises(dd.errors.InputError, match="alternatives with no curve in common"):
         results.typology["all"]
-    with pytest.raises(dd.InputError, match="alternatives"):
+    with pytest.raises(dd.errors.InputError, match="alternatives"):
         results.typology.plot()
     functions, _ = results.typology.nrml_functions()
     assert [one["collapse"].theta for one in functions.values()] == [curve.theta for curve in found.curves]

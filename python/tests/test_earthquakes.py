@@ -122,7 +122,7 @@ def test_dates_are_compared_as_dates():
     # Which of the two is the month is not known: it is the same date only where it is written alike
     assert ambiguous.event == "ABC 12/02/2018"
     assert len(same[0].rotate(same[1], 10.0)) == len(WAVE)
-    with pytest.raises(dd.InputError, match="date = '2018-02-12' and '2018-02-13': must be the same"):
+    with pytest.raises(dd.errors.InputError, match="date = '2018-02-12' and '2018-02-13': must be the same"):
         one.rotate(same[0], 10.0)
 
 
@@ -354,7 +354,7 @@ def test_a_run_says_that_earthquakes_are_not_known(wall):
     assert warnings_of(named) == []
     # One record, or one motion twice, is one cluster whatever it is
     assert warnings_of(other[0]) == []
-    with pytest.warns(dd.DondoloWarning, match=sentence) as caught:
+    with pytest.warns(dd.errors.DondoloWarning, match=sentence) as caught:
         dd.typology([wall, dd.OneSidedWall(2.0, 0.3)], unknown, [0.2, 0.4], progress=False)
     (one,) = (warning.message for warning in caught if "earthquake of" in str(warning.message))
     assert one.code == "records_without_event"
@@ -368,7 +368,7 @@ def test_recorded_files(recordings):
         if path.is_file():
             try:
                 found[path.parent.name] = dd.read_records(path)[0]
-            except dd.InputError:
+            except dd.errors.InputError:
                 continue
     events = {name: record.metadata["event"] for name, record in found.items() if "event" in record.metadata}
     assert events["knet"] == "20110630T144500Z 36.213N 137.943E"

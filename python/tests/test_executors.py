@@ -161,7 +161,7 @@ def test_few_tasks_are_in_flight(pool, crews):
 
 def test_ctrl_c(whole, tmp_path, pool):
     path = tmp_path / "study.counts"
-    with pytest.raises(dd.Interrupted, match=r"interrupted: \d+ of 60 walls are complete") as caught:
+    with pytest.raises(dd.errors.Interrupted, match=r"interrupted: \d+ of 60 walls are complete") as caught:
         dd.typology(**study.arguments(executor=Disturbed(pool, 20, stop), block=1, checkpoint=path))
     assert 5 < len(caught.value.partial.walls) < 20
     result = dd.typology(**study.arguments(executor=pool, block=1, checkpoint=path))
@@ -187,20 +187,24 @@ def test_a_broken_pool(whole, tmp_path):
     sentence = r"executor: BrokenProcessPool: .*; \d+ of 60 rows are complete, "
     with ProcessPoolExecutor(2, mp_context=SPAWN) as executor:
         disturbed = Disturbed(executor, 20, kill)
-        with pytest.raises(dd.DondoloError, match=sentence + "the same call goes on from there"):
+        with pytest.raises(dd.errors.DondoloError, match=sentence + "the same call goes on from there"):
             dd.typology(**study.arguments(executor=disturbed, block=1, checkpoint=path))
-        with pytest.raises(dd.DondoloError, match=r"executor: BrokenProcessPool.*; 0 of 60 .*, a checkpoint would"):
+        with pytest.raises(
+            dd.errors.DondoloError, match=r"executor: BrokenProcessPool.*; 0 of 60 .*, a checkpoint would"
+        ):
             dd.typology(**study.arguments(executor=executor))
     assert of(dd.typology(**study.arguments(checkpoint=path)), tmp_path / "out") == whole
 
 
 def test_errors(pool, monkeypatch):
-    with pytest.raises(dd.InputError, match=r"executor: str is no executor of concurrent\.futures"):
+    with pytest.raises(dd.errors.InputError, match=r"executor: str is no executor of concurrent\.futures"):
         dd.typology(**study.arguments(executor="dask"))
     # Workers whose results would differ
     build = crew._build()
     monkeypatch.setattr(crew, "build_variant", lambda: "z80")
-    with pytest.raises(dd.InputError, match=rf"worker \S+: has {build} and not dondolo .*, z80; .*DONDOLO_VARIANT"):
+    with pytest.raises(
+        dd.errors.InputError, match=rf"worker \S+: has {build} and not dondolo .*, z80; .*DONDOLO_VARIANT"
+    ):
         dd.typology(**study.arguments(executor=pool))
 
 

@@ -108,7 +108,7 @@ def test_leaves():
     ],
 )
 def test_wrong(make, message):
-    with pytest.raises(dd.InputError, match=message.replace("(", r"\(")):
+    with pytest.raises(dd.errors.InputError, match=message.replace("(", r"\(")):
         make()
 
 
@@ -231,7 +231,7 @@ def test_unions_of_files(ran, tmp_path):
         union, other = (one.at(threshold).unions["front"] for one in (stored, again))
         assert (other.theta, other.beta) == pytest.approx((union.theta, union.beta), rel=1e-12)
         assert other.covariance == pytest.approx(union.covariance, rel=1e-9)
-    with pytest.raises(dd.InputError, match="read back from files without"):
+    with pytest.raises(dd.errors.InputError, match="read back from files without"):
         dataclasses.replace(stored, union_curves=None).unions  # noqa: B018
 
 
@@ -249,9 +249,9 @@ def test_plot(ran, few):
     words = [text.get_text() for text in ax.get_legend().get_texts()]
     assert words[0] == "front at 0 m, one-sided"
     assert any(word.startswith("same histories: θ = ") for word in words)
-    with pytest.raises(dd.InputError, match="name = 'back'"):
+    with pytest.raises(dd.errors.InputError, match="name = 'back'"):
         result.plot_union(name="back")
-    with pytest.raises(dd.InputError, match="unions: there are none"):
+    with pytest.raises(dd.errors.InputError, match="unions: there are none"):
         dd.typology([dd.OneSidedWall(1.5, 0.25)], few, [0.4, 0.8], progress=False).plot_union()
 
 
@@ -359,7 +359,7 @@ def test_a_union_beyond_the_levels_is_warned_of(executable, root, tmp_path):
     assert said in done.stderr
     assert "the population" not in done.stderr
     theirs = dd.read_results(tmp_path / "out").typology.warnings
-    with pytest.warns(dd.DondoloWarning, match=said) as caught:
+    with pytest.warns(dd.errors.DondoloWarning, match=said) as caught:
         mine = dd.run_case(tmp_path / "case.nml", progress=False).typology
     assert not any("the population" in str(one.message) for one in caught)
     (own,) = (one for one in mine.warnings if one.code == "union_extrapolated")

@@ -33,7 +33,7 @@ def test_a_file_appears_whole_or_not_at_all(tmp_path):
     for error in (RuntimeError, KeyboardInterrupt):
         with pytest.raises(error):
             half(path, error)
-    with pytest.raises(dd.DondoloError, match="cannot be written: No space left"):
+    with pytest.raises(dd.errors.DondoloError, match="cannot be written: No space left"):
         half(path, OSError(28, "No space left on device"))
     # What cannot be encoded leaves nothing behind either.
     with pytest.raises(UnicodeEncodeError):
@@ -104,8 +104,8 @@ def test_nothing_of_an_earlier_run_is_left(people, tmp_path):
     before = [(tmp_path / name).read_bytes() for name in WRITTEN[:-1]]
     (tmp_path / "city_walls.csv").unlink()
     (tmp_path / "city_walls.csv").mkdir()
-    changed = dataclasses.replace(people, warnings=(dd.DondoloWarning("other", "note"),))
-    with pytest.raises(dd.DondoloError, match=r"city_walls\.csv: cannot be written: is a folder"):
+    changed = dataclasses.replace(people, warnings=(dd.errors.DondoloWarning("other", "note"),))
+    with pytest.raises(dd.errors.DondoloError, match=r"city_walls\.csv: cannot be written: is a folder"):
         changed.write_results(tmp_path / "city")
     assert [(tmp_path / name).read_bytes() for name in WRITTEN[:-1]] == before
     assert not list(tmp_path.glob("*.part"))
@@ -126,7 +126,7 @@ def damaged(executable, root, tmp_path_factory):
         assert number
         path.write_text(changed)
         try:
-            with pytest.raises(dd.InputError) as caught:
+            with pytest.raises(dd.errors.InputError) as caught:
                 dd.read_results(prefix)
         finally:
             path.write_text(text)
@@ -201,7 +201,7 @@ def test_a_cell_is_no_comment(people, tmp_path):
     # As a file of an earlier version may have it
     forged = path.read_text().replace('"b, with a comma"', "\"b\n# &job task = 'history'\"")
     path.write_text(forged)
-    with pytest.raises(dd.InputError, match=r"city_walls\.csv: line \d+: name = .*: must be one line"):
+    with pytest.raises(dd.errors.InputError, match=r"city_walls\.csv: line \d+: name = .*: must be one line"):
         dd.read_results(tmp_path / "city")
 
 
@@ -223,11 +223,11 @@ def test_a_missing_file_is_a_missing_file(tmp_path):
     ):
         with pytest.raises(FileNotFoundError) as caught:
             read(path)
-        assert isinstance(caught.value, dd.InputError)
+        assert isinstance(caught.value, dd.errors.InputError)
         assert pickle.loads(pickle.dumps(caught.value)).args == caught.value.args
         assert "none" in str(caught.value)
     case.write_text(case.read_text() + "&stripes levels = 0.1, 0.2 /\n")
-    with pytest.raises(dd.MissingFileError, match=r"&records: catalogue = 'none.csv': there is no file"):
+    with pytest.raises(dd.errors.MissingFileError, match=r"&records: catalogue = 'none.csv': there is no file"):
         dd.read_case(case)
 
 
@@ -250,7 +250,7 @@ def test_names_stand_on_one_line(character, wall, sine, tmp_path):
         lambda: dd.Population([wall], groups=[name]),
         lambda: dd.Population([wall], origin=[name]),
     ):
-        with pytest.raises(dd.InputError, match="must be one line without control characters"):
+        with pytest.raises(dd.errors.InputError, match="must be one line without control characters"):
             make()
     # What a table says is refused as well, and the name that a file gives its record is made plain.
     (tmp_path / "record.txt").write_text("0\n1\n0\n")
@@ -261,7 +261,7 @@ def test_names_stand_on_one_line(character, wall, sine, tmp_path):
         (tmp_path / table).write_bytes(f"{header}\n{row}\n".encode())
         read = dd.read_catalogue if table == "records.csv" else dd.Population.from_csv
         refusal = "byte .* is NUL: this is no text" if character == "\0" else "name = .*: must be one line"
-        with pytest.raises(dd.InputError, match=f"{table}: line 2: {refusal}"):
+        with pytest.raises(dd.errors.InputError, match=f"{table}: line 2: {refusal}"):
             read(tmp_path / table)
     if character != "\0":
         path = tmp_path / f"{name}.txt"
@@ -302,7 +302,7 @@ def test_standard_errors_of_populations_stay_with_their_files(run, root, tmp_pat
     assert said.returncode == 0
     assert "\n  standard errors over records and walls: 0.0" in said.stdout
     assert "  no standard errors: 2 walls, one or at least 3 are needed" in said.stdout
-    with pytest.warns(dd.DondoloWarning):
+    with pytest.warns(dd.errors.DondoloWarning):
         ran = dd.run_case(case, progress=False).typology
     read = dd.read_results(tmp_path / "out/some").typology
     for back in (read, saved_and_loaded(read, tmp_path)):
@@ -322,7 +322,7 @@ def test_standard_errors_of_populations_stay_with_their_files(run, root, tmp_pat
     # Of walls whose mechanisms are in series, by the sums of NumPy
     people, records = ran.population, dd.read_catalogue(root / "data/records/synthetic44.csv")
     given = {"polarity": "both", "edp_thresholds": [0.3], "progress": False}
-    with pytest.warns(dd.DondoloWarning):
+    with pytest.warns(dd.errors.DondoloWarning):
         objects = dd.typology(people, records, ran.levels, **given)
     for edp in ran.edp_thresholds:
         for name, curve in objects.at(edp).combined.items():
@@ -330,7 +330,7 @@ def test_standard_errors_of_populations_stay_with_their_files(run, root, tmp_pat
             assert (stored.errors, stored.clusters) == (curve.errors, curve.clusters)
             np.testing.assert_allclose(stored.covariance, curve.covariance, rtol=1e-9)
     assert read.combined["a"].se_ln_theta > 1.2 * read.combined["a"].naive_covariance[0, 0] ** 0.5
-    with pytest.raises(dd.InputError, match="or of a population that was read back, does not know its records"):
+    with pytest.raises(dd.errors.InputError, match="or of a population that was read back, does not know its records"):
         back["all"].fit.compare(back["all"].fit)
 
 
@@ -362,17 +362,17 @@ def test_standard_errors_that_cannot_be(few, tmp_path, table, column, cell, mess
     row[lines[first].split(",").index(column)] = cell
     lines[first + 1] = ",".join(row)
     path.write_text("\n".join(lines) + "\n")
-    with pytest.raises(dd.InputError, match=re.escape(f"city_{table}.csv: line {first + 2}: {message}")):
+    with pytest.raises(dd.errors.InputError, match=re.escape(f"city_{table}.csv: line {first + 2}: {message}")):
         dd.read_results(tmp_path / "city")
 
 
 def test_what_cannot_be_saved(people, few, tmp_path):
     walls = [dd.OneSidedWall(1.5, 0.25, name="a", gravity=9.7), dd.OneSidedWall(1.5, 0.25, name="b")]
     uneven = dd.typology(walls, few, [0.4, 0.8], progress=False)
-    with pytest.raises(dd.InputError, match=r"gravity = 9\.7 and 9\.81: must be the same for all walls"):
+    with pytest.raises(dd.errors.InputError, match=r"gravity = 9\.7 and 9\.81: must be the same for all walls"):
         uneven.write_results(tmp_path / "city")
     assert not os.listdir(tmp_path)
-    with pytest.raises(dd.InputError, match="prefix = 5: must be the path of a file"):
+    with pytest.raises(dd.errors.InputError, match="prefix = 5: must be the path of a file"):
         people.write_results(5)
-    with pytest.raises(dd.InputError, match=r"prefix = '.*/': must be the path of a file"):
+    with pytest.raises(dd.errors.InputError, match=r"prefix = '.*/': must be the path of a file"):
         people.write_results(f"{tmp_path}/")

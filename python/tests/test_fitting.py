@@ -64,14 +64,16 @@ def test_two_stripes_in_closed_form():
 
 
 def test_extrapolation_warns():
-    with pytest.warns(dd.DondoloWarning, match=r"theta = 5.86 lies outside the levels 1 to 2: the fit extrapolates"):
+    with pytest.warns(
+        dd.errors.DondoloWarning, match=r"theta = 5.86 lies outside the levels 1 to 2: the fit extrapolates"
+    ):
         curve = dd.fit_fragility([1.0, 1.5, 2.0], [0, 2, 2], [59, 50, 44])
     assert curve.status == "extrapolated"
     assert (curve.theta, curve.beta) == (pytest.approx(5.85981, abs=1e-5), pytest.approx(0.684495, abs=1e-6))
 
 
 def test_counts_that_hardly_rise_warn():
-    with pytest.warns(dd.DondoloWarning, match="collapses hardly become more frequent with the level") as caught:
+    with pytest.warns(dd.errors.DondoloWarning, match="collapses hardly become more frequent with the level") as caught:
         curve = dd.fit_fragility([0.15, 0.3, 0.45, 0.6, 0.75], [14, 16, 15, 14, 17], 30)
     assert (curve.status, curve.has_fit) == ("nearly_flat", True)
     assert curve.beta > 5.0
@@ -101,7 +103,7 @@ def test_no_fit(collapses, status, bracket):
     assert (curve.status, curve.bracket, curve.has_fit) == (status, bracket, False)
     assert np.isnan([curve.theta, curve.beta, curve.log_likelihood, curve.se_beta]).all()
     for use in (lambda: curve(1.0), lambda: curve.interval(1.0), curve.parameter_interval, curve.bootstrap):
-        with pytest.raises(dd.DondoloError, match=f"no curve was fitted .status '{status}'."):
+        with pytest.raises(dd.errors.DondoloError, match=f"no curve was fitted .status '{status}'."):
             use()
     assert status in repr(curve)
 
@@ -117,7 +119,7 @@ def test_no_fit(collapses, status, bracket):
     ],
 )
 def test_wrong_counts(levels, collapses, histories, words):
-    with pytest.raises(dd.InputError, match=words):
+    with pytest.raises(dd.errors.InputError, match=words):
         dd.fit_fragility(levels, collapses, histories)
 
 
@@ -134,7 +136,7 @@ def test_random_stripes(theta, beta, number, histories, seed):
     p = stats.norm.cdf(np.log(levels / theta) / beta)
     collapses = np.random.default_rng(seed).binomial(histories, p)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", dd.DondoloWarning)
+        warnings.simplefilter("ignore", dd.errors.DondoloWarning)
         curve = dd.fit_fragility(levels, collapses, histories)
     if not curve.has_fit:
         return
@@ -160,7 +162,7 @@ def test_probability():
     assert curve(x).shape == (2, 2)
     assert isinstance(curve(1.0), float)
     for wrong in (-1.0, np.nan, "high"):
-        with pytest.raises(dd.InputError):
+        with pytest.raises(dd.errors.InputError):
             curve(wrong)
 
 
@@ -228,7 +230,7 @@ def test_weak_data_leave_beta_open():
 
 @pytest.mark.parametrize("level", [0.0, 1.0, -0.1, np.nan])
 def test_wrong_confidence(level):
-    with pytest.raises(dd.InputError, match="confidence"):
+    with pytest.raises(dd.errors.InputError, match="confidence"):
         dd.fit_fragility(*PUBLIC).interval(1.0, confidence=level)
 
 
@@ -252,7 +254,7 @@ def test_bootstrap(stripes):
 
 
 def test_bootstrap_needs_stripes():
-    with pytest.raises(dd.DondoloError, match="needs the stripes"):
+    with pytest.raises(dd.errors.DondoloError, match="needs the stripes"):
         dd.fit_fragility(*PUBLIC).bootstrap()
 
 
@@ -313,7 +315,7 @@ def test_too_few_clusters_have_no_standard_errors(stripes):
     assert "less than three clusters" in repr(curve)
     assert "nan" not in repr(curve)
     for use in (lambda: curve.interval(1.0), curve.parameter_interval, lambda: curve.compare(curve)):
-        with pytest.raises(dd.DondoloError, match="no standard errors: less than three clusters of records"):
+        with pytest.raises(dd.errors.DondoloError, match="no standard errors: less than three clusters of records"):
             use()
     assert curve.to_frame().loc[0, ["se_ln_theta", "theta_low"]].isna().all()
 
@@ -374,11 +376,11 @@ def test_records_are_recognised_by_their_content(wall, records):
 
 def test_wrong_comparisons(stripes):
     curve, counts = stripes.fit(), dd.fit_fragility(*PUBLIC, im="pga")
-    with pytest.raises(dd.InputError, match="standard errors: clustered and naive: both must be of one kind"):
+    with pytest.raises(dd.errors.InputError, match="standard errors: clustered and naive: both must be of one kind"):
         curve.compare(counts)
     with refused("wrong_type", "other"):
         curve.compare("curve")
-    with pytest.raises(dd.InputError, match="im = 'pga' and '': must be the same"):
+    with pytest.raises(dd.errors.InputError, match="im = 'pga' and '': must be the same"):
         counts.compare(dd.fit_fragility(*PUBLIC))
 
 
@@ -441,7 +443,7 @@ def test_events_are_drawn_together(wall, few, polarity):
     assert np.nanstd(np.log(alone.theta)) < 0.8 * np.nanstd(np.log(plain.theta))
     own_names = once.bootstrap(n_resamples=300, seed=3, events=[f"event {i}" for i in range(len(few))])
     np.testing.assert_array_equal(own_names.theta, plain.theta)
-    with pytest.raises(dd.InputError, match=f"events: 1 labels for {len(few)} records: must be as many"):
+    with pytest.raises(dd.errors.InputError, match=f"events: 1 labels for {len(few)} records: must be as many"):
         once.bootstrap(n_resamples=5, events=["a"])
 
 
@@ -459,20 +461,20 @@ def test_events_are_drawn_together(wall, few, polarity):
 )
 def test_wrong_events(stripes, events, sentence):
     """Labels that are missing would make one event of their records."""
-    with pytest.raises(dd.InputError, match=sentence):
+    with pytest.raises(dd.errors.InputError, match=sentence):
         stripes.fit().bootstrap(n_resamples=5, events=events(stripes.n_records))
 
 
 def test_one_record_cannot_be_drawn_from():
-    with pytest.raises(dd.InputError, match="records: two at least are needed to draw from, there is 1"):
+    with pytest.raises(dd.errors.InputError, match="records: two at least are needed to draw from, there is 1"):
         draw_records(["alone"], 5, 0)
 
 
 @pytest.mark.parametrize("seed", [-1, "lucky", 1.5])
 def test_wrong_seeds(stripes, seed):
-    with pytest.raises(dd.InputError, match=r"seed = .*: must be an integer, at least 0, a Generator or None"):
+    with pytest.raises(dd.errors.InputError, match=r"seed = .*: must be an integer, at least 0, a Generator or None"):
         stripes.fit().bootstrap(n_resamples=5, seed=seed)
-    with pytest.raises(dd.InputError, match=r"n_resamples = 0: must be an integer, at least 1"):
+    with pytest.raises(dd.errors.InputError, match=r"n_resamples = 0: must be an integer, at least 1"):
         stripes.fit().bootstrap(n_resamples=0)
 
 
@@ -492,18 +494,18 @@ def test_names_of_measures():
     assert dd.Fragility.of_parameters(0.5, 0.4, im="PGA").im == "pga"
     assert dd.Fragility.of_parameters(0.5, 0.4, im="my measure").im == "my measure"
     assert dd.Fragility.of_parameters(0.5, 0.4).im == ""
-    with pytest.raises(dd.InputError, match="im = 5: must be a text"):
+    with pytest.raises(dd.errors.InputError, match="im = 5: must be a text"):
         dd.fit_fragility([0.2, 0.4], [11, 33], 44, im=5)
 
 
 def test_fractions_that_fall_tell_no_median():
     curve = dd.fit_fragility([0.2, 0.4], [9, 3], 10)
-    with pytest.raises(dd.DondoloError, match=r"no curve was fitted \(status 'decreasing'\)$"):
+    with pytest.raises(dd.errors.DondoloError, match=r"no curve was fitted \(status 'decreasing'\)$"):
         curve(0.3)
     assert "median" not in repr(curve)
     drawn = curve.plot().get_legend()
     assert drawn is None or not any("median" in text.get_text() for text in drawn.get_texts())
-    with pytest.raises(dd.DondoloError, match=r"the median lies between 0\.4 and inf"):
+    with pytest.raises(dd.errors.DondoloError, match=r"the median lies between 0\.4 and inf"):
         dd.fit_fragility([0.2, 0.4], [0, 0], 10)(0.3)
 
 
@@ -527,14 +529,14 @@ def test_inverse():
     assert part.ppf(0.4) == pytest.approx(curve.theta, rel=1e-15)
     assert part.ppf([0.8, 0.9]).tolist() == [np.inf, np.inf]
     for wrong in (-0.1, 1.1, np.nan, "half"):
-        with pytest.raises(dd.InputError, match=r"p = .*must lie between 0 and 1|p: must be numbers"):
+        with pytest.raises(dd.errors.InputError, match=r"p = .*must lie between 0 and 1|p: must be numbers"):
             curve.ppf(wrong)
     for wrong in (0.0, 0.8, 1.0):
-        with pytest.raises(dd.InputError, match=r"p = .*: must be greater than 0 and less than 0.8"):
+        with pytest.raises(dd.errors.InputError, match=r"p = .*: must be greater than 0 and less than 0.8"):
             part.ppf_interval(wrong)
-    with pytest.raises(dd.DondoloError, match="no standard errors"):
+    with pytest.raises(dd.errors.DondoloError, match="no standard errors"):
         dd.Fragility.of_parameters(0.5, 0.4).ppf_interval(0.5)
-    with pytest.raises(dd.DondoloError, match="no curve was fitted"):
+    with pytest.raises(dd.errors.DondoloError, match="no curve was fitted"):
         dd.fit_fragility([0.2, 0.4], [0, 0], 20).ppf(0.5)
 
 
@@ -584,5 +586,5 @@ def test_outcomes_that_were_not_run():
     ],
 )
 def test_wrong_outcomes(given, message):
-    with pytest.raises(dd.InputError, match=message):
+    with pytest.raises(dd.errors.InputError, match=message):
         dd.fit_fragility(**{"levels": [0.2, 0.4], "collapses": [[0, 1], [0, 1]]} | given)

@@ -142,7 +142,7 @@ def test_population(records, executable, tmp_path):
     ],
 )
 def test_refusals(given, sentence):
-    with pytest.raises(dd.InputError) as caught:
+    with pytest.raises(dd.errors.InputError) as caught:
         dd.Building(**given)
     assert str(caught.value).startswith(sentence)
     assert "\n" not in str(caught.value)
@@ -181,5 +181,5 @@ def test_spectrum_of_the_code(records):
     assert code.sa == pytest.approx(expected, rel=1e-12)
     ax = house.plot(records=records, periods=[0.1, 0.3, 0.6, 1.0], damping=0.08, site=site)
     assert np.array_equal(ax.lines[-2].get_ydata(), code.sa)
-    with pytest.raises(dd.InputError, match="damping = 0: must be positive"):
+    with pytest.raises(dd.errors.InputError, match="damping = 0: must be positive"):
         site.spectrum(building=dd.Building(0.3, participation=1.0, damping=0.0))

@@ -28,16 +28,16 @@ def slow() -> dd.Record:
 
 @pytest.mark.parametrize("engine", ["lanes", "rk45"])
 def test_one_history(bouncing: dd.Wall, slow: dd.Record, engine: str) -> None:
-    with pytest.raises(dd.DondoloError, match=ERROR):
+    with pytest.raises(dd.errors.DondoloError, match=ERROR):
         dd.simulate(bouncing, slow, scale=LEVEL * 9.81, history=False, solver=dd.Solver(engine=engine))
 
 
 def test_stripes(bouncing: dd.Wall, slow: dd.Record, sine: dd.Record) -> None:
-    with pytest.raises(dd.DondoloError, match=ERROR):
+    with pytest.raises(dd.errors.DondoloError, match=ERROR):
         dd.multiple_stripe(bouncing, [sine, slow], [LEVEL], progress=False)
 
 
 def test_typology(bouncing: dd.Wall, slow: dd.Record, sine: dd.Record) -> None:
     """The error names the wall."""
-    with pytest.raises(dd.DondoloError, match="rubber.*" + ERROR):
+    with pytest.raises(dd.errors.DondoloError, match="rubber.*" + ERROR):
         dd.typology([dd.OneSidedWall(2.0, 0.25, name="brick"), bouncing], [sine, slow], [LEVEL], progress=False)

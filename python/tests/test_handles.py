@@ -23,7 +23,7 @@ LEVELS = [0.2, 0.6]
 def refusal(procedure, *given):
     """The sentence with which a procedure of the extension refuses what it is given."""
     found = procedure(*given)
-    with pytest.raises(dd.InputError) as refused:
+    with pytest.raises(dd.errors.InputError) as refused:
         check(found if isinstance(found, np.ndarray) else found[-1])
     return str(refused.value)
 
@@ -101,7 +101,7 @@ def test_walls_that_share_a_plan_have_warnings_of_their_own(few, replace_procedu
     found, study = {}, dd.Study(few, levels)
     for again in (False, True):
         for name, wall in walls.items():
-            with pytest.warns(dd.DondoloWarning) as caught:
+            with pytest.warns(dd.errors.DondoloWarning) as caught:
                 stripes = (study if again else dd.Study(few, levels)).run(wall, progress=False)
             told = [str(one.message) for one in caught], stripes.scale.tolist(), stripes.collapsed.tolist()
             assert found.setdefault(name, told) == told
@@ -119,7 +119,7 @@ def test_walls_that_share_a_plan_have_warnings_of_their_own(few, replace_procedu
     with warnings.catch_warnings():
         warnings.simplefilter("error")
         for _ in range(2):
-            with pytest.raises(dd.DondoloWarning) as raised:
+            with pytest.raises(dd.errors.DondoloWarning) as raised:
                 study.run(walls["usual"], progress=False)
             assert len(raised.traceback) < 10
 

@@ -47,7 +47,7 @@ def test_fractiles(hazard):
     assert not hazard.fractiles[0.84].flags.writeable
     assert list(hazard.to_frame().columns) == ["pga", "annual_frequency", "fractile_0.16", "fractile_0.84"]
     with pytest.raises(
-        dd.InputError, match=r"q = 0.5: must be one of the fractiles of the hazard curve; there is 0.16"
+        dd.errors.InputError, match=r"q = 0.5: must be one of the fractiles of the hazard curve; there is 0.16"
     ):
         hazard.fractile(0.5)
 
@@ -65,7 +65,7 @@ def test_fractiles(hazard):
     ],
 )
 def test_fractiles_that_are_none(fractiles, message):
-    with pytest.raises(dd.InputError, match=message):
+    with pytest.raises(dd.errors.InputError, match=message):
         dd.HazardCurve(LEVELS, MEAN, fractiles=fractiles)
 
 
@@ -83,14 +83,16 @@ def test_fractiles_in_tables(hazard, tmp_path):
     np.testing.assert_allclose(read.fractiles[0.05], [-np.log(0.9) / 50.0, 0.0], rtol=1e-14)
     for title in ("fractile_low", "fractile_16"):
         table.write_text(f"pga,annual_frequency,{title}\n0.1,0.2,0.1\n0.2,0.1,0\n")
-        with pytest.raises(dd.InputError, match=f"column '{title}': must be as fractile_0.16"):
+        with pytest.raises(dd.errors.InputError, match=f"column '{title}': must be as fractile_0.16"):
             dd.HazardCurve.from_csv(table)
 
 
 def test_levels_in_another_unit_are_warned_of(tmp_path):
     table = tmp_path / "hazard.csv"
     table.write_text("pga,annual_frequency\n0.5,0.02\n5,0.0002\n")
-    with pytest.warns(dd.DondoloWarning, match=r"hazard.csv: levels up to 5 of pga, more than 4 g: are they in m/s2"):
+    with pytest.warns(
+        dd.errors.DondoloWarning, match=r"hazard.csv: levels up to 5 of pga, more than 4 g: are they in m/s2"
+    ):
         dd.HazardCurve.from_csv(table)
 
 
@@ -98,7 +100,7 @@ def test_source(hazard, tmp_path):
     """A curve tells its file, how that was read, and what was done to it."""
     table = tmp_path / "hazard.csv"
     table.write_text("ag (g),TR,F0\n0.05,30,2.5\n0.2,475,2.4\n")
-    with pytest.warns(dd.DondoloWarning) as caught:
+    with pytest.warns(dd.errors.DondoloWarning) as caught:
         curve = dd.HazardCurve.from_csv(table)
     checksum = f"{zlib.crc32(table.read_bytes()):08x}"
     assert curve.source == (f"{table} (CRC-32 {checksum})", *(str(one.message) for one in caught))
@@ -107,9 +109,9 @@ def test_source(hazard, tmp_path):
     assert hazard.source == ()
     assert hazard.fractile(0.84).source == ("fractile 0.84",)
     assert dataclasses.replace(hazard, source="a study").source == ("a study",)
-    with pytest.raises(dd.InputError, match="source = 3: must be a text"):
+    with pytest.raises(dd.errors.InputError, match="source = 3: must be a text"):
         dataclasses.replace(hazard, source=[3])
-    with pytest.raises(dd.InputError, match="source = 3: must be sentences"):
+    with pytest.raises(dd.errors.InputError, match="source = 3: must be sentences"):
         dataclasses.replace(hazard, source=3)
 
 
@@ -119,7 +121,7 @@ def test_replaced(hazard):
     law = dataclasses.replace(dd.HazardCurve.power_law(1e-4, 2.5), im="pgv")
     assert law.endless
     assert law(10.0) == pytest.approx(1e-4 * 10.0**-2.5)
-    with pytest.raises(dd.InputError, match="endless: must have two levels"):
+    with pytest.raises(dd.errors.InputError, match="endless: must have two levels"):
         dataclasses.replace(hazard, endless=True)
 
 
@@ -149,7 +151,7 @@ def test_smoothed(hazard):
     assert np.all(np.diff(level.annual_frequency) <= 0.0)
     endless = dd.HazardCurve.power_law(1e-4, 2.0)
     assert endless.smoothed() is endless
-    with pytest.raises(dd.InputError, match="steps = 0: must be an integer"):
+    with pytest.raises(dd.errors.InputError, match="steps = 0: must be an integer"):
         hazard.smoothed(steps=0)
 
 
@@ -162,7 +164,7 @@ def test_openquake(tmp_path):
     np.testing.assert_array_equal(curve.levels, [0.1, 0.4, 0.6, 9.0])
     np.testing.assert_array_equal(curve.annual_frequency, -np.log1p(-np.array([0.15, 0.02, 1e-3, 1e-6])))
     assert curve.fractiles[0.84][0] == -np.log1p(-0.25)
-    with pytest.warns(dd.DondoloWarning, match=r"site 0: levels with a probability of 0 or 1 are left out: 9$"):
+    with pytest.warns(dd.errors.DondoloWarning, match=r"site 0: levels with a probability of 0 or 1 are left out: 9$"):
         first = dd.HazardCurve.from_openquake(mean, site=0)
     assert len(first.levels) == 3
     assert first.source[1] == f"{mean}: site 0: levels with a probability of 0 or 1 are left out: 9"
@@ -198,10 +200,10 @@ def test_openquake(tmp_path):
 def test_openquake_files_that_are_refused(tmp_path, values, site, message):
     path = file_of(tmp_path, **values)
     if message is None:
-        with pytest.raises(dd.InputError, match="kind = 'x': must be a number"):
+        with pytest.raises(dd.errors.InputError, match="kind = 'x': must be a number"):
             dd.HazardCurve.from_openquake([file_of(tmp_path, "mean.csv"), path], site=site)
         return
-    with pytest.raises(dd.InputError, match=message) as error:
+    with pytest.raises(dd.errors.InputError, match=message) as error:
         dd.HazardCurve.from_openquake(path, site=site)
     assert "\n" not in str(error.value)
 
@@ -214,16 +216,16 @@ def test_openquake_files_that_do_not_belong_together(tmp_path):
         ({"kind": "mean"}, "must be one mean and its quantiles, each once; there are 'mean', 'mean'"),
     ):
         other = file_of(tmp_path, "other.csv", **({"kind": "quantile-0.5"} | values))
-        with pytest.raises(dd.InputError, match=message):
+        with pytest.raises(dd.errors.InputError, match=message):
             dd.HazardCurve.from_openquake([mean, other], site=1)
     other = file_of(tmp_path, "other.csv", NEW.replace("13.39", "13.40"), kind="quantile-0.5")
-    with pytest.raises(dd.InputError, match="has other sites than"):
+    with pytest.raises(dd.errors.InputError, match="has other sites than"):
         dd.HazardCurve.from_openquake([mean, other], site=1)
-    with pytest.raises(dd.InputError, match=r"must be read by HazardCurve.from_openquake"):
+    with pytest.raises(dd.errors.InputError, match=r"must be read by HazardCurve.from_openquake"):
         dd.HazardCurve.from_csv(mean)
-    with pytest.raises(dd.InputError, match="must be read by"):
+    with pytest.raises(dd.errors.InputError, match="must be read by"):
         dd.HazardCurve.from_csv(file_of(tmp_path, "old.csv", OLD))
-    with pytest.raises(dd.InputError, match="must have the columns lon, lat"):
+    with pytest.raises(dd.errors.InputError, match="must have the columns lon, lat"):
         dd.HazardCurve.from_openquake(file_of(tmp_path, "own.csv", "pga,annual_frequency\n0.1,0.2\n"))
 
 
@@ -241,11 +243,11 @@ def test_openquake_round_trip(hazard, tmp_path):
     velocity = dd.HazardCurve([0.011, 0.07], [0.1, 0.01], im="pgv")
     (path,) = velocity.to_openquake(tmp_path, site=(0.0, 0.0))
     np.testing.assert_array_equal(dd.HazardCurve.from_openquake(path).levels, velocity.levels)
-    with pytest.raises(dd.InputError, match="im = 'arias': must be 'pga', 'pgv' or"):
+    with pytest.raises(dd.errors.InputError, match="im = 'arias': must be 'pga', 'pgv' or"):
         dd.HazardCurve([0.1, 0.2], [0.1, 0.01], im="arias").to_openquake(tmp_path, site=(0.0, 0.0))
-    with pytest.raises(dd.InputError, match="investigation_time = 0: must be positive"):
+    with pytest.raises(dd.errors.InputError, match="investigation_time = 0: must be positive"):
         velocity.to_openquake(tmp_path, site=(0.0, 0.0), investigation_time=0.0)
-    with pytest.raises(dd.DondoloError, match="is no folder"):
+    with pytest.raises(dd.errors.DondoloError, match="is no folder"):
         velocity.to_openquake(tmp_path / "none", site=(0.0, 0.0))
 
 
@@ -274,10 +276,10 @@ def test_files_of_openquake_that_are_refused(tmp_path, old, new, message):
     path.write_text(OPENQUAKE.replace(old, new))
     with warnings.catch_warnings():
         warnings.simplefilter("error", RuntimeWarning)
-        with pytest.raises(dd.InputError, match=rf"PGV\.csv: .*({message})") as error:
+        with pytest.raises(dd.errors.InputError, match=rf"PGV\.csv: .*({message})") as error:
             dd.HazardCurve.from_openquake(path)
     assert "\n" not in str(error.value)
-    with pytest.raises(dd.InputError, match="paths = 5: must be the path of a file, or a sequence of them"):
+    with pytest.raises(dd.errors.InputError, match="paths = 5: must be the path of a file, or a sequence of them"):
         dd.HazardCurve.from_openquake(5)
 
 
@@ -293,7 +295,7 @@ def test_files_of_openquake_that_are_refused(tmp_path, old, new, message):
 def test_rises_in_the_last_printed_digit_are_levelled(table, frequency, tmp_path):
     path = tmp_path / "site.csv"
     path.write_text(table)
-    with pytest.warns(dd.DondoloWarning, match="1 frequencies rise with the level in their last printed digit"):
+    with pytest.warns(dd.errors.DondoloWarning, match="1 frequencies rise with the level in their last printed digit"):
         curve = dd.HazardCurve.from_csv(path)
     np.testing.assert_allclose(curve.annual_frequency, frequency, rtol=1e-9)
     assert any("last printed digit" in one for one in curve.source)
@@ -303,13 +305,13 @@ def test_larger_rises_are_refused(tmp_path):
     path = tmp_path / "site.csv"
     for table in ("pga,annual_frequency\n0.1,0.0317\n0.2,0.0319\n0.4,0.0050\n", "pga,return_period\n0.1,75\n0.2,72\n"):
         path.write_text(table)
-        with pytest.raises(dd.InputError, match="must not increase with the level"):
+        with pytest.raises(dd.errors.InputError, match="must not increase with the level"):
             dd.HazardCurve.from_csv(path)
 
 
 def test_rises_of_openquake_are_levelled(tmp_path):
     text = OLD.replace("poe-0.4", "poe-0.4,poe-0.5").replace("0.5,0.01", "9.999997E-01,9.999998E-01,2.000000E-02")
-    with pytest.warns(dd.DondoloWarning, match="site 0: 1 frequencies rise"):
+    with pytest.warns(dd.errors.DondoloWarning, match="site 0: 1 frequencies rise"):
         curve = dd.HazardCurve.from_openquake(file_of(tmp_path, text=text))
     assert curve.annual_frequency[0] == curve.annual_frequency[1]
     assert curve.annual_frequency[0] == pytest.approx(-np.log1p(-0.9999998) / 50.0)

@@ -200,7 +200,7 @@ def test_status(stripes, table, status):
 
 def test_what_the_curve_cannot_do(stripes):
     curve = stripes.incremental().fit()
-    with pytest.raises(dd.DondoloError, match="needs the stripes"):
+    with pytest.raises(dd.errors.DondoloError, match="needs the stripes"):
         curve.bootstrap()
     # The same records make both curves
     assert curve.compare(stripes.fit()).pairing == "paired"
@@ -215,7 +215,7 @@ def test_tables(stripes, tmp_path):
     assert list(ida.to_frame("fractiles")["collapsed_once"]) == list(ida.counted)
     ida.to_csv(tmp_path / "records.csv")
     assert len((tmp_path / "records.csv").read_text().splitlines()) == 4 + stripes.edp.shape[1]
-    with pytest.raises(dd.InputError, match="table = 'x'"):
+    with pytest.raises(dd.errors.InputError, match="table = 'x'"):
         ida.to_frame("x")
     assert f"survive a higher level later {ida.resurrected.sum()}" in repr(ida)
     assert "<table>" in ida._repr_html_()

@@ -138,18 +138,18 @@ def test_averages(record):
     ],
 )
 def test_wrong_spectra(record, periods, damping, sentence):
-    with pytest.raises(dd.InputError, match=sentence.replace("(", r"\(")):
+    with pytest.raises(dd.errors.InputError, match=sentence.replace("(", r"\(")):
         record.spectrum(periods, damping=damping)
 
 
 def test_wrong_measures(record, wall):
-    with pytest.raises(dd.InputError, match=r"im = 'sa\(T\)': must be one of 'pga', .*'sa\(0.5\)'"):
+    with pytest.raises(dd.errors.InputError, match=r"im = 'sa\(T\)': must be one of 'pga', .*'sa\(0.5\)'"):
         record.intensity("sa(T)")
-    with pytest.raises(dd.InputError, match="im = 'pga/a0': must be one of"):
+    with pytest.raises(dd.errors.InputError, match="im = 'pga/a0': must be one of"):
         record.intensity("pga/a0")
-    with pytest.raises(dd.InputError, match="gravity = 0: must be positive"):
+    with pytest.raises(dd.errors.InputError, match="gravity = 0: must be positive"):
         record.intensity("pga", gravity=0.0)
-    with pytest.raises(dd.InputError, match="im = 'd5-95': a duration stays as it is"):
+    with pytest.raises(dd.errors.InputError, match="im = 'd5-95': a duration stays as it is"):
         dd.multiple_stripe(wall, record, [1.0], im="d5-95")
 
 
@@ -161,7 +161,7 @@ def test_table(few):
     assert list(dd.RecordSet(few[0]).intensity_table(["sa(0.50)"]).columns) == ["record", "sa(0.5) [g]"]
     # A text is one measure, not its letters
     assert list(dd.RecordSet(few).intensity_table("pga").columns) == ["record", "pga [g]"]
-    with pytest.raises(dd.InputError, match="ims = 3: must be names"):
+    with pytest.raises(dd.errors.InputError, match="ims = 3: must be names"):
         dd.RecordSet(few).intensity_table(3)
 
 
@@ -178,7 +178,7 @@ def test_stripes_reach_their_levels(few, im):
             assert scaled.intensity(im) == pytest.approx(level, rel=1e-12)
 
 
-@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 def test_measures_of_a_wall(few):
     walls = [dd.OneSidedWall(height=h, thickness=0.25) for h in (1.0, 2.0, 3.0)]
     for wall in walls:
@@ -193,7 +193,7 @@ def test_measures_of_a_wall(few):
         assert np.array_equal(people.collapses[:, i], alone.collapses)
 
 
-@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 def test_units_everywhere(records, wall, tmp_path):
     stripes = dd.multiple_stripe(wall, records[::2], [0.4, 0.5, 0.6, 0.7], im="pgv", progress=False)
     curve = stripes.fit()
@@ -225,7 +225,7 @@ def test_files_of_the_executable(run, root, tmp_path):
 @pytest.fixture(scope="module")
 def comparison(wall, records):
     """Two names of one measure, an energy and a poor measure."""
-    with pytest.warns(dd.DondoloWarning):
+    with pytest.warns(dd.errors.DondoloWarning):
         return dd.compare_intensities(wall, records, ["pga", "pga/a0", "arias", "pgd"], n_resamples=100, progress=False)
 
 
@@ -250,7 +250,7 @@ def test_comparison(comparison, wall):
     assert len(left.get_lines()) == 8
 
 
-@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 def test_one_measure_is_a_comparison(wall, records):
     assert dd.compare_intensities(wall, records, "pga", n_levels=5, n_resamples=20, progress=False).ims == ("pga",)
 
@@ -264,7 +264,7 @@ def test_two_records_are_compared_and_drawn_without_intervals(wall, few):
     assert not [drawn for drawn in right.containers if drawn.has_xerr]
 
 
-@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 def test_comparison_draws_events_together(wall, records):
     """Two copies of each record, labelled as one event, give the intervals of one copy."""
     some = records[::3]
@@ -280,13 +280,13 @@ def test_comparison_draws_events_together(wall, records):
 
 
 def test_wrong_comparisons(wall, few):
-    with pytest.raises(dd.InputError, match="ims: must be given, and differ"):
+    with pytest.raises(dd.errors.InputError, match="ims: must be given, and differ"):
         dd.compare_intensities(wall, few, ["sa(0.5)", "sa(0.50)"])
-    with pytest.raises(dd.InputError, match="im = 'x': must be one of"):
+    with pytest.raises(dd.errors.InputError, match="im = 'x': must be one of"):
         dd.compare_intensities(wall, few, ["x"])
-    with pytest.raises(dd.InputError, match="must be a text"):
+    with pytest.raises(dd.errors.InputError, match="must be a text"):
         dd.compare_intensities(wall, few, [["pga"]])
-    with pytest.raises(dd.InputError, match="levels = 1: must be"):
+    with pytest.raises(dd.errors.InputError, match="levels = 1: must be"):
         dd.compare_intensities(wall, few, ["pga"], n_levels=1)
-    with pytest.raises(dd.InputError, match="record 'flat': has no motion"):
+    with pytest.raises(dd.errors.InputError, match="record 'flat': has no motion"):
         dd.compare_intensities(wall, [*few, dd.Record(np.zeros(10), 0.01, "flat")], ["pga"])

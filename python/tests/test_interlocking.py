@@ -279,14 +279,14 @@ def test_what_the_executable_says(run, tmp_path):
     ],
 )
 def test_refusals(change, sentence):
-    with pytest.raises(dd.InputError, match=sentence):
+    with pytest.raises(dd.errors.InputError, match=sentence):
         wall(**change)
 
 
 def test_other_mechanisms_and_engines(records):
-    with pytest.raises((dd.InputError, TypeError)):
+    with pytest.raises((dd.errors.InputError, TypeError)):
         dd.FreeStandingWall(3.0, 0.25, interlock=OVERLAP)
-    with pytest.raises(dd.InputError, match="does not know interlock_overlap"):
+    with pytest.raises(dd.errors.InputError, match="does not know interlock_overlap"):
         dd.multiple_stripe(wall(), records, [0.2], solver=dd.Solver(engine="lanes"), progress=False)
 
 

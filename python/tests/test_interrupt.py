@@ -77,7 +77,7 @@ for i in range(60):
         timer.start()
         while True:
             run(mine)
-    except (KeyboardInterrupt, dd.Interrupted):
+    except (KeyboardInterrupt, dd.errors.Interrupted):
         broken_off += 1
 stop.set()
 beside.join()
@@ -140,7 +140,7 @@ def interrupt_at(monkeypatch):
 def test_between_levels_that_are_chosen(name, after, wall, few, interrupt_at):
     """Three stripes are complete, and come out whole."""
     interrupt_at(stripe_runs, name, 3, after)
-    with pytest.raises(dd.Interrupted, match=r"interrupted: 3 of 6 stripes are complete") as caught:
+    with pytest.raises(dd.errors.Interrupted, match=r"interrupted: 3 of 6 stripes are complete") as caught:
         dd.adaptive_stripes(wall, few, budget=6 * len(few), progress=False)
     partial = caught.value.partial
     again = dd.multiple_stripe(wall, few, partial.levels, progress=False)
@@ -150,7 +150,7 @@ def test_between_levels_that_are_chosen(name, after, wall, few, interrupt_at):
 
 def test_while_the_first_level_is_chosen(wall, few, interrupt_at):
     interrupt_at(stripe_runs, "rounded", 1)
-    with pytest.raises(dd.Interrupted, match=r"interrupted: 0 of 6 stripes are complete") as caught:
+    with pytest.raises(dd.errors.Interrupted, match=r"interrupted: 0 of 6 stripes are complete") as caught:
         dd.adaptive_stripes(wall, few, budget=6 * len(few), progress=False)
     assert caught.value.partial is None
 
@@ -163,7 +163,7 @@ def test_a_handler_of_the_users_may_raise_anywhere(name, wall, few, interrupt_at
     before = signal.signal(signal.SIGINT, mine)
     try:
         interrupt_at(stripe_runs, name, 3)
-        with pytest.raises(dd.Interrupted, match=r"interrupted: 3 of 6 stripes") as caught:
+        with pytest.raises(dd.errors.Interrupted, match=r"interrupted: 3 of 6 stripes") as caught:
             dd.adaptive_stripes(wall, few, budget=6 * len(few), progress=False)
         assert signal.getsignal(signal.SIGINT) is mine
     finally:
@@ -175,17 +175,17 @@ def test_a_handler_of_the_users_may_raise_anywhere(name, wall, few, interrupt_at
 @pytest.mark.parametrize("name", ["_stripes", "_warnings"])
 def test_when_all_stripes_are_complete(name, run, how, wall, few, interrupt_at):
     interrupt_at(stripe_runs, name, 3 if run is dd.adaptive_stripes and name == "_stripes" else 1)
-    with pytest.raises(dd.Interrupted, match=r"interrupted: 3 of 3 stripes are complete") as caught:
+    with pytest.raises(dd.errors.Interrupted, match=r"interrupted: 3 of 3 stripes are complete") as caught:
         run(wall, few, how, progress=False)
     assert len(caught.value.partial.levels) == 3
 
 
 def test_when_all_walls_are_complete(few, interrupt_at):
     walls = [dd.OneSidedWall(1.5, 0.25), dd.OneSidedWall(2.0, 0.3)]
-    with pytest.warns(dd.DondoloWarning):
+    with pytest.warns(dd.errors.DondoloWarning):
         whole = dd.typology(walls, few, [0.3, 0.6, 0.9], progress=False)
     interrupt_at(study, "combine", 1)
-    with pytest.raises(dd.Interrupted, match="interrupted: 2 of 2 walls are complete") as caught:
+    with pytest.raises(dd.errors.Interrupted, match="interrupted: 2 of 2 walls are complete") as caught:
         dd.typology(walls, few, [0.3, 0.6, 0.9], progress=False)
     assert np.array_equal(caught.value.partial.exceedances, whole.exceedances)
 
@@ -193,7 +193,7 @@ def test_when_all_walls_are_complete(few, interrupt_at):
 def test_between_blocks_of_walls(few, interrupt_at):
     walls = [dd.OneSidedWall(1.5 + 0.1 * i, 0.25) for i in range(6)]
     interrupt_at(blocks, "upload_walls", 3)
-    with pytest.raises(dd.Interrupted, match="interrupted: 4 of 6 walls are complete") as caught:
+    with pytest.raises(dd.errors.Interrupted, match="interrupted: 4 of 6 walls are complete") as caught:
         dd.typology(walls, few, [0.3, 0.6, 0.9], block=2, progress=False)
     assert len(caught.value.partial.walls) == 4
 
@@ -205,7 +205,7 @@ def test_a_cloud_and_a_spectrum_that_are_complete(wall, few, interrupt_at):
         dd.cloud(wall, few, progress=False)
     assert calls
     interrupt_at(overturning, "_bisect", 1)
-    with pytest.raises(dd.Interrupted, match="the scans of 2 of 2 frequencies are complete") as caught:
+    with pytest.raises(dd.errors.Interrupted, match="the scans of 2 of 2 frequencies are complete") as caught:
         dd.overturning_spectrum(
             wall, dd.pulses.one_sine, frequencies=[1.0, 2.0], amplitudes=[0.2, 0.5, 1.0, 2.0], progress=False
         )
@@ -217,7 +217,7 @@ def test_certificates_so_far(wall, few, interrupt_at, monkeypatch):
     monkeypatch.setattr(certificate, "is_doubtful", lambda edp, *_: np.ones(edp.shape, dtype=bool))
     monkeypatch.setattr(certificate, "_BLOCK", 5)
     interrupt_at(certificate, "check", 2, after=True)
-    with pytest.raises(dd.Interrupted, match="interrupted: 10 of 24 histories in doubt are certified") as caught:
+    with pytest.raises(dd.errors.Interrupted, match="interrupted: 10 of 24 histories in doubt are certified") as caught:
         stripes.certify(few, progress=False)
     assert np.count_nonzero(caught.value.partial.status) == 10
 

@@ -24,7 +24,7 @@ def is_safe(text):
     return all(line.isprintable() for line in text.split("\n"))
 
 
-@pytest.mark.parametrize("kind", [dd.DondoloError, dd.InputError, dd.MissingFileError])
+@pytest.mark.parametrize("kind", [dd.errors.DondoloError, dd.errors.InputError, dd.errors.MissingFileError])
 def test_errors_show_what_steers_a_terminal(kind):
     """Of a file that does not exist too, whose class is one of Python's."""
     shown = str(kind(f"{STEERING}.csv: cannot be read\nsecond {STEERING}"))
@@ -36,10 +36,10 @@ def test_errors_show_what_steers_a_terminal(kind):
 
 
 def test_warnings_show_what_steers_a_terminal():
-    one = dd.DondoloWarning(f"record '{STEERING}'", "note")
+    one = dd.errors.DondoloWarning(f"record '{STEERING}'", "note")
     for shown in (str(one), str(one.placed(f"{STEERING}: ")), one.as_data()["sentence"]):
         assert is_safe(shown)
-    assert len(str(dd.DondoloWarning("a" * 100_000, "note"))) < 2000
+    assert len(str(dd.errors.DondoloWarning("a" * 100_000, "note"))) < 2000
 
 
 def test_a_path_that_is_not_text_can_be_printed():
@@ -68,7 +68,7 @@ def test_files_of_such_names(folder):
         dd.load,
     ):
         for path in (bad, folder / "none"):
-            with pytest.raises(dd.InputError) as error:
+            with pytest.raises(dd.errors.InputError) as error:
                 read(path)
             assert is_safe(str(error.value))
             assert "\n" not in str(error.value)
@@ -134,7 +134,7 @@ def test_long_lists_of_a_wall(name, values, expected):
     """What grows with the square of 16 000 takes minutes."""
     before = time.process_time()
     sizes = {} if name == "sections" else {"height": 1.5, "thickness": 0.25}
-    with pytest.raises(dd.InputError) as error:
+    with pytest.raises(dd.errors.InputError) as error:
         dd.OneSidedWall(**sizes, **{name: values})
     assert time.process_time() - before < 3.0
     assert expected in str(error.value)
@@ -229,5 +229,5 @@ def test_a_damaged_file_of_a_run_is_refused_where_it_is_read(run, tmp_path, chan
     dd.read_results(tmp_path / "a")
     change(content)
     path.write_text(json.dumps(content))
-    with pytest.raises(dd.InputError, match=rf"a_run\.json: .*{message}"):
+    with pytest.raises(dd.errors.InputError, match=rf"a_run\.json: .*{message}"):
         dd.read_results(tmp_path / "a")

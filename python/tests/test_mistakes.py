@@ -189,11 +189,11 @@ def test_a_case_in_the_place_of_results(folder, monkeypatch):
     monkeypatch.chdir(folder)
     (folder / "wall.nml").write_text(case())
     with pytest.raises(
-        dd.InputError, match=r"is a case, .* 'out/wall'; there are none yet, dondolo wall.nml writes them"
+        dd.errors.InputError, match=r"is a case, .* 'out/wall'; there are none yet, dondolo wall.nml writes them"
     ):
         dd.read_results("wall.nml")
     with pytest.raises(
-        dd.InputError, match=r"'records.csv': is a file, must be what the names of result files begin with"
+        dd.errors.InputError, match=r"'records.csv': is a file, must be what the names of result files begin with"
     ):
         dd.read_results("records.csv")
 
@@ -203,12 +203,12 @@ def test_prefixes_that_are_nearly_right(folder, run, monkeypatch):
     (folder / "wall.nml").write_text(case())
     assert run("wall.nml").returncode == 0
     with pytest.raises(
-        dd.InputError, match=r"is a case, must be what the names of its result files begin with, 'out/wall'$"
+        dd.errors.InputError, match=r"is a case, must be what the names of its result files begin with, 'out/wall'$"
     ):
         dd.read_results("wall.nml")
-    with pytest.raises(dd.InputError, match=r"'out': is a folder, .* such as 'out/wall'$"):
+    with pytest.raises(dd.errors.InputError, match=r"'out': is a folder, .* such as 'out/wall'$"):
         dd.read_results("out")
-    with pytest.raises(dd.InputError, match=r"must be what the names begin with, 'out/wall'$"):
+    with pytest.raises(dd.errors.InputError, match=r"must be what the names begin with, 'out/wall'$"):
         dd.read_results("out/wall_")
     assert dd.read_results("out/wall").stripes is not None
 

@@ -63,7 +63,7 @@ def test_without_history(wall, sine):
     assert short.time is short.side is short.after_impact is None
     assert (short.edp, short.collapsed, short.impacts) == (long.edp, long.collapsed, long.impacts)
     assert short.time_of_peak == long.time_of_peak
-    with pytest.raises(dd.DondoloError, match="no time history"):
+    with pytest.raises(dd.errors.DondoloError, match="no time history"):
         short.to_csv("nowhere.csv")
 
 
@@ -100,7 +100,7 @@ def test_pickle(wall, sine):
 )
 def test_errors(wall, sine, changes, sentence):
     arguments = {"wall": wall, "record": sine} | changes
-    with pytest.raises(dd.InputError) as caught:
+    with pytest.raises(dd.errors.InputError) as caught:
         dd.simulate(**arguments)
     assert str(caught.value).startswith(sentence)
 
@@ -155,7 +155,7 @@ def test_tightest_tolerances_are_doubted_too(wall, sine):
 def test_a_history_in_doubt_is_warned_of(wall, records):
     record = next(each for each in records if each.name == "18_l_aquila_2009_apr_07_m5.5_a")
     rk45 = dd.Solver(engine="rk45")
-    with pytest.warns(dd.DondoloWarning, match="ill-conditioned: the estimated error of the EDP is 0.000"):
+    with pytest.warns(dd.errors.DondoloWarning, match="ill-conditioned: the estimated error of the EDP is 0.000"):
         dd.simulate(
             wall, record, 0.8 * 9.81 / record.peak_acceleration, solver=rk45, estimate_error=True, history=False
         )

@@ -45,7 +45,7 @@ def times(factor, dt=None):
 )
 def test_warnings(call, code, words):
     with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always", dd.DondoloWarning)
+        warnings.simplefilter("always", dd.errors.DondoloWarning)
         call()
     said = [str(one.message) for one in caught if one.message.code == code]
     assert said
@@ -79,7 +79,7 @@ def test_warnings(call, code, words):
 )
 @pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 def test_errors(call, words):
-    with pytest.raises(dd.InputError, match=words):
+    with pytest.raises(dd.errors.InputError, match=words):
         call()
 
 
@@ -124,9 +124,9 @@ def test_errors(call, words):
 )
 def test_codes(call, code, variable, sentence):
     """What is wrong with an argument, for programs; the sentence of each code."""
-    with pytest.raises(dd.InputError) as caught:
+    with pytest.raises(dd.errors.InputError) as caught:
         call()
     error = pickle.loads(pickle.dumps(caught.value))
     assert (error.code, error.variable) == (code, variable)
     assert str(error).startswith(sentence)
-    assert (dd.InputError("more").code, dd.MissingFileError("x: no such file").variable) == ("", "")
+    assert (dd.errors.InputError("more").code, dd.errors.MissingFileError("x: no such file").variable) == ("", "")

@@ -148,7 +148,7 @@ def test_units(path):
     np.testing.assert_allclose(found["d"][1]["collapse"]([20.0, 35.0, 50.0]), [0.1, 0.4, 0.7])
     for im in ("arias", "cav", "hi", "pgd", "saavg(0.2:2)", "pga/a0", ""):
         with pytest.raises(
-            dd.InputError, match=re.escape(f"im = '{im}': must be 'pga', 'pgv' or 'sa(T)' for OpenQuake")
+            dd.errors.InputError, match=re.escape(f"im = '{im}': must be 'pga', 'pgv' or 'sa(T)' for OpenQuake")
         ):
             dd.write_nrml(path, {"a": {"collapse": lognormal(0.4, 0.3, im)}})
 
@@ -170,7 +170,7 @@ def test_only_models_of_dondolo_are_replaced(path):
     assert 'id="again"' in text
     other = text.replace("<!-- dondolo ", "<!-- another ")
     path.write_text(other)
-    with pytest.raises(dd.InputError, match=r"model\.xml: exists, and is not a fragility model of dondolo"):
+    with pytest.raises(dd.errors.InputError, match=r"model\.xml: exists, and is not a fragility model of dondolo"):
         dd.write_nrml(path, functions)
     assert path.read_text() == other
 
@@ -188,9 +188,9 @@ def test_range(path):
         ({"max_iml": np.inf}, "max_iml = inf: must be positive"),
         ({"no_damage_limit": 5.0}, "no_damage_limit = 5: must be below max_iml"),
     ):
-        with pytest.raises(dd.InputError, match=sentence):
+        with pytest.raises(dd.errors.InputError, match=sentence):
             dd.write_nrml(path, {"a": curves}, **options)
-    with pytest.raises(dd.InputError, match=r"no_damage_limit = 0.3: must be below the lowest level, 0.2"):
+    with pytest.raises(dd.errors.InputError, match=r"no_damage_limit = 0.3: must be below the lowest level, 0.2"):
         dd.write_nrml(path, {"a": {"c": DiscreteFragility([0.2, 0.4], [0.1, 0.6])}}, no_damage_limit=0.3)
 
 
@@ -210,20 +210,22 @@ def test_crossing_curves(path):
     light, heavy = lognormal(0.3, 0.2), lognormal(0.5, 0.6)
     cross = np.exp((np.log(0.3) / 0.2 - np.log(0.5) / 0.6) / (1.0 / 0.2 - 1.0 / 0.6))
     assert light(cross) == pytest.approx(heavy(cross))
-    with pytest.raises(dd.InputError, match=rf"'heavy' is more probable than 'light' below {cross:.4g}, .* min_iml"):
+    with pytest.raises(
+        dd.errors.InputError, match=rf"'heavy' is more probable than 'light' below {cross:.4g}, .* min_iml"
+    ):
         dd.write_nrml(path, {"a": {"light": light, "heavy": heavy}})
     assert not path.exists()
     dd.write_nrml(path, {"a": {"light": light, "heavy": heavy}}, min_iml=1.001 * cross)
     check(path)
-    with pytest.raises(dd.InputError, match="cross"):
+    with pytest.raises(dd.errors.InputError, match="cross"):
         dd.write_nrml(path, {"a": {"light": light, "heavy": heavy}}, min_iml=0.999 * cross)
     light, heavy = lognormal(0.3, 0.6), lognormal(0.5, 0.2)
     cross = np.exp((np.log(0.3) / 0.6 - np.log(0.5) / 0.2) / (1.0 / 0.6 - 1.0 / 0.2))
-    with pytest.raises(dd.InputError, match=rf"above {cross:.4g}, .* max_iml"):
+    with pytest.raises(dd.errors.InputError, match=rf"above {cross:.4g}, .* max_iml"):
         dd.write_nrml(path, {"a": {"light": light, "heavy": heavy}})
     dd.write_nrml(path, {"a": {"light": light, "heavy": heavy}}, max_iml=0.999 * cross)
     check(path)
-    with pytest.raises(dd.InputError, match="from the lightest to the heaviest"):
+    with pytest.raises(dd.errors.InputError, match="from the lightest to the heaviest"):
         dd.write_nrml(path, {"a": {"heavy": lognormal(0.5, 0.4), "light": lognormal(0.3, 0.4)}})
     dd.write_nrml(path, {"a": {"light": lognormal(0.5, 0.4), "heavy": lognormal(0.5, 0.4)}})
 
@@ -245,7 +247,7 @@ def test_a_range_ends_where_curves_cross_unseen(path):
         )
         for what, end in ends.items():
             assert float(imls.get(what)) == pytest.approx(end, rel=1e-6)
-        with pytest.raises(dd.InputError, match="cross"):
+        with pytest.raises(dd.errors.InputError, match="cross"):
             dd.write_nrml(path, {"walls": curves}, min_iml=0.01, max_iml=9.0)
 
 
@@ -271,9 +273,9 @@ def test_an_unseen_crossing_cuts_nothing_of_other_states(path):
 
 def test_crossing_probabilities(path):
     light, heavy = DiscreteFragility([0.2, 0.4], [0.1, 0.6]), DiscreteFragility([0.2, 0.4], [0.05, 0.7])
-    with pytest.raises(dd.InputError, match=r"'heavy' is more probable than 'light' at 0.4"):
+    with pytest.raises(dd.errors.InputError, match=r"'heavy' is more probable than 'light' at 0.4"):
         dd.write_nrml(path, {"a": {"light": light, "heavy": heavy}})
-    with pytest.raises(dd.InputError, match="must have the same levels"):
+    with pytest.raises(dd.errors.InputError, match="must have the same levels"):
         dd.write_nrml(path, {"a": {"light": light, "heavy": DiscreteFragility([0.2, 0.5], [0.05, 0.1])}})
 
 
@@ -293,7 +295,7 @@ def test_names(path):
         ({"asset_category": ""}, "asset_category"),
         ({"loss_category": "walls"}, "loss_category = 'walls': must be one of 'structural', 'nonstructural'"),
     ):
-        with pytest.raises(dd.InputError, match=sentence):
+        with pytest.raises(dd.errors.InputError, match=sentence):
             dd.write_nrml(path, good, **options)
     for functions, sentence in (
         ({}, "functions: must be a mapping"),
@@ -309,7 +311,7 @@ def test_names(path):
         ({"a": {"x": 0.3}}, "must be all Fragility or all"),
         ({"a": {"x": curve, "y": lognormal(0.9, 0.4, "pgv")}}, "must be of one intensity measure"),
     ):
-        with pytest.raises(dd.InputError, match=sentence):
+        with pytest.raises(dd.errors.InputError, match=sentence):
             dd.write_nrml(path, functions)
     assert not path.exists()
     dd.write_nrml(path, {"<&>": {"collapse": curve}}, description="walls < 3 m & parapets")
@@ -318,9 +320,9 @@ def test_names(path):
 
 def test_without_a_fit(path, tmp_path):
     nothing = dd.fit_fragility([0.2, 0.4], [0, 0], 44, im="pga")
-    with pytest.raises(dd.DondoloError, match=r"limit state 'collapse': has no curve \(status 'no_collapse'\)"):
+    with pytest.raises(dd.errors.DondoloError, match=r"limit state 'collapse': has no curve \(status 'no_collapse'\)"):
         dd.write_nrml(path, {"a": {"collapse": nothing}})
-    with pytest.raises(dd.DondoloError, match="cannot be written"):
+    with pytest.raises(dd.errors.DondoloError, match="cannot be written"):
         dd.write_nrml(tmp_path / "none" / "model.xml", {"a": {"collapse": lognormal(0.6, 0.4)}})
 
 
@@ -335,7 +337,7 @@ def test_probabilities():
         ([0.1, 0.2], [0.1, np.nan], "probability = nan"),
         ([0.1, 0.2], [0.3, 0.2], "probability = 0.3, 0.2: must not decrease"),
     ):
-        with pytest.raises(dd.InputError, match=sentence):
+        with pytest.raises(dd.errors.InputError, match=sentence):
             DiscreteFragility(levels, p)
 
 
@@ -419,7 +421,9 @@ def test_round_trip(path, tmp_path):
 def test_models_of_others(path, tmp_path):
     """Also such as write_nrml would refuse, with a warning: these curves cross."""
     path.write_text(FOREIGN)
-    with pytest.warns(dd.DondoloWarning, match=r"'LS2' is more probable than 'LS1' above 5\.06: the curves cross"):
+    with pytest.warns(
+        dd.errors.DondoloWarning, match=r"'LS2' is more probable than 'LS1' above 5\.06: the curves cross"
+    ):
         model = dd.read_nrml(path)
     assert list(model.functions) == ["RC", "UNM/C_LR/GOV2"]
     assert model.description == "Fragility model"
@@ -431,9 +435,9 @@ def test_models_of_others(path, tmp_path):
     assert curve.theta == pytest.approx(0.15**2 / np.sqrt(0.39**2 + 0.15**2), rel=1e-14)
     assert curve.beta == pytest.approx(np.sqrt(np.log(1.0 + (0.39 / 0.15) ** 2)), rel=1e-14)
     model.write(tmp_path / "again.xml")
-    with pytest.warns(dd.DondoloWarning, match="the curves cross"):
+    with pytest.warns(dd.errors.DondoloWarning, match="the curves cross"):
         same(model, dd.read_nrml(tmp_path / "again.xml"))
-    with pytest.raises(dd.InputError, match="exists, and is not a fragility model of dondolo"):
+    with pytest.raises(dd.errors.InputError, match="exists, and is not a fragility model of dondolo"):
         model.write(path)
 
 
@@ -461,7 +465,7 @@ def test_models_of_others(path, tmp_path):
 )
 def test_models_that_are_refused(path, old, new, message):
     path.write_text(FOREIGN.replace(old, new))
-    with pytest.raises(dd.InputError, match=message) as error:
+    with pytest.raises(dd.errors.InputError, match=message) as error:
         dd.read_nrml(path)
     assert str(error.value).startswith(str(path))
     assert "\n" not in str(error.value)
@@ -493,10 +497,10 @@ def test_a_curve_of_parameters(tmp_path):
     curve = dd.Fragility.of_parameters(0.6, 0.4, im="pga")
     assert curve(0.6) == 0.5
     assert "standard errors the parameters were given" in repr(curve)
-    with pytest.raises(dd.DondoloError, match="no standard errors: the parameters were given"):
+    with pytest.raises(dd.errors.DondoloError, match="no standard errors: the parameters were given"):
         curve.interval(0.6)
     line = curve.plot().lines[0]
     assert line.get_xdata()[-1] > 0.6 * np.exp(3 * 0.4)
     for wrong in ((0.0, 0.4), (0.6, np.nan), (0.6, "x")):
-        with pytest.raises(dd.InputError, match="must be"):
+        with pytest.raises(dd.errors.InputError, match="must be"):
             dd.Fragility.of_parameters(*wrong)

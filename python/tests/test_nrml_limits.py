@@ -79,7 +79,7 @@ def test_limits_are_applied(path):
     # Constant below minIML where no limit of damage is given: the frequency of a power law has no bound
     open_below = model_of(path, ('noDamageLimit="0.12" ', "")).functions["smooth"]["fall"]
     assert open_below(0.001) == open_below(0.08) == pytest.approx(lognormal(0.08, 0.7, 0.42))
-    with pytest.raises(dd.DondoloError, match="is not finite"):
+    with pytest.raises(dd.errors.DondoloError, match="is not finite"):
         open_below.risk(hazard)
 
 
@@ -87,7 +87,7 @@ def test_a_limited_curve_is_inverted(path):
     fall = model_of(path).functions["smooth"]["fall"]
     p = np.array([0.0, 0.5 * fall(0.13), fall(0.3), fall(1.5), 0.9999])
     np.testing.assert_allclose(fall.ppf(p), [0.12, 0.12, 0.3, 1.5, np.inf])
-    with pytest.raises(dd.DondoloError, match="no standard errors: the parameters were given"):
+    with pytest.raises(dd.errors.DondoloError, match="no standard errors: the parameters were given"):
         fall.interval(0.3)
 
 
@@ -95,7 +95,7 @@ def test_the_risk_of_a_limited_curve_under_levels(path):
     """All that a risk shows is of the same curve; its bounds end where the curve does."""
     fall = model_of(path).functions["smooth"]["fall"]
     levels = np.geomspace(0.05, 1.0, 12)
-    with pytest.warns(dd.DondoloWarning, match="is too short"):
+    with pytest.warns(dd.errors.DondoloWarning, match="is too short"):
         risk = fall.risk(dd.HazardCurve(levels, K0 * levels**-K))
     inside = frequency(fall, [0.12, 0.4, 1.0]) - fall(1.0) * K0
     assert risk.inside == pytest.approx(inside, rel=1e-8)
@@ -122,10 +122,10 @@ def test_discrete_functions_are_curves(path):
     np.testing.assert_allclose(ax.lines[0].get_ydata(), crack(ax.lines[0].get_xdata()))
     assert ax.get_legend().get_texts()[0].get_text() == "crack"
     for wrong in (-0.1, np.nan, "x"):
-        with pytest.raises(dd.InputError, match="x: must be"):
+        with pytest.raises(dd.errors.InputError, match="x: must be"):
             crack(wrong)
     for wrong in (-0.1, np.nan, "x"):
-        with pytest.raises(dd.InputError, match="no_damage_limit"):
+        with pytest.raises(dd.errors.InputError, match="no_damage_limit"):
             dd.DiscreteFragility([0.1, 0.2], [0.0, 1.0], no_damage_limit=wrong)
 
 
@@ -133,7 +133,7 @@ def test_without_a_limit_a_line_begins_at_no_intensity():
     """As OpenQuake has it; under a power law that is steep it has no finite frequency, which is not passed over."""
     curve = dd.DiscreteFragility([0.2, 0.4], [0.1, 0.6])
     assert curve(0.1) == pytest.approx(0.05)
-    with pytest.raises(dd.DondoloError, match="is not finite"):
+    with pytest.raises(dd.errors.DondoloError, match="is not finite"):
         curve.risk(dd.HazardCurve.power_law(K0, K))
     gentle = curve.risk(dd.HazardCurve.power_law(K0, 0.25)).annual_frequency
     # Of H = K0 x^-0.25 and P = x/2 up to x_1: K0 x_1^0.75/6
@@ -162,7 +162,7 @@ def test_limits_are_kept_when_a_model_is_written_again(path, tmp_path):
     dd.write_nrml(again, {"smooth": model.functions["smooth"]}, no_damage_limit=0.2)
     assert dd.read_nrml(again).limits == {"smooth": (0.2, 0.08, 1.5)}
     plain = {"crack": dd.Fragility.of_parameters(0.3, 0.4, im="pga"), "fall": model.functions["smooth"]["fall"]}
-    with pytest.raises(dd.InputError, match="its curves must have the same limits"):
+    with pytest.raises(dd.errors.InputError, match="its curves must have the same limits"):
         dd.write_nrml(again, {"smooth": plain})
 
 
@@ -183,7 +183,7 @@ def test_limits_are_kept_when_a_model_is_written_again(path, tmp_path):
     ],
 )
 def test_models_that_contradict_themselves(path, changes, message):
-    with pytest.raises(dd.InputError, match=rf"model\.xml: .*{re.escape(message)}") as error:
+    with pytest.raises(dd.errors.InputError, match=rf"model\.xml: .*{re.escape(message)}") as error:
         model_of(path, *changes)
     assert "\n" not in str(error.value)
 
@@ -209,7 +209,7 @@ def test_models_that_contradict_themselves(path, changes, message):
     ],
 )
 def test_models_that_are_doubtful(path, change, message, code):
-    with pytest.warns(dd.DondoloWarning, match=re.escape(message)) as caught:
+    with pytest.warns(dd.errors.DondoloWarning, match=re.escape(message)) as caught:
         found = model_of(path, change)
     assert [one.message.code for one in caught] == [code]
     if "noDamage" in message:
@@ -235,7 +235,7 @@ def laughs(depth):
 )
 def test_entities_are_refused(path, declaration, text):
     tracemalloc.start()
-    with pytest.raises(dd.InputError, match=r"has a document type declaration \(DOCTYPE\)"):
+    with pytest.raises(dd.errors.InputError, match=r"has a document type declaration \(DOCTYPE\)"):
         model_of(path, ('"utf-8"?>', f'"utf-8"?>{declaration}'), (">sheds</", f">{text}</"))
     _, peak = tracemalloc.get_traced_memory()
     tracemalloc.stop()
@@ -243,5 +243,5 @@ def test_entities_are_refused(path, declaration, text):
 
 
 def test_depth_is_limited(path):
-    with pytest.raises(dd.InputError, match="is nested more than 100 elements deep"):
+    with pytest.raises(dd.errors.InputError, match="is nested more than 100 elements deep"):
         model_of(path, (">sheds</", f">{'<a>' * 200_000}</"))

@@ -29,16 +29,16 @@ def as_excel(text, encoding):
 def test_tables_with_decimal_commas(encoding, tmp_path):
     for name, text in TABLES.items():
         (tmp_path / name).write_bytes(as_excel(text, encoding))
-    with pytest.warns(dd.DondoloWarning, match="semicolons, decimal commas"):
+    with pytest.warns(dd.errors.DondoloWarning, match="semicolons, decimal commas"):
         (record,) = dd.read_catalogue(tmp_path / "records.csv")
     assert record.dt == 0.01
     assert np.allclose(record.acceleration, 3.0 * np.sin(0.2 * np.arange(400)), atol=1e-6, rtol=0.0)
-    with pytest.warns(dd.DondoloWarning, match="semicolons, decimal commas"):
+    with pytest.warns(dd.errors.DondoloWarning, match="semicolons, decimal commas"):
         population = dd.Population.from_csv(tmp_path / "walls.csv")
     first, second = population.walls
     assert (first.name, first.height, first.thickness) == ("sommità", 3.25, 0.25)
     assert (second.height, second.thickness) == (1.0, 0.5)
-    with pytest.warns(dd.DondoloWarning, match="ag is taken for the PGA|semicolons, decimal commas"):
+    with pytest.warns(dd.errors.DondoloWarning, match="ag is taken for the PGA|semicolons, decimal commas"):
         hazard = dd.HazardCurve.from_csv(tmp_path / "hazard.csv")
     assert np.allclose(hazard.annual_frequency, 1.0 / np.array([30.0, 100.0, 475.0, 2475.0]), rtol=1e-12)
 
@@ -46,14 +46,14 @@ def test_tables_with_decimal_commas(encoding, tmp_path):
 def test_what_is_ambiguous_is_refused(tmp_path):
     table = tmp_path / "walls.csv"
     table.write_text("name;mechanism;height;thickness\na;one_sided;1.800;1,800\n")
-    with pytest.raises(dd.InputError, match="height"):
+    with pytest.raises(dd.errors.InputError, match="height"):
         dd.Population.from_csv(table)
     # One thousand, or one?
     table.write_text("name;mechanism;height;thickness\na;one_sided;1.000;0,5\n")
-    with pytest.raises(dd.InputError, match="with a decimal comma as elsewhere in the table and no point"):
+    with pytest.raises(dd.errors.InputError, match="with a decimal comma as elsewhere in the table and no point"):
         dd.Population.from_csv(table)
     table.write_bytes("name;mechanism;height;thickness\nà;one_sided;3;0,25\n".encode("cp1252"))
-    with pytest.raises(dd.InputError, match="save it as UTF-8"):
+    with pytest.raises(dd.errors.InputError, match="save it as UTF-8"):
         dd.Population.from_csv(table)
 
 
@@ -83,19 +83,19 @@ def test_workbook(run):
     assert cell.data_type == "s"
     dd.write_workbook(run, path)
     path.write_text("notes of the office")
-    with pytest.raises(dd.InputError, match="is not a workbook of dondolo"):
+    with pytest.raises(dd.errors.InputError, match="is not a workbook of dondolo"):
         dd.write_workbook(run, path)
 
 
 def test_a_workbook_has_its_suffix(run):
     pytest.importorskip("openpyxl")
-    with pytest.raises(dd.InputError, match=r"path = .*wall.xls': must end in .xlsx"):
+    with pytest.raises(dd.errors.InputError, match=r"path = .*wall.xls': must end in .xlsx"):
         dd.write_workbook(run, run.with_name("wall.xls"))
 
 
 def test_no_openpyxl(run, monkeypatch):
     monkeypatch.setitem(sys.modules, "openpyxl", None)
-    with pytest.raises(dd.DondoloError, match="openpyxl is not installed"):
+    with pytest.raises(dd.errors.DondoloError, match="openpyxl is not installed"):
         dd.write_workbook(run, run.with_name("wall.xlsx"))
 
 
@@ -103,7 +103,7 @@ def test_report_as_pdf_needs_a_printer(run, monkeypatch):
     monkeypatch.setattr(shutil, "which", lambda name: None)
     monkeypatch.setitem(sys.modules, "weasyprint", None)
     path = run.with_name("report.pdf")
-    with pytest.raises(dd.DondoloError, match="needs Chromium or WeasyPrint"):
+    with pytest.raises(dd.errors.DondoloError, match="needs Chromium or WeasyPrint"):
         dd.report(dd.read_results(run), path)
     assert list(run.parent.glob("report*")) == []
 
@@ -124,7 +124,7 @@ def test_report_as_pdf(run):
         pages, text = text.count("\f"), text.replace(" ", "")
         assert [f"{page}/{pages}" in text for page in range(1, pages + 1)] == [True] * pages
     path.write_bytes(b"%PDF-1.4 of somebody else")
-    with pytest.raises(dd.InputError, match="is not a report of dondolo"):
+    with pytest.raises(dd.errors.InputError, match="is not a report of dondolo"):
         dd.report(dd.read_results(run), path)
 
 

@@ -77,7 +77,7 @@ def test_no_result_takes_the_place_of_another_file(content, start, folder, peopl
         kind = "a run file" if suffix == "run.json" else "a table of results"
         for arguments in (["a.nml"], ["--check", "a.nml"], ["people.nml"]):
             refused(start(*arguments), f"out/{path.name}", f"exists, and is not {kind} of dondolo")
-        with pytest.raises(dd.InputError, match=rf"x_{suffix}: exists, and is not {kind} of dondolo$"):
+        with pytest.raises(dd.errors.InputError, match=rf"x_{suffix}: exists, and is not {kind} of dondolo$"):
             people.write_results(folder / "out/x")
         assert os.listdir(folder / "out") == [path.name]
         assert path.read_text() == content
@@ -124,10 +124,10 @@ def test_links_and_pipes_are_neither_followed_nor_waited_for(thing, start, folde
         why = ("cannot be written: " if name in ("x_stripes.csv", "x_run.json") else "") + "is " + put(thing, path)
         refused(start(*arguments), f"out/{name}", why)
         if name in ("x_stripes.csv", "x_run.json", "x.lock"):
-            with pytest.raises(dd.InputError, match=f"{name}: {why}"):
+            with pytest.raises(dd.errors.InputError, match=f"{name}: {why}"):
                 people.write_results(folder / "out/x")
         if name == "x.checkpoint":
-            with pytest.raises(dd.InputError, match=f"{name}: {why}"):
+            with pytest.raises(dd.errors.InputError, match=f"{name}: {why}"):
                 dd.typology(walls, few[:3], [0.3, 0.6, 0.9], checkpoint=path, progress=False)
         assert os.listdir(folder / "out") == [name]
         path.unlink()
@@ -140,7 +140,7 @@ def test_links_and_pipes_are_neither_followed_nor_waited_for(thing, start, folde
             "records.csv": lambda path=path: dd.RecordSet(few[:2]).to_catalogue(path),
             "model.xml": lambda path=path: dd.write_nrml(path, {"w": {"collapse": people["all"].fit}}),
         }
-        with pytest.raises(dd.InputError, match=f"{name}: {why}"):
+        with pytest.raises(dd.errors.InputError, match=f"{name}: {why}"):
             writes[name]()
         path.unlink()
     assert (folder / "mine.txt").read_text() == "mine"
@@ -154,13 +154,13 @@ def test_what_is_read_is_a_regular_file(thing, start, folder, root):
     put(thing, path)
     reads = [dd.read_record, dd.read_catalogue, dd.Population.from_csv, dd.HazardCurve.from_csv, dd.load]
     for read in (*reads, dd.read_nrml, dd.HazardCurve.from_openquake):
-        with pytest.raises(dd.InputError, match=f"input: is {thing}, not a regular file"):
+        with pytest.raises(dd.errors.InputError, match=f"input: is {thing}, not a regular file"):
             read(path)
     (folder / "records.csv").write_text("file,dt_s,units\nout/input,0.01,g\n")
     (folder / "a.nml").write_text((folder / "a.nml").read_text().replace(f"{root}/data/records/synthetic44", "records"))
     refused(start("a.nml"), "out/input", f"is {thing}, not a regular file")
     path.rename(folder / "x_run.json")
-    with pytest.raises(dd.InputError, match=f"x_run.json: is {thing}, not a regular file"):
+    with pytest.raises(dd.errors.InputError, match=f"x_run.json: is {thing}, not a regular file"):
         dd.read_results(folder / "x")
 
 
@@ -257,7 +257,7 @@ def test_a_workbook_that_was_saved_since_is_the_users(start, folder):
     assert book.properties.creator == "dondolo"
     book.create_sheet("notes")["A1"] = "mine"
     book.save(path)
-    with pytest.raises(dd.InputError, match="exists, and is not a workbook of dondolo"):
+    with pytest.raises(dd.errors.InputError, match="exists, and is not a workbook of dondolo"):
         dd.write_workbook(folder / "out/x", path)
     assert openpyxl.load_workbook(path)["notes"]["A1"].value == "mine"
 
@@ -266,7 +266,7 @@ def test_python_says_whose_results_it_replaces(people, folder):
     people.write_results(folder / "out/x")
     run = dd.read_results(folder / "out/x").run.run
     dd.report(dd.read_results(folder / "out/x"), folder / "out/x_report.html")
-    with pytest.warns(dd.DondoloWarning) as told:
+    with pytest.warns(dd.errors.DondoloWarning) as told:
         people.write_results(folder / "out/x")
     sentences = [str(one.message) for one in told]
     assert [f"a run replaces the results of run {run}, begun " in one for one in sentences] == [True, False]

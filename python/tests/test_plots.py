@@ -80,7 +80,7 @@ def test_history_draws_into_given_axes(motion):
 
 
 def test_history_needs_a_history(wall, records):
-    with pytest.raises(dd.DondoloError, match="history=True"):
+    with pytest.raises(dd.errors.DondoloError, match="history=True"):
         dd.simulate(wall, records[0], history=False).plot()
 
 
@@ -137,7 +137,7 @@ def test_fragility_without_a_fit_shows_the_bracket():
 
 
 def test_fragility_refuses_a_confidence_of_one(stripes):
-    with pytest.raises(dd.InputError, match="confidence"):
+    with pytest.raises(dd.errors.InputError, match="confidence"):
         stripes.fit().plot(confidence=1.0)
 
 
@@ -158,7 +158,7 @@ def test_typology_shows_every_wall_and_the_mean(records):
         np.testing.assert_allclose(np.interp(grid, *corners.T), curve, rtol=0.0, atol=1e-3)
     np.testing.assert_array_equal(line(ax, "fractions").get_ydata(), people["all"].mean_fraction)
     assert people["one_sided"].plot().get_title(loc="left") == "one-sided"
-    with pytest.raises(dd.InputError, match="must be one of"):
+    with pytest.raises(dd.errors.InputError, match="must be one of"):
         people["two_block"].plot()
 
 
@@ -299,7 +299,7 @@ def test_wall_is_drawn_at_its_peak(motion):
 
 
 def test_one_sided_walls_do_not_turn_inwards(wall):
-    with pytest.raises(dd.InputError, match="must not be negative"):
+    with pytest.raises(dd.errors.InputError, match="must not be negative"):
         wall.plot(rotation=-0.01)
 
 
@@ -339,7 +339,7 @@ def test_animation_follows_the_motion(motion, tmp_path):
     animation = motion.animate(frames_per_second=2, speed=4.0)
     animation.save(tmp_path / "motion.gif", writer="pillow")
     assert (tmp_path / "motion.gif").stat().st_size > 10_000
-    with pytest.raises(dd.InputError, match="must be positive"):
+    with pytest.raises(dd.errors.InputError, match="must be positive"):
         motion.animate(speed=0.0)
 
 
@@ -420,10 +420,10 @@ def test_wrong_axes(ax, wall, motion, stripes):
     if ax == "panels":
         ax = plt.subplots(3)[1]
     for draw in (wall.plot, motion.plot_peak, stripes.plot, stripes.fit().plot, stripes.plot_damage_states):
-        with pytest.raises(dd.InputError, match=r"^ax: must be an Axes of Matplotlib$"):
+        with pytest.raises(dd.errors.InputError, match=r"^ax: must be an Axes of Matplotlib$"):
             draw(ax)
     for draw in (motion.plot, dd.Population([wall]).plot):
-        with pytest.raises(dd.InputError, match=r"^ax: must be 2 Axes of Matplotlib$"):
+        with pytest.raises(dd.errors.InputError, match=r"^ax: must be 2 Axes of Matplotlib$"):
             draw(ax)
 
 
@@ -454,7 +454,7 @@ def test_axes_are_returned(wall, motion, stripes):
     ],
 )
 def test_wrong_options(draw, message, wall, motion, stripes):
-    with pytest.raises(dd.InputError, match=message):
+    with pytest.raises(dd.errors.InputError, match=message):
         draw(wall, motion, stripes)
 
 

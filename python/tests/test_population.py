@@ -76,15 +76,15 @@ def test_rows_and_parts():
     assert part.p_occ.tolist() == [0.6, 1.0]
     assert [wall.name for wall in PEOPLE[::-1]] == ["c", 'b, "the" #2', "a", "a"]
     assert same(PEOPLE.group("low"), PEOPLE[:2])
-    with pytest.raises(dd.InputError, match="group = 'none': must be one of 'low', 'high, free', ''"):
+    with pytest.raises(dd.errors.InputError, match="group = 'none': must be one of 'low', 'high, free', ''"):
         PEOPLE.group("none")
-    with pytest.raises(dd.InputError, match="walls: must be given"):
+    with pytest.raises(dd.errors.InputError, match="walls: must be given"):
         PEOPLE[4:]
     assert same(PEOPLE[PEOPLE.weights > 1.0], PEOPLE[np.flatnonzero(PEOPLE.weights > 1.0)])
     assert [wall.name for wall in PEOPLE[[3, 0]]] == ["c", "a"]
     assert PEOPLE[np.int64(1)] is ROWS[1]
     for which in ("low", None, [True, False], [4], 1.5):
-        with pytest.raises(dd.InputError, match="must be a number, a slice, or numbers or a mask of 4 rows"):
+        with pytest.raises(dd.errors.InputError, match="must be a number, a slice, or numbers or a mask of 4 rows"):
             PEOPLE[which]
     assert not PEOPLE.p_occ.flags.writeable
     assert same(pickle.loads(pickle.dumps(PEOPLE)), PEOPLE)
@@ -101,7 +101,7 @@ def test_joined():
     assert (both.weights[4], both.p_occ[4]) == (3.0, 0.5)
     assert both.origin == ("walls of the east",)
     assert len(both.group("low")) == 3
-    with pytest.raises(dd.InputError, match="name = 'd': both populations have a wall of this name"):
+    with pytest.raises(dd.errors.InputError, match="name = 'd': both populations have a wall of this name"):
         both + other
     unnamed = dd.Population(dd.OneSidedWall(3.0, 0.25)) + dd.Population(dd.TwoBlockWall(3.0, 0.25))
     assert [wall.name for wall in unnamed] == ["wall 1", "wall 2"]
@@ -146,7 +146,7 @@ def test_shown():
     ],
 )
 def test_errors(arguments, sentence):
-    with pytest.raises(dd.InputError) as caught:
+    with pytest.raises(dd.errors.InputError) as caught:
         dd.Population(ROWS, **arguments)
     assert str(caught.value) == sentence
 
@@ -156,7 +156,7 @@ def test_errors(arguments, sentence):
     [(3, "walls = 3: must be walls"), ("ab", "walls = 'ab': must be walls"), ([3], "walls: must be a Wall, not int")],
 )
 def test_no_walls(walls, sentence):
-    with pytest.raises(dd.InputError) as caught:
+    with pytest.raises(dd.errors.InputError) as caught:
         dd.Population(walls)
     assert str(caught.value) == sentence
 
@@ -170,7 +170,7 @@ def test_no_walls(walls, sentence):
     ],
 )
 def test_names(order, sentence):
-    with pytest.raises(dd.InputError) as caught:
+    with pytest.raises(dd.errors.InputError) as caught:
         dd.Population([ROWS[i] for i in order])
     assert str(caught.value) == sentence
 
@@ -200,7 +200,7 @@ def test_table(tmp_path):
     back = dd.Population.from_csv(tmp_path / "walls.csv")
     assert same(back, PEOPLE)
     assert back.origin == ("read from walls.csv",)
-    with pytest.raises(dd.DondoloError, match="cannot be written"):
+    with pytest.raises(dd.errors.DondoloError, match="cannot be written"):
         PEOPLE.to_csv(tmp_path / "nowhere" / "walls.csv")
 
 
@@ -243,7 +243,7 @@ SPREADSHEET = "Rilievo, 2024;;;;\r\nname;mechanism;height;thickness;\r\nunità;O
 def test_table_of_a_spreadsheet(encoding, end, tmp_path):
     path = tmp_path / "walls.csv"
     path.write_text(SPREADSHEET.replace("\r\n", end), encoding=encoding, newline="")
-    with pytest.warns(dd.DondoloWarning) as caught:
+    with pytest.warns(dd.errors.DondoloWarning) as caught:
         (wall,) = dd.Population.from_csv(path)
     note = "read with columns separated by semicolons, decimal commas, line 1 is a title"
     assert [str(warning.message) for warning in caught] == [f"{path}: {note}"]
@@ -255,7 +255,7 @@ def test_table_that_is_no_utf8(encoding, tmp_path):
     path = tmp_path / "walls.csv"
     path.write_text(SPREADSHEET, encoding=encoding)
     with pytest.raises(
-        dd.InputError, match=r"line \d: byte \d.* is .*: save it as UTF-8 \(in Excel: CSV UTF-8\)"
+        dd.errors.InputError, match=r"line \d: byte \d.* is .*: save it as UTF-8 \(in Excel: CSV UTF-8\)"
     ) as caught:
         dd.Population.from_csv(path)
     assert "\n" not in str(caught.value)
@@ -301,7 +301,7 @@ def test_many_walls_take_linear_time(tmp_path):
     assert growth(work, *sizes) < 24.0
     text = path.read_text()
     path.write_text(text + "wall 17,one_sided,3,0.25,\n")
-    with pytest.raises(dd.InputError, match=f"line {count + 2}: name = 'wall 17': another wall has this name"):
+    with pytest.raises(dd.errors.InputError, match=f"line {count + 2}: name = 'wall 17': another wall has this name"):
         dd.Population.from_csv(path)
 
 
@@ -320,5 +320,5 @@ def test_figure(tmp_path):
         above.figure.savefig(tmp_path / "figure.png")
     again = PEOPLE.plot(PEOPLE[:1].plot())
     assert len(again) == 2
-    with pytest.raises(dd.InputError, match="by = 'colour'"):
+    with pytest.raises(dd.errors.InputError, match="by = 'colour'"):
         PEOPLE.plot(by="colour")

@@ -39,7 +39,7 @@ def test_history_is_kept():
     assert own.processing[-1] == "doubled"
     assert own.dt == done.dt
     assert dd.Record([0.0, 1.0], 0.1, processing="one step").processing == ("one step",)
-    with pytest.raises(dd.InputError, match=r"processing = 'one\\ntwo': must be one line"):
+    with pytest.raises(dd.errors.InputError, match=r"processing = 'one\\ntwo': must be one line"):
         dd.Record([0.0, 1.0], 0.1, processing=["one\ntwo"])
 
 
@@ -88,7 +88,7 @@ def test_velocity_is_that_of_the_chords():
     ],
 )
 def test_baseline_errors(arguments, words):
-    with pytest.raises(dd.InputError, match=words):
+    with pytest.raises(dd.errors.InputError, match=words):
         noise().correct_baseline(**arguments)
 
 
@@ -174,7 +174,7 @@ def test_taper_is_half_a_cosine(part):
 )
 def test_filter_errors(arguments, words):
     low, high, *options = arguments
-    with pytest.raises(dd.InputError, match=words):
+    with pytest.raises(dd.errors.InputError, match=words):
         noise().band_pass(low, high, **dict(*options))
 
 
@@ -220,13 +220,13 @@ def test_polyphase_resampling():
     ],
 )
 def test_resampling_errors(dt, words):
-    with pytest.raises(dd.InputError, match=words):
+    with pytest.raises(dd.errors.InputError, match=words):
         noise().resample(dt)
 
 
 def test_resampling_keeps_to_its_limits():
     assert len(noise(11).resample(1e-5)) == 10001
-    with pytest.raises(dd.InputError, match="nor make more than 100000000 samples"):
+    with pytest.raises(dd.errors.InputError, match="nor make more than 100000000 samples"):
         noise(200_001).resample(1e-5)
 
 
@@ -248,7 +248,7 @@ def test_significant_times_follow_the_cubic(records):
 def test_parts_of_the_significant_duration(records, parts):
     low, high = parts
     for function in (records[0].significant_times, records[0].trim):
-        with pytest.raises(dd.InputError, match="must increase, between 0 and 1"):
+        with pytest.raises(dd.errors.InputError, match="must increase, between 0 and 1"):
             function(low=low, high=high)
 
 
@@ -263,11 +263,11 @@ def test_trimming():
     assert record.trim(low=0.0, high=1.0, before=50.0, after=50.0).duration == record.duration
     whole = record.trim(low=0.0, high=1.0, before=0.0, after=0.0)
     assert whole.duration == pytest.approx(10.02, abs=1e-9)
-    with pytest.raises(dd.InputError, match="has no motion"):
+    with pytest.raises(dd.errors.InputError, match="has no motion"):
         dd.Record(np.zeros(10), 0.1).trim()
-    with pytest.raises(dd.InputError, match=r"low = 0\.9, high = 0\.1: must increase"):
+    with pytest.raises(dd.errors.InputError, match=r"low = 0\.9, high = 0\.1: must increase"):
         record.trim(low=0.9, high=0.1)
-    with pytest.raises(dd.InputError, match="before = -1 s: must not be negative"):
+    with pytest.raises(dd.errors.InputError, match="before = -1 s: must not be negative"):
         record.trim(before=-1.0)
 
 
@@ -326,19 +326,19 @@ def test_directions_do_not_know_the_sensor(records):
 
 
 def test_pairs_that_do_not_belong_together():
-    with pytest.raises(dd.InputError, match="2000 and 1000 samples: must be as many"):
+    with pytest.raises(dd.errors.InputError, match="2000 and 1000 samples: must be as many"):
         noise().rotate(noise(1000), 10.0)
-    with pytest.raises(dd.InputError, match=r"dt = 0\.01 and 0\.02 s: must be the same"):
+    with pytest.raises(dd.errors.InputError, match=r"dt = 0\.01 and 0\.02 s: must be the same"):
         noise().rotd(noise(dt=0.02))
     with refused("wrong_type", "record"):
         noise().rotate(np.zeros(3), 10.0)
-    with pytest.raises(dd.InputError, match="measure: must be a number in every direction"):
+    with pytest.raises(dd.errors.InputError, match="measure: must be a number in every direction"):
         noise().rotd(noise(), lambda record: np.nan)
-    with pytest.raises(dd.InputError, match="angle = nan"):
+    with pytest.raises(dd.errors.InputError, match="angle = nan"):
         noise().rotate(noise(), np.nan)
-    with pytest.raises(dd.InputError, match="measure = 3: must be the name of a measure or a function"):
+    with pytest.raises(dd.errors.InputError, match="measure = 3: must be the name of a measure or a function"):
         noise().rotd(noise(), 3)
-    with pytest.raises(dd.InputError, match="im = 'x': must be one of"):
+    with pytest.raises(dd.errors.InputError, match="im = 'x': must be one of"):
         noise().rotd(noise(), "x")
 
 
@@ -352,11 +352,11 @@ def test_metadata_of_components(combine):
     combine(known(station="AQV", date="2009-04-06", component="HNE"), known(station="AQV", component="HNN"))
     for one, other in (("N-S", "E-W"), ("090", "360"), ("DUZCE-270", "DUZCE-180"), ("S00E", "L")):
         combine(known(component=one), known(component=other))
-    with pytest.raises(dd.InputError, match="station = 'AQV' and 'AQK': must be the same"):
+    with pytest.raises(dd.errors.InputError, match="station = 'AQV' and 'AQK': must be the same"):
         combine(known(station="AQV"), known(station="AQK"))
-    with pytest.raises(dd.InputError, match="date = '2009-04-06' and '2009-04-07': must be the same"):
+    with pytest.raises(dd.errors.InputError, match="date = '2009-04-06' and '2009-04-07': must be the same"):
         combine(known(date="2009-04-06"), known(date="2009-04-07"))
     for vertical in ("U", "UP", "Up", "UD", "U-D", "UD1", "Z", "V", "VERT", "vertical", "HNZ", "HGZ", "ICC-UP", "+UP"):
         for pair in ((vertical, "HNE"), ("HNE", vertical)):
-            with pytest.raises(dd.InputError, match="is vertical, must be horizontal"):
+            with pytest.raises(dd.errors.InputError, match="is vertical, must be horizontal"):
                 combine(*(known(component=component) for component in pair))

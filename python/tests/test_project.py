@@ -231,7 +231,7 @@ def test_types(root):
 
 def test_formats_are_documented(root, tmp_path):
     """The page lists the formats that the library names where it is asked for another."""
-    with pytest.raises(dd.InputError, match="must be one of") as error:
+    with pytest.raises(dd.errors.InputError, match="must be one of") as error:
         dd.read_record(tmp_path / "none.txt", format="none")
     known = re.findall(r"'(\w+)'", str(error.value).split("must be one of")[1])
     page = (root / "docs/ground_motions.md").read_text()
@@ -263,7 +263,7 @@ def test_look_ups_of_settings(root):
     """A name that no table has would be 0 in silence."""
     example = "x = settings%number('thicknes')\ncall input%set( &\n   & 'heigth', y)\n"
     assert looked_up(example) == {"thicknes", "heigth"}
-    with pytest.raises(dd.InputError, match="must be one of") as refused:
+    with pytest.raises(dd.errors.InputError, match="must be one of") as refused:
         properties("no group")
     groups = re.findall(r"'(\w+)'", str(refused.value).split("must be one of")[1])
     known = {row.name for group in groups for row in properties(group)}
@@ -490,7 +490,7 @@ def test_no_name_hides_a_module():
 )
 def test_words_of_options_are_exact(call, words, wall, sine):
     """A word in another case is refused with those that are allowed."""
-    with pytest.raises(dd.InputError, match=f"must be one of {words}"):
+    with pytest.raises(dd.errors.InputError, match=f"must be one of {words}"):
         call(wall, sine)
 
 
@@ -536,7 +536,7 @@ def test_no_parcel_is_lost(wall, sine):
         for _ in range(3000):
             try:
                 dd.simulate(wall, odd, 0.003)
-            except dd.DondoloWarning:
+            except dd.errors.DondoloWarning:
                 refused += 1
     assert refused == 3000
     # A history has about 50 kB; 3000 of them would be 150 MB.

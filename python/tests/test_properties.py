@@ -148,7 +148,7 @@ def test_parts_keep_what_they_are_given(kind):
     ],
 )
 def test_messages_name_parts(make, sentence):
-    with pytest.raises(dd.InputError, match=sentence):
+    with pytest.raises(dd.errors.InputError, match=sentence):
         make()
 
 

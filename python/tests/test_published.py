@@ -59,7 +59,7 @@ def test_double_impulse(height, thickness, published):
 
     wall = dd.FreeStandingWall(height, thickness)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", dd.DondoloWarning)  # impulses of some 100 g
+        warnings.simplefilter("ignore", dd.errors.DondoloWarning)  # impulses of some 100 g
         longer, shorter = (excess(wall, limit, dt) for dt in (4e-4, 2e-4))
     assert 0.0 < shorter < longer < 0.002
     assert 2.0 * shorter - longer == pytest.approx(0.0, abs=1e-5)

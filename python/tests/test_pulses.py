@@ -78,20 +78,20 @@ def test_velocity_of_mavroeidis_and_papageorgiou(phase, gamma):
 @pytest.mark.parametrize("pulse", PULSES)
 def test_errors_of_pulses(pulse):
     what = "velocity" if pulse is dd.pulses.mavroeidis_papageorgiou else "amplitude"
-    with pytest.raises(dd.InputError, match=f"{what} = 0: must be positive"):
+    with pytest.raises(dd.errors.InputError, match=f"{what} = 0: must be positive"):
         pulse(0.0, 1.0)
-    with pytest.raises(dd.InputError, match="frequency = nan: must be positive"):
+    with pytest.raises(dd.errors.InputError, match="frequency = nan: must be positive"):
         pulse(1.0, np.nan)
-    with pytest.raises(dd.InputError, match=r"error = 0\.5: must lie between"):
+    with pytest.raises(dd.errors.InputError, match=r"error = 0\.5: must lie between"):
         pulse(1.0, 1.0, error=0.5)
     with refused("not_a_number", "frequency"):
         pulse(1.0, "a")
 
 
 def test_errors_of_gamma_and_phase():
-    with pytest.raises(dd.InputError, match="gamma = 1: must be greater than 1"):
+    with pytest.raises(dd.errors.InputError, match="gamma = 1: must be greater than 1"):
         dd.pulses.mavroeidis_papageorgiou(1.0, 1.0, gamma=1.0)
-    with pytest.raises(dd.InputError, match="phase = inf"):
+    with pytest.raises(dd.errors.InputError, match="phase = inf"):
         dd.pulses.mavroeidis_papageorgiou(1.0, 1.0, phase=np.inf)
 
 
@@ -277,7 +277,7 @@ def test_interruption_keeps_whole_frequencies(spectrum, monkeypatch, replace_pro
 
     replace_procedure("histories.run_scaled", stop)
     monkeypatch.setattr("dondolo.analysis.request._FIRST_SAMPLES", 60_000)
-    with pytest.raises(dd.Interrupted, match="of 10 frequencies are complete") as caught:
+    with pytest.raises(dd.errors.Interrupted, match="of 10 frequencies are complete") as caught:
         dd.overturning_spectrum(
             spectrum.wall,
             dd.pulses.one_sine,
@@ -317,7 +317,7 @@ def test_errors_of_spectra(spectrum, changes, words):
         "amplitudes": [0.5, 1.0],
         "progress": False,
     }
-    with pytest.raises(dd.InputError, match=words):
+    with pytest.raises(dd.errors.InputError, match=words):
         dd.overturning_spectrum(**(arguments | changes))
 
 

@@ -39,9 +39,9 @@ def test_table(records):
     assert list(records.sort("pga", descending=True)["pga"]) == sorted(records["pga"], reverse=True)
     assert len(records[:3] + records[3:]) == 12
     for wrong in ("pga >", "nothing > 1", "pga", "open('x')", "pga > 1e9"):
-        with pytest.raises(dd.InputError):
+        with pytest.raises(dd.errors.InputError):
             records.filter(wrong)
-    with pytest.raises(dd.InputError, match=r"factor = -1: must be positive"):
+    with pytest.raises(dd.errors.InputError, match=r"factor = -1: must be positive"):
         dd.RecordSet(records, factor=-1.0)
 
 
@@ -68,9 +68,9 @@ def test_stripes_are_joined_and_cut(records, parapet):
     assert list(both.histories) == [12, 12, 7]
     assert np.array_equal(both[:2].edp, whole.edp)
     assert np.array_equal(whole[whole.levels > 0.7, :4].edp, whole.edp[1:, :4])
-    with pytest.raises(dd.InputError, match="runs in both stripes"):
+    with pytest.raises(dd.errors.InputError, match="runs in both stripes"):
         whole + one
-    with pytest.raises(dd.InputError, match="must be of one"):
+    with pytest.raises(dd.errors.InputError, match="must be of one"):
         one + dd.multiple_stripe(dd.OneSidedWall(2.0, 0.25), records[:2], [0.6], progress=False)
     # The tables of two floors look alike
     floors = [dd.Building(period, storeys=3, level=6.0, building_height=9.0) for period in (0.3000001, 0.3000004)]
@@ -78,7 +78,7 @@ def test_stripes_are_joined_and_cut(records, parapet):
         dd.multiple_stripe(dd.OneSidedWall(1.5, 0.25, building=floor), records[:2], [level], progress=False)
         for floor, level in zip(floors, (0.5, 0.6), strict=True)
     )
-    with pytest.raises(dd.InputError, match="must be of one"):
+    with pytest.raises(dd.errors.InputError, match="must be of one"):
         first + second
 
 
@@ -102,7 +102,7 @@ def test_levels_that_differ_by_rounding_are_the_same(records, parapet):
     both = one + other
     assert both.levels.tolist() == [0.3]
     assert both.histories.tolist() == [4]
-    with pytest.raises(dd.InputError, match=r"levels = 0\.3: record .* runs in both stripes"):
+    with pytest.raises(dd.errors.InputError, match=r"levels = 0\.3: record .* runs in both stripes"):
         one + dd.multiple_stripe(parapet, records[:2], [0.1 * 3, 0.6], progress=False)
 
 
@@ -130,13 +130,15 @@ def test_the_executable_runs_the_catalogue(sets, parapet, tmp_path):
 
 
 def test_bad_levels(records, parapet):
-    with pytest.raises(dd.InputError, match=r"levels = 0\.3, 0\.30000000000000004: are the same but for rounding"):
+    with pytest.raises(
+        dd.errors.InputError, match=r"levels = 0\.3, 0\.30000000000000004: are the same but for rounding"
+    ):
         dd.multiple_stripe(parapet, {0.1 + 0.2: records[:2], 0.3: records[2:]})
-    with pytest.raises(dd.InputError, match=r"levels = 0\.8: no record runs at this level"):
+    with pytest.raises(dd.errors.InputError, match=r"levels = 0\.8: no record runs at this level"):
         dd.multiple_stripe(parapet, {0.6: records[:2], 0.8: []})
-    with pytest.raises(dd.InputError, match=r"levels: do not include 0\.7"):
+    with pytest.raises(dd.errors.InputError, match=r"levels: do not include 0\.7"):
         dd.multiple_stripe(parapet, {0.7: records[:2]}, [0.6])
-    with pytest.raises(dd.InputError, match="levels: must be given"):
+    with pytest.raises(dd.errors.InputError, match="levels: must be given"):
         dd.multiple_stripe(parapet, records)
 
 
@@ -159,7 +161,7 @@ def test_spectra_of_the_codes():
     np.testing.assert_allclose(
         ec8.sa[[0, 1, 3, 5]], 0.2875 * np.array([1.75, 2.5, 1.5, 2.5 * 0.6 * 2.0 / 9.0]), rtol=1e-12
     )
-    with pytest.raises(dd.InputError, match=r"f0 = 2: must lie between 2\.2 and 5"):
+    with pytest.raises(dd.errors.InputError, match=r"f0 = 2: must lie between 2\.2 and 5"):
         dd.Site(0.2, 2.0, 0.3)
 
 
@@ -198,7 +200,7 @@ def test_selection(records):
     chosen = dd.RecordSet(records).select(at, 4, max_factor=10.0)
     here = list(at.periods).index(0.5)
     np.testing.assert_allclose(chosen.sa[:, here], 0.6, rtol=1e-12)
-    with pytest.raises(dd.InputError, match="records can be scaled"):
+    with pytest.raises(dd.errors.InputError, match="records can be scaled"):
         dd.RecordSet(records).select(dd.TargetSpectrum.ec8(30.0, periods=PERIODS), 5, max_factor=1.5)
 
 
@@ -232,12 +234,12 @@ def test_factors_that_miss_their_level(records, wall, im, power):
     ],
 )
 def test_wrong_targets(more, sentence):
-    with pytest.raises(dd.InputError, match=sentence):
+    with pytest.raises(dd.errors.InputError, match=sentence):
         dd.TargetSpectrum([0.1, 0.5], [0.5, 0.4], **more)
 
 
 def test_kinds_of_eurocode_8():
-    with pytest.raises(dd.InputError, match=r"kind = \[1\]: must be 1 or 2"):
+    with pytest.raises(dd.errors.InputError, match=r"kind = \[1\]: must be 1 or 2"):
         dd.TargetSpectrum.ec8(0.2, kind=[1])
 
 
@@ -263,7 +265,7 @@ def test_a_set_with_factors_is_heeded_or_refused(records, parapet):
         np.testing.assert_allclose(table[name], factors**power * as_they_stand[name], rtol=1e-12)
     at_levels = dd.RecordSet(records, level=0.5)
     for run in (lambda one: dd.cloud(parapet, one, progress=False), dd.RecordSet.intensity_table):
-        with pytest.raises(dd.InputError, match="has a level and no factor"):
+        with pytest.raises(dd.errors.InputError, match="has a level and no factor"):
             run(at_levels)
     target = dd.TargetSpectrum.ec8(0.25, soil="C", periods=PERIODS)
     for one, what in ((scaled, "factor"), (at_levels, "level")):
@@ -271,9 +273,9 @@ def test_a_set_with_factors_is_heeded_or_refused(records, parapet):
             lambda one: dd.compare_intensities(parapet, one, ["pga"], progress=False),
             lambda one: dd.RecordSet(one).select(target, 3),
         ):
-            with pytest.raises(dd.InputError, match=f"records: have {what}s of their own"):
+            with pytest.raises(dd.errors.InputError, match=f"records: have {what}s of their own"):
                 run(one)
-    with pytest.raises(dd.InputError, match="have factors and no levels"):
+    with pytest.raises(dd.errors.InputError, match="have factors and no levels"):
         dd.adaptive_stripes(parapet, scaled, budget=200, progress=False)
 
 
@@ -307,7 +309,7 @@ def test_designs_and_variants_run_the_records_of_a_set(sets, parapet):
     designs = dd.compare_designs({"as it stands": parapet}, joined, [0.6, 0.8, 1.0], progress=False)
     np.testing.assert_array_equal(designs.stripes[0].edp, alone.edp)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", dd.DondoloWarning)
+        warnings.simplefilter("ignore", dd.errors.DondoloWarning)
         unsure = dd.uncertain_wall(
             parapet,
             joined,
@@ -329,7 +331,7 @@ def test_designs_and_variants_run_the_records_of_a_set(sets, parapet):
     ],
 )
 def test_conditions_say_what_is_wrong(records, condition, sentence):
-    with pytest.raises(dd.InputError) as caught:
+    with pytest.raises(dd.errors.InputError) as caught:
         records.filter(condition)
     assert str(caught.value).endswith(sentence)
     assert str(caught.value).count("expression = ") == 1
@@ -337,11 +339,11 @@ def test_conditions_say_what_is_wrong(records, condition, sentence):
 
 def test_a_selection_is_no_record(records, parapet):
     selection = dd.RecordSet(records).select(dd.TargetSpectrum.ec8(0.25, soil="C", periods=PERIODS), 3)
-    with pytest.raises(dd.InputError, match=r"not Selection \(it has them as its attribute records"):
+    with pytest.raises(dd.errors.InputError, match=r"not Selection \(it has them as its attribute records"):
         dd.multiple_stripe(parapet, selection, [0.5], progress=False)
     site = dd.Site(ag=0.2, f0=2.5, tc_star=0.35, soil="B")
     check = dd.check_ntc(parapet, site)
-    with pytest.raises(dd.InputError, match=r"must be given as \{level: records\}, or without factors"):
+    with pytest.raises(dd.errors.InputError, match=r"must be given as \{level: records\}, or without factors"):
         check.dynamic(selection.records)
     levels = {site.pga(limit_state=state): selection.records for state in ("SLV", "SLC")}
     assert "dynamic" in {row.method for row in check.dynamic(levels).rows}

@@ -53,7 +53,7 @@ def test_slices_are_made_contiguous():
     ],
 )
 def test_errors(samples, dt, words):
-    with pytest.raises(dd.InputError, match=words):
+    with pytest.raises(dd.errors.InputError, match=words):
         dd.Record(samples, dt)
 
 
@@ -63,11 +63,11 @@ def test_a_file(tmp_path):
     record = dd.read_record(file, dt=0.01, units="g")
     assert record.name == "motion è"
     assert np.array_equal(record.acceleration, np.array([0.0, 0.5, -1.0]) * 9.80665)
-    with pytest.raises(dd.InputError, match="dt must be given"):
+    with pytest.raises(dd.errors.InputError, match="dt must be given"):
         dd.read_record(file, units="g")
-    with pytest.raises(dd.InputError, match="units must be given"):
+    with pytest.raises(dd.errors.InputError, match="units must be given"):
         dd.read_record(file, dt=0.01)
-    with pytest.raises(dd.InputError, match="furlong"):
+    with pytest.raises(dd.errors.InputError, match="furlong"):
         dd.read_record(file, dt=0.01, units="furlong")
 
 
@@ -82,7 +82,7 @@ def test_a_single_column_is_read_as_columns_are(end, top, last, tmp_path):
     def read(layout):
         try:
             record = dd.read_record(path, dt=0.01, units="m/s2", format=layout)
-        except dd.InputError as error:
+        except dd.errors.InputError as error:
             return str(error)
         return record.name, record.acceleration.tobytes(), record.metadata, record.peak_acceleration
 
@@ -103,7 +103,7 @@ def test_every_record_has_an_array_of_its_own(root):
 def test_a_catalogue(records, root):
     assert len(records) == 44
     assert len({record.name for record in records}) == 44
-    with pytest.raises(dd.InputError, match=r"nothing\.csv"):
+    with pytest.raises(dd.errors.InputError, match=r"nothing\.csv"):
         dd.read_catalogue(root / "nothing.csv")
 
 
@@ -119,7 +119,7 @@ def test_channels(tmp_path):
     assert (
         dd.read_record(tmp_path / "x.txt", dt=0.01, units="g", channel=1).peak_acceleration == record.peak_acceleration
     )
-    with pytest.raises(dd.InputError, match="channel = '2': must be one of '1'"):
+    with pytest.raises(dd.errors.InputError, match="channel = '2': must be one of '1'"):
         dd.read_record(tmp_path / "x.txt", dt=0.01, units="g", channel=2)
 
 
@@ -136,11 +136,11 @@ def test_several_channels(tmp_path):
     for channel in (2, "2", "E-W", "e-w"):
         record = dd.read_record(file, units="g", channel=channel)
         assert np.array_equal(record.acceleration, second.acceleration)
-    with pytest.raises(dd.InputError, match=r"holds 2 channels: channel must be one of 'N-S', 'E-W'"):
+    with pytest.raises(dd.errors.InputError, match=r"holds 2 channels: channel must be one of 'N-S', 'E-W'"):
         dd.read_record(file, units="g")
-    with pytest.raises(dd.InputError, match="format = 'excel': must be one of 'peer'"):
+    with pytest.raises(dd.errors.InputError, match="format = 'excel': must be one of 'peer'"):
         dd.read_records(file, units="g", format="excel")
-    with pytest.raises(dd.InputError, match=r"two\.csv: "):
+    with pytest.raises(dd.errors.InputError, match=r"two\.csv: "):
         dd.read_record(file, units="g", channel=1, format="peer")
 
 
@@ -187,10 +187,10 @@ def test_titles_with_blanks_state_their_units(between, tmp_path):
     path = tmp_path / "record.txt"
     path.write_text(f"Time (s){between}Acc (gal)\n{values}")
     assert dd.read_record(path).peak_acceleration == pytest.approx(1.0)
-    with pytest.raises(dd.InputError, match="units"):
+    with pytest.raises(dd.errors.InputError, match="units"):
         dd.read_record(path, units="g")
     path.write_text(f"Tempo (s){between}Velocita (cm/s)\n{values}")
-    with pytest.raises(dd.InputError, match="is no acceleration"):
+    with pytest.raises(dd.errors.InputError, match="is no acceleration"):
         dd.read_record(path, units="g")
 
 
@@ -199,5 +199,5 @@ def test_titles_with_blanks_state_their_units(between, tmp_path):
 )
 def test_spectra_are_no_records(title, tmp_path):
     (tmp_path / "spectrum.csv").write_text(f"{title}\n0.00;0.2\n0.01;0.3\n0.02;0.4\n")
-    with pytest.raises(dd.InputError, match=r"is no acceleration|must be in s"):
+    with pytest.raises(dd.errors.InputError, match=r"is no acceleration|must be in s"):
         dd.read_record(tmp_path / "spectrum.csv")

@@ -118,7 +118,7 @@ def people(few):
         walls, [2.0, 2.0, 1.0, 0.5], groups=["low", "low", "high", "high"], p_occ=[0.6, 0.5, 1.0, 1.0]
     )
     levels = [0.2, 0.4, 0.6, 0.8, 1.0, 1.2]
-    with pytest.warns(dd.DondoloWarning):
+    with pytest.warns(dd.errors.DondoloWarning):
         return dd.typology(population, few, levels, edp_thresholds=[0.3], progress=False)
 
 
@@ -184,7 +184,7 @@ def test_numbers_are_those_of_the_results(people, pages):
     assert table["βwalls"] == four(curve.beta_walls for curve in people.groups)
     assert table["βrecords"] == four(curve.beta_records for curve in people.groups)
     assert table["status"] == [curve.fit.status for curve in people.groups]
-    with pytest.warns(dd.DondoloWarning):
+    with pytest.warns(dd.errors.DondoloWarning):
         state = dataclasses.replace(people, _states={}).at(0.3)
     table = page.table("Damage state EDP ≥ 0.3")
     assert table["θ [g]"] == four(curve.fit.theta for curve in state.groups)
@@ -462,7 +462,7 @@ def test_report_appears_whole_or_not_at_all(stripes, tmp_path, monkeypatch):
     for write, words in ((full, "No space left"), (lost, "No such file")):
         with monkeypatch.context() as patch:
             patch.setattr(Path, "write_text", write)
-            with pytest.raises(dd.DondoloError, match=f"cannot be written: {words}"):
+            with pytest.raises(dd.errors.DondoloError, match=f"cannot be written: {words}"):
                 dd.report(stripes, path, title="Another")
         assert path.read_bytes() == before
         assert os.listdir(tmp_path) == ["report.html"]
@@ -473,44 +473,44 @@ def test_report_appears_whole_or_not_at_all(stripes, tmp_path, monkeypatch):
 def test_only_reports_are_replaced(stripes, tmp_path):
     path = tmp_path / "walls.html"
     path.write_text("wall\n")
-    with pytest.raises(dd.InputError, match=r"walls\.html: exists, and is not a report of dondolo"):
+    with pytest.raises(dd.errors.InputError, match=r"walls\.html: exists, and is not a report of dondolo"):
         dd.report(stripes, path)
     assert path.read_text() == "wall\n"
-    with pytest.raises(dd.DondoloError, match="cannot be written"):
+    with pytest.raises(dd.errors.DondoloError, match="cannot be written"):
         dd.report(stripes, tmp_path / "nowhere" / "report.html")
-    with pytest.raises(dd.DondoloError, match="cannot be written: Not a directory"):
+    with pytest.raises(dd.errors.DondoloError, match="cannot be written: Not a directory"):
         dd.report(stripes, path / "report.html")
     folder = tmp_path / "folder.html"
     folder.mkdir()
-    with pytest.raises(dd.DondoloError, match="cannot be written"):
+    with pytest.raises(dd.errors.DondoloError, match="cannot be written"):
         dd.report(stripes, folder)
 
 
 def test_wrong_input(stripes, wall, sine, hazard, tmp_path):
     path = tmp_path / "report.html"
-    with pytest.raises(dd.InputError, match="results: str is nothing"):
+    with pytest.raises(dd.errors.InputError, match="results: str is nothing"):
         dd.report("out/parapet", path)
     for title, sentence in (
         (5, "title = 5: must be a text"),
         ("a\udc80b", r"title = 'a\\udc80b': must be a text"),
         ("a\0b", r"title = 'a\\x00b': must be one line"),
     ):
-        with pytest.raises(dd.InputError, match=sentence):
+        with pytest.raises(dd.errors.InputError, match=sentence):
             dd.report(stripes, path, title=title)
     for wrong in (3, None, "", "a\0b", "\ud800"):
-        with pytest.raises(dd.InputError, match=r"path = .*: must be the path of a file"):
+        with pytest.raises(dd.errors.InputError, match=r"path = .*: must be the path of a file"):
             dd.report(stripes, wrong)
-        with pytest.raises(dd.InputError, match=r"prefix = .*: must be the path of a file"):
+        with pytest.raises(dd.errors.InputError, match=r"prefix = .*: must be the path of a file"):
             dd.read_results(wrong)
     for name in ("a.docx", "a"):
-        with pytest.raises(dd.InputError, match=r"path = .*: must end in .html or .htm or .pdf"):
+        with pytest.raises(dd.errors.InputError, match=r"path = .*: must end in .html or .htm or .pdf"):
             dd.report(stripes, tmp_path / name)
     assert not list(tmp_path.iterdir())
     with refused("wrong_type", "hazard"):
         dd.report(stripes, path, hazard=0.1)
-    with pytest.raises(dd.InputError, match="hazard: must be left out"):
+    with pytest.raises(dd.errors.InputError, match="hazard: must be left out"):
         dd.report(dd.simulate(wall, sine), path, hazard=hazard)
-    with pytest.raises(dd.InputError, match="must be the same"):
+    with pytest.raises(dd.errors.InputError, match="must be the same"):
         dd.report(stripes, path, hazard=dd.HazardCurve([0.1, 1.0], [0.1, 0.001], im="pgv"))
     assert not path.exists()
 
@@ -521,7 +521,7 @@ def test_a_wall_without_a_fit(records, tmp_path):
     page = read(tmp_path / "report.html")
     assert "no_collapse" in page.text
     assert page.errors == []
-    with pytest.raises(dd.DondoloError, match="no curve"):
+    with pytest.raises(dd.errors.DondoloError, match="no curve"):
         dd.report(stripes, tmp_path / "risk.html", hazard=dd.HazardCurve([0.1, 1.0], [0.1, 0.001]))
 
 
@@ -533,7 +533,7 @@ def test_bootstrap_over_walls_needs_counts_only(people):
     )
     np.testing.assert_array_equal(found.theta, expected.theta)
     np.testing.assert_array_equal(found.mean_fraction, expected.mean_fraction)
-    with pytest.raises(dd.DondoloError, match="must be 'walls'"):
+    with pytest.raises(dd.errors.DondoloError, match="must be 'walls'"):
         counts["all"].bootstrap(n_resamples=50)
 
 
@@ -634,7 +634,7 @@ def test_the_total_dispersion_is_what_the_parts_add_up_to(people, pages):
 def test_scale_factors_of_a_population_are_known(people, records, tmp_path):
     """From objects as from files: they are among what was warned of."""
     walls = [dd.OneSidedWall(1.5, 0.25, name="a")]
-    with pytest.warns(dd.DondoloWarning) as caught:
+    with pytest.warns(dd.errors.DondoloWarning) as caught:
         large = dd.typology(walls, records, [0.4, 0.8, 1.2, 1.6], progress=False)
     assert list(large.warnings) == [one.message for one in caught]
     dd.report(large, tmp_path / "report.html")

@@ -62,7 +62,7 @@ def test_curve_is_straight_on_logarithmic_axes(hazard):
 
 def test_a_level_step_has_no_sign(curve):
     hazard = dd.HazardCurve([0.1, 0.2, 0.4, 0.8], [1e-2, 1e-3, 1e-3, 1e-4])
-    with pytest.warns(dd.DondoloWarning, match="too short"):
+    with pytest.warns(dd.errors.DondoloWarning, match="too short"):
         risk = curve.risk(hazard)
     density = risk.density([0.25, 0.3])
     assert density.tolist() == [0.0, 0.0]
@@ -76,7 +76,7 @@ def test_power_law():
     assert hazard.endless
     assert hazard.im == "pgv"
     for k0, k in ((0.0, 2.0), (1e-4, -1.0), (np.nan, 2.0)):
-        with pytest.raises(dd.InputError, match="must be positive"):
+        with pytest.raises(dd.errors.InputError, match="must be positive"):
             dd.HazardCurve.power_law(k0, k)
 
 
@@ -128,7 +128,7 @@ def test_closed_form_keeps_its_digits_in_the_tails(hazard, theta, beta):
     """Bin by bin from far below the median to far above it, against Gauss's rule with 40 points in each."""
     curve = replace(lognormal(theta, beta), saturation=0.7)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", dd.DondoloWarning)
+        warnings.simplefilter("ignore", dd.errors.DondoloWarning)
         risk = curve.risk(hazard)
     edges = np.unique(np.append(np.geomspace(LEVELS[0], LEVELS[-1], 401), LEVELS))
     node, weight = np.polynomial.legendre.leggauss(40)
@@ -143,7 +143,7 @@ def test_closed_form_keeps_its_digits_in_the_tails(hazard, theta, beta):
     assert np.all(risk.deaggregate(edges) >= 0.0)
 
 
-@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 @pytest.mark.parametrize(
     "beta", [*(10.0**-n for n in (0, 1, 2, 3, 4, 6, 7, 8, 9, 10, 12, 16, 50, 154, 200, 300)), 5e-324]
 )
@@ -185,9 +185,9 @@ def test_steep_hazard(beta, k):
     """The power law of the first step overflows far below it."""
     curve = lognormal(0.6, beta)
     steep = dd.HazardCurve([0.1, 0.2, 0.4, 1.0], [0.01, *(0.01 * 2.0 ** -(k + i) for i in range(3))])
-    with pytest.warns(dd.DondoloWarning, match="too short"):
+    with pytest.warns(dd.errors.DondoloWarning, match="too short"):
         risk = curve.risk(steep)
-    with pytest.warns(dd.DondoloWarning, match="too short"):
+    with pytest.warns(dd.errors.DondoloWarning, match="too short"):
         gauss = dd.FunctionFragility(lambda x: curve(x)).risk(steep)
     assert gauss.inside == pytest.approx(risk.inside, rel=1e-8)
     # By parts, the bound below the lowest level is -P H there and a normal integral, here in logarithms
@@ -200,14 +200,14 @@ def test_steep_hazard(beta, k):
     if exact < np.inf:
         whole = curve.risk(dd.HazardCurve.power_law(1e-4, k))
         assert whole.annual_frequency == pytest.approx(1e-4 * np.exp(0.5 * (k * beta) ** 2) * 0.6**-k, rel=1e-10)
-    with pytest.raises(dd.DondoloError, match="is not finite"):
+    with pytest.raises(dd.errors.DondoloError, match="is not finite"):
         dd.FunctionFragility(lambda x: np.minimum(x, 1.0) ** 0.5).risk(dd.HazardCurve.power_law(1e-4, k))
 
 
 def test_a_function_that_is_too_rough(hazard, monkeypatch):
     monkeypatch.setattr(integrals_module, "_MOST_PANELS", 2000)
     random = np.random.default_rng(5)
-    with pytest.raises(dd.DondoloError, match="too rough"):
+    with pytest.raises(dd.errors.DondoloError, match="too rough"):
         dd.FunctionFragility(lambda x: 0.5 + 0.004 * random.random(x.shape)).risk(hazard)
 
 
@@ -216,7 +216,7 @@ def test_bounds_hold_the_truth(curve):
     whole = curve.risk(dd.HazardCurve.power_law(1e-4, 2.5)).annual_frequency
     for levels in ([0.3, 0.6, 1.2], [0.3, 10.0], [0.01, 0.6], [0.6, 0.7]):
         cut = dd.HazardCurve(levels, 1e-4 * np.array(levels) ** -2.5)
-        with pytest.warns(dd.DondoloWarning, match="is too short: the mean annual frequency of collapse"):
+        with pytest.warns(dd.errors.DondoloWarning, match="is too short: the mean annual frequency of collapse"):
             risk = curve.risk(cut)
         assert risk.bounds[0] < whole < risk.bounds[1] * (1.0 + 1e-9)
         assert risk.inside < risk.annual_frequency == risk.bounds[0]
@@ -233,7 +233,7 @@ def test_bounds_hold_the_truth(curve):
 def test_bounds_end_at_the_saturation(curve):
     """All contributions are those of the walls that can collapse, those beyond the hazard curve too."""
     hazard = dd.HazardCurve([0.3, 0.6], [4e-3, 1e-3])
-    with pytest.warns(dd.DondoloWarning, match="too short"):
+    with pytest.warns(dd.errors.DondoloWarning, match="too short"):
         some, every = (replace(curve, saturation=share).risk(hazard) for share in (0.7, 1.0))
     for part in ("inside", "below", "above", "bounds"):
         assert getattr(some, part) == pytest.approx(0.7 * np.array(getattr(every, part)), rel=1e-12), part
@@ -247,27 +247,27 @@ def test_a_step_is_the_hazard_itself(hazard):
     assert abs(risk.annual_frequency - hazard(0.33)) <= max(risk.error, 1e-10 * risk.annual_frequency)
 
 
-@pytest.mark.filterwarnings("ignore:the curve is a function:dondolo.DondoloWarning")
+@pytest.mark.filterwarnings("ignore:the curve is a function:dondolo.errors.DondoloWarning")
 def test_degenerate_curves(hazard):
-    with pytest.warns(dd.DondoloWarning, match="lies between 0 and 5e-09"):
+    with pytest.warns(dd.errors.DondoloWarning, match="lies between 0 and 5e-09"):
         never = dd.FunctionFragility(lambda x: np.zeros_like(x)).risk(hazard)
     assert never.annual_frequency == 0.0
     assert never.return_period == np.inf
     assert never.bounds[1] == FREQUENCY[-1]
     assert never.probability(50.0) == 0.0
-    with pytest.warns(dd.DondoloWarning, match="too short"):
+    with pytest.warns(dd.errors.DondoloWarning, match="too short"):
         always = dd.FunctionFragility(lambda x: np.ones_like(x)).risk(hazard)
     assert always.inside == pytest.approx(FREQUENCY[0] - FREQUENCY[-1], rel=1e-9)
     assert always.bounds == (pytest.approx(FREQUENCY[0], rel=1e-9), np.inf)
     flat = dd.HazardCurve([0.1, 0.2, 0.4], [0.01, 0.01, 0.01])
-    with pytest.warns(dd.DondoloWarning):
+    with pytest.warns(dd.errors.DondoloWarning):
         risk = lognormal(0.2, 0.3).risk(flat)
     assert risk.inside == 0.0
     assert risk.bounds == pytest.approx((0.01 * lognormal(0.2, 0.3)(0.4), 0.01))
 
 
 def test_a_frequency_that_is_not_finite():
-    with pytest.raises(dd.DondoloError, match="is not finite"):
+    with pytest.raises(dd.errors.DondoloError, match="is not finite"):
         dd.FunctionFragility(lambda x: np.minimum(x, 1.0)).risk(dd.HazardCurve.power_law(1e-4, 2.5))
     risk = dd.FunctionFragility(lambda x: np.minimum(x, 1.0) ** 3).risk(dd.HazardCurve.power_law(1e-4, 2.0))
     # Integral of 2 x^3 x^-3 from 0 to 1, and 1
@@ -283,14 +283,14 @@ def test_time(hazard, curve):
     counts = np.random.default_rng(3).poisson(risk.annual_frequency * 2000.0, 100_000)
     assert risk.probability(2000.0) == pytest.approx((counts > 0).mean(), abs=0.005)
     for wrong in (-1.0, np.nan, np.inf):
-        with pytest.raises(dd.InputError, match="must be finite and not negative"):
+        with pytest.raises(dd.errors.InputError, match="must be finite and not negative"):
             risk.probability(wrong)
 
 
-@pytest.mark.filterwarnings("ignore:the curve is a function:dondolo.DondoloWarning")
+@pytest.mark.filterwarnings("ignore:the curve is a function:dondolo.errors.DondoloWarning")
 def test_both_ends_are_told(curve):
     """A hazard curve that is too short: the lower end alone would look safer than it is."""
-    with pytest.warns(dd.DondoloWarning, match="too short"):
+    with pytest.warns(dd.errors.DondoloWarning, match="too short"):
         risk = curve.risk(dd.HazardCurve([0.01, 0.4], [0.1, 0.005]))
     low, high = risk.bounds
     assert 0.0 < 1.1 * low < high < np.inf
@@ -302,7 +302,7 @@ def test_both_ends_are_told(curve):
     assert f"between {low:.4g} and {high:.4g} a year" in shown
     assert f"return period between {1.0 / high:.4g} and {1.0 / low:.4g} years" in shown
     assert f"probability in 50 years between {risk.probability(50.0):.4g} and {1 - np.exp(-50 * high):.4g}" in shown
-    with pytest.warns(dd.DondoloWarning, match="too short"):
+    with pytest.warns(dd.errors.DondoloWarning, match="too short"):
         open_end = dd.FunctionFragility(lambda x: np.ones_like(x)).risk(dd.HazardCurve([0.1, 0.4], [0.1, 0.005]))
     assert open_end.return_period_bounds == (0.0, pytest.approx(10.0))
     assert open_end.probability_bounds(1.0) == (pytest.approx(-np.expm1(-0.1)), 1.0)
@@ -326,7 +326,7 @@ def people(records):
     p_occ, groups = [1.0, 0.0, 0.5, 0.3, 0.2, 1.0, 0.25, 1.0], ["low"] * 6 + ["high"] * 2
     weights = [1.0, 1.0, 2.0, 2.0, 2.0, 0.5, 3.0, 3.0]
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", dd.DondoloWarning)
+        warnings.simplefilter("ignore", dd.errors.DondoloWarning)
         levels = [0.1, 0.2, 0.4, 0.6, 0.8, 1.0, 1.2, 1.6]
         population = dd.Population(walls, weights, groups=groups, p_occ=p_occ)
         made = dd.typology(population, records[::4], levels, progress=False)
@@ -362,7 +362,7 @@ def losses(people, hazard, years, group=""):
 
 @pytest.mark.parametrize("group", ["", "high"])
 @pytest.mark.parametrize("endless", [False, True])
-@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 def test_time_of_a_population(people, hazard, endless, group):
     """Each wall has its own frequency, and where a mechanism may not occur, several."""
     hazard = dd.HazardCurve.power_law(2e-3, 2.5) if endless else dd.HazardCurve(LEVELS[:6], FREQUENCY[:6])
@@ -391,7 +391,7 @@ def test_any_function_is_taken_for_one_wall(people):
     risks = [dd.FunctionFragility(f).risk(hazard) for f in (functools.partial(high.fractiles, q=0.84), fractile)]
     assert risks[0].bounds == risks[1].bounds
     for risk in risks:
-        with pytest.warns(dd.DondoloWarning, match="the curve is a function"):
+        with pytest.warns(dd.errors.DondoloWarning, match="the curve is a function"):
             assert risk.probability(50.0) == -np.expm1(-50.0 * risk.annual_frequency)
         assert "return period of one wall" in repr(risk)
 
@@ -409,7 +409,7 @@ def test_the_curve_of_a_population_knows_its_walls(people):
         assert other.annual_frequency == pytest.approx(risk.annual_frequency, rel=1e-9)
         assert "probability in 50 years of one wall" in repr(other)
         assert other.probability(0.0) == 0.0
-        with pytest.warns(dd.DondoloWarning, match="function, taken for that of one wall"):
+        with pytest.warns(dd.errors.DondoloWarning, match="function, taken for that of one wall"):
             assert other.probability(475.0) > 1.05 * share
 
 
@@ -418,7 +418,7 @@ def test_shares_may_add_up_to_more_than_one_by_rounding():
     assert WallFrequencies(np.array([0.5, 0.5 + 2e-16]), ends, ends).probability(1e9) == (1.0, 1.0)
 
 
-@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 def test_time_ends_at_the_saturation(people, records):
     """Walls that never collapse take no part, however long the time is."""
     hazard = dd.HazardCurve.power_law(8e-3, 2.5)
@@ -467,9 +467,9 @@ def test_deaggregation(hazard, curve):
         ([0.0, 1.0], "edges = 0: must be positive"),
         ([0.1, np.inf], "edges = inf: must be positive"),
     ):
-        with pytest.raises(dd.InputError, match=sentence):
+        with pytest.raises(dd.errors.InputError, match=sentence):
             risk.deaggregate(wrong)
-    with pytest.raises(dd.InputError, match="x: must be positive"):
+    with pytest.raises(dd.errors.InputError, match="x: must be positive"):
         risk.density([0.0])
 
 
@@ -480,7 +480,9 @@ def test_measures_must_agree(hazard, curve, few):
         people = dd.typology(walls, few, [0.3, 0.6, 0.9, 1.2], progress=False)
         pgv = dd.HazardCurve(LEVELS, FREQUENCY, im="pgv")
         for fragility in (people["all"], lognormal(0.6, 0.4), people["all"].fit):
-            with pytest.raises(dd.InputError, match="im = 'pga' of the fragility and 'pgv' of the hazard: must be"):
+            with pytest.raises(
+                dd.errors.InputError, match="im = 'pga' of the fragility and 'pgv' of the hazard: must be"
+            ):
                 fragility.risk(pgv)
         risk = people["all"].risk(hazard)
         assert risk.inside == pytest.approx(trapezoid(people["all"], hazard, 3001), rel=1e-5)
@@ -489,7 +491,7 @@ def test_measures_must_agree(hazard, curve, few):
 
 def test_refused(hazard, curve):
     nothing = dd.fit_fragility([0.2, 0.4], [0, 0], 44, im="pga")
-    with pytest.raises(dd.DondoloError, match="no curve was fitted"):
+    with pytest.raises(dd.errors.DondoloError, match="no curve was fitted"):
         nothing.risk(hazard)
     for wrong, sentence in (
         (lambda x: x, "must lie between 0 and 1"),
@@ -499,7 +501,7 @@ def test_refused(hazard, curve):
         (lambda x: np.exp(-x), r"fragility = 0\.\d+ at \S+, 0\.\d+ below: must not fall with the intensity"),
         (0.3, "function: must be a function, not float"),
     ):
-        with pytest.raises(dd.InputError, match=sentence):
+        with pytest.raises(dd.errors.InputError, match=sentence):
             dd.FunctionFragility(wrong).risk(hazard)
     with refused("wrong_type", "hazard"):
         curve.risk([1.0])
@@ -512,9 +514,9 @@ def test_refused(hazard, curve):
         ([0.2, 0.2], [0.02, 0.01], "levels = 0.2, 0.2: must increase strictly"),
         ([0.1, 0.2], [0.01, 0.02], "annual_frequency = 0.01, 0.02: must not increase"),
     ):
-        with pytest.raises(dd.InputError, match=sentence):
+        with pytest.raises(dd.errors.InputError, match=sentence):
             dd.HazardCurve(levels, frequency)
-    with pytest.raises(dd.InputError, match="im = 'pgx'"):
+    with pytest.raises(dd.errors.InputError, match="im = 'pgx'"):
         dd.HazardCurve([0.1, 0.2], [0.02, 0.01], im="pgx")
 
 
@@ -540,14 +542,14 @@ def test_files(hazard, tmp_path):
         ("pga,annual_frequency\n0.1,0.01\n0.2,0.02\n", "own.csv: annual_frequency = 0.01, 0.02"),
     ):
         (tmp_path / "own.csv").write_text(text)
-        with pytest.raises(dd.InputError, match=sentence):
+        with pytest.raises(dd.errors.InputError, match=sentence):
             dd.HazardCurve.from_csv(tmp_path / "own.csv")
     (tmp_path / "long.csv").write_text("pga,annual_frequency\n0.1," + "1" * 200000 + "\n")
-    with pytest.raises(dd.InputError, match=r"long\.csv: line 2: annual_frequency = "):
+    with pytest.raises(dd.errors.InputError, match=r"long\.csv: line 2: annual_frequency = "):
         dd.HazardCurve.from_csv(tmp_path / "long.csv")
-    with pytest.raises(dd.MissingFileError, match="no such file"):
+    with pytest.raises(dd.errors.MissingFileError, match="no such file"):
         dd.HazardCurve.from_csv(tmp_path / "none.csv")
-    with pytest.raises(dd.InputError, match=r"path = 3\.5: must be the path of a file"):
+    with pytest.raises(dd.errors.InputError, match=r"path = 3\.5: must be the path of a file"):
         dd.HazardCurve.from_csv(3.5)
 
 
@@ -609,11 +611,11 @@ def test_published_hazard_that_is_wrong(content, sentence, tmp_path):
     path = tmp_path / "hazard.csv"
     path.write_text(content)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", dd.DondoloWarning)
+        warnings.simplefilter("ignore", dd.errors.DondoloWarning)
         if sentence is None:
             assert dd.HazardCurve.from_csv(path).levels[1] == 1.2
         else:
-            with pytest.raises(dd.InputError, match=sentence) as caught:
+            with pytest.raises(dd.errors.InputError, match=sentence) as caught:
                 dd.HazardCurve.from_csv(path)
             assert str(caught.value).startswith(f"{path}: ")
 
@@ -622,7 +624,9 @@ def test_hazard_that_is_no_utf8(tmp_path):
     path = tmp_path / "hazard.csv"
     table = "# città\npga,annual_frequency\n0.1,0.01\n0.2,0.001\n"
     path.write_text(table, encoding="cp1252")
-    with pytest.raises(dd.InputError, match=r"line 1: byte 7 \(E0\) is .*: save it as UTF-8 \(in Excel: CSV UTF-8\)"):
+    with pytest.raises(
+        dd.errors.InputError, match=r"line 1: byte 7 \(E0\) is .*: save it as UTF-8 \(in Excel: CSV UTF-8\)"
+    ):
         dd.HazardCurve.from_csv(path)
     path.write_text(table, encoding="utf-16")
     assert dd.HazardCurve.from_csv(path).levels[1] == 0.2
@@ -641,7 +645,7 @@ def test_shown(hazard, curve):
 def test_figure(hazard, curve, endless):
     hazard = dd.HazardCurve.power_law(1e-4, 2.5) if endless else dd.HazardCurve(LEVELS[:6], FREQUENCY[:6])
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", dd.DondoloWarning)
+        warnings.simplefilter("ignore", dd.errors.DondoloWarning)
         risk = curve.risk(hazard)
     above, middle, below = risk.plot()
     drawn = above.get_lines()[0 if endless else 1]

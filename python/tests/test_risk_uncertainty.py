@@ -85,9 +85,9 @@ def test_beside_the_fractiles_of_the_hazard(hazard, tmp_path):
     ax = found.plot()
     assert len(ax.lines) == 6
     plt.close(ax.figure)
-    with pytest.raises(dd.InputError, match=r"q = 0.5: must be one of the fractiles"):
+    with pytest.raises(dd.errors.InputError, match=r"q = 0.5: must be one of the fractiles"):
         found.interval(hazard=0.5)
-    with pytest.raises(dd.InputError, match=r"confidence = 1.0"):
+    with pytest.raises(dd.errors.InputError, match=r"confidence = 1.0"):
         found.interval(confidence=1.0)
 
 
@@ -107,7 +107,7 @@ def test_curves_that_are_open(hazard):
     np.testing.assert_array_equal(half.annual_frequency, 0.5 * found.annual_frequency)
 
 
-@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 def test_intervals_cover_what_the_hazard_may_be_beyond_its_levels(people, records):
     short = dd.HazardCurve([0.1, 0.2, 0.3], [0.01, 2e-3, 8e-4])
     curve = curve_of([[4e-3, 1e-3], [1e-3, 2e-3]])
@@ -129,9 +129,9 @@ def test_what_has_no_uncertainty(hazard):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             risk = curve.risk(hazard)
-        with pytest.raises(dd.DondoloError, match=message):
+        with pytest.raises(dd.errors.DondoloError, match=message):
             risk.uncertainty()
-    with pytest.raises(dd.InputError, match="n_draws = 10: must be an integer, at least 100"):
+    with pytest.raises(dd.errors.InputError, match="n_draws = 10: must be an integer, at least 100"):
         curve_of(np.eye(2)).risk(hazard).uncertainty(n_draws=10)
 
 
@@ -151,7 +151,7 @@ def test_the_level_that_contributes_most(hazard):
     assert heights == pytest.approx(100.0, abs=0.2)
     assert "contributes most" in ax.texts[0].get_text()
     plt.close(ax.figure)
-    with pytest.warns(dd.DondoloWarning):
+    with pytest.warns(dd.errors.DondoloWarning):
         never = dd.FunctionFragility(lambda x: np.zeros_like(x)).risk(hazard)
     assert np.isnan(never.dominant_level)
     plt.close(never.plot_deaggregation().figure)
@@ -171,7 +171,7 @@ def people(records):
     return lambda chosen: dd.typology(population, chosen, [0.2, 0.3, 0.4, 0.6, 0.8, 1.0, 1.3, 1.6], progress=False)
 
 
-@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 def test_records_left_out_of_a_population(people, records, hazard):
     """The change to first order is close to that of the analysis without the records of an event."""
     whole = people(records)
@@ -193,7 +193,7 @@ def test_records_left_out_of_a_population(people, records, hazard):
         assert np.corrcoef(found[:4], exact)[0, 1] > 0.98
 
 
-@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 def test_walls_left_out_of_a_population(people, records, hazard):
     """Exact: the mean of the others."""
     curve = people(records[::4])["all"]
@@ -215,7 +215,7 @@ def test_walls_left_out_of_a_population(people, records, hazard):
     assert weights @ curve(np.exp(u)) == pytest.approx(endless.annual_frequency, rel=1e-5)
 
 
-@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 def test_populations_without_standard_errors(people, records, hazard):
     some = people(records[::4])
     exact = some["all"].risk(hazard).uncertainty(n_draws=4000)
@@ -233,12 +233,12 @@ def test_populations_without_standard_errors(people, records, hazard):
         np.testing.assert_allclose(draws, of_fit * back.risk.bounds[end] / by_fit.risk.bounds[end], rtol=1e-12)
     assert list(back.fractiles) == list(exact.fractiles)
     few = people(records[:2])["all"].risk(hazard)
-    with pytest.raises(dd.DondoloError, match="less than 3 clusters of records"):
+    with pytest.raises(dd.errors.DondoloError, match="less than 3 clusters of records"):
         few.uncertainty()
     walls = [dd.OneSidedWall(1.5, 0.25, name="a"), dd.OneSidedWall(1.8, 0.25, name="b")]
     two = dd.typology(walls, records, [0.2, 0.4, 0.6, 0.8, 1.0, 1.3], progress=False)["all"]
     assert two.fit.errors == "few_walls"
-    with pytest.raises(dd.DondoloError, match="two walls are too few"):
+    with pytest.raises(dd.errors.DondoloError, match="two walls are too few"):
         two.risk(hazard).uncertainty()
 
 
@@ -246,7 +246,7 @@ def test_fractiles_that_are_hardly_exceeded():
     """A fractile that is exceeded at one level is no curve, and does not keep the others from theirs."""
     levels, mean = [0.1, 0.2, 0.4, 0.8], np.array([1e-2, 1e-3, 1e-4, 1e-5])
     hazard = dd.HazardCurve(levels, mean, fractiles={0.05: [1e-3, 0.0, 0.0, 0.0], 0.84: 2.0 * mean})
-    with pytest.raises(dd.InputError, match=r"fractile 0\.05 of the hazard curve: must be exceeded at 2 levels"):
+    with pytest.raises(dd.errors.InputError, match=r"fractile 0\.05 of the hazard curve: must be exceeded at 2 levels"):
         hazard.fractile(0.05)
     risk = curve_of([[0.01, 0.0], [0.0, 0.001]]).risk(hazard)
     found = risk.uncertainty(n_draws=200)

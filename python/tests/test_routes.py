@@ -72,7 +72,7 @@ def ran(executable, tmp_path_factory):
             case = case_of(name, folder)
             subprocess.run([executable, "--quiet", case], cwd=folder, capture_output=True, check=True)
             with warnings.catch_warnings():
-                warnings.simplefilter("ignore", dd.DondoloWarning)
+                warnings.simplefilter("ignore", dd.errors.DondoloWarning)
                 results = dd.run_case(case, progress=False)
             known[name] = folder / name, results, sent.pop()
         return known[name]
@@ -120,7 +120,7 @@ def differences(mine, theirs, place, ignored):
     elif isinstance(mine, dd.Wall):
         if repr(mine) != repr(theirs) or mine != theirs:
             yield f"{place}: {mine!r}, {theirs!r}"
-    elif isinstance(mine, (dd.DondoloWarning, bool, int, str, type(None))):
+    elif isinstance(mine, (dd.errors.DondoloWarning, bool, int, str, type(None))):
         if mine != theirs:
             yield f"{place}: {mine!r}, {theirs!r}"
     else:
@@ -275,7 +275,7 @@ def test_designs_of_python(ran, tmp_path):
     assert [check.rows for check in back.checks] == [check.rows for check in mine.checks]
     levels = {name: np.array(mine.case.levels) * (1.0 if name == "bare" else 1.1) for name in walls}
     one = dd.compare_designs(walls, mine.case.records[:4], levels | {next(iter(walls)): [0.5, 1.0]}, progress=False)
-    with pytest.raises(dd.InputError, match="levels of their own"):
+    with pytest.raises(dd.errors.InputError, match="levels of their own"):
         one.write_results(tmp_path / "other")
 
 

@@ -100,7 +100,7 @@ def test_anything_with_quantiles_is_a_distribution():
     own = dd.Population.sample("one_sided", 20, 1, height=Stuck(None), thickness=0.3)
     assert all(2.0 < wall.height < 3.0 for wall in own.walls)
     for wrong in (1.0, np.full(20, np.nan), np.ones(19)):
-        with pytest.raises(dd.InputError, match="height: its ppf must return 20 finite numbers"):
+        with pytest.raises(dd.errors.InputError, match="height: its ppf must return 20 finite numbers"):
             dd.Population.sample("one_sided", 20, 1, height=Stuck(wrong), thickness=0.3)
 
 
@@ -140,7 +140,7 @@ def test_anything_with_quantiles_is_a_distribution():
     ],
 )
 def test_wrong_distributions(make, sentence):
-    with pytest.raises(dd.InputError) as caught:
+    with pytest.raises(dd.errors.InputError) as caught:
         make()
     assert str(caught.value) == sentence
 
@@ -389,7 +389,7 @@ def test_origin(tmp_path):
     ],
 )
 def test_errors(changes, sentence):
-    with pytest.raises(dd.InputError) as caught:
+    with pytest.raises(dd.errors.InputError) as caught:
         sample(**changes)
     assert sentence in str(caught.value)
     assert "\n" not in str(caught.value)
@@ -417,7 +417,7 @@ def test_errors(changes, sentence):
     ],
 )
 def test_samples_that_no_wall_can_have(own, sentence):
-    with pytest.raises(dd.InputError, match=sentence):
+    with pytest.raises(dd.errors.InputError, match=sentence):
         sample(mechanisms={"two_block": own}, thickness=0.25)
 
 
@@ -425,12 +425,14 @@ def test_a_bearing_follows_the_thickness():
     own = {"overburden": 5000.0, "overburden_inertia": 0.0, "bearing": "inner", "bearing_distance": 0.06}
     walls = sample(mechanisms={"two_block": own}, thickness=dd.distributions.Uniform(0.25, 0.5))
     assert [wall.eccentricity for wall in walls] == pytest.approx([0.06 - 0.5 * wall.thickness for wall in walls])
-    with pytest.raises(dd.InputError, match="bearing: one_sided walls have none"):
+    with pytest.raises(dd.errors.InputError, match="bearing: one_sided walls have none"):
         sample(mechanisms=("one_sided", "two_block"), bearing="centre")
 
 
 def test_a_misspelt_property():
-    with pytest.raises(dd.InputError, match="'thicknes': no such property of walls; there are height, thickness, "):
+    with pytest.raises(
+        dd.errors.InputError, match="'thicknes': no such property of walls; there are height, thickness, "
+    ):
         sample(thicknes=0.3)
 
 
@@ -480,6 +482,6 @@ def test_the_historic_centre_is_sensible(root, few):
 
     people = dd.Population.from_csv(root / "data/walls/historic_centre.csv").group("row houses")
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", dd.DondoloWarning)
+        warnings.simplefilter("ignore", dd.errors.DondoloWarning)
         both = dd.typology(people, few, [0.3, 0.6, 0.9, 1.2, 1.6, 2.0], progress=False)
     assert both["one_sided"].fit.theta < 0.6 * both["two_block"].fit.theta

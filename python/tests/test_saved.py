@@ -255,7 +255,7 @@ def test_a_loaded_typology_goes_on(results, tmp_path):
 
 def test_functions_are_not_saved(results, tmp_path):
     risk = dd.FunctionFragility(lambda x: np.minimum(x, 1.0)).risk(results["hazard"])
-    with pytest.raises(dd.InputError, match=r"^Risk\.fragility: a FunctionFragility cannot be saved$"):
+    with pytest.raises(dd.errors.InputError, match=r"^Risk\.fragility: a FunctionFragility cannot be saved$"):
         risk.save(tmp_path / "risk.npz")
     assert os.listdir(tmp_path) == []
 
@@ -307,7 +307,7 @@ def test_values_that_json_lacks(tmp_path):
 )
 def test_what_cannot_be_saved(value, message, tmp_path):
     result = comparison((value,))
-    with pytest.raises(dd.InputError, match=f"^{message}$"):
+    with pytest.raises(dd.errors.InputError, match=f"^{message}$"):
         result.save(tmp_path / "result.npz")
     assert os.listdir(tmp_path) == []
 
@@ -315,23 +315,23 @@ def test_what_cannot_be_saved(value, message, tmp_path):
 def test_paths(results, tmp_path):
     curve, path = results["counts"], tmp_path / "curve.npz"
     for wrong in ("curve", "curve.csv", "curve.NPZ", ".npz"):
-        with pytest.raises(dd.InputError, match=r"must end in \.npz$"):
+        with pytest.raises(dd.errors.InputError, match=r"must end in \.npz$"):
             curve.save(tmp_path / wrong)
-    with pytest.raises(dd.InputError, match="must be the path of a file"):
+    with pytest.raises(dd.errors.InputError, match="must be the path of a file"):
         curve.save(3)
-    with pytest.raises(dd.DondoloError, match="cannot be written: No such file"):
+    with pytest.raises(dd.errors.DondoloError, match="cannot be written: No such file"):
         curve.save(tmp_path / "none" / "curve.npz")
     np.savez(path, edp=[1.0])
     before = path.read_bytes()
-    with pytest.raises(dd.InputError, match=r"curve\.npz: exists, and is not a saved result of dondolo$"):
+    with pytest.raises(dd.errors.InputError, match=r"curve\.npz: exists, and is not a saved result of dondolo$"):
         curve.save(path)
-    with pytest.raises(dd.InputError, match=r"curve\.npz: is no result saved by dondolo$"):
+    with pytest.raises(dd.errors.InputError, match=r"curve\.npz: is no result saved by dondolo$"):
         dd.load(path)
     assert path.read_bytes() == before
     path.unlink()
-    with pytest.raises(dd.MissingFileError, match=r"curve\.npz: cannot be read: No such file"):
+    with pytest.raises(dd.errors.MissingFileError, match=r"curve\.npz: cannot be read: No such file"):
         dd.load(path)
-    with pytest.raises(dd.InputError, match="cannot be read: Is a directory"):
+    with pytest.raises(dd.errors.InputError, match="cannot be read: Is a directory"):
         dd.load(tmp_path)
     curve.save(str(path))
     results["hazard"].save(path)
@@ -376,7 +376,7 @@ def test_contents_that_are_refused(results, tmp_path, change, message):
     rewritten(path, lambda content: None)
     check_same(dd.load(path), results["hazard"], "hazard")
     rewritten(path, change)
-    with pytest.raises(dd.InputError, match=rf"^\S+hazard\.npz: .*{message}") as error:
+    with pytest.raises(dd.errors.InputError, match=rf"^\S+hazard\.npz: .*{message}") as error:
         dd.load(path)
     assert "\n" not in str(error.value)
 
@@ -401,7 +401,7 @@ def test_damaged_files(results, tmp_path):
         sentence = ""
         try:
             check_same(dd.load(path), results["hazard"], "hazard")
-        except dd.InputError as error:
+        except dd.errors.InputError as error:
             sentence = str(error)
         assert not lost or sentence
         assert not sentence or (sentence.startswith(f"{path}: ") and "\n" not in sentence)
@@ -412,5 +412,5 @@ def test_pickles_are_not_read(results, tmp_path):
     results["hazard"].save(path)
     with zipfile.ZipFile(path, "a") as archive, archive.open("9.npy", "w") as member:
         np.lib.format.write_array(member, np.array([{}]), allow_pickle=True)
-    with pytest.raises(dd.InputError, match="is damaged"):
+    with pytest.raises(dd.errors.InputError, match="is damaged"):
         dd.load(path)

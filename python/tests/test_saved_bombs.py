@@ -47,7 +47,7 @@ def refused(path, message):
     """Load a file: it is refused in one sentence, and costs little memory."""
     tracemalloc.start()
     try:
-        with pytest.raises(dd.InputError, match=message) as error:
+        with pytest.raises(dd.errors.InputError, match=message) as error:
             dd.load(path)
         _, peak = tracemalloc.get_traced_memory()
     finally:
@@ -152,5 +152,5 @@ def test_content_that_a_constructor_cannot_take(path):
 
 
 def test_a_device_has_no_end():
-    with pytest.raises(dd.InputError, match="/dev/zero: is a device, not a regular file"):
+    with pytest.raises(dd.errors.InputError, match="/dev/zero: is a device, not a regular file"):
         dd.load("/dev/zero")

@@ -133,7 +133,7 @@ INPUTS = {
 
 def read_anyway(path):
     """Read a case that may be refused in the end."""
-    with contextlib.suppress(dd.InputError):
+    with contextlib.suppress(dd.errors.InputError):
         dd.read_case(path)
 
 

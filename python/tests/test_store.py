@@ -130,5 +130,5 @@ def test_histories_are_kept_by_the_executable_alone(folder, root):
     text = (folder / "a.nml").read_text()
     (folder / "a.nml").write_text(text.replace("'out/z'", "'out/z', histories = .true."))
     execute(folder, "--walls", "1:8")
-    with pytest.raises(dd.InputError, match="belongs to another study: histories kept there, not kept here"):
+    with pytest.raises(dd.errors.InputError, match="belongs to another study: histories kept there, not kept here"):
         run(folder, root, folder / "out/z_walls_1-8.counts")

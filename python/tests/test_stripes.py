@@ -157,14 +157,14 @@ def test_pickle(analysis):
 )
 def test_errors(wall, few, changes, sentence):
     arguments = {"wall": wall, "records": few, "levels": LEVELS, "progress": False} | changes
-    with pytest.raises(dd.InputError) as caught:
+    with pytest.raises(dd.errors.InputError) as caught:
         dd.multiple_stripe(**arguments)
     assert str(caught.value).startswith(sentence)
 
 
 def test_stripes_without_motion_of_the_wall(wall, sine):
     stripes = dd.multiple_stripe(wall, sine, [0.1], progress=False)
-    with pytest.warns(dd.DondoloWarning, match="the wall begins to rock at a PGA of 0.1667 g") as caught:
+    with pytest.warns(dd.errors.DondoloWarning, match="the wall begins to rock at a PGA of 0.1667 g") as caught:
         assert stripes.fit().status == "no_collapse"
     assert caught[0].filename == __file__
 
@@ -181,11 +181,11 @@ def test_values_in_other_units_warn(sine):
         "wall 'strip': gravity = 32.2 m/s2 is more than 10 m/s2: is it in cm/s2 or ft/s2?",
         f"record 'strong': a PGA of {strong.peak_acceleration / 32.2:.4g} g, more than 3 g: wrong units?",
     ]
-    with pytest.warns(dd.DondoloWarning) as caught:
+    with pytest.warns(dd.errors.DondoloWarning) as caught:
         dd.multiple_stripe(strip, strong, [0.1], progress=False)
     assert [str(one.message) for one in caught] == sentences
     for _ in range(2):
-        with pytest.warns(dd.DondoloWarning) as caught:
+        with pytest.warns(dd.errors.DondoloWarning) as caught:
             dd.simulate(strip, strong, 1e-3, history=False)
         assert [str(one.message) for one in caught] == sentences
         assert caught[0].filename == __file__
@@ -202,17 +202,17 @@ def test_a_wrong_time_step_warns(sine):
         wrong = dd.Record(sine.acceleration, dt, "wrong", metadata={"event": "B"})
         ratio = wrong.intensity("pgv") / wrong.peak_acceleration
         sentence = f"record 'wrong': PGV / PGA = {ratio:.4g} s, {limit} s: wrong time step{why}?"
-        with pytest.warns(dd.DondoloWarning) as caught:
+        with pytest.warns(dd.errors.DondoloWarning) as caught:
             dd.simulate(wall, wrong, 1e-3, history=False)
         assert [str(one.message) for one in caught] == [sentence]
-        with pytest.warns(dd.DondoloWarning) as caught:
+        with pytest.warns(dd.errors.DondoloWarning) as caught:
             dd.multiple_stripe(wall, [right, wrong], [0.1], progress=False)
         assert [str(one.message) for one in caught] == [f"{sentence} (1 of 2 records)"]
         assert caught[0].message.code == "record_pgv_pga"
 
 
 def test_velocities_in_other_units_warn(sine):
-    with pytest.warns(dd.DondoloWarning, match="levels up to 20 of pgv, more than 5 m/s: are they in cm/s"):
+    with pytest.warns(dd.errors.DondoloWarning, match="levels up to 20 of pgv, more than 5 m/s: are they in cm/s"):
         dd.multiple_stripe(dd.OneSidedWall(3.0, 0.25), sine, [10.0, 20.0], im="pgv", progress=False)
 
 
@@ -229,7 +229,7 @@ def test_interruption_keeps_what_is_complete(wall, records, monkeypatch, replace
         return run_block(*arguments)
 
     replace_procedure("stripes.run_block", stop)
-    with pytest.raises(dd.Interrupted) as caught:
+    with pytest.raises(dd.errors.Interrupted) as caught:
         dd.multiple_stripe(wall, records, LEVELS, progress=False)
     partial = caught.value.partial
     assert isinstance(caught.value, KeyboardInterrupt)
@@ -244,7 +244,7 @@ def test_interruption_is_quick(records):
     """Of work that takes half a minute on a quick machine little is done when Ctrl-C comes after half a second."""
     timer = threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT))
     timer.start()
-    with pytest.raises(dd.Interrupted) as caught:
+    with pytest.raises(dd.errors.Interrupted) as caught:
         dd.multiple_stripe(wall, list(records) * 50, np.linspace(0.2, 2.0, 500), progress=False)
     timer.cancel()
     partial = caught.value.partial
@@ -265,9 +265,9 @@ def test_tables(analysis, tmp_path):
             tmp_path / "table.csv", comment="#", float_precision="round_trip", dtype={"group": object}
         ).fillna({"group": ""})
         pandas.testing.assert_frame_equal(table, analysis.to_frame(name), check_exact=True, check_dtype=False)
-    with pytest.raises(dd.InputError, match="table = 'walks': must be one of 'histories', 'stripes', 'walls'"):
+    with pytest.raises(dd.errors.InputError, match="table = 'walks': must be one of 'histories', 'stripes', 'walls'"):
         analysis.to_frame("walks")
-    with pytest.raises(dd.DondoloError, match="cannot be written"):
+    with pytest.raises(dd.errors.DondoloError, match="cannot be written"):
         analysis.to_csv(tmp_path / "nowhere" / "table.csv")
 
 
@@ -276,7 +276,7 @@ def test_estimated_errors(wall, records):
     plain = dd.multiple_stripe(wall, records, [0.8], solver=dd.Solver(engine="rk45"), progress=False)
     assert plain.edp_error is None
     assert "edp_error" not in plain.to_frame()
-    with pytest.warns(dd.DondoloWarning) as caught:
+    with pytest.warns(dd.errors.DondoloWarning) as caught:
         told = dd.multiple_stripe(
             wall, records, [0.8], solver=dd.Solver(engine="rk45"), estimate_error=True, progress=False
         )

@@ -102,9 +102,9 @@ def test_drifts_are_counted():
     rigid = dd.multiple_stripe(strip(house(6.0)), records, [0.01], progress=False)
     assert soft.work.drifted > 0
     assert rigid.work.drifted == 0
-    with pytest.raises(dd.InputError, match="wall: must be a wall with a building"):
+    with pytest.raises(dd.errors.InputError, match="wall: must be a wall with a building"):
         records[0].under(strip(None))
-    with pytest.raises(dd.InputError, match="at = 'roof': must be one of"):
+    with pytest.raises(dd.errors.InputError, match="at = 'roof': must be one of"):
         records[0].under(strip(house(6.0)), at="roof")
 
 
@@ -245,7 +245,7 @@ def test_the_building_may_be_uncertain():
         )
         stripes = dd.multiple_stripe(alone, records, levels, progress=False)
         assert np.array_equal(stripes.collapses, found.typology.exceedances[-1, :, number])
-    with pytest.raises(dd.InputError, match="'period': must be one of height"):
+    with pytest.raises(dd.errors.InputError, match="'period': must be one of height"):
         dd.uncertain_wall(
             facade(None), records, levels, sources={"period": dd.distributions.Uniform(0.3, 0.45)}, n_variants=8
         )

@@ -106,7 +106,7 @@ def test_the_end_is_still(many):
 )
 def test_errors(arguments, words):
     magnitude, distance, site, *options = arguments
-    with pytest.raises(dd.InputError, match=words):
+    with pytest.raises(dd.errors.InputError, match=words):
         dd.synthetic_records(magnitude, distance, site, **dict(*options))
 
 

@@ -46,7 +46,7 @@ def failures(wall, record, k):
 def sentence(call):
     try:
         call()
-    except dd.InputError as error:
+    except dd.errors.InputError as error:
         return str(error)
     return "no error"
 

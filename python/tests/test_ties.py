@@ -222,7 +222,7 @@ def test_what_the_executable_says(run, tmp_path, facade, record):
     ],
 )
 def test_refusals(change, sentence):
-    with pytest.raises(dd.InputError, match=re.escape(f"ties[1].{sentence}")):
+    with pytest.raises(dd.errors.InputError, match=re.escape(f"ties[1].{sentence}")):
         dd.OneSidedWall(9.0, 0.5, ties=[TIE, replace(TIE, **change)])
 
 

@@ -12,7 +12,7 @@ WALLS = (
 )
 OUTCOME = ("edp", "collapsed", "impacts", "time_of_peak", "edp_error")
 
-pytestmark = pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+pytestmark = pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 
 
 def check_traces(wall, records, levels, **solver):

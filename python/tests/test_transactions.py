@@ -130,14 +130,14 @@ def test_files_of_two_runs_are_refused(executable, folder):
         shutil.copytree(folder / "out", folder / name)
     shutil.copy(folder / "a/x_histories.csv", folder / "b/x_histories.csv")
     with pytest.raises(
-        dd.InputError, match=r"b/x_histories\.csv: is of run .*, .*b/x_run\.json of run .*: they are not"
+        dd.errors.InputError, match=r"b/x_histories\.csv: is of run .*, .*b/x_run\.json of run .*: they are not"
     ):
         dd.read_results(folder / "b/x")
     table = folder / "a/x_histories.csv"
     table.write_bytes(table.read_bytes()[:-3])
-    with pytest.raises(dd.InputError, match=r"x_histories\.csv: "):
+    with pytest.raises(dd.errors.InputError, match=r"x_histories\.csv: "):
         dd.read_results(folder / "a/x")
-    with pytest.raises(dd.InputError, match=r"must be what the names begin with, '.*a/x'"):
+    with pytest.raises(dd.errors.InputError, match=r"must be what the names begin with, '.*a/x'"):
         dd.read_results(folder / "a/x_walls.csv")
 
 
@@ -148,7 +148,7 @@ def test_a_run_of_another_name_is_refused(name, executable, folder):
     path = folder / "out/x_run.json"
     run = dd.read_results(folder / "out/x").run.run
     path.write_text(path.read_text().replace(run, json.dumps(name)[1:-1]))
-    with pytest.raises(dd.InputError, match=r"x_run\.json: run = .*: must be a name such as"):
+    with pytest.raises(dd.errors.InputError, match=r"x_run\.json: run = .*: must be a name such as"):
         dd.read_results(folder / "out/x")
 
 
@@ -160,7 +160,7 @@ def test_nothing_of_the_user_is_replaced(mine, executable, folder):
     run = start(executable, folder, "a")
     assert "out/x.lock: exists, and is no lock of dondolo" in run.communicate()[1]
     assert run.returncode == 2
-    with pytest.raises(dd.InputError, match=r"x\.lock: exists, and is no lock"), result_set(folder / "out/x"):
+    with pytest.raises(dd.errors.InputError, match=r"x\.lock: exists, and is no lock"), result_set(folder / "out/x"):
         pass
     assert os.listdir(folder / "out") == ["x.lock"]
     assert lock.read_text() == mine
@@ -284,7 +284,7 @@ def test_signals_end_a_run_in_order(executable, folder, root, number):
     status = subprocess.run([executable, "--status", "out/x"], cwd=folder, capture_output=True, text=True, check=True)
     assert f"out/x: running: process {run.pid} on " in status.stdout
     with (
-        pytest.raises(dd.InputError, match=rf"written by another run \(process {run.pid} on"),
+        pytest.raises(dd.errors.InputError, match=rf"written by another run \(process {run.pid} on"),
         result_set(folder / "out/x"),
     ):
         pass

@@ -55,7 +55,7 @@ def test_every_wall_is_its_own_analysis(typology, population, few):
 def test_a_fit_that_does_not_converge_ends_no_population(records):
     walls = [dd.OneSidedWall(3.0, 0.25, name="a"), dd.OneSidedWall(1.0, 0.5, name="b")]
     people = dd.Population(walls, [1e-12, 1.0], groups=["rare", "frequent"])
-    with pytest.warns(dd.DondoloWarning, match=r"the population has no fit \(.*status not_converged\)"):
+    with pytest.warns(dd.errors.DondoloWarning, match=r"the population has no fit \(.*status not_converged\)"):
         result = dd.typology(people, records, [0.2, 0.4, 0.8], progress=False)
     assert result["all"].fit.status == "not_converged"
     assert np.isnan(result["all"].fit.theta)
@@ -85,9 +85,11 @@ def test_mechanisms(typology):
         assert typology[group.mechanism](LEVELS) == pytest.approx(group.mean_curve, rel=1e-12)
         assert typology[group.mechanism].fit is group.fit
     for key in (1, None, ("all", "a", "b"), ("all", 1)):
-        with pytest.raises(dd.InputError, match="must be a mechanism, or a mechanism and a group"):
+        with pytest.raises(dd.errors.InputError, match="must be a mechanism, or a mechanism and a group"):
             typology[key]
-    with pytest.raises(dd.InputError, match="mechanism = 'arch': must be one of 'one_sided', 'two_block', 'all'"):
+    with pytest.raises(
+        dd.errors.InputError, match="mechanism = 'arch': must be one of 'one_sided', 'two_block', 'all'"
+    ):
         typology["arch"]
 
 
@@ -139,12 +141,12 @@ def test_pickle_and_shown(typology):
 
 
 def test_errors(population, few):
-    with pytest.raises(dd.InputError, match="walls: must be given"):
+    with pytest.raises(dd.errors.InputError, match="walls: must be given"):
         dd.typology([], few, LEVELS)
     with refused("wrong_type", "walls"):
         dd.typology(["wall"], few, LEVELS)
     flat = dd.TwoBlockWall(3.0, 0.25, hinge=0.9, name="flat")
-    with pytest.raises(dd.InputError, match="wall 'flat': edp_limit = 3: must be less than"):
+    with pytest.raises(dd.errors.InputError, match="wall 'flat': edp_limit = 3: must be less than"):
         dd.typology([*population.walls, flat], few, LEVELS, solver=dd.Solver(edp_limit=3.0))
 
 
@@ -161,7 +163,7 @@ def test_interruption_keeps_complete_walls(population, few, monkeypatch, replace
         return run_rows(*arguments)
 
     replace_procedure("stores.run_rows", stop)
-    with pytest.raises(dd.Interrupted) as caught:
+    with pytest.raises(dd.errors.Interrupted) as caught:
         dd.typology(population, few, LEVELS, block=1, progress=False)
     partial = caught.value.partial
     assert len(partial.walls) == sum(done)
@@ -192,14 +194,14 @@ def test_interruption_keeps_walls_with_all_their_mechanisms(few, replace_procedu
         return run_rows(*arguments)
 
     replace_procedure("stores.run_rows", stop)
-    with pytest.raises(dd.Interrupted, match="interrupted: 2 of 4 walls are complete") as caught:
+    with pytest.raises(dd.errors.Interrupted, match="interrupted: 2 of 4 walls are complete") as caught:
         dd.typology(rows, few, LEVELS, block=1, progress=False)
     partial = caught.value.partial
     assert [wall.name for wall in partial.walls] == ["wall 0", "wall 0", "wall 1", "wall 1"]
     assert len(partial.flags.histories) == 4
     calls.clear()
     calls += [1] * 4
-    with pytest.raises(dd.Interrupted, match="interrupted: no wall is complete"):
+    with pytest.raises(dd.errors.Interrupted, match="interrupted: no wall is complete"):
         dd.typology(rows, few, LEVELS, block=1, progress=False)
 
 
@@ -215,7 +217,7 @@ def test_ctrl_c_at_the_very_end(population, few, monkeypatch):
                 raise KeyboardInterrupt
 
     monkeypatch.setattr(blocks, "progress_bar", lambda *given: contextlib.nullcontext(Bar()))
-    with pytest.raises(dd.Interrupted, match="interrupted: 3 of 5 walls are complete") as caught:
+    with pytest.raises(dd.errors.Interrupted, match="interrupted: 3 of 5 walls are complete") as caught:
         dd.typology(population, few, LEVELS, block=1, progress=False)
     assert len(caught.value.partial.walls) == 3
 
@@ -247,9 +249,9 @@ print(largest() - before)
 def test_wrong_levels_and_shares(typology):
     assert typology["all"].probabilities([]).shape == (len(typology.combined), 0)
     for wrong in ("a", [0.5, "b"], 0.0, 1.5, np.nan):
-        with pytest.raises(dd.InputError, match="q: must be shares of the weight, above 0 and up to 1"):
+        with pytest.raises(dd.errors.InputError, match="q: must be shares of the weight, above 0 and up to 1"):
             typology["all"].fractiles(0.5, wrong)
-    with pytest.raises(dd.InputError, match=r"edp_threshold = 1\.0000001: must be one of 1"):
+    with pytest.raises(dd.errors.InputError, match=r"edp_threshold = 1\.0000001: must be one of 1"):
         typology.at(1.0000001)
 
 
@@ -259,7 +261,7 @@ def test_a_partial_population_keeps_its_weights_and_origin():
     counts = np.array([1, 5, 9], dtype=np.int32)[None, :, None].repeat(3, axis=2)
     sizes = np.full((3, 3), 10, dtype=np.int32)
     given = people, "pga", np.array([0.2, 0.4, 0.8]), np.array([1.0]), counts, sizes
-    with pytest.raises(dd.Interrupted, match="no wall of any weight is complete"):
+    with pytest.raises(dd.errors.Interrupted, match="no wall of any weight is complete"):
         combine(*given, np.array([True, False, False]), dd.results.Work())
     partial = combine(*given, np.array([True, True, False]), dd.results.Work())
     assert partial["all"].weight == 2.0

@@ -222,7 +222,7 @@ def test_errors(mixed):
         ({"group": "west"}, "group = 'west': must be one of '', 'north', 'south'"),
         ({"mechanism": "arch"}, "mechanism = 'arch': must be one of 'one_sided', 'two_block', 'all'"),
     ):
-        with pytest.raises(dd.InputError, match=sentence):
+        with pytest.raises(dd.errors.InputError, match=sentence):
             resample_population(population, flags, LEVELS, **wrong)
 
 
@@ -232,7 +232,7 @@ def test_one_wall_is_not_drawn_from_itself(mixed):
     both = resample_population(one, own, LEVELS, 200, 3)
     assert both.over == ("records",)
     np.testing.assert_array_equal(both.theta, resample_population(one, own, LEVELS, 200, 3, "records").theta)
-    with pytest.raises(dd.InputError, match="walls: two at least are needed to draw from, there is 1"):
+    with pytest.raises(dd.errors.InputError, match="walls: two at least are needed to draw from, there is 1"):
         resample_population(one, own, LEVELS, 200, 3, "walls")
 
 
@@ -257,7 +257,7 @@ def test_records_of_one_event_are_drawn_together(mixed):
     apart = resample_population(population, doubled, LEVELS, 200, 3, "records")
     assert paired.mean_fraction == pytest.approx(once.mean_fraction, rel=1e-12)
     assert apart.mean_fraction.std(axis=0).max() < 0.85 * paired.mean_fraction.std(axis=0).max()
-    with pytest.raises(dd.InputError, match="events: 2 labels for 9 records: must be as many"):
+    with pytest.raises(dd.errors.InputError, match="events: 2 labels for 9 records: must be as many"):
         resample_population(population, flags, LEVELS, 5, events=["a", "b"])
 
 

@@ -210,7 +210,7 @@ def test_variants_without_a_fit(wall, motions, found):
     """The levels end below the medians of some: it is said of how many variants theta and indices are."""
     sources = {"thickness": dd.distributions.Uniform(0.15, 0.45)}
     levels = [0.3, 0.5, 0.7, 0.9]
-    with pytest.warns(dd.DondoloWarning, match="variants that have a fit") as caught:
+    with pytest.warns(dd.errors.DondoloWarning, match="variants that have a fit") as caught:
         few = dd.uncertain_wall(wall, motions, levels, sources=sources, n_variants=40, progress=False)
     (told,) = (one.message for one in caught if one.message.code == "variants_without_fit")
     fitted = int(np.isfinite(few.thetas).sum())
@@ -240,7 +240,7 @@ def test_plot(found):
     rows = [label.get_text().split("\n")[0] for label in right.get_yticklabels()]
     assert set(rows) == {*SOURCES, "records", "numbers"}
     assert "[g]" in right.get_xlabel()
-    with pytest.raises(dd.InputError, match="ax: must be 2 Axes"):
+    with pytest.raises(dd.errors.InputError, match="ax: must be 2 Axes"):
         found.plot([left])
 
 
@@ -265,7 +265,7 @@ def test_plot(found):
     ],
 )
 def test_refused(wall, motions, sources, message):
-    with pytest.raises(dd.DondoloError, match=message):
+    with pytest.raises(dd.errors.DondoloError, match=message):
         dd.uncertain_wall(wall, motions, LEVELS, sources=sources, n_variants=12, progress=False)
 
 
@@ -278,7 +278,7 @@ def test_refused(wall, motions, sources, message):
     ],
 )
 def test_texts_of_cases_are_refused_with_what_to_write(given, told):
-    with pytest.raises(dd.InputError, match=f"must be a distribution, here {told}; such texts are for cases"):
+    with pytest.raises(dd.errors.InputError, match=f"must be a distribution, here {told}; such texts are for cases"):
         dd.uncertain_wall(dd.TwoBlockWall(3.0, 0.25), [], [0.5], sources={"hinge": given})
 
 
@@ -313,7 +313,7 @@ def test_texts_of_cases_are_refused_with_what_to_write(given, told):
     ],
 )
 def test_a_published_range_is_of_its_model(wall, name, message):
-    with pytest.raises(dd.InputError, match=message):
+    with pytest.raises(dd.errors.InputError, match=message):
         dd.uncertain_wall(wall, [], [0.5], sources={"restitution_factor": name}, n_variants=8)
 
 
@@ -321,14 +321,14 @@ def test_an_uncertain_load_changes_the_model():
     """The wall as given lifts nothing, all its variants do."""
     wall = dd.TwoBlockWall(2.7, 0.24, overburden_inertia=1.0)
     sources = {"restitution_factor": "graziotti_2016", "overburden": dd.distributions.Uniform(4e3, 8e3)}
-    with pytest.raises(dd.InputError, match="for 'impulse', the model of a wall that lifts"):
+    with pytest.raises(dd.errors.InputError, match="for 'impulse', the model of a wall that lifts"):
         dd.uncertain_wall(wall, [], [0.5], sources=sources, n_variants=16)
 
 
 def test_the_rescaled_range_gives_the_same_speeds():
     """Of the range that is named in place of the refused one."""
     wall = dd.TwoBlockWall(2.7, 0.24, hinge=0.62, restitution="impulse")
-    with pytest.raises(dd.InputError) as caught:
+    with pytest.raises(dd.errors.InputError) as caught:
         dd.uncertain_wall(wall, [], [0.5], sources={"restitution_factor": "graziotti_2016"}, n_variants=8)
     low, high = map(float, re.search(r"uniform\((\S+), (\S+)\)", str(caught.value)).groups())
     for factor, measured in ((low, 0.84), (high, 0.90)):
@@ -363,12 +363,12 @@ def test_stripes_name_the_range_of_their_model(motions):
 def test_too_small_a_sample_is_refused_before_it_runs():
     wall = dd.TwoBlockWall(3.0, 0.25)
     sources = {"hinge": dd.distributions.Uniform(0.5, 0.6), "density": dd.distributions.Normal(1800.0, 90.0)}
-    with pytest.raises(dd.InputError, match="n_variants = 15: must be an integer, between 16 and 10000"):
+    with pytest.raises(dd.errors.InputError, match="n_variants = 15: must be an integer, between 16 and 10000"):
         dd.uncertain_wall(wall, [], [0.5], sources=sources, n_variants=15)
 
 
 def test_ends_must_be_named():
-    with pytest.raises(dd.InputError, match=r"must be named: low=0\.001, high=0\.05"):
+    with pytest.raises(dd.errors.InputError, match=r"must be named: low=0\.001, high=0\.05"):
         dd.distributions.Lognormal(0.01, 0.4, 0.001, 0.05)
     whole = dd.distributions.Lognormal(0.01, 0.4, low=0.001, high=0.05)
     assert pickle.loads(pickle.dumps(whole)) == whole == dataclasses.replace(whole)
@@ -378,7 +378,7 @@ def test_texts_are_no_flags(few, wall):
     """Even 'no' would be true."""
 
     def refused(name):
-        return pytest.raises(dd.InputError, match=f"{name} = 'no': must be True or False")
+        return pytest.raises(dd.errors.InputError, match=f"{name} = 'no': must be True or False")
 
     for name in ("certify", "estimate_error", "progress"):
         with refused(name):

@@ -20,7 +20,7 @@ def available():
     with pytest.MonkeyPatch.context() as patch:
         for name in NAMES:
             patch.setenv("DONDOLO_VARIANT", name)
-            with contextlib.suppress(dd.InputError):
+            with contextlib.suppress(dd.errors.InputError):
                 assert dd.Solver.variant() == name
                 found.append(name)
     return found
@@ -71,7 +71,9 @@ def test_no_other_is_taken(wrong, case, sine, monkeypatch):
         lambda: dd.typology([wall], [sine], [0.1, 0.2], progress=False),
         lambda: dd.cloud(wall, [sine]),
     ):
-        with pytest.raises(dd.InputError, match=f"DONDOLO_VARIANT = '{wrong}': this build and this processor have '"):
+        with pytest.raises(
+            dd.errors.InputError, match=f"DONDOLO_VARIANT = '{wrong}': this build and this processor have '"
+        ):
             call()
 
 

@@ -108,7 +108,7 @@ def test_engines_agree(recorded, wall):
 
 def test_stripes(records):
     wall = dd.OneSidedWall(3.0, 0.25)
-    with pytest.warns(dd.DondoloWarning, match="the ground accelerates downwards by more than g in"):
+    with pytest.warns(dd.errors.DondoloWarning, match="the ground accelerates downwards by more than g in"):
         stripes = dd.multiple_stripe(wall, records, [0.2, 3.0], polarity="both", progress=False)
     still = [one.with_vertical(None) for one in records]
     bare = dd.multiple_stripe(wall, still, [0.3], polarity="both", progress=False)
@@ -122,7 +122,7 @@ def test_stripes(records):
     assert alone.edp != dd.simulate(wall, records[1].with_vertical(None), stripes.scale[0, 1]).edp
     assert stripes[:1].uplift.shape == (1, 8)
     # Stripes of other motions are not joined with them.
-    with pytest.raises(dd.InputError, match="only one has vertical motion"):
+    with pytest.raises(dd.errors.InputError, match="only one has vertical motion"):
         stripes + bare
 
 
@@ -175,7 +175,9 @@ def test_uplift_is_no_collapse():
     record = dd.Record([0.0, -0.5, 0.5, 0.0, 0.0], 0.01, vertical=[0.0, 0.0, -5.0, 0.0, 0.0])
     wall = dd.OneSidedWall(3.0, 0.25)
     assert not dd.simulate(wall, record).uplift
-    with pytest.warns(dd.DondoloWarning, match=r"downwards by more than g \(record 'record'\): it leaves the wall"):
+    with pytest.warns(
+        dd.errors.DondoloWarning, match=r"downwards by more than g \(record 'record'\): it leaves the wall"
+    ):
         response = dd.simulate(wall, record, 2.0)
     assert response.uplift
     assert not response.collapsed
@@ -210,7 +212,7 @@ def test_friction_demand(records, wall):
     """That of every history by its own forces; a block that only just starts needs no more than it did to start."""
     start = np.tan(wall.slenderness_angle)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", dd.DondoloWarning)
+        warnings.simplefilter("ignore", dd.errors.DondoloWarning)
         stripes = dd.multiple_stripe(wall, records[:3], [0.01, 0.3, 0.6], progress=False)
         demand = stripes.friction_demand(records[:3], progress=False)
         assert demand.shape == stripes.edp.shape
@@ -227,18 +229,18 @@ def test_friction_demand(records, wall):
         just = dd.Record(np.array([0.0, -1.001, 0.0]) * start * 9.81, 0.02)
         assert dd.simulate(wall, just).friction_demand() == pytest.approx(start, rel=5e-3)
         two = dd.multiple_stripe(dd.TwoBlockWall(3.0, 0.25), records[:1], [0.8], progress=False)
-    with pytest.raises(dd.InputError, match="must be one rectangular block"):
+    with pytest.raises(dd.errors.InputError, match="must be one rectangular block"):
         two.friction_demand(records[:1], progress=False)
-    with pytest.raises(dd.InputError, match="is not there"):
+    with pytest.raises(dd.errors.InputError, match="is not there"):
         stripes.friction_demand(records[1:2], progress=False)
 
 
 def test_base_forces_refusals(records):
     for wall in (dd.TwoBlockWall(3.0, 0.25), dd.OneSidedWall(3.0, 0.25, hinge_depth=0.02)):
         response = dd.simulate(wall, records[0], 0.5)
-        with pytest.raises(dd.InputError, match="must be one rectangular block"):
+        with pytest.raises(dd.errors.InputError, match="must be one rectangular block"):
             response.base_forces()
-    with pytest.raises(dd.DondoloError, match="no time history"):
+    with pytest.raises(dd.errors.DondoloError, match="no time history"):
         dd.simulate(dd.OneSidedWall(3.0, 0.25), records[0], history=False).base_forces()
 
 
@@ -275,11 +277,13 @@ def test_record(records, tmp_path):
     assert bare.checksum != record.checksum
     again = bare.with_vertical(dd.Record(record.vertical, record.dt), factor=-2.0)
     assert np.array_equal(again.vertical, -2.0 * record.vertical)
-    with pytest.raises(dd.InputError, match="vertical: has 3 samples, must have"):
+    with pytest.raises(dd.errors.InputError, match="vertical: has 3 samples, must have"):
         dd.Record(record.acceleration, record.dt, vertical=[1.0, 2.0, 3.0])
-    with pytest.raises(dd.InputError, match=r"vertical: lasts .* s, must last .* s as the record"):
+    with pytest.raises(dd.errors.InputError, match=r"vertical: lasts .* s, must last .* s as the record"):
         record.with_vertical(dd.Record(record.vertical, 0.5))
-    with pytest.raises(dd.InputError, match=r"vertical: has a time step of 0\.00\d+ s, which must be to 0\.005 s"):
+    with pytest.raises(
+        dd.errors.InputError, match=r"vertical: has a time step of 0\.00\d+ s, which must be to 0\.005 s"
+    ):
         bare.with_vertical(dd.Record(record.vertical, record.dt * 1.0001))
     # On the samples of both, each is the function of time that it was.
     up = dd.Record(np.cos(np.arange(int(record.duration / 0.004) + 1)), 0.004)
@@ -297,9 +301,9 @@ def test_record(records, tmp_path):
     assert not joined.vertical[~inside].any()
     assert joined.peak_acceleration == record.peak_acceleration
     assert joined.processing[-1] == "samples every 0.001 s, with those of a vertical component of 0.004 s"
-    with pytest.raises(dd.InputError, match="vertical: must be given"):
+    with pytest.raises(dd.errors.InputError, match="vertical: must be given"):
         dd.Record(record.acceleration, record.dt, vertical=[])
-    with pytest.raises(dd.InputError, match="vertical: sample 2 = NaN m/s2: must be a number"):
+    with pytest.raises(dd.errors.InputError, match="vertical: sample 2 = NaN m/s2: must be a number"):
         dd.Record([1.0, 2.0], record.dt, vertical=[1.0, np.nan])
     response = dd.simulate(dd.OneSidedWall(3.0, 0.25), record)
     response.save(tmp_path / "response.npz")
@@ -313,9 +317,9 @@ def test_catalogue(records, tmp_path):
     read = dd.read_catalogue(tmp_path / "sets.csv", vertical="recorded", vertical_factor=0.5)
     assert all(np.array_equal(one.vertical, 0.5 * two.vertical) for one, two in zip(read, written, strict=False))
     written.to_catalogue(tmp_path / "some.csv")
-    with pytest.raises(dd.InputError, match=r"some\.csv: line 6: vertical is empty"):
+    with pytest.raises(dd.errors.InputError, match=r"some\.csv: line 6: vertical is empty"):
         dd.read_catalogue(tmp_path / "some.csv", vertical="recorded")
-    with pytest.raises(dd.InputError, match="vertical = 'both'"):
+    with pytest.raises(dd.errors.InputError, match="vertical = 'both'"):
         dd.read_catalogue(tmp_path / "some.csv", vertical="both")
 
 
@@ -375,5 +379,5 @@ def test_population(records, tmp_path):
     curves = dd.typology(walls, records, **given)
     alone = dd.multiple_stripe(walls[0], records, [0.3, 0.6], progress=False)
     assert np.array_equal(curves.collapses[:, 0], alone.collapses)
-    with pytest.raises(dd.InputError, match="belongs to another study: other records"):
+    with pytest.raises(dd.errors.InputError, match="belongs to another study: other records"):
         dd.typology(walls, [one.with_vertical(None) for one in records], **given)

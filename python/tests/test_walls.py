@@ -101,11 +101,11 @@ def test_html_is_escaped():
     ],
 )
 def test_errors(make, sentence):
-    with pytest.raises(dd.InputError) as caught:
+    with pytest.raises(dd.errors.InputError) as caught:
         make()
     assert str(caught.value) == sentence
     assert isinstance(caught.value, ValueError)
-    assert isinstance(caught.value, dd.DondoloError)
+    assert isinstance(caught.value, dd.errors.DondoloError)
 
 
 def test_a_hinge_is_for_two_blocks_only():
@@ -186,7 +186,7 @@ def test_shape_of_terms(wall):
     ],
 )
 def test_rotations_that_a_wall_cannot_have(wall, rotation, sentence, of):
-    with pytest.raises(dd.InputError) as caught:
+    with pytest.raises(dd.errors.InputError) as caught:
         getattr(wall, of)(rotation)
     assert str(caught.value).startswith(sentence)
     assert "\n" not in str(caught.value)
@@ -203,7 +203,7 @@ def test_population(root):
 
 @pytest.mark.parametrize("weights", [[1.0], [1.0, -1.0], [0.0, 0.0], [1.0, math.nan]])
 def test_wrong_weights(weights):
-    with pytest.raises(dd.InputError):
+    with pytest.raises(dd.errors.InputError):
         dd.Population((WALLS[0], WALLS[1]), weights)
 
 
@@ -237,7 +237,7 @@ def test_loads_have_a_home_in_tables_and_archives(tmp_path):
 def test_a_table_says_which_load_is_missing(tmp_path):
     table = tmp_path / "walls.csv"
     table.write_text("mechanism,height,thickness,load1,load2\none_sided,3,0.25,,1000\n")
-    with pytest.raises(dd.InputError, match="load2: only behind load1"):
+    with pytest.raises(dd.errors.InputError, match="load2: only behind load1"):
         dd.Population.from_csv(table)
 
 
@@ -261,5 +261,5 @@ def test_sampled_loads():
     ],
 )
 def test_what_is_missing_is_named(given, message):
-    with pytest.raises(dd.InputError, match=message):
+    with pytest.raises(dd.errors.InputError, match=message):
         dd.OneSidedWall(**given)

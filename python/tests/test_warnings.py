@@ -48,7 +48,7 @@ def test_codes(call, codes, numbers, tmp_path):
 
 def test_first_collapses(stripes):
     none = dd.multiple_stripe(stripes.wall, dd.Record([0.0, 0.1, 0.0], 0.01), [0.01], progress=False).incremental()
-    with pytest.warns(dd.DondoloWarning, match="no curve of first collapses") as caught:
+    with pytest.warns(dd.errors.DondoloWarning, match="no curve of first collapses") as caught:
         none.fit()
     assert (caught[0].message.code, caught[0].message.subject) == ("no_collapse", {"wall": "parapet"})
 

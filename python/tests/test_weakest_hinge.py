@@ -54,7 +54,7 @@ def test_load(records):
 def test_levels_that_miss_the_weakest(records):
     """Heights without a curve may be the weakest: nothing is said then."""
     wall = dd.TwoBlockWall(3.0, 0.25, restitution_factor=1.0)
-    with pytest.raises(dd.DondoloError, match=r"hinge at 0\.9: may be weaker than all others"):
+    with pytest.raises(dd.errors.DondoloError, match=r"hinge at 0\.9: may be weaker than all others"):
         dd.weakest_hinge(wall, records, [1.1, 1.2, 1.3, 1.4], hinges=[0.3, 0.9], progress=False)
 
 
@@ -75,9 +75,9 @@ def test_refused(records):
         (wall, [0.6, 0.5], "must increase"),
         (wall, [0.6], "at least two"),
     ):
-        with pytest.raises(dd.InputError, match=message):
+        with pytest.raises(dd.errors.InputError, match=message):
             dd.weakest_hinge(walls, records, LEVELS, hinges=hinges, progress=False)
-    with pytest.raises(dd.DondoloError, match="no height has a curve"):
+    with pytest.raises(dd.errors.DondoloError, match="no height has a curve"):
         dd.weakest_hinge(wall, records, [0.01, 0.02], hinges=HINGES, progress=False)
 
 
@@ -88,7 +88,9 @@ def test_the_end_of_the_range_is_warned_of(found, records):
     assert any(len(heights) > 1 for heights, _ in cases)
     for heights, side in cases:
         if len(heights) > 1:
-            with pytest.warns(dd.DondoloWarning, match=f"at an end of the range, {found.hinge:g}: {side} ones") as told:
+            with pytest.warns(
+                dd.errors.DondoloWarning, match=f"at an end of the range, {found.hinge:g}: {side} ones"
+            ) as told:
                 dd.weakest_hinge(wall, records, LEVELS, hinges=heights, progress=False)
             assert told[-1].message.code == "hinge_at_end"
 

@@ -82,6 +82,6 @@ def asked() -> tuple[str, Path]:
 if __name__ == "__main__":
     try:
         run(*asked())
-    except dd.DondoloError as error:
+    except dd.errors.DondoloError as error:
         print(f"dondolo: {error}", file=sys.stderr)
         sys.exit(2)

@@ -126,9 +126,9 @@ def answer(family: str, path: str) -> str:
             stored = dd.read_results(path)
             results = [stored, stored.population, stored.response, stored.stripes, stored.fragility, stored.typology]
         wrong = [text for one in results if one is not None and (text := unsound(one))]
-    except dd.MissingFileError:
+    except dd.errors.MissingFileError:
         return "read none"
-    except dd.DondoloError as error:
+    except dd.errors.DondoloError as error:
         return f"refused {str(error).replace(chr(10), '|')}"
     except Exception as error:
         place = error.__traceback__
@@ -143,7 +143,7 @@ def attack() -> None:
     """Answer all lines; a warning of NumPy is a failure, one of dondolo is none."""
     resource.setrlimit(resource.RLIMIT_AS, (LARGEST, LARGEST))
     warnings.simplefilter("error")
-    warnings.simplefilter("ignore", dd.DondoloWarning)
+    warnings.simplefilter("ignore", dd.errors.DondoloWarning)
     sys.stdout.reconfigure(encoding="utf-8", errors="surrogateescape")
     for line in sys.stdin:
         family, _, path = line.rstrip("\n").partition(" ")
@@ -151,7 +151,7 @@ def attack() -> None:
 
 
 if __name__ == "__main__":
-    warnings.simplefilter("ignore", dd.DondoloWarning)
+    warnings.simplefilter("ignore", dd.errors.DondoloWarning)
     if sys.argv[1] == "samples":
         samples(Path(sys.argv[2]))
     else:

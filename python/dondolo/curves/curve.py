@@ -38,7 +38,7 @@ class Curve(ABC):
     Examples
     --------
     >>> import dondolo as dd
-    >>> isinstance(dd.DiscreteFragility([0.2, 0.4], [0.1, 0.6]), dd.Curve)
+    >>> isinstance(dd.DiscreteFragility([0.2, 0.4], [0.1, 0.6]), dd.results.Curve)
     True
     """
 
