@@ -158,7 +158,7 @@ def test_a_workbook_whatever_the_clock_says(results, tmp_path, year):
     with mock.patch("time.time", return_value=seconds):
         dd.write_workbook(results, path)
         dd.write_workbook(results, path)
-    assert openpyxl.load_workbook(path).sheetnames[:2] == ["case", "typology"]
+    assert openpyxl.load_workbook(path).sheetnames[:2] == ["case", "walls"]
 
 
 @pytest.mark.parametrize("seconds", [-(2**31), 2**33, 2**60])
