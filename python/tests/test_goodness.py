@@ -114,7 +114,7 @@ def test_ordinal_states_share_a_deviance():
         expected = 2 * np.nansum(n * fractions * np.log(fractions / chance))
     assert [one.deviance for one in curves] == pytest.approx([expected] * 2, rel=1e-7)
     assert {one.deviance_dof for one in curves} == {2 * 4 - 3}
-    with pytest.raises(dd.DondoloError, match="fitted together"):
+    with pytest.raises(dd.errors.DondoloError, match="fitted together"):
         curves[0].goodness_of_fit(n_resamples=10)
 
 
@@ -148,9 +148,9 @@ def test_bootstrap_of_the_deviance():
     assert counts.resampled == "histories"
     # Counts are independent: chi-square is nearly right.
     assert counts.p_value == pytest.approx(counts.independent_p_value, abs=0.08)
-    with pytest.raises(dd.DondoloError, match="weighted counts"):
+    with pytest.raises(dd.errors.DondoloError, match="weighted counts"):
         dd.fit_fragility(LEVELS, COLLAPSES + 0.5, 44).goodness_of_fit(n_resamples=9)
-    with pytest.raises(dd.DondoloError, match="not fitted"):
+    with pytest.raises(dd.errors.DondoloError, match="not fitted"):
         dd.Fragility.of_parameters(0.8, 0.4).goodness_of_fit()
 
 
@@ -179,5 +179,5 @@ def test_fits_to_a_range_of_levels():
     assert np.array_equal(part.covariance, direct.covariance)
     assert curve.refit().theta == curve.theta
     assert norm.cdf(np.log(1.0 / part.theta) / part.beta) == pytest.approx(part(1.0))
-    with pytest.raises(dd.InputError, match="no levels between"):
+    with pytest.raises(dd.errors.InputError, match="no levels between"):
         curve.refit(low=9.0)

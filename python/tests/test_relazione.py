@@ -215,26 +215,26 @@ def test_what_is_not_written_is_seen_and_counted(both, written, folder):
 )
 def test_wrong_data(content, words, both, tmp_path):
     (tmp_path / "project.toml").write_text(content)
-    with pytest.raises(dd.InputError, match=re.escape(words)):
+    with pytest.raises(dd.errors.InputError, match=re.escape(words)):
         dd.calculation_report(both, tmp_path / "a.html", project=tmp_path / "project.toml")
 
 
 def test_wrong_input(both, tmp_path, stripes_of):
     target = tmp_path / "a.html"
-    with pytest.raises(dd.InputError, match="has no check"):
+    with pytest.raises(dd.errors.InputError, match="has no check"):
         dd.calculation_report(stripes_of(""), target)
-    with pytest.raises(dd.InputError, match="the site of its check is another"):
+    with pytest.raises(dd.errors.InputError, match="the site of its check is another"):
         dd.calculation_report([both[0], stripes_of(CHECK.replace("'B'", "'C'"))], target)
-    with pytest.raises(dd.InputError, match="template = "):
+    with pytest.raises(dd.errors.InputError, match="template = "):
         dd.calculation_report(both, target, template="a.docx")
-    with pytest.raises(dd.InputError, match="lang = 'de': must be one of 'en', 'it'"):
+    with pytest.raises(dd.errors.InputError, match="lang = 'de': must be one of 'en', 'it'"):
         dd.calculation_report(both, target, lang="de")
-    with pytest.raises(dd.InputError, match="must end in"):
+    with pytest.raises(dd.errors.InputError, match="must end in"):
         dd.calculation_report(both, tmp_path / "a.odt")
-    with pytest.raises(dd.InputError, match="at least one"):
+    with pytest.raises(dd.errors.InputError, match="at least one"):
         dd.calculation_report([], target)
     target.write_text("notes of the office")
-    with pytest.raises(dd.InputError, match="is not a report of dondolo"):
+    with pytest.raises(dd.errors.InputError, match="is not a report of dondolo"):
         dd.calculation_report(both, target)
 
 
@@ -249,7 +249,7 @@ def test_language_of_the_environment(both, tmp_path, monkeypatch):
     dd.calculation_report(both[0], tmp_path / "a.html")
     assert "Relazione di calcolo" in of_page(tmp_path / "a.html")
     monkeypatch.setenv("DONDOLO_LANG", "fr")
-    with pytest.raises(dd.InputError, match="DONDOLO_LANG = 'fr'"):
+    with pytest.raises(dd.errors.InputError, match="DONDOLO_LANG = 'fr'"):
         dd.calculation_report(both[0], tmp_path / "a.html")
 
 
@@ -278,13 +278,13 @@ def test_word(written, both, folder):
     dd.calculation_report(both[0], folder / "own.docx", template=folder / "office.docx")
     assert docx.Document(folder / "own.docx").sections[0].header.paragraphs[0].text == "Studio Bianchi"
     (folder / "no.docx").write_text("no file of Word")
-    with pytest.raises(dd.InputError, match="is not a file of Word"):
+    with pytest.raises(dd.errors.InputError, match="is not a file of Word"):
         dd.calculation_report(both[0], folder / "own.docx", template=folder / "no.docx")
 
 
 def test_no_python_docx(both, tmp_path, monkeypatch):
     monkeypatch.setitem(sys.modules, "docx", None)
-    with pytest.raises(dd.DondoloError, match="python-docx is not installed"):
+    with pytest.raises(dd.errors.DondoloError, match="python-docx is not installed"):
         dd.calculation_report(both[0], tmp_path / "a.docx")
     assert list(tmp_path.iterdir()) == []
     dd.calculation_report(both[0], tmp_path / "a.html")
@@ -347,7 +347,7 @@ def test_a_population_has_no_report(executable, root, tmp_path):
         f"&records catalogue = '{root / 'data/records/synthetic44.csv'}' /\n{CHECK}&stripes levels = 0.2, 0.4, 0.8 /\n"
     )
     subprocess.run([executable, "--quiet", "case.nml"], cwd=tmp_path, capture_output=True, check=True)
-    with pytest.raises(dd.InputError, match="not a population"):
+    with pytest.raises(dd.errors.InputError, match="not a population"):
         dd.calculation_report(dd.read_results(tmp_path / "out"), tmp_path / "a.html")
 
 
@@ -406,7 +406,7 @@ def test_tables_have_every_key(root):
         )
     }
     assert codes - set(terms.WARNINGS) - {"code"} - {"interlock_overlap"} == set()
-    warning = dd.DondoloWarning(
+    warning = dd.errors.DondoloWarning(
         "sentence", "scale_factors_large", {"record": "a"}, {"limit": 10.0, "largest": 18.03, "level": 0.3}
     )
     assert "il massimo 18,03 (accelerogramma a al livello 0,3)" in terms.warning(Language("it"), warning)

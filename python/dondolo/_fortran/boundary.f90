@@ -112,10 +112,10 @@ contains
 
    !> A curve
    pure type(fragility_type) function as_curve(numbers, codes, errors) result(curve)
-      !> theta, beta, their naive covariance, logarithm of the likelihood, bracket, covariance, degrees of freedom; whatever follows
-      !> is no part of it
+      !> theta, beta, their naive covariance, logarithm of the likelihood, bracket, covariance, degrees of freedom and deviance;
+      !> whatever follows is no part of it
       real(c_double), intent(in) :: numbers(:)
-      !> Place of its status among the names, and clusters
+      !> Place of its status among the names, clusters, and degrees of freedom of the deviance
       integer(c_int), intent(in) :: codes(:)
       !> Kind of its standard errors
       character(len=*), intent(in) :: errors
@@ -129,6 +129,8 @@ contains
       curve%degrees_of_freedom = numbers(12)
       curve%status = codes(1)
       curve%clusters = codes(2)
+      curve%deviance = numbers(13)
+      curve%deviance_dof = codes(3)
       curve%errors = errors
    end function as_curve
 

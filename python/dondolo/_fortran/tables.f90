@@ -1,6 +1,6 @@
 !> Tables of results that Python has as objects: their columns are those of the result files.
 !>
-!> Curves come as numbers (13, curves) and codes (2, curves), which as_curve has, and of each the kind of its standard errors among
+!> Curves come as numbers (14, curves) and codes (3, curves), which as_curve has, and of each the kind of its standard errors among
 !> its lines; the last number is the EDP threshold.
 module tables
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
@@ -135,8 +135,8 @@ contains
    !> k curves: of each as lines the name and the mechanism of its wall, its measure and its kind of errors
    subroutine fragility_table(texts, curves, codes, k, sent)
       character(len=*), intent(in) :: texts
-      integer(c_int), intent(in) :: k, codes(2, k)
-      real(c_double), intent(in) :: curves(13, k)
+      integer(c_int), intent(in) :: k, codes(3, k)
+      real(c_double), intent(in) :: curves(14, k)
       integer(c_int64_t), intent(out) :: sent(5)
       type(lines_type) :: words
       type(columns_type) :: table
@@ -149,7 +149,7 @@ contains
          do i = 1, k
             associate (line => words%line(4*i - 3:4*i))
                call put_names(table, line(1)%text, line(2)%text)
-               call put_fragility(table, line(3)%text, as_curve(curves(:, i), codes(:, i), line(4)%text), curves(13, i))
+               call put_fragility(table, line(3)%text, as_curve(curves(:, i), codes(:, i), line(4)%text), curves(14, i))
                call table%end_row()
             end associate
          end do
@@ -161,8 +161,8 @@ contains
    !> dispersions, saturation and share that is fitted; at each level the mean fraction, the mean curve and three fractiles
    subroutine typology_table(texts, im, levels, curves, codes, sums, means, m, k, sent)
       character(len=*), intent(in) :: texts, im
-      integer(c_int), intent(in) :: m, k, codes(2, k)
-      real(c_double), intent(in) :: levels(m), curves(13, k), sums(5, k), means(m, 5, k)
+      integer(c_int), intent(in) :: m, k, codes(3, k)
+      real(c_double), intent(in) :: levels(m), curves(14, k), sums(5, k), means(m, 5, k)
       integer(c_int64_t), intent(out) :: sent(5)
       type(typology_type) :: typology
       type(lines_type) :: words
@@ -187,7 +187,7 @@ contains
             typology%mean_curve = means(:, 2, i)
             typology%fractile = transpose(means(:, 3:5, i))
             do j = 1, m
-               call put_typology(table, typology, im, j, curves(13, i))
+               call put_typology(table, typology, im, j, curves(14, i))
                call table%end_row()
             end do
          end do
@@ -200,8 +200,8 @@ contains
    !> fraction, by the same histories and by the product
    subroutine union_table(texts, im, levels, mechanisms, curves, codes, counts, m, k, sent)
       character(len=*), intent(in) :: texts, im
-      integer(c_int), intent(in) :: m, k, mechanisms(k), codes(2, 2, k)
-      real(c_double), intent(in) :: levels(m), curves(13, 2, k), counts(m, 4, k)
+      integer(c_int), intent(in) :: m, k, mechanisms(k), codes(3, 2, k)
+      real(c_double), intent(in) :: levels(m), curves(14, 2, k), counts(m, 4, k)
       integer(c_int64_t), intent(out) :: sent(5)
       type(union_type) :: union
       type(lines_type) :: words
@@ -225,7 +225,7 @@ contains
                union%product = [as_curve(curves(:, 2, i), codes(:, 2, i), line(4)%text)]
             end associate
             do j = 1, m
-               call put_union(table, union, im, levels(j), j, 1, curves(13, 1, i))
+               call put_union(table, union, im, levels(j), j, 1, curves(14, 1, i))
                call table%end_row()
             end do
          end do
@@ -268,8 +268,8 @@ contains
    !> bounds and its probability, a ratio of 0 for none
    subroutine design_table(texts, im, curves, codes, numbers, k, sent)
       character(len=*), intent(in) :: texts, im
-      integer(c_int), intent(in) :: k, codes(2, k)
-      real(c_double), intent(in) :: curves(13, k), numbers(6, k)
+      integer(c_int), intent(in) :: k, codes(3, k)
+      real(c_double), intent(in) :: curves(14, k), numbers(6, k)
       integer(c_int64_t), intent(out) :: sent(5)
       type(design_type) :: designs(k)
       type(lines_type) :: words
@@ -300,8 +300,8 @@ contains
    !> (NaN: none) and, of the curves, kinds of errors as further lines
    subroutine source_table(texts, values, curves, codes, indices, k, sent)
       character(len=*), intent(in) :: texts
-      integer(c_int), intent(in) :: k, codes(2, 2, k)
-      real(c_double), intent(in) :: values(3, k), curves(13, 2, k), indices(6, k)
+      integer(c_int), intent(in) :: k, codes(3, 2, k)
+      real(c_double), intent(in) :: values(3, k), curves(14, 2, k), indices(6, k)
       integer(c_int64_t), intent(out) :: sent(5)
       type(lines_type) :: words
       type(columns_type) :: table

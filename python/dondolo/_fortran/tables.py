@@ -26,16 +26,17 @@ class FlatCurve(NamedTuple):
     Attributes
     ----------
     numbers : tuple of float
-        theta, beta, naive covariance (3), log likelihood, bracket (2), covariance (3), degrees of freedom and EDP
-        threshold, 0 if it is not known.
+        theta, beta, naive covariance (3), log likelihood, bracket (2), covariance (3), degrees of freedom, deviance
+        and EDP threshold, 0 if it is not known.
     status, errors : str
-    clusters : int
+    clusters, deviance_dof : int
     """
 
     numbers: tuple[float, ...]
     status: str
     errors: str
     clusters: int
+    deviance_dof: int
 
 
 def unpack_table(parcel: Parcel, name: str) -> TableColumns:
@@ -219,13 +220,13 @@ def _pairs(walls: Iterable[tuple[str, str]]) -> bytes:
 
 
 def _flat(curves: Sequence[FlatCurve]) -> tuple[FloatArray, NDArray[np.int32]]:
-    """Numbers (13, curves) and codes (2, curves)."""
+    """Numbers (14, curves) and codes (3, curves)."""
     names = constants().statuses
-    codes = [(names.index(curve.status) + 1, curve.clusters) for curve in curves]
+    codes = [(names.index(curve.status) + 1, curve.clusters, curve.deviance_dof) for curve in curves]
     return np.array([curve.numbers for curve in curves]).T, np.array(codes, dtype=np.int32).T
 
 
 def _flat_pairs(curves: Sequence[tuple[FlatCurve, FlatCurve]]) -> tuple[FloatArray, NDArray[np.int32]]:
-    """The same of pairs: (13, 2, pairs) and (2, 2, pairs)."""
+    """The same of pairs: (14, 2, pairs) and (3, 2, pairs)."""
     numbers, codes = _flat([curve for both in curves for curve in both])
-    return numbers.reshape(13, -1, 2).transpose(0, 2, 1), codes.reshape(2, -1, 2).transpose(0, 2, 1)
+    return numbers.reshape(14, -1, 2).transpose(0, 2, 1), codes.reshape(3, -1, 2).transpose(0, 2, 1)

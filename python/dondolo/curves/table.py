@@ -18,9 +18,9 @@ def flat(curve: Fragility) -> FlatCurve:
     (own_11, own_12), (_, own_22) = curve.covariance.tolist()
     numbers = (
         *(curve.theta, curve.beta, naive_11, naive_12, naive_22, curve.log_likelihood, *curve.bracket),
-        *(own_11, own_12, own_22, curve.degrees_of_freedom, curve.edp_threshold or 0.0),
+        *(own_11, own_12, own_22, curve.degrees_of_freedom, curve.deviance, curve.edp_threshold or 0.0),
     )
-    return FlatCurve(numbers, curve.status, curve.errors, curve.clusters)
+    return FlatCurve(numbers, curve.status, curve.errors, curve.clusters, curve.deviance_dof)
 
 
 def fragility_table(walls: Sequence[Wall | None], curves: Sequence[Fragility]) -> TableColumns:

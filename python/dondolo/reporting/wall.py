@@ -79,6 +79,7 @@ def numbers(stripes: Stripes, fits: Sequence[Fragility]) -> dict[str, Any]:
     names = [state_name(float(one.edp_threshold or 0.0), stripes.edp_limit) for one in fits]
     kept = ("theta", "se_ln_theta", "beta", "se_beta", "log_likelihood", "deviance", "deviance_dof", "status")
     states = {"damage_state": names} | parameters_of(fits, *kept)
+    states["deviance_dof"] = [one.deviance_dof if one.has_fit else None for one in fits]
     crossed = None
     if all(one.has_fit for one in fits):
         crossed = crossings({stripes.wall.name: fits}, names, stripes.levels, stripes.im)
