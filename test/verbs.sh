@@ -19,6 +19,7 @@ by_fpm=(
 others=(
    'oldest --quick'
    'wheel python3'
+   'windows --quick'
    'mutations --quick'
    'docs'
    'city --quick'
@@ -46,6 +47,8 @@ obstacle() {
       'build gpu')
          compgen -G '/usr/bin/*accel-nvptx-none-gcc*' >/dev/null || { command -v apt-get >/dev/null && [ "$(id -u)" = 0 ]; } ||
             echo "needs gcc-offload-nvptx" ;;
+      windows*)
+         command -v x86_64-w64-mingw32-gcc-posix >/dev/null || echo "needs gcc-mingw-w64-x86-64-posix" ;;
       oldest*)
          command -v python3.11 python3.12 >/dev/null || echo "needs Python 3.11 or 3.12" ;;
    esac

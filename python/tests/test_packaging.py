@@ -125,7 +125,30 @@ def test_every_verb_has_a_small_form(root):
     small = set(re.findall(r"^   '(\w+)[^']*'$", script, re.M))
     assert verbs(root) - elsewhere == small - {"build"}
     weekly = set(re.findall(r"^          - (\w+)", (root / ".github/workflows/verbs.yml").read_text(), re.M))
-    assert verbs(root) - elsewhere <= weekly
+    nightly = set(re.findall(r"^      - run: ./run (\w+)", (root / ".github/workflows/windows.yml").read_text(), re.M))
+    assert verbs(root) - elsewhere <= weekly | nightly
+
+
+def test_workflows_are_pinned_and_may_only_read(root):
+    """Every action by its commit, and no right to write but where a job says why."""
+    for path in (root / ".github/workflows").glob("*.yml"):
+        text = path.read_text()
+        for used in re.findall(r"uses: (\S+)", text):
+            assert used.startswith("./") or re.fullmatch(r"[\w/-]+@[0-9a-f]{40}", used), (path.name, used)
+        assert re.search(r"^permissions:(\n  contents: read| \{\})$", text, re.M), path.name
+
+
+def test_recipes_get_the_checksum_of_a_release(root, tmp_path):
+    """That of the sdist, in both recipes; another version is refused."""
+    version = tomllib.loads((root / "pyproject.toml").read_text())["project"]["version"]
+    script = root / "packaging/recipes.py"
+    for name, status in ((f"dondolo-{version}.tar.gz", 0), ("dondolo-9.9.tar.gz", 1)):
+        (tmp_path / name).write_bytes(b"sources")
+        run = subprocess.run([sys.executable, script, tmp_path / name, tmp_path], capture_output=True, check=False)
+        assert run.returncode == status
+    checksum = hashlib.sha256(b"sources").hexdigest()
+    for name in ("conda-forge-recipe.yaml", "spack-package.py"):
+        assert checksum in (tmp_path / name).read_text()
 
 
 def test_an_unknown_verb_is_refused(root):

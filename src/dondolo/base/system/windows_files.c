@@ -31,20 +31,21 @@ void dondolo_narrow(const wchar_t *wide, char *text, size_t room)
       text[0] = '\0';
 }
 
-/* Open a file, keeping the number of the error. A colon but that of a drive would name a hidden stream of a file: refused. */
+/* Open a file, keeping the number of the error. A colon but that of a drive would name a hidden stream of a file, and Fortran's
+   library does not open paths longer than MAX_PATH: both are refused. */
 static HANDLE open_file(const char *path, DWORD access, DWORD how, DWORD flags)
 {
    const char *colon = strchr(path, ':');
    wchar_t *name = colon != NULL && (colon != path + 1 || strchr(colon + 1, ':') != NULL) ? NULL : dondolo_wide(path);
-   HANDLE file;
-   DWORD error;
+   HANDLE file = INVALID_HANDLE_VALUE;
+   DWORD error = ERROR_INVALID_NAME;
 
-   if (name == NULL) {
-      SetLastError(ERROR_INVALID_NAME);
-      return INVALID_HANDLE_VALUE;
+   if (name != NULL && GetFullPathNameW(name, 0, NULL, NULL) > MAX_PATH) {
+      error = ERROR_FILENAME_EXCED_RANGE;
+   } else if (name != NULL) {
+      file = CreateFileW(name, access, shared, NULL, how, flags, NULL);
+      error = GetLastError();
    }
-   file = CreateFileW(name, access, shared, NULL, how, flags, NULL);
-   error = GetLastError();
    free(name);
    SetLastError(error);
    return file;
