@@ -170,6 +170,7 @@ contains
          call warn_of_plan(size(case%stripes%levels), case%suite%clusters, work, warnings)
       end if
       call scales%warn(warnings)
+      if (case%job%task == typology_task) call case%survey%occurrence_warnings%warn(warnings)
       call warnings%put_sentences(sentences)
    end subroutine collect_warnings
 

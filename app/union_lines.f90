@@ -9,6 +9,8 @@ module dondolo_union_lines
    use dondolo_check_lines, only : chance
    use dondolo_fit_lines, only : bar, fractiles, make_head, name_width, print_fit
    use dondolo_fragility, only : fit_status_names, fragility_type
+   use dondolo_population, only : population_type
+   use dondolo_population_occurrence, only : wall_probability
    use dondolo_population_unions, only : union_type
    implicit none
    private
@@ -28,7 +30,8 @@ contains
 
       state = size(case%stripes%thresholds)
       walls = size(results%unions%wall)
-      write (output_unit, '(a)') '', 'in series, counted in the same histories and by the product of independent mechanisms:'
+      write (output_unit, '(a)') '', 'walls with several mechanisms, counted in the same histories and '// &
+         & 'by the product of independent mechanisms:'
       do i = 1, results%unions%count()
          if (i <= shown_rows .or. i > walls) then
             call results%unions%get(i, results%population, union)
@@ -54,14 +57,14 @@ contains
       else
          call take_row(case, results, union)
       end if
-      call print_stripes_of(case, union, state)
+      call print_stripes_of(case, results%population, union, state)
       do k = 1, state
          if (k < state) write (output_unit, '(a)', advance='no') 'EDP '//rounded(case%stripes%thresholds(k))//': '
          if (k == state .and. state > 1) write (output_unit, '(a)', advance='no') 'collapse: '
          call print_fit(case, union%curve(k), union%saturation)
       end do
-      if (results%unions%count() > 0) write (output_unit, '(a)') 'taken as independent of each other the mechanisms '// &
-         & 'would give '//trim(parameters(case, union%product(state), union%saturation))
+      if (results%population%can_coincide(1)) write (output_unit, '(a)') 'taken as independent of each other the '// &
+         & 'mechanisms would give '//trim(parameters(case, union%product(state), union%saturation))
    end subroutine print_facade
 
    !> The one mechanism of a facade as the union of itself
@@ -87,18 +90,23 @@ contains
    end subroutine take_row
 
    !> Print how often a facade or a wall collapses at each level
-   subroutine print_stripes_of(case, union, state)
+   subroutine print_stripes_of(case, population, union, state)
       type(case_type), intent(in) :: case
+      type(population_type), intent(in) :: population
       type(union_type), intent(in) :: union
       !> Number of the damage state
       integer, intent(in) :: state
 
-      character(len=:), allocatable :: head
+      character(len=:), allocatable :: head, how
       character(len=120) :: line
       integer :: j
 
-      if (union%rows(2) > union%rows(1)) write (output_unit, '(a)') ''''//union%name//''', '// &
-         & counted(union%rows(2) - union%rows(1) + 1, 'mechanism')//' in series: a history counts if one of them collapses in it'
+      if (union%rows(2) > union%rows(1)) then
+         how = ' in series: a history counts if one of them collapses in it'
+         if (population%row(union%rows(1))%alternative > 0) how = ' in exclusive alternatives: a history counts with '// &
+            & 'the probability of those that collapse in it'
+         write (output_unit, '(a)') ''''//union%name//''', '//counted(union%rows(2) - union%rows(1) + 1, 'mechanism')//how
+      end if
       call make_head(case, head)
       write (output_unit, '(a, a12, a10)') head, 'collapses', 'fraction'
       do j = 1, size(case%stripes%levels)
@@ -199,7 +207,9 @@ contains
          !> a_g S of SLV [g]
          real(wp), intent(in) :: pga
 
-         real(wp) :: survival, chances(union%rows(1):union%rows(2))
+         real(wp) :: chances(1, union%rows(1):union%rows(2)), whole(1)
+         real(wp), allocatable :: p_occ(:)
+         integer, allocatable :: alternative(:)
          integer :: k, last
 
          last = size(union%curve)
@@ -207,13 +217,16 @@ contains
          chances = 0.0_wp
          do k = union%rows(1), union%rows(2)
             associate (curve => results%population%curve(last, k))
-               if (curve%has_fit()) chances(k) = results%population%row(k)%p_occ*curve%probability(pga)
+               if (curve%has_fit()) chances(1, k) = curve%probability(pga)
             end associate
          end do
-         survival = product(1.0_wp - chances)
+         associate (population => results%population)
+            call population%get_occurrence(population%rows + population%row(union%rows(1))%wall, p_occ, alternative)
+         end associate
+         whole = wall_probability(p_occ, alternative, chances)
          write (output_unit, '(a)') ''''//union%name//''': probability of collapse at a_g S = '//rounded(pga)//' g: '// &
-            & trim(chance(max(union%saturation*union%curve(last)%probability(pga), maxval(chances))))// &
-            & '; taken as independent '//trim(chance(1.0_wp - survival))
+            & trim(chance(max(union%saturation*union%curve(last)%probability(pga), maxval(p_occ*chances(1, :)))))// &
+            & '; taken as independent '//trim(chance(whole(1)))
       end subroutine print_chance
 
    end subroutine print_verdict_rows

@@ -101,7 +101,7 @@ EDITS = [
     ),
     Edit(
         "the bootstrap ignores probabilities of occurrence in the saturation",
-        "occurring += own @ in_series(rows.share[part], starts)",
+        "occurring += own @ saturations(*occurs, starts)",
         "occurring += own.sum(axis=1)",
         "test_typology_bootstrap.py::test_brute_force",
     ),
@@ -171,8 +171,8 @@ EDITS = [
     # Populations
     Edit(
         "the mean of one mechanism ignores its probabilities of occurrence",
-        "weights = people.weights[rows] * people.p_occ[rows]",
-        "weights = people.weights[rows]",
+        "return self.weights[rows[first]] * total, share",
+        "return self.weights[rows[first]], share",
         "test_combination.py::test_mean_of_one_mechanism",
     ),
     # Incremental dynamic analysis
@@ -276,6 +276,24 @@ EDITS = [
         "whole = whole + (1.0_wp - whole)*p_occ(m)*p(:, m)",
         "whole = whole + (1.0_wp - whole)*p(:, m)",
         "test_typology.f90",
+    ),
+    Edit(
+        "exclusive alternatives are combined as if they were independent",
+        "whole = whole + p_occ(m)*any_of_them",
+        "whole = whole + (1.0_wp - whole)*p_occ(m)*any_of_them",
+        "test_occurrence.f90",
+    ),
+    Edit(
+        "a history in which two mechanisms of an alternative collapse counts twice",
+        "where (reaches .and. .not. self%is_reached(i, :, :))",
+        "where (reaches)",
+        "test_occurrence.f90",
+    ),
+    Edit(
+        "probabilities of alternatives may add up to anything",
+        "if (self%total <= 1.0_wp + sum_tolerance) return",
+        "return",
+        "test_occurrence.f90",
     ),
     Edit(
         "a wall has as many histories as the mechanism with most of them",

@@ -7,8 +7,8 @@ program test_properties
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
-   use dondolo_base_property, only : check_number, check_word, find_property, has_owner, hint_of, is_integer, is_list, &
-      & is_logical, is_many, is_number_or_name, is_text, is_words, no_limit, number_of_choices, property_type
+   use dondolo_base_property, only : check_number, check_word, choices_length, find_property, has_owner, hint_of, is_integer, &
+      & is_list, is_logical, is_many, is_number_or_name, is_text, is_words, no_limit, number_of_choices, property_type
    use dondolo_base_settings, only : group_settings_type, new_settings
    use dondolo_base_text, only : to_text
    use dondolo_case_echo, only : echo_type
@@ -359,6 +359,7 @@ contains
       type(check_input_type), allocatable :: check_by_code
       type(base_wall_type) :: wall
       character(len=:), allocatable :: file
+      character(len=choices_length) :: occurrence
       logical :: designs
 
       select case (name)
@@ -366,8 +367,8 @@ contains
          call read_job(group, job, error)
          if (.not. allocated(error)) call job%put(settings)
       case ('population')
-         call read_population_group(group, file, designs, error)
-         if (.not. allocated(error)) call put_population(file, designs, settings)
+         call read_population_group(group, file, occurrence, designs, error)
+         if (.not. allocated(error)) call put_population(file, occurrence, designs, settings)
       case ('records')
          call read_records_group(group, records, error)
          if (.not. allocated(error)) call records%put(settings)

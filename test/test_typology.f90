@@ -97,7 +97,7 @@ contains
 
       do i = 1, size(walls)
          do m = 1, size(walls(i)%p_occ)
-            call population%add(trim(walls(i)%mechanism(m)), walls(i)%group, walls(i)%weight, walls(i)%p_occ(m), m > 1)
+            call population%add(trim(walls(i)%mechanism(m)), walls(i)%group, walls(i)%weight, walls(i)%p_occ(m), 0, m > 1)
          end do
       end do
       call population%begin(x, 1, error)
@@ -580,7 +580,7 @@ contains
 
       ! A row that was not fitted
       population = population_type()
-      call population%add('one_sided', '', 1.0_wp, 1.0_wp, .false.)
+      call population%add('one_sided', '', 1.0_wp, 1.0_wp, 0, .false.)
       call population%begin([1.0_wp, 2.0_wp], 1, error)
       call check_ok(error, 'two levels')
       population%histories = 4

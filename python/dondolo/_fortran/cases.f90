@@ -122,6 +122,7 @@ contains
          rows(1)%wall = case%wall
          rows(1)%group = ''
          rows(1)%facade = ''
+         rows(1)%alternative = ''
       end if
       if (.not. allocated(error)) call check_room(error, walls=size(rows))
       if (.not. allocated(error)) then

@@ -14,12 +14,12 @@ module curves
    use dondolo_fragility_ratio, only : compare => compare_parameters
    use dondolo_interface_handles, only : find_walls
    use dondolo_parcel, only : parcel_type, report, send
-   use dondolo_population_series, only : series => in_series, slopes_of => series_slopes
+   use dondolo_population_occurrence, only : probability_of => wall_probability, slopes_of => wall_slopes
    use dondolo_wall, only : wall_type
    implicit none
    private
 
-   public :: fit_curves, cluster_changes, fit_logit, fit_ordinal, probability, in_series, series_slopes, warn_of_curve
+   public :: fit_curves, cluster_changes, fit_logit, fit_ordinal, probability, wall_probability, wall_slopes, warn_of_curve
    public :: compare_parameters, student_quantile, warn_of_union
 
 contains
@@ -170,27 +170,27 @@ contains
       t = quantile(p, degrees)
    end subroutine student_quantile
 
-   !> Probability that any mechanism of each wall happens, of k probabilities of each row; rows: how many each wall has
-   subroutine in_series(p, k, r, rows, w, whole)
+   !> Probability that each wall collapses, of k probabilities of each row if it can occur; alternative: as
+   !> dondolo_population_occurrence has it; rows: how many each wall has
+   subroutine wall_probability(p_occ, alternative, p, k, r, rows, w, whole)
       !f2py threadsafe
-      integer(c_int), intent(in) :: k, r, w, rows(w)
-      real(c_double), intent(in) :: p(k, r)
+      integer(c_int), intent(in) :: k, r, w, rows(w), alternative(r)
+      real(c_double), intent(in) :: p_occ(r), p(k, r)
       real(c_double), intent(out) :: whole(k, w)
-      real(c_double) :: certain(r)
-      integer :: i, first
+      integer :: i, first, last
 
-      certain = 1
       first = 1
       do i = 1, w
-         whole(:, i) = series(certain(:rows(i)), p(:, first:first + rows(i) - 1))
-         first = first + rows(i)
+         last = first + rows(i) - 1
+         whole(:, i) = probability_of(p_occ(first:last), alternative(first:last), p(:, first:last))
+         first = last + 1
       end do
-   end subroutine in_series
+   end subroutine wall_probability
 
    !> Derivative of the probability of each wall with respect to that of each of its rows if it can occur, of k probabilities
-   subroutine series_slopes(p_occ, p, k, r, rows, w, slopes)
+   subroutine wall_slopes(p_occ, alternative, p, k, r, rows, w, slopes)
       !f2py threadsafe
-      integer(c_int), intent(in) :: k, r, w, rows(w)
+      integer(c_int), intent(in) :: k, r, w, rows(w), alternative(r)
       real(c_double), intent(in) :: p_occ(r), p(k, r)
       real(c_double), intent(out) :: slopes(k, r)
       integer :: i, first, last
@@ -198,10 +198,10 @@ contains
       first = 1
       do i = 1, w
          last = first + rows(i) - 1
-         slopes(:, first:last) = slopes_of(p_occ(first:last), p(:, first:last))
+         slopes(:, first:last) = slopes_of(p_occ(first:last), alternative(first:last), p(:, first:last))
          first = last + 1
       end do
-   end subroutine series_slopes
+   end subroutine wall_slopes
 
    !> Warnings of the executable for the curve of one wall, or for walls = 0 of counts without a wall; numbers and status
    !> as fit_curves has them

@@ -81,16 +81,21 @@ def fit_logit(
     return numbers, ("", "naive", "clustered")[done]
 
 
-def rows_in_series(probabilities: FloatArray, rows: NDArray[np.integer[Any]]) -> FloatArray:
-    """Probability that any mechanism of each wall happens (walls, n), from those of all rows (rows, n)."""
-    whole: FloatArray = _core.curves.in_series(np.ascontiguousarray(probabilities).T, rows.astype(np.int32)).T
+def probability_of_walls(
+    p_occ: FloatArray, alternative: NDArray[np.int32], probabilities: FloatArray, rows: NDArray[np.integer[Any]]
+) -> FloatArray:
+    """Probability that each wall collapses (walls, n), from those of all rows if they can occur (rows, n)."""
+    p = np.ascontiguousarray(probabilities).T
+    whole: FloatArray = _core.curves.wall_probability(p_occ, alternative, p, rows.astype(np.int32)).T
     return whole
 
 
-def slopes_in_series(p_occ: FloatArray, probabilities: FloatArray, rows: NDArray[np.integer[Any]]) -> FloatArray:
+def slopes_of_walls(
+    p_occ: FloatArray, alternative: NDArray[np.int32], probabilities: FloatArray, rows: NDArray[np.integer[Any]]
+) -> FloatArray:
     """Derivative (rows, n) of the probability of each wall with respect to that of each of its rows."""
     p = np.ascontiguousarray(probabilities).T
-    slopes: FloatArray = _core.curves.series_slopes(p_occ, p, rows.astype(np.int32)).T
+    slopes: FloatArray = _core.curves.wall_slopes(p_occ, alternative, p, rows.astype(np.int32)).T
     return slopes
 
 

@@ -19,6 +19,7 @@ module library
    use dondolo_base_threads, only : threads_here => available_threads
    use dondolo_base_version, only : build_commit, dondolo_version_text
    use dondolo_case_property_tables, only : property_table, table_names
+   use dondolo_population_occurrence, only : sum_tolerance
    use dondolo_fragility, only : error_names, least_ratio, fit_status_names, statuses_with_curve
    use dondolo_fragility_clustered, only : fewest_clusters
    use dondolo_fragility_study, only : same_level
@@ -41,8 +42,8 @@ contains
       ! Bytes of a name, clusters that standard errors need, and how many of the statuses, the first ones, have a curve
       integer(c_int), intent(out) :: longest, fewest, fitted
       ! rtol, atol, edp_limit, gravity; the part of a distribution that must be left where it is cut off, and of a level by
-      ! which another differs; likelihood ratio from which on a slope is significant
-      real(c_double), intent(out) :: defaults(7)
+      ! which another differs; likelihood ratio from which on a slope is significant; by how much a sum of probabilities may miss 1
+      real(c_double), intent(out) :: defaults(8)
       character(len=32), intent(out) :: version
       character(len=48), intent(out) :: commit
       character(len=256), intent(out) :: statuses, errors
@@ -53,7 +54,7 @@ contains
       fewest = fewest_clusters
       fitted = statuses_with_curve
       defaults = [solver%rtol, solver%atol, solver%edp_limit, standard_gravity, least_share, same_level, &
-         & least_ratio]
+         & least_ratio, sum_tolerance]
       version = dondolo_version_text
       commit = build_commit()
       statuses = ''

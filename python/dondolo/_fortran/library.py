@@ -47,6 +47,7 @@ class Constants(NamedTuple):
     least_share: float
     same_level: float
     least_ratio: float
+    sum_tolerance: float
     version: str
     commit: str
     statuses: tuple[str, ...]
@@ -133,7 +134,7 @@ def constants() -> Constants:
     """Ask Fortran for its version, defaults and the names of its statuses."""
     longest, fewest, fitted, defaults, version, commit, statuses, errors = _core.library.constants()
     names = tuple(statuses.decode().split())
-    rtol, atol, edp_limit, gravity, least_share, same_level, least_ratio = (float(value) for value in defaults)
+    rtol, atol, edp_limit, gravity, least_share, same_level, least_ratio, sum_tolerance = (float(value) for value in defaults)
     return Constants(
         int(longest),
         int(fewest),
@@ -144,6 +145,7 @@ def constants() -> Constants:
         least_share,
         same_level,
         least_ratio,
+        sum_tolerance,
         version=version.decode().strip(),
         commit=commit.decode().strip(),
         statuses=names,

@@ -4,6 +4,7 @@ module populations
    use dondolo_base_error, only : error_type
    use dondolo_base_lines, only : lines_type
    use dondolo_boundary, only : check_room, split_lines
+   use dondolo_case_occurrence_warnings, only : occurrence_warnings_type
    use dondolo_case_result_warnings, only : fit_warnings_type, warn_of_union
    use dondolo_case_warning, only : warnings_type
    use dondolo_fragility, only : error_names, fragility_type
@@ -17,25 +18,25 @@ module populations
    implicit none
    private
 
-   public :: fit_population, curve_of_population
+   public :: fit_population, curve_of_population, warn_of_occurrence
 
 contains
 
    !> Curves of rows (mechanisms of walls), of their walls and of the population in a damage state. texts: mechanism and group
    !> of each row; names: of its wall, and of its wall or facade as a whole; shares: weight and probability of occurrence of
-   !> each row; rows: how many each wall has. With flags: sizes are the histories of a stripe of each row in which every record
-   !> runs, bits the flags of all rows, eight a byte and four bytes an integer, each row from a byte of its own on; clusters has
-   !> the number of the cluster of each record, runs is 1 where a record runs at a level; there are `states` of them, and state
-   !> is the one that is asked for. Without flags (states = 0) standard errors are naive, and there are no unions.
-   !> alternatives = 1: nothing is a mean over the walls. All that is sent is named: curves of rows and of walls (row_*,
-   !> wall_*, as put_curves has them), fractions of walls, curves of the population (group, mechanism, n_walls ... and fit_*),
-   !> unions (union_*) and their means (mean_*), and warnings
-   subroutine fit_population(texts, names, levels, collapses, m, r, histories, shares, rows, w, alternatives, states, state, &
-         & sizes, bits, b, clusters, runs, c, sent)
+   !> each row; alternative: its number, as dondolo_population_occurrence has it; rows: how many each wall has. With flags:
+   !> sizes are the histories of a stripe of each row in which every record runs, bits the flags of all rows, eight a byte and
+   !> four bytes an integer, each row from a byte of its own on; clusters has the number of the cluster of each record, runs is
+   !> 1 where a record runs at a level; there are `states` of them, and state is the one that is asked for. Without flags
+   !> (states = 0) standard errors are naive, and there are no unions. designs = 1: nothing is a mean over the walls. All that
+   !> is sent is named: curves of rows and of walls (row_*, wall_*, as put_curves has them), fractions of walls, curves of the
+   !> population (group, mechanism, n_walls ... and fit_*), unions (union_*) and their means (mean_*), and warnings
+   subroutine fit_population(texts, names, levels, collapses, m, r, histories, shares, alternative, rows, w, designs, states, &
+         & state, sizes, bits, b, clusters, runs, c, sent)
       !f2py threadsafe
       character(len=*), intent(in) :: texts, names
-      integer(c_int), intent(in) :: m, r, w, b, c, alternatives, states, state, sizes(r), bits(b), clusters(c), runs(c, m)
-      integer(c_int), intent(in) :: collapses(m, r), histories(m, r), rows(w)
+      integer(c_int), intent(in) :: m, r, w, b, c, designs, states, state, sizes(r), bits(b), clusters(c), runs(c, m)
+      integer(c_int), intent(in) :: collapses(m, r), histories(m, r), alternative(r), rows(w)
       real(c_double), intent(in) :: levels(m), shares(2, r)
       integer(c_int64_t), intent(out) :: sent(5)
       type(population_type) :: population
@@ -48,12 +49,13 @@ contains
       ! On the heap: stacks may be small.
       allocate (curves)
       call check_room(error, r + w, reals=16.0_c_double*m*(real(r, c_double) + w))
-      if (.not. allocated(error)) call new_population(population, texts, levels, collapses, histories, shares, rows, error)
+      if (.not. allocated(error)) call new_population(population, texts, levels, collapses, histories, shares, &
+         & alternative, rows, error)
       if (.not. allocated(error)) call population%fit(error)
       call split_lines(names, words)
-      if (.not. allocated(error) .and. states > 0) call add_flags(curves, population, words, alternatives == 1, &
+      if (.not. allocated(error) .and. states > 0) call add_flags(curves, population, words, designs == 1, &
          & shape_type(m, states), state, sizes, bits, clusters, runs == 1, error)
-      if (.not. allocated(error) .and. states == 0 .and. alternatives == 0) then
+      if (.not. allocated(error) .and. states == 0 .and. designs == 0) then
          call combine_population(groups, population, 1, error)
          if (.not. allocated(error)) curves%typologies = reshape(groups, [size(groups), 1])
       end if
@@ -275,10 +277,11 @@ contains
    !> A curve of a population at n levels x: its weighted mean, and its fractiles for k shares of the weight. curves and
    !> statuses are those of the rows; mechanism 'all': the walls as a whole; group: empty for the whole population. With
    !> probabilities = 1 a parcel has their probabilities (rows or walls, n)
-   subroutine curve_of_population(texts, levels, collapses, m, r, histories, shares, rows, w, curves, statuses, mechanism, group, &
-         & x, n, q, k, probabilities, mean, fractiles, sent)
+   subroutine curve_of_population(texts, levels, collapses, m, r, histories, shares, alternative, rows, w, curves, statuses, &
+         & mechanism, group, x, n, q, k, probabilities, mean, fractiles, sent)
       character(len=*), intent(in) :: texts, mechanism, group
-      integer(c_int), intent(in) :: m, r, w, n, k, probabilities, collapses(m, r), histories(m, r), rows(w), statuses(r)
+      integer(c_int), intent(in) :: m, r, w, n, k, probabilities, collapses(m, r), histories(m, r), alternative(r), rows(w)
+      integer(c_int), intent(in) :: statuses(r)
       real(c_double), intent(in) :: levels(m), shares(2, r), curves(8, r), x(n), q(k)
       real(c_double), intent(out) :: mean(n), fractiles(k, n)
       integer(c_int64_t), intent(out) :: sent(5)
@@ -294,7 +297,8 @@ contains
       mean = 0
       fractiles = 0
       call check_room(error, r + w, reals=real(most, c_double))
-      if (.not. allocated(error)) call new_population(population, texts, levels, collapses, histories, shares, rows, error)
+      if (.not. allocated(error)) call new_population(population, texts, levels, collapses, histories, shares, &
+         & alternative, rows, error)
       if (.not. allocated(error)) then
          call set_curves(population, curves, statuses)
          weights = weights_of(population, population%part(mechanism, group))
@@ -319,8 +323,35 @@ contains
       call send(parcel, error, sent)
    end subroutine curve_of_population
 
+   !> Warnings of the executable for the probabilities that mechanisms can occur: of r rows with the names of their walls or
+   !> facades, a line each; rows: how many each wall has
+   subroutine warn_of_occurrence(names, p_occ, alternative, r, rows, w, sent)
+      character(len=*), intent(in) :: names
+      integer(c_int), intent(in) :: r, w, alternative(r), rows(w)
+      real(c_double), intent(in) :: p_occ(r)
+      integer(c_int64_t), intent(out) :: sent(5)
+      type(occurrence_warnings_type) :: looked
+      type(warnings_type) :: warnings
+      type(lines_type) :: lines
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+      integer :: i, k, row
+
+      call split_lines(names, lines)
+      row = 0
+      do i = 1, w
+         do k = 1, rows(i)
+            row = row + 1
+            call looked%look_at(lines%line(row)%text, p_occ(row), alternative(row), k > 1)
+         end do
+      end do
+      call looked%warn(warnings)
+      call warnings%put_objects(parcel%lines)
+      call send(parcel, error, sent)
+   end subroutine warn_of_occurrence
+
    !> A population with the counts of one damage state, without curves
-   subroutine new_population(population, texts, levels, collapses, histories, shares, rows, error)
+   subroutine new_population(population, texts, levels, collapses, histories, shares, alternative, rows, error)
       !> The population
       type(population_type), intent(out) :: population
       !> Two lines a row: mechanism and group
@@ -333,6 +364,8 @@ contains
       integer(c_int), intent(in) :: histories(:, :)
       !> Weight of the wall and probability that the mechanism can occur (2, rows)
       real(c_double), intent(in) :: shares(:, :)
+      !> Number of the alternative of each row
+      integer(c_int), intent(in) :: alternative(:)
       !> How many rows each wall has
       integer(c_int), intent(in) :: rows(:)
       !> Lack of memory
@@ -346,7 +379,8 @@ contains
       do i = 1, size(rows)
          do k = 1, rows(i)
             row = row + 1
-            call population%add(words%line(2*row - 1)%text, words%line(2*row)%text, shares(1, row), shares(2, row), k > 1)
+            call population%add(words%line(2*row - 1)%text, words%line(2*row)%text, shares(1, row), shares(2, row), &
+               & alternative(row), k > 1)
          end do
       end do
       call population%begin(levels, 1, error)

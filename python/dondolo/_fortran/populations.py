@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from dondolo._base.arguments import FloatArray
 from dondolo._fortran import _core
 from dondolo._fortran.curves import CurveData
-from dondolo._fortran.library import Parcel, as_text, check, constants, receive
+from dondolo._fortran.library import Parcel, as_text, check, constants, receive, unpack_warnings
+from dondolo.errors import DondoloWarning
 
 
 class FlatPopulation(NamedTuple):
@@ -26,6 +27,8 @@ class FlatPopulation(NamedTuple):
     histories : ndarray of int, shape (levels, rows)
     shares : ndarray, shape (2, rows)
         Weight of the wall and probability of occurrence.
+    alternative : ndarray of int, shape (rows,)
+        Number of the alternative of each row among those of its wall; 0: its mechanisms are independent.
     rows : ndarray of int, shape (walls,)
         How many each wall has.
     """
@@ -35,6 +38,7 @@ class FlatPopulation(NamedTuple):
     counts: NDArray[np.int32]
     histories: NDArray[np.int32]
     shares: FloatArray
+    alternative: NDArray[np.int32]
     rows: NDArray[np.int32]
 
 
@@ -86,6 +90,14 @@ def fit_population(names: bytes, population: FlatPopulation, flags: FlatFlags | 
         flags = FlatFlags(0, 0, np.zeros(rows, np.int32), nothing, nothing, np.ones((1, levels), np.int32))
     texts, *rest = population
     return receive(_core.populations.fit_population(texts, names, *rest, int(are_alternatives), *flags))
+
+
+def warnings_of_occurrence(
+    names: bytes, p_occ: FloatArray, alternative: NDArray[np.int32], rows: NDArray[np.int32]
+) -> list[DondoloWarning]:
+    """What the executable would warn of, of the probabilities of occurrence; names of walls or facades, a line a row."""
+    found = receive(_core.populations.warn_of_occurrence(names, p_occ, alternative, rows))
+    return unpack_warnings(found.lines)
 
 
 def fitted_curves(parcel: Parcel, prefix: str) -> list[FittedCurve]:

@@ -18,6 +18,7 @@ module tables
    use dondolo_motion_certificate, only : certified_type
    use dondolo_motion_response, only : response_type, trace_type
    use dondolo_population_designs, only : design_type
+   use dondolo_population_occurrence, only : exclusive, occurrence_names
    use dondolo_population_typology, only : typology_type
    use dondolo_population_unions, only : union_type
    use dondolo_population_wall_row, only : wall_row_type
@@ -31,7 +32,8 @@ module tables
 
 contains
 
-   !> Walls: of each its group and its facade as lines, and its weight and the probability of its mechanism
+   !> Walls: of each its group, its facade, its occurrence and its alternative as lines, and its weight and the probability of its
+   !> mechanism
    subroutine wall_table(walls, texts, shares, w, sent)
       integer(c_int64_t), intent(in) :: walls
       character(len=*), intent(in) :: texts
@@ -44,7 +46,7 @@ contains
       type(columns_type) :: table
       type(error_type), allocatable :: error
       integer, allocatable :: lengths(:)
-      logical :: has_facades
+      logical :: has_facades, has_alternatives
       integer :: i
 
       call check_room(error, walls=w)
@@ -53,17 +55,21 @@ contains
          call split_lines(texts, words)
          lengths = wall(1)%input%lengths()
          has_facades = .false.
+         has_alternatives = .false.
          do i = 1, w
             lengths = max(lengths, wall(i)%input%lengths())
-            has_facades = has_facades .or. len(words%line(2*i)%text) > 0
+            has_facades = has_facades .or. len(words%line(4*i - 2)%text) > 0
+            has_alternatives = has_alternatives .or. words%line(4*i - 1)%text == occurrence_names(exclusive)
          end do
          do i = 1, w
             row%wall = wall(i)
-            row%group = words%line(2*i - 1)%text
-            row%facade = words%line(2*i)%text
+            row%group = words%line(4*i - 3)%text
+            row%facade = words%line(4*i - 2)%text
+            row%occurrence = words%line(4*i - 1)%text
+            row%alternative = words%line(4*i)%text
             row%weight = shares(1, i)
             row%p_occ = shares(2, i)
-            call put_wall(table, row, lengths, has_facades)
+            call put_wall(table, row, lengths, has_facades, has_alternatives)
             call table%end_row()
          end do
       end if

@@ -54,11 +54,11 @@ def unpack_table(parcel: Parcel, name: str) -> TableColumns:
 
 
 def wall_columns(
-    walls: Handle, groups: Sequence[str], facades: Sequence[str], weights: FloatArray, p_occ: FloatArray
+    walls: Handle, words: Iterable[tuple[str, str, str, str]], weights: FloatArray, p_occ: FloatArray
 ) -> TableColumns:
-    """Columns of ``_walls.csv``."""
-    words = (word for both in zip(groups, facades, strict=True) for word in both)
-    return _receive(_core.tables.wall_table(walls.number, _lines(words), np.stack([weights, p_occ])))
+    """Columns of ``_walls.csv``; words are group, facade, occurrence and alternative of each wall."""
+    texts = _lines(word for own in words for word in own)
+    return _receive(_core.tables.wall_table(walls.number, texts, np.stack([weights, p_occ])))
 
 
 def history_columns(

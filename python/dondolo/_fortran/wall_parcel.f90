@@ -124,15 +124,16 @@ contains
       call parcel%put('walls_texts', texts)
    end subroutine pack_walls
 
-   !> Rows of a population: walls as they were understood, weights, probabilities of their mechanisms, groups and facades
+   !> Rows of a population: walls as they were understood, weights, probabilities of their mechanisms, how these occur, groups
+   !> and facades
    subroutine pack_rows(rows, parcel)
       !> The rows
       type(wall_row_type), intent(in) :: rows(:)
-      !> Has walls_weight, walls_p_occ, walls_group and walls_facade too
+      !> Has walls_weight, walls_p_occ, walls_occurrence, walls_alternative, walls_group and walls_facade too
       type(parcel_type), intent(inout) :: parcel
 
       type(wall_type), allocatable :: walls(:)
-      type(lines_type) :: groups, facades
+      type(lines_type) :: occurrence, alternatives, groups, facades
       integer :: i
 
       allocate (walls(size(rows)))
@@ -141,11 +142,15 @@ contains
       end do
       call pack_walls(walls, parcel)
       do i = 1, size(rows)
+         call occurrence%add(trim(rows(i)%occurrence))
+         call alternatives%add(rows(i)%alternative)
          call groups%add(rows(i)%group)
          call facades%add(rows(i)%facade)
       end do
       call parcel%put('walls_weight', rows%weight)
       call parcel%put('walls_p_occ', rows%p_occ)
+      call parcel%put('walls_occurrence', occurrence)
+      call parcel%put('walls_alternative', alternatives)
       call parcel%put('walls_group', groups)
       call parcel%put('walls_facade', facades)
    end subroutine pack_rows

@@ -163,9 +163,10 @@ contains
       end do
    end subroutine check_rotations
 
-   !> Read a population: its rows as pack_rows has them, and notes: how the table was read, where there is something to say of it
-   subroutine read_walls(path, gravity, sent)
-      character(len=*), intent(in) :: path
+   !> Read a population: its rows as pack_rows has them, and notes: how the table was read, where there is something to say of it.
+   !> occurrence: how the mechanisms of a wall occur whose row does not say it
+   subroutine read_walls(path, gravity, occurrence, sent)
+      character(len=*), intent(in) :: path, occurrence
       real(c_double), intent(in) :: gravity
       integer(c_int64_t), intent(out) :: sent(5)
       type(wall_row_type), allocatable :: rows(:)
@@ -173,7 +174,7 @@ contains
       type(error_type), allocatable :: error
       character(len=:), allocatable :: note
 
-      call read_population(path, rows, error, gravity, note)
+      call read_population(path, rows, error, gravity, note, occurrence)
       if (.not. allocated(error)) call check_room(error, walls=size(rows))
       if (.not. allocated(error)) call pack_rows(rows, parcel)
       call parcel%put_note(note)

@@ -175,14 +175,20 @@ def join_walls(walls: Sequence[FlatWall]) -> FlatWall:
 
 
 def read_walls(
-    path: str | os.PathLike[str], gravity: float | None
-) -> tuple[list[WallData], FloatArray, list[str], FloatArray, list[str]]:
-    """Read a population: its walls, their weights and groups, the probabilities of their mechanisms, their facades."""
+    path: str | os.PathLike[str], gravity: float | None, occurrence: str
+) -> tuple[list[WallData], dict[str, Any]]:
+    """Read a population: its walls, and what `Population` has of each; occurrence: where the table does not say it."""
     pull = constants().gravity if gravity is None else as_number("gravity", gravity)
-    parcel = receive(_core.walls.read_walls(as_path(path), pull))
+    parcel = receive(_core.walls.read_walls(as_path(path), pull, as_text("occurrence", occurrence)))
     warn_of_notes(parcel["notes"])
-    weights, groups, p_occ, facades = (parcel[f"walls_{name}"] for name in ("weight", "group", "p_occ", "facade"))
-    return unpack_walls(parcel), weights, groups, p_occ, facades
+    return unpack_walls(parcel), rows_of(parcel)
+
+
+def rows_of(parcel: Parcel) -> dict[str, Any]:
+    """What a parcel has of each row of a population besides its wall, by the names of `Population`."""
+    words = {"groups": "group", "facades": "facade", "occurrence": "occurrence", "alternatives": "alternative"}
+    found: dict[str, Any] = {name: tuple(parcel[f"walls_{own}"]) for name, own in words.items()}
+    return found | {"weights": parcel["walls_weight"], "p_occ": parcel["walls_p_occ"]}
 
 
 # What walls are made of, in Fortran's order; gravity crosses by itself
@@ -196,5 +202,8 @@ WALL_WORDS = tuple(row.name for row in WALL_PROPERTIES if row.kind == "words")
 WALL_EXTRAS = frozenset(
     row.name for row in properties("wall") if row.default == "optional" and row.owners and row.column
 ) | frozenset(BUILDING_NAMES)
+# How the mechanisms of a wall occur
+OCCURRENCE = next(row.choices for row in properties("row") if row.name == "occurrence")
+INDEPENDENT, EXCLUSIVE = OCCURRENCE
 # What stands in the place of those that are not given beside the others of their kind
 WALL_ABSENT = {row.name: row.absent for row in WALL_PROPERTIES if row.absent is not None}

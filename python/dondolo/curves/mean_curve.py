@@ -75,7 +75,7 @@ class MeanCurve(Curve):
         """Mean (x,), fractiles (q, x) and, where they are wanted, probabilities (members, x) at some levels."""
 
     def probabilities(self, x: ArrayLike) -> FloatArray:
-        """Probability that each wall collapses, mechanisms in series; of one mechanism, if it can occur.
+        """Probability that each wall collapses by any of its mechanisms; of one mechanism, if it can occur.
 
         Parameters
         ----------

@@ -11,7 +11,7 @@ from dondolo.curves.fragility import Fragility
 
 
 class Members:
-    """Walls and their probabilities at any level; the rows of a wall are in series."""
+    """Walls and their probabilities at any level; a wall collapses by any of its rows that can occur."""
 
     def __init__(
         self,
@@ -20,10 +20,11 @@ class Members:
         fractions: FloatArray,
         weights: FloatArray,
         p_occ: FloatArray,
+        alternative: np.ndarray[Any, np.dtype[np.int32]],
         first: np.ndarray[Any, Any],
     ) -> None:
         self.levels, self.fractions = levels, fractions
-        self.weights, self.p_occ = weights, p_occ
+        self.weights, self.p_occ, self.alternative = weights, p_occ, alternative
         self.theta = np.array([curve.theta for curve in curves])
         self.beta = np.array([curve.beta for curve in curves])
         # Of each wall its first row, its second row, ...

@@ -1,7 +1,7 @@
 """How often each wall of a population collapses, and how likely that is within some years.
 
 A mechanism can occur in a wall, or it cannot, for all earthquakes: a wall is a mixture of what can occur in it, each
-combination of mechanisms with a frequency lambda_is of its own. The probability that a wall drawn by weight collapses
+combination of mechanisms, or each of its exclusive alternatives, with a frequency lambda_is of its own. The probability that a wall drawn by weight collapses
 within t years is
 
     sum over walls and combinations of  share_is (1 - exp(-lambda_is t)),
@@ -13,13 +13,14 @@ from __future__ import annotations
 
 import functools
 import itertools
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
 from dondolo.curves.members import Members
-from dondolo.curves.series import in_series
+from dondolo.curves.occurrence import wall_probability
 from dondolo.hazard.hazard import HazardCurve
 from dondolo.hazard.integrals import Contributions, of_function, of_lognormal
 
@@ -67,35 +68,55 @@ def wall_frequencies(members: Members, hazard: HazardCurve) -> WallFrequencies:
     """
     # There may be nothing that can occur at all
     found = [(np.zeros(0),) * 3]
-    for occurs in itertools.product((True, False), repeat=len(members.rows)):
-        share, chosen = members.weights / members.weights.sum(), []
-        for there, (walls, rows) in zip(occurs, members.rows, strict=True):
+    for share, mechanisms in _combinations(members):
+        fitted = np.zeros(len(share), dtype=bool)
+        if len(mechanisms) == 1:
+            fitted = ~np.isnan(members.theta[mechanisms[0]])
+            rows = mechanisms[0, fitted]
+            parts = of_lognormal(members.theta[rows], members.beta[rows], hazard)
+            found.append((share[fitted], *_bounds(parts, hazard)))
+        rest = np.flatnonzero(~fitted)
+        for start in range(0, len(rest), _BLOCK):
+            block = rest[start : start + _BLOCK]
+            rows = mechanisms[:, block]
+            parts = of_function(functools.partial(_any_of, members, rows), hazard, _ends_of(members, rows, hazard))
+            found.append((share[block], *_bounds(parts, hazard)))
+    return WallFrequencies(*(np.concatenate(column) for column in zip(*found, strict=True)))
+
+
+def _combinations(members: Members) -> Iterator[tuple[FloatArray, np.ndarray]]:
+    """What can occur together: shares of walls of the weight, and rows (mechanisms, walls) that can occur in each."""
+    weights = members.weights / members.weights.sum()
+    is_exclusive = members.alternative[members.rows[0][1]] > 0
+    places = [(walls[~is_exclusive[walls]], rows[~is_exclusive[walls]]) for walls, rows in members.rows]
+    independent = [(walls, rows) for walls, rows in places if len(walls)]
+    for occurs in itertools.product((True, False), repeat=len(independent)):
+        share, chosen = np.where(is_exclusive, 0.0, weights), []
+        for there, (walls, rows) in zip(occurs, independent, strict=True):
             p_occ, row = np.zeros(len(share)), np.zeros(len(share), dtype=np.intp)
             p_occ[walls], row[walls] = members.p_occ[rows], rows
             share = share * (p_occ if there else 1.0 - p_occ)
             chosen += [row] if there else []
         these = np.flatnonzero(share > 0.0)
-        if not chosen or not len(these):
-            continue
-        mechanisms = np.stack(chosen)[:, these]
-        fitted = np.zeros(len(these), dtype=bool)
-        if len(chosen) == 1:
-            fitted = ~np.isnan(members.theta[mechanisms[0]])
-            rows = mechanisms[0, fitted]
-            parts = of_lognormal(members.theta[rows], members.beta[rows], hazard)
-            found.append((share[these[fitted]], *_bounds(parts, hazard)))
-        rest = np.flatnonzero(~fitted)
-        for start in range(0, len(rest), _BLOCK):
-            block = rest[start : start + _BLOCK]
-            rows = mechanisms[:, block]
-            parts = of_function(functools.partial(_in_series, members, rows), hazard, _ends_of(members, rows, hazard))
-            found.append((share[these[block]], *_bounds(parts, hazard)))
-    return WallFrequencies(*(np.concatenate(column) for column in zip(*found, strict=True)))
+        if chosen and len(these):
+            yield share[these], np.stack(chosen)[:, these]
+    if not is_exclusive.any():
+        return
+    # Each alternative, of equally many mechanisms together
+    wall = np.repeat(np.arange(len(weights)), np.diff(members.rows[0][1], append=len(members.p_occ)))
+    begins = np.flatnonzero((np.diff(wall, prepend=-1) != 0) | (np.diff(members.alternative, prepend=-1) != 0))
+    number = np.diff(begins, append=len(wall))
+    share = np.where(members.alternative[begins] > 0, weights[wall[begins]] * members.p_occ[begins], 0.0)
+    for size in np.unique(number).tolist():
+        these = np.flatnonzero((number == size) & (share > 0.0))
+        if len(these):
+            yield share[these], begins[these] + np.arange(size)[:, None]
 
 
-def _in_series(members: Members, rows: np.ndarray, x: FloatArray) -> FloatArray:
+def _any_of(members: Members, rows: np.ndarray, x: FloatArray) -> FloatArray:
     """Probabilities (walls, x) of walls in which these rows (mechanisms, walls) can occur."""
-    return in_series(members.rows_at(rows.T.ravel(), x), np.arange(0, rows.size, len(rows)))
+    occurs = np.ones(rows.size), np.zeros(rows.size, dtype=np.int32)
+    return wall_probability(*occurs, members.rows_at(rows.T.ravel(), x), np.arange(0, rows.size, len(rows)))
 
 
 def _ends_of(members: Members, rows: np.ndarray, hazard: HazardCurve) -> tuple[float, float]:

@@ -11,7 +11,7 @@ from dondolo._base.shown import Shown
 from dondolo._fortran import _core
 from dondolo._fortran.library import Parcel, receive, warn_of_notes
 from dondolo._fortran.records import levels_in_words, unpack_records
-from dondolo._fortran.walls import unpack_walls
+from dondolo._fortran.walls import rows_of, unpack_walls
 from dondolo.analysis.stripes import States
 from dondolo.records.codes import Site
 from dondolo.records.record import Record, record_from
@@ -141,13 +141,11 @@ def case_of(parcel: Parcel) -> Case:
         given |= {name: parcel[name] for name in ("knowledge_factor", "behaviour")}
         given["site"] = Site(*values, soil=parcel["soil"], topography=parcel["topography"])
     walls = tuple(wall_from(data) for data in unpack_walls(parcel))
-    weight, p_occ = parcel["walls_weight"], parcel["walls_p_occ"]
-    groups, facades = (tuple(parcel[name]) for name in ("walls_group", "walls_facade"))
     records = tuple(record_from(data) for data in unpack_records(parcel))
     warn_of_notes(parcel["notes"])
     return Case(
         **given,
-        population=Population(walls, weight, groups=groups, p_occ=p_occ, facades=facades),
+        population=Population(walls, **rows_of(parcel)),
         records=records,
         record_index=parcel["record"] - 1,
     )

@@ -293,8 +293,9 @@ def _population(table: Columns, gravity: float) -> Population:
         rows.append(given | {"name": names[i], "restitution": models[i], "mechanism": kind})
     walls = _walls(table, rows, gravity)
     weights, p_occ = table.numbers("weight"), table.numbers("p_occ")
-    facades = tuple(table.texts("facade")) if "facade" in table else ("",) * len(walls)
-    return Population(walls, weights, groups=tuple(table.texts("group")), p_occ=p_occ, facades=facades)
+    columns = {"facades": "facade", "occurrence": "occurrence", "alternatives": "alternative"}
+    more = {name: tuple(table.texts(column)) for name, column in columns.items() if column in table}
+    return Population(walls, weights, groups=tuple(table.texts("group")), p_occ=p_occ, **more)
 
 
 def _walls(table: Columns, rows: Sequence[dict[str, Any]], gravity: float) -> tuple[Wall, ...]:

@@ -15,7 +15,7 @@ from dondolo._storage.columns import Columns
 from dondolo.curves.clusters import Errors, errors_of_table, no_errors
 from dondolo.curves.fitting import curve_of, with_errors
 from dondolo.curves.fragility import Fragility
-from dondolo.curves.series import in_series
+from dondolo.curves.occurrence import saturations
 from dondolo.populations.curve import Group
 from dondolo.populations.stored_curves import StoredCurves
 from dondolo.populations.typology import Typology
@@ -108,17 +108,17 @@ def _mean(typology: Typology, table: Columns, group: Group, first: int) -> Fragi
 def _unions(typology: Typology, table: Columns, walls: Sequence[tuple[str, int]]) -> dict[str, Fragility]:
     """Curves of walls whose rows begin at some places, fitted again."""
     people, levels = typology.population, len(typology.levels)
-    whole = in_series(people.p_occ, people.first_rows).tolist()
-    saturations = dict(zip((people.wholes[i] for i in people.first_rows.tolist()), whole, strict=True))
+    whole = saturations(people.p_occ, people.alternative_numbers, people.first_rows).tolist()
+    ends = dict(zip((people.wholes[i] for i in people.first_rows.tolist()), whole, strict=True))
     histories = np.array([table.numbers("histories", first, levels) for _, first in walls])
     collapses = np.array([table.numbers("collapses", first, levels) for _, first in walls])
-    share = np.array([saturations[name] or 1.0 for name, _ in walls])
+    share = np.array([ends[name] or 1.0 for name, _ in walls])
     reached = np.minimum(collapses / share[:, None], histories)
     numbers, statuses = fit_curves(typology.levels, reached, histories)
     curves = {}
     for i, (name, first) in enumerate(walls):
         edp, data = table.number("edp_threshold", first), CurveData(statuses[i], numbers[i])
-        origin = {"im": typology.im, "edp_threshold": edp, "saturation": saturations[name]}
+        origin = {"im": typology.im, "edp_threshold": edp, "saturation": ends[name]}
         curve = curve_of(data, typology.levels, reached[i], histories[i], **origin)
         curves[name] = with_errors(curve, errors_of_row(table, first)) if curve.has_fit else curve
     return curves

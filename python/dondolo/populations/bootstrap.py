@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from dondolo._base.arguments import FloatArray, as_count, as_generator, one_of, tails
 from dondolo.curves.bootstrap import Bootstrap, draw_records, fit_samples
+from dondolo.curves.occurrence import saturations, wall_probability
 from dondolo.curves.sample import given_labels
-from dondolo.curves.series import in_series
 from dondolo.errors import InputError
 from dondolo.populations.flags import Flags
 from dondolo.walls.population import Population
@@ -117,6 +117,7 @@ class _Rows(NamedTuple):
     walls: int
     weight: FloatArray
     share: FloatArray
+    alternative: NDArray[np.int32]
 
 
 def resample_population(
@@ -184,10 +185,12 @@ def _rows_of(population: Population, mechanism: str | None, group: str) -> _Rows
     weight, p_occ = population.weights, population.p_occ
     if mechanism is None or mechanism == "all":
         row = np.flatnonzero(chosen)
-        return _Rows(row, wall[row], walls, weight[row], p_occ[row])
+        return _Rows(row, wall[row], walls, weight[row], p_occ[row], population.alternative_numbers[row])
     one_of("mechanism", mechanism, (*kinds, "all"))
     row = np.flatnonzero(chosen & np.array([own.mechanism == mechanism for own in population.walls]))
-    return _Rows(row, wall[row], walls, weight[row] * p_occ[row], np.ones(len(row)))
+    weights, share, alternative, first = population._of_one_mechanism(row)
+    number = np.diff(first, append=len(row))
+    return _Rows(row, wall[row], walls, np.repeat(weights, number), share, alternative)
 
 
 def _mean_fractions(
@@ -208,10 +211,11 @@ def _mean_fractions(
         records = records[:1]
     total, weight, occurring = np.zeros((samples, flags.levels)), np.zeros(samples), np.zeros(samples)
     for part, starts in _chunks(rows, max(1, _FRACTIONS // (len(records) * flags.levels))):
-        collapse = in_series(rows.share[part, None, None] * _fractions(flags, rows.row[part], records), starts)
+        occurs = rows.share[part], rows.alternative[part]
+        collapse = wall_probability(*occurs, _fractions(flags, rows.row[part], records), starts)
         own = times[:, rows.wall[part][starts]] * rows.weight[part][starts]
         weight += own.sum(axis=1)
-        occurring += own @ in_series(rows.share[part], starts)
+        occurring += own @ saturations(*occurs, starts)
         if resampled:
             total += np.einsum("sw,wsl->sl", own, collapse)
         else:

@@ -162,7 +162,7 @@ class _Made:
         )
 
     def walls(self, people: Population, rows: tuple[Fragility, ...]) -> dict[str, Fragility]:
-        """Curves of the walls by their names: that of a row, or of mechanisms in series."""
+        """Curves of the walls by their names: that of a row, or of several mechanisms."""
         found, parcel = fitted_curves(self._parcel, "wall_"), self._parcel
         columns = [parcel["wall_" + name] for name in ("fraction", "histories", "saturation")]
         return {

@@ -47,7 +47,8 @@ def flat_population(people: Population, levels: FloatArray, counts: IntArray, hi
         np.ascontiguousarray(counts).T,
         histories,
         np.stack([people.weights, people.p_occ]),
-        np.diff(np.append(people.first_rows, len(people))).astype(np.int32),
+        people.alternative_numbers,
+        people._numbers_of_rows,
     )
 
 
@@ -60,7 +61,7 @@ class Group(Saved):
     group : str
         '' for the whole population.
     mechanism : str
-        'all' for whatever makes the walls collapse: mechanisms in series, each with its probability of occurrence.
+        'all' for whatever makes the walls collapse: all mechanisms that can occur, with their probabilities.
     n_walls : int
         How many walls, those of no weight left out.
     weight : float
@@ -166,9 +167,9 @@ class PopulationCurve(Shown, Group, MeanCurve):
         if self.mechanism == "all":
             # Weights and groups are those of whole walls
             first = np.searchsorted(rows, people.first_rows[chosen[people.first_rows]])
-            return Members(self.levels, curves, counts, people.weights[rows[first]], people.p_occ[rows], first)
-        weights = people.weights[rows] * people.p_occ[rows]
-        return Members(self.levels, curves, counts, weights, np.ones(len(rows)), np.arange(len(rows)))
+            occurs = people.p_occ[rows], people.alternative_numbers[rows]
+            return Members(self.levels, curves, counts, people.weights[rows[first]], *occurs, first)
+        return Members(self.levels, curves, counts, *people._of_one_mechanism(rows))
 
     @property
     def knows_records(self) -> bool:

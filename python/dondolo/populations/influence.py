@@ -8,7 +8,7 @@ from dondolo._base.arguments import FloatArray
 from dondolo._fortran.curves import cluster_changes
 from dondolo._fortran.library import constants
 from dondolo.curves.members import Members
-from dondolo.curves.series import in_series, series_slopes
+from dondolo.curves.occurrence import wall_probability, wall_slopes
 from dondolo.errors import DondoloError
 from dondolo.populations.flags import Flags
 
@@ -60,9 +60,10 @@ def changes(
         these = np.arange(first[walls][0], ends[walls][-1])
         starts = first[walls] - these[0]
         probability = members.rows_at(these, x)
-        of_walls[walls] = in_series(members.p_occ[these, None] * probability, starts) @ weights
+        occurs = members.p_occ[these], members.alternative[these]
+        of_walls[walls] = wall_probability(*occurs, probability, starts) @ weights
         owner = np.repeat(np.arange(len(starts)), ends[walls] - first[walls])
-        slopes = series_slopes(members.p_occ[these], probability, starts)
+        slopes = wall_slopes(*occurs, probability, starts)
         slopes *= share[walls][owner, None] * weights
         shares = flags.reached(rows[these], member)
         for row, slope, counts in zip(these, slopes, shares, strict=True):

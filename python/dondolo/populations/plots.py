@@ -86,11 +86,13 @@ def draw_union(typology: Typology, name: str, ax: Axes | None) -> Axes:
         look = {"color": style.BLUE, "linestyle": curves.LINES[(i + 1) % len(curves.LINES)], "linewidth": 1.5}
         ax.plot(grid, one(grid), label=f"{people[row].name}, {style.mechanism_name(people[row].mechanism)}", **look)
     union, product = typology.unions[name], typology.combined[name]
+    # Of mechanisms that never occur together, the product is the same.
+    is_alone = people._has_single_alternatives(name)
     for curve, word, color, width in (
         (product, "independent", style.GREY, 1.2),
         (union, "same histories", style.RED, 2.4),
     ):
-        if curve.has_fit:
+        if curve.has_fit and not (is_alone and curve is product):
             ax.plot(grid, curve(grid), color=color, linewidth=width, label=f"{word}: {parameters(curve)}")
     fractions = union.saturation * union.collapses / union.histories
     looks: dict[str, Any] = {"color": style.RED, "linestyle": "none", "marker": "o", "markersize": 4}

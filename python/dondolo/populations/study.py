@@ -12,7 +12,8 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray
 from dondolo._base.interrupts import deferred
-from dondolo._fortran.library import warn
+from dondolo._fortran.library import as_text, warn
+from dondolo._fortran.populations import warnings_of_occurrence
 from dondolo.analysis.request import Polarity, new_request
 from dondolo.analysis.solver import Solver, as_solver
 from dondolo.errors import DondoloWarning, Interrupted
@@ -107,10 +108,19 @@ def typology(
     alone = len(states) == 1
     request = new_request(people.walls, records, levels, im, polarity, solver, threads, collapses_only=alone)
     plan = request.plan()
+    names = b"".join(as_text("name", name) + b"\n" for name in people.wholes)
+    of_occurrence = warnings_of_occurrence(names, people.p_occ, people.alternative_numbers, people._numbers_of_rows)
     with deferred() as interrupts:
         run = run_walls(request, plan.histories, states, executor, checkpoint, block, progress, interrupts)
         result, complete, number = typology_of(
-            people, request.im, request.levels, states, run, request.share, plan.histories, plan.warnings
+            people,
+            request.im,
+            request.levels,
+            states,
+            run,
+            request.share,
+            plan.histories,
+            [*plan.warnings, *of_occurrence],
         )
         if complete < number or interrupts.requested:
             raise Interrupted(f"interrupted: {complete} of {number} walls are complete", result)

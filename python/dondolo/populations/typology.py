@@ -65,8 +65,8 @@ class Typology(Shown, Saved):
     curves : tuple of Fragility
         Curve of each row.
     combined : dict of str to Fragility
-        Curve of each wall or facade by its name, mechanisms in series: that of its row, or where there are several or
-        one that may not occur, the lognormal fitted to the combined fractions.
+        Curve of each wall or facade by its name: that of its row, or where it has several mechanisms or one that may
+        not occur, the lognormal fitted to the combined fractions. Mechanisms that occur together are independent.
     groups : tuple of Group
         The curves: those of the whole population, then those of each group, in the order they appear in; for each
         mechanism, and the last for all, if there are several or one that may not occur. Empty for the designs of a
@@ -151,7 +151,8 @@ class Typology(Shown, Saved):
     def facade(self) -> str:
         """Name of the one facade, or wall with several mechanisms, that these results are of; '' if they are of more.
 
-        Its curve is that of `unions`; `combined` and ``typology["all"]`` take its mechanisms as independent.
+        Its curve is that of `unions`; `combined` and ``typology["all"]`` take mechanisms that occur together as
+        independent.
         """
         return self.population.wholes[0] if len(self.combined) == 1 < len(self.walls) else ""
 
@@ -279,7 +280,8 @@ class Typology(Shown, Saved):
 
         A history, of a record, polarity and level, counts if any of the mechanisms reaches the state in it; `combined`
         takes them as independent of each other. Mechanisms that may not occur count with the probability that one that
-        reaches the state can. Standard errors are clustered by record.
+        reaches the state can, exclusive alternatives with the sum of their probabilities. Standard errors are clustered
+        by record.
 
         Raises
         ------
@@ -420,7 +422,7 @@ class Typology(Shown, Saved):
         Returns
         -------
         Axes
-            Probability of collapse against intensity: of a mechanism, if it can occur; of all, in series, each with its
+            Probability of collapse against intensity: of a mechanism, if it can occur; of all, each with its
             probability of occurrence.
 
         Raises
@@ -643,7 +645,8 @@ class Typology(Shown, Saved):
         if self.facade and self.knows_unions:
             facts[0] = ("facade", f"{self.facade}, {len(self.walls)} mechanisms, counted in the same histories")
             facts += self.unions[self.facade]._facts()
-            facts.append(("taken as independent", parameters(self.combined[self.facade])))
+            if not self.population._has_single_alternatives(self.facade):
+                facts.append(("taken as independent", parameters(self.combined[self.facade])))
             return [*facts, ("work", str(self.work)), *notes]
         whole = self["all"]
         facts += whole.fit._facts()

@@ -46,6 +46,8 @@ _COLUMNS: dict[str, _Shown] = {
     "walls": _Shown("walls", whole),
     "weight": _Shown("weight", number),
     "p_occ": _Shown(Symbol("p", "occ"), number),
+    "occurrence": _Shown("occurrence", str, True),
+    "alternative": _Shown("alternative", str, True),
     "saturation": _Shown("can occur", percent),
     # Lognormal curves
     "theta": _Shown(_in_unit(THETA), parameter),

@@ -62,7 +62,7 @@ def numbers(people: Typology) -> dict[str, Any]:
         "curves": [(state, _curves_table(one)) for state, one in states.items()],
         "levels": [(state, _levels_table(one)) for state, one in states.items()],
         "product": (THETA, " = ", level(product.theta, people.im), ", ", BETA, " = ", number(product.beta, 3))
-        if product.has_fit
+        if product.has_fit and not people.population._has_single_alternatives(name)
         else None,
     }
 

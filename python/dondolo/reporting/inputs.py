@@ -31,6 +31,7 @@ from dondolo.reporting.numerals import number, percent, whole
 from dondolo.reporting.run import Run
 from dondolo.reporting.statuses import status_table
 from dondolo.walls.population import Population
+from dondolo.walls.table import occurrence_columns
 from dondolo.walls.wall import Wall, effective_property, notes_on_supports
 
 # What stands behind properties of a wall in place of their units
@@ -177,6 +178,7 @@ def _main_properties(people: Population, is_alike: bool) -> Table:
         columns["weight"] = people.weights.tolist()
     if not is_alike or np.any(people.p_occ < 1.0):
         columns["p_occ"] = people.p_occ.tolist()
+    columns |= occurrence_columns(people.occurrence, people.alternatives)
     columns |= {what: [getattr(wall, what) for wall in walls] for what in _SIZES}
     for what in _OF_TWO_BLOCKS:
         values = [getattr(wall, what, None) for wall in walls]

@@ -283,7 +283,7 @@ def _lead(run: Run) -> str:
     elif run.designs is not None and isinstance(results, Typology):
         parts.append(f"{len(results.walls)} designs of one wall")
     elif run.facade and isinstance(results, Typology):
-        parts.append(f"{run.facade}: {len(results.walls)} mechanisms in series, under the same records")
+        parts.append(f"{run.facade}: {len(results.walls)} mechanisms, under the same records")
     elif isinstance(results, Typology):
         rows, walls = len(results.walls), len(results.combined)
         counted = results["all"].n_walls

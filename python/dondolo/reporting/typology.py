@@ -168,6 +168,7 @@ def numbers(people: Typology, words: Words) -> dict[str, Any]:
         "words": words,
         "curves": _curves_table(people, words),
         "unions": _unions_table(people),
+        "has_alternatives": bool(people.population.alternative_numbers.any()),
         "states": [(f"EDP ≥ {edp:g}", _curves_table(people.at(edp), words)) for edp in people.edp_thresholds[:-1]],
         "levels": [
             (state_name(edp, limit), _levels_table(people, people.at(float(edp))["all"]))

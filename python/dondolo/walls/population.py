@@ -16,15 +16,23 @@ from numpy.typing import ArrayLike, NDArray
 
 from dondolo._base.arguments import FloatArray, as_array, instance_of, one_of
 from dondolo._base.shown import Shown, html_of
-from dondolo._fortran.library import as_text
+from dondolo._fortran.library import as_text, constants
 from dondolo._fortran.tables import TableColumns, plain
-from dondolo._fortran.walls import WALL_LISTS, WALL_PROPERTIES, describe_walls, read_walls
+from dondolo._fortran.walls import (
+    EXCLUSIVE,
+    INDEPENDENT,
+    OCCURRENCE,
+    WALL_LISTS,
+    WALL_PROPERTIES,
+    describe_walls,
+    read_walls,
+)
 from dondolo._storage import tables
 from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
 from dondolo.figures.style import Panels
 from dondolo.walls.mechanisms import wall_from
-from dondolo.walls.table import property_columns
+from dondolo.walls.table import occurrence_columns, property_columns
 from dondolo.walls.wall import Wall, property_of, walls_table
 
 if TYPE_CHECKING:
@@ -36,6 +44,9 @@ if TYPE_CHECKING:
 
 # Name that Fortran gives a wall without one
 _UNNAMED = "wall"
+
+# Words of each row
+_OF_ROWS = ("groups", "facades", "occurrence", "alternatives")
 
 #: What distinguishes walls in a figure
 Kind = Literal["mechanism", "group"]
@@ -62,6 +73,13 @@ class Population(Shown):
         Probability that the mechanism can occur, between 0 and 1; 1 each if left out.
     facades : tuple of str
         Name of the facade that each is part of; empty if left out, or if it is part of none.
+    occurrence : tuple of str
+        'independent', where each mechanism of the wall can occur whatever the others do, or 'exclusive', where one of
+        several alternatives occurs, with the probability `p_occ`; one word is that of all walls, 'independent' if left
+        out.
+    alternatives : tuple of str
+        Name of the alternative of the wall that each mechanism belongs to; those of one alternative occur together.
+        Empty if left out: exclusive mechanisms are alternatives each.
     origin : tuple of str
         Where the walls come from, in lines for the head of a file.
 
@@ -89,6 +107,12 @@ class Population(Shown):
     'b'
     >>> [wall.mechanism for wall in population.group("low")]
     ['one_sided', 'two_block']
+
+    A wall that overturns or folds, never both:
+
+    >>> walls = [dd.OneSidedWall(3.0, 0.25, name="a"), dd.TwoBlockWall(3.0, 0.25, name="a")]
+    >>> dd.Population(walls, p_occ=[0.3, 0.7], occurrence="exclusive").occurrence
+    ('exclusive', 'exclusive')
     """
 
     walls: tuple[Wall, ...]
@@ -97,6 +121,8 @@ class Population(Shown):
     groups: tuple[str, ...] = None  # type: ignore[assignment]
     p_occ: FloatArray = None  # type: ignore[assignment]
     facades: tuple[str, ...] = None  # type: ignore[assignment]
+    occurrence: tuple[str, ...] = None  # type: ignore[assignment]
+    alternatives: tuple[str, ...] = None  # type: ignore[assignment]
     origin: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
@@ -111,27 +137,36 @@ class Population(Shown):
         if not np.any(weights > 0.0):
             raise InputError("weight: must be positive for at least one wall")
         p_occ = _shares("p_occ", self.p_occ, walls, 1.0)
-        groups, facades = (_words(name, getattr(self, name), walls) for name in ("groups", "facades"))
+        names = ("groups", "facades", "alternatives")
+        groups, facades, alternatives = (_words(name, getattr(self, name), walls) for name in names)
+        occurrence = _occurrence(self.occurrence, walls)
         origin = _several("origin", self.origin, "lines")
         for line in origin:
             as_text("origin", line)
-        _check_names(walls, weights, groups, facades)
+        of_rows = list(zip(weights.tolist(), groups, occurrence, strict=True))
+        _check_names(walls, of_rows, facades, alternatives)
         filled = {"walls": walls, "weights": weights, "groups": groups, "p_occ": p_occ, "facades": facades}
-        filled["origin"] = origin
+        filled |= {"occurrence": occurrence, "alternatives": alternatives, "origin": origin}
         for name, value in filled.items():
             object.__setattr__(self, name, value)
+        _numbered(self.wholes, p_occ.tolist(), occurrence, alternatives)
 
     @classmethod
-    def from_csv(cls, path: str | os.PathLike[str], *, gravity: float | None = None) -> Population:
+    def from_csv(
+        cls, path: str | os.PathLike[str], *, gravity: float | None = None, occurrence: str = INDEPENDENT
+    ) -> Population:
         r"""Read a table of walls.
 
         Parameters
         ----------
         path : path
             A CSV table: one row a mechanism of a wall, columns named as the parameters of the walls, and weight, group,
-            p_occ and facade. A row with hinge levels becomes a wall for each, all of one facade.
+            p_occ, occurrence, alternative and facade. A row with hinge levels becomes a wall for each, all of one
+            facade.
         gravity : float, optional
             [m/s2], 9.81 if left out.
+        occurrence : {'independent', 'exclusive'}
+            How the mechanisms of a wall occur where the table has no column of this name, or an empty cell.
 
         Returns
         -------
@@ -151,10 +186,10 @@ class Population(Shown):
         >>> [wall.name for wall in dd.Population.from_csv("walls.csv")]
         ['a', 'b']
         """
-        walls, weights, groups, p_occ, facades = read_walls(path, gravity)
+        one_of("occurrence", occurrence, OCCURRENCE)
+        walls, of_rows = read_walls(path, gravity, occurrence)
         origin = (f"read from {Path(path).name}",)
-        people = tuple(wall_from(data) for data in walls)
-        return Population(people, weights, groups=tuple(groups), p_occ=p_occ, facades=tuple(facades), origin=origin)
+        return Population(tuple(wall_from(data) for data in walls), **of_rows, origin=origin)
 
     @classmethod
     def sample(
@@ -168,6 +203,7 @@ class Population(Shown):
         group: str = "",
         name: str = "",
         gravity: float | None = None,
+        occurrence: str = INDEPENDENT,
         **properties: Property,
     ) -> Population:
         """Make walls with sampled properties.
@@ -199,6 +235,8 @@ class Population(Shown):
             Walls are called so with their number: 'facades 0001'. The name of the group if left out.
         gravity : float, optional
             [m/s2], 9.81 if left out.
+        occurrence : {'independent', 'exclusive'}
+            How the mechanisms of a wall occur.
         **properties
             Those of the walls - height, thickness, density, restitution, restitution_value, restitution_factor, for
             'two_block' hinge, overburden, eccentricity or bearing and bearing_distance - and weight and p_occ.
@@ -265,6 +303,7 @@ class Population(Shown):
             group=group,
             name=name,
             gravity=gravity,
+            occurrence=occurrence,
             **properties,
         )
 
@@ -318,7 +357,7 @@ class Population(Shown):
                 for name, column in columns.items()
             },
             "gravity": np.array([wall.gravity for wall in self.walls]),
-            **{name: getattr(self, name) for name in ("weights", "groups", "p_occ", "facades", "origin")},
+            **{name: getattr(self, name) for name in ("weights", *_OF_ROWS, "p_occ", "origin")},
         }
 
     @classmethod
@@ -337,6 +376,37 @@ class Population(Shown):
         first = np.array([i for i, name in enumerate(names) if i == 0 or names[i - 1] != name], dtype=np.intp)
         first.flags.writeable = False
         return first
+
+    @functools.cached_property
+    def alternative_numbers(self) -> NDArray[np.int32]:
+        """Number of the alternative of each row among those of its wall or facade; 0: its mechanisms are independent."""
+        numbers = _numbered(self.wholes, self.p_occ.tolist(), self.occurrence, self.alternatives)
+        numbers.flags.writeable = False
+        return numbers
+
+    def _has_single_alternatives(self, whole: str) -> bool:
+        """Do no two mechanisms of a wall or facade ever occur together?"""
+        numbers = self.alternative_numbers[[name == whole for name in self.wholes]]
+        return bool(numbers.all()) and len(set(numbers.tolist())) == len(numbers)
+
+    @property
+    def _numbers_of_rows(self) -> NDArray[np.int32]:
+        """How many rows each wall or facade has, shape (walls,)."""
+        return np.diff(self.first_rows, append=len(self)).astype(np.int32)
+
+    def _of_one_mechanism(self, rows: NDArray[np.intp]) -> tuple[FloatArray, FloatArray, NDArray[np.int32], Any]:
+        """Weights of the walls of rows of one mechanism, share and alternative of each row, and first row of each wall.
+
+        A wall that has several of these rows is their weighted mean, as one of exclusive alternatives is.
+        """
+        wall = np.searchsorted(self.first_rows, rows, side="right")
+        first = np.flatnonzero(np.diff(wall, prepend=-1))
+        number = np.diff(first, append=len(rows))
+        total = np.add.reduceat(self.p_occ[rows], first)
+        share = np.ones(len(rows))
+        np.divide(self.p_occ[rows], np.repeat(total, number), out=share, where=np.repeat(total > 0.0, number))
+        alternative = np.arange(1, len(rows) + 1) - np.repeat(first, number)
+        return self.weights[rows[first]] * total, share, alternative.astype(np.int32), first
 
     @property
     def _has_curve_of_row(self) -> NDArray[np.bool_]:
@@ -414,9 +484,8 @@ class Population(Shown):
         return Population(
             self.walls + other.walls,
             np.concatenate([self.weights, other.weights]),
-            groups=self.groups + other.groups,
             p_occ=np.concatenate([self.p_occ, other.p_occ]),
-            facades=self.facades + other.facades,
+            **{name: getattr(self, name) + getattr(other, name) for name in _OF_ROWS},
             origin=self.origin + other.origin,
         )
 
@@ -446,9 +515,8 @@ class Population(Shown):
         return Population(
             tuple(self.walls[i] for i in chosen),
             self.weights[index],
-            groups=tuple(self.groups[i] for i in chosen),
             p_occ=self.p_occ[index],
-            facades=tuple(self.facades[i] for i in chosen),
+            **{name: tuple(getattr(self, name)[i] for i in chosen) for name in _OF_ROWS},
             origin=self.origin,
         )
 
@@ -546,7 +614,8 @@ class Population(Shown):
         tables.write_lines(path, lines)
 
     def _table(self) -> TableColumns:
-        return walls_table(self.walls, self.groups, self.facades, self.weights, self.p_occ)
+        words = zip(self.groups, self.facades, self.occurrence, self.alternatives, strict=True)
+        return walls_table(self.walls, words, self.weights, self.p_occ)
 
 
 def _several(name: str, values: Any, what: str) -> tuple[Any, ...]:
@@ -603,8 +672,57 @@ def _shares(name: str, values: ArrayLike | None, walls: Sequence[Wall], largest:
     return shares
 
 
-def _check_names(walls: Sequence[Wall], weights: FloatArray, groups: Sequence[str], facades: Sequence[str]) -> None:
-    """Walls with one name must be mechanisms of one wall, and those of one facade must be on consecutive rows."""
+def _occurrence(given: Any, walls: Sequence[Wall]) -> tuple[str, ...]:
+    """How the mechanisms of each wall occur; one word is that of all."""
+    if given is None:
+        given = INDEPENDENT
+    words = (given,) * len(walls) if isinstance(given, str) else _several("occurrence", given, "a word for each wall")
+    if len(words) != len(walls):
+        raise InputError(f"{len(walls)} walls, {len(words)} words of occurrence: must be as many")
+    for word in words:
+        one_of("occurrence", word, OCCURRENCE)
+    return words
+
+
+def _numbered(
+    wholes: Sequence[str], p_occ: Sequence[float], occurrence: Sequence[str], alternatives: Sequence[str]
+) -> NDArray[np.int32]:
+    """Numbers of alternatives, each wall's from 1 on, checked; 0 for independent mechanisms."""
+    numbers = np.zeros(len(wholes), dtype=np.int32)
+    total, known = 0.0, set[str]()
+    for i, (whole, name) in enumerate(zip(wholes, alternatives, strict=True)):
+        if occurrence[i] != EXCLUSIVE:
+            if name:
+                raise InputError(f"wall {whole!r}: alternative = {name!r}: only for occurrence = {EXCLUSIVE!r}")
+            continue
+        begins = i == 0 or wholes[i - 1] != whole
+        if begins:
+            total, known = 0.0, set()
+        if not begins and name and alternatives[i - 1] == name:
+            numbers[i] = numbers[i - 1]
+            if p_occ[i] != p_occ[i - 1]:
+                raise InputError(f"wall {whole!r}: mechanisms of one alternative, {name!r}, must have the same p_occ")
+            continue
+        if name in known:
+            raise InputError(f"wall {whole!r}: alternative = {name!r}: its rows must be consecutive")
+        known |= {name} if name else set()
+        numbers[i] = 1 if begins else numbers[i - 1] + 1
+        total += p_occ[i]
+        if total > 1.0 + constants().sum_tolerance:
+            raise InputError(
+                f"wall {whole!r}: the probabilities p_occ of its exclusive alternatives add up to {total:.6g}, must be"
+                " at most 1"
+            )
+    return numbers
+
+
+def _check_names(
+    walls: Sequence[Wall], of_rows: Sequence[tuple[float, str, str]], facades: Sequence[str], alternatives: Sequence[str]
+) -> None:
+    """Walls with one name must be mechanisms of one wall, and those of one facade must be on consecutive rows.
+
+    Of rows there are the weight, the group and the occurrence, the same for all of a wall.
+    """
     first: dict[str, int] = {}
     first_of: dict[str, int] = {}
     for i, (wall, facade) in enumerate(zip(walls, facades, strict=True)):
@@ -613,15 +731,19 @@ def _check_names(walls: Sequence[Wall], weights: FloatArray, groups: Sequence[st
             raise InputError(
                 f"name = {wall.name!r}: another wall has this name; mechanisms of one wall must be on consecutive rows"
             )
-        if wall.mechanism in (other.mechanism for other in walls[one:i]):
+        # Exclusive alternatives may have a mechanism in common, each with a hinge of its own.
+        alone = of_rows[i][-1] == EXCLUSIVE and not alternatives[i]
+        others = [] if alone else [j for j in range(one, i) if alternatives[j] == alternatives[i]]
+        if wall.mechanism in (walls[j].mechanism for j in others):
             raise InputError(f"name = {wall.name!r}: another wall of this name has the same mechanism")
         if facade:
             one, whole = first_of.setdefault(facade, i), "facade"
             if one != i and facades[i - 1] != facade:
                 wrong = f"facade = {facade!r}: another facade has this name"
                 raise InputError(f"{wrong}; walls of one facade must be on consecutive rows")
-        if weights[i] != weights[one] or groups[i] != groups[one]:
-            raise InputError(f"name = {wall.name!r}: mechanisms of one {whole} must have the same weight and group")
+        if of_rows[i] != of_rows[one]:
+            same = "weight and group" if of_rows[i][:2] != of_rows[one][:2] else "occurrence"
+            raise InputError(f"name = {wall.name!r}: mechanisms of one {whole} must have the same {same}")
     for facade in first_of:
         if facade in first and facades[first[facade]] != facade:
             raise InputError(f"facade = {facade!r}: a wall that is no part of it has this name")
@@ -632,4 +754,5 @@ def population_table(population: Population) -> tables.Table:
     names = {row.name: row.name for row in WALL_PROPERTIES if row.column}
     table = property_columns(population.walls, names)
     table |= {"weight": population.weights, "group": population.groups, "p_occ": population.p_occ}
-    return table | ({"facade": population.facades} if any(population.facades) else {})
+    table |= {"facade": population.facades} if any(population.facades) else {}
+    return table | occurrence_columns(population.occurrence, population.alternatives)

@@ -16,7 +16,7 @@ import numpy as np
 from dondolo._base.arguments import FloatArray, as_count, as_number, one_of
 from dondolo._fortran.buildings import BUILDING_NAMES
 from dondolo._fortran.library import as_text, constants
-from dondolo._fortran.walls import WALL_LISTS, WALL_NUMBERS, WALL_PROPERTIES, WALL_TEXTS, describe_walls
+from dondolo._fortran.walls import INDEPENDENT, WALL_LISTS, WALL_NUMBERS, WALL_PROPERTIES, WALL_TEXTS, describe_walls
 from dondolo.errors import InputError
 from dondolo.walls.distributions import Distribution, no_distribution
 from dondolo.walls.mechanisms import MECHANISMS, wall_from
@@ -43,6 +43,7 @@ def sample_population(
     group: str = "",
     name: str = "",
     gravity: float | None = None,
+    occurrence: str = INDEPENDENT,
     **properties: Property,
 ) -> Population:
     """Walls with sampled properties: see `Population.sample`."""
@@ -70,6 +71,7 @@ def sample_population(
         np.repeat(common.get("weight", np.ones(n)), len(own)),
         groups=(group,) * (n * len(own)),
         p_occ=np.stack(p_occ, axis=1).ravel(),
+        occurrence=(occurrence,) * (n * len(own)),
         origin=_origin(
             f"{prefix}: {n} walls, a Latin hypercube of the seed {seed}", own, variables, correlation, properties
         ),

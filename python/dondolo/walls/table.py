@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from dondolo._fortran.walls import WALL_EXTRAS, WALL_LISTS
+from dondolo._fortran.walls import EXCLUSIVE, WALL_EXTRAS, WALL_LISTS
 from dondolo._storage import tables
 from dondolo.walls.wall import Wall, property_of
 
@@ -31,3 +31,10 @@ def numbered(name: str, number: int) -> str:
     """Name of one value of a list: the number stands behind its first word."""
     stem, *rest = name.split("_", 1)
     return "_".join([f"{stem}{number}", *rest])
+
+
+def occurrence_columns(occurrence: Sequence[str], alternatives: Sequence[str]) -> tables.Table:
+    """How the mechanisms of each wall occur; no columns where all are independent."""
+    if EXCLUSIVE not in occurrence:
+        return {}
+    return {"occurrence": list(occurrence), "alternative": list(alternatives)}

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import copy
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
 
@@ -19,6 +19,7 @@ from dondolo._fortran.handles import Handle
 from dondolo._fortran.library import check, with_units
 from dondolo._fortran.tables import TableColumns, plain, wall_columns
 from dondolo._fortran.walls import (
+    INDEPENDENT,
     WALL_ABSENT,
     WALL_PROPERTIES,
     FlatWall,
@@ -379,15 +380,17 @@ def upload(walls: tuple[Wall, ...]) -> Handle:
 
 def walls_table(
     walls: tuple[Wall, ...],
-    groups: Sequence[str] | None = None,
-    facades: Sequence[str] | None = None,
+    words: Iterable[tuple[str, str, str, str]] | None = None,
     weights: FloatArray | None = None,
     p_occ: FloatArray | None = None,
 ) -> TableColumns:
-    """Columns of ``_walls.csv``; by themselves walls have a weight of 1 and no group."""
-    words, ones = ("",) * len(walls), np.ones(len(walls))
+    """Columns of ``_walls.csv``; words are group, facade, occurrence and alternative of each wall.
+
+    By themselves walls have a weight of 1, no group, and independent mechanisms.
+    """
+    ones = np.ones(len(walls))
     shares = (ones if weights is None else weights, ones if p_occ is None else p_occ)
-    return wall_columns(upload(walls), groups or words, facades or words, *shares)
+    return wall_columns(upload(walls), words or [("", "", INDEPENDENT, "")] * len(walls), *shares)
 
 
 def notes_on_supports(walls: tuple[Wall, ...]) -> list[tuple[str, str]]:

@@ -1,5 +1,5 @@
-!> Identity of what a population is run for: everything that its histories depend on. Names of walls, weights, groups and
-!> probabilities of occurrence are not among it, nor are threads and blocks.
+!> Identity of what a population is run for: everything that its histories depend on. Names of walls, weights, groups,
+!> probabilities of occurrence and alternatives are not among it, nor are threads and blocks.
 module dondolo_population_identity
    use dondolo_base_fingerprint, only : fingerprint_type
    use dondolo_base_kinds, only : wp

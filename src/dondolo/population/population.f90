@@ -2,7 +2,7 @@
 !> their curves. All curves of the population are made of it.
 !>
 !> A row is one mechanism of a wall; the rows of a wall stand one after the other. What rows and walls both have stands in
-!> columns: first those of the rows, behind them those of the walls as a whole, whose mechanisms are in series. It is kept
+!> columns: first those of the rows, behind them those of the walls as a whole. It is kept
 !> in memory, in arrays: about 300 bytes a row and state at 20 levels; geometry is not kept.
 module dondolo_population
    use dondolo_base_error, only : error_type
@@ -10,7 +10,7 @@ module dondolo_population
    use dondolo_base_lines, only : lines_type
    use dondolo_base_memory, only : check_room
    use dondolo_fragility, only : fit_fragility, fragility_type
-   use dondolo_population_series, only : fit_share, in_series, occurrence_of
+   use dondolo_population_occurrence, only : fit_share, occurrence_of, wall_probability
    use dondolo_wall, only : mechanism_names
    implicit none
    private
@@ -29,6 +29,8 @@ module dondolo_population
       real(wp) :: weight = 1.0_wp
       !> Probability that the mechanism can occur
       real(wp) :: p_occ = 1.0_wp
+      !> Number of its alternative among those of the wall; 0: the mechanisms of the wall are independent
+      integer :: alternative = 0
    end type row_type
 
    !> A part of a population: the rows of one mechanism, or the walls as a whole, of one group or of all
@@ -71,14 +73,20 @@ module dondolo_population
       procedure :: rows_of
       !> Has a wall several rows?
       procedure :: is_several
+      !> Can mechanisms of a wall occur together?
+      procedure :: can_coincide
       !> Weights of columns in a part
       procedure :: weight_in
+      !> How many walls have a weight in a part
+      procedure :: walls_in
       !> Number of a group
       procedure :: number_of_group
       !> Part of a mechanism and a group
       procedure :: part
       !> Probability that a column can collapse
       procedure :: occurrence
+      !> How likely its mechanisms can occur, and which of them together
+      procedure :: get_occurrence
       !> Histories of a column
       procedure :: histories_of
       !> Fractions of collapse of a column
@@ -90,7 +98,7 @@ module dondolo_population
 contains
 
    !> Add a row
-   subroutine add(self, mechanism, group, weight, p_occ, continues)
+   subroutine add(self, mechanism, group, weight, p_occ, alternative, continues)
       class(population_type), intent(inout) :: self
       !> One of mechanism_names
       character(len=*), intent(in) :: mechanism
@@ -100,6 +108,8 @@ contains
       real(wp), intent(in) :: weight
       !> Probability that the mechanism can occur
       real(wp), intent(in) :: p_occ
+      !> Number of its alternative among those of the wall; 0: the mechanisms of the wall are independent
+      integer, intent(in) :: alternative
       !> Is it a further mechanism of the wall in the row before?
       logical, intent(in) :: continues
 
@@ -115,7 +125,7 @@ contains
       if (.not. continues) self%walls = self%walls + 1
       if (len(group) > 0 .and. self%number_of_group(group) == 0) call self%groups%add(group)
       self%row(self%rows) = row_type(self%walls, findloc(mechanism_names == mechanism, .true., dim=1), &
-         & self%number_of_group(group), weight, p_occ)
+         & self%number_of_group(group), weight, p_occ, alternative)
    end subroutine add
 
    !> All rows are there: give back room for more
@@ -225,6 +235,20 @@ contains
       is_several = self%first(wall + 1) - self%first(wall) > 1
    end function is_several
 
+   !> Can any two mechanisms of a wall occur together?
+   pure logical function can_coincide(self, wall)
+      class(population_type), intent(in) :: self
+      !> Number of the wall
+      integer, intent(in) :: wall
+
+      integer :: i
+
+      can_coincide = .false.
+      do i = self%first(wall) + 1, self%first(wall + 1) - 1
+         can_coincide = can_coincide .or. self%row(i)%alternative == self%row(i - 1)%alternative
+      end do
+   end function can_coincide
+
    !> Weight of a column in a part of the population; 0: it does not belong to it. A row counts as often as it can occur
    elemental real(wp) function weight_in(self, part, column) result(weight)
       class(population_type), intent(in) :: self
@@ -244,6 +268,20 @@ contains
          if (part%group > 0 .and. part%group /= row%group) weight = 0.0_wp
       end associate
    end function weight_in
+
+   !> How many walls have a weight in a part, as a whole or with one of their rows
+   pure integer function walls_in(self, part)
+      class(population_type), intent(in) :: self
+      type(part_type), intent(in) :: part
+
+      integer :: i, k
+
+      walls_in = 0
+      do i = 1, self%walls
+         if (self%weight_in(part, self%rows + i) > 0.0_wp .or. any(self%weight_in(part, [(k, k=self%first(i), &
+            & self%first(i + 1) - 1)]) > 0.0_wp)) walls_in = walls_in + 1
+      end do
+   end function walls_in
 
    !> Number of a group
    pure integer function number_of_group(self, name) result(number)
@@ -274,14 +312,29 @@ contains
       integer, intent(in) :: column
 
       real(wp), allocatable :: p_occ(:)
-      integer :: of(2)
+      integer, allocatable :: alternative(:)
 
       occurrence = 1.0_wp
       if (column <= self%rows) return
+      call self%get_occurrence(column, p_occ, alternative)
+      occurrence = occurrence_of(p_occ, alternative)
+   end function occurrence
+
+   !> How likely the mechanisms of a column can occur, and which of them together
+   pure subroutine get_occurrence(self, column, p_occ, alternative)
+      class(population_type), intent(in) :: self
+      !> Number of the column
+      integer, intent(in) :: column
+      !> Of each of its rows the probability that it can occur, and its alternative
+      real(wp), allocatable, intent(out) :: p_occ(:)
+      integer, allocatable, intent(out) :: alternative(:)
+
+      integer :: of(2)
+
       of = self%rows_of(column)
       p_occ = self%row(of(1):of(2))%p_occ
-      occurrence = occurrence_of(p_occ)
-   end function occurrence
+      alternative = self%row(of(1):of(2))%alternative
+   end subroutine get_occurrence
 
    !> Histories of a column in each stripe; a wall has no more than its rows have
    pure function histories_of(self, column) result(histories)
@@ -305,13 +358,14 @@ contains
       real(wp) :: whole(size(self%levels))
 
       real(wp), allocatable :: p_occ(:)
+      integer, allocatable :: alternative(:)
       integer :: of(2)
 
       of = self%rows_of(column)
-      p_occ = self%row(of(1):of(2))%p_occ
+      call self%get_occurrence(column, p_occ, alternative)
       associate (rows => real(self%reached(:, state, of(1):of(2)), wp)/real(self%histories(:, of(1):of(2)), wp))
          if (column <= self%rows) whole = rows(:, 1)
-         if (column > self%rows) whole = in_series(p_occ, rows)
+         if (column > self%rows) whole = wall_probability(p_occ, alternative, rows)
       end associate
    end function fraction
 
@@ -333,6 +387,7 @@ contains
 
       logical, allocatable :: needed(:)
       real(wp), allocatable :: p_occ(:)
+      integer, allocatable :: alternative(:)
       integer :: i, k, of(2)
 
       call check_room(real(storage_size(p)/8, wp)*real(size(x), wp)*real(self%rows + self%walls, wp), error)
@@ -350,8 +405,8 @@ contains
                p(:, k) = interpolated(self%levels, self%fraction(k, state), x)
             end if
          end do
-         p_occ = self%row(of(1):of(2))%p_occ
-         p(:, i) = in_series(p_occ, p(:, of(1):of(2)))
+         call self%get_occurrence(i, p_occ, alternative)
+         p(:, i) = wall_probability(p_occ, alternative, p(:, of(1):of(2)))
       end do
    end subroutine probabilities
 

@@ -132,7 +132,8 @@ contains
          end if
          call count_clusters(self, row, population, self%counts(:, :, :, row%row - rows(1) + 1), change)
       end associate
-      if (population%is_several(wall)) call self%builder%add(row, population%row(row%row)%p_occ)
+      if (population%is_several(wall)) call self%builder%add(row, population%row(row%row)%p_occ, &
+         & population%row(row%row)%alternative)
       if (row%row < rows(2)) return
       if (.not. population%is_several(wall)) then
          call self%errors%add(population, wall, self%counts)
@@ -144,7 +145,7 @@ contains
       call self%errors%add(population, wall, self%counts, union%reached)
       union%name = name
       call self%unions%keep(self%united, wall, union)
-      deallocate (self%builder%survival)
+      self%builder = union_builder_type()
    end subroutine add
 
    !> Count the histories of a row by clusters of records, and set the standard errors of its curves

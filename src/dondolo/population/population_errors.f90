@@ -3,7 +3,7 @@
 !> All walls are subjected to the same records, and a population is a sample of the walls that there could be. The records
 !> of a cluster and the mechanisms of a wall depend on each other in any way; both kinds of clusters add their covariance.
 !> What belongs to a record and a wall alone is counted in both, which errs on the side of wide intervals by about one part
-!> in the number of walls or of records. Fractions of a wall whose mechanisms are in series are taken as linear in those
+!> in the number of walls or of records. Fractions of a wall with several mechanisms are taken as linear in those
 !> of its mechanisms; those of a wall in whose histories any of several mechanisms is counted are its own. Every stripe of a
 !> wall counts for one.
 module dondolo_population_errors
@@ -13,7 +13,7 @@ module dondolo_population_errors
    use dondolo_fragility, only : fragility_type
    use dondolo_fragility_clustered, only : cluster_errors, fewest_clusters, leave_out_type
    use dondolo_population, only : part_type, population_type
-   use dondolo_population_series, only : in_series, series_slopes
+   use dondolo_population_occurrence, only : wall_probability, wall_slopes
    use dondolo_population_typology, only : typology_type
    use dondolo_population_unions, only : curves_with_mean, unions_type
    implicit none
@@ -120,7 +120,7 @@ contains
       allocate (curve%deviation(size(share, 1), size(share, 2)), source=0.0_wp)
       if (.not. keeps_changes) return
       allocate (curve%record_change(2, size(share, 2)), source=0.0_wp)
-      allocate (curve%wall_change(2, typology%walls), source=0.0_wp)
+      allocate (curve%wall_change(2, population%walls_in(typology%part)), source=0.0_wp)
    end subroutine begin_curve
 
    !> Take a wall
@@ -138,16 +138,18 @@ contains
 
       ! Of the rows of the wall and, last, of the wall as a whole
       real(wp) :: fraction(size(counts, 1), size(counts, 4) + 1), deviation(size(counts, 1), size(counts, 2), size(counts, 4) + 1)
-      real(wp) :: slope(size(counts, 1), size(counts, 4)), p_occ(size(counts, 4)), weight
+      real(wp) :: slope(size(counts, 1), size(counts, 4)), weight
+      real(wp), allocatable :: p_occ(:)
+      integer, allocatable :: alternative(:)
       integer :: columns(size(counts, 4) + 1), i, g, k, m, last
 
       last = size(columns)
       columns = [(population%first(number) + m - 1, m=1, last - 1), population%rows + number]
-      p_occ = population%row(columns(:last - 1))%p_occ
+      call population%get_occurrence(columns(last), p_occ, alternative)
       do k = 1, size(counts, 3)
          fraction(:, :last - 1) = sum(counts(:, :, k, :), dim=2)/spread(self%run, 2, last - 1)
-         fraction(:, last) = in_series(p_occ, fraction(:, :last - 1))
-         slope = series_slopes(p_occ, fraction(:, :last - 1))
+         fraction(:, last) = wall_probability(p_occ, alternative, fraction(:, :last - 1))
+         slope = wall_slopes(p_occ, alternative, fraction(:, :last - 1))
          deviation(:, :, last) = 0.0_wp
          do m = 1, last - 1
             do g = 1, size(counts, 2)
@@ -167,12 +169,7 @@ contains
             end if
          end associate
          do i = 1, size(self%curve, 1)
-            do m = 1, last
-               weight = population%weight_in(self%curve(i, k)%part, columns(m))
-               if (.not. weight > 0.0_wp) cycle
-               self%curve(i, k)%deviation = self%curve(i, k)%deviation + weight*deviation(:, :, m)
-               call leave_out(self%curve(i, k), weight, population%occurrence(columns(m)), fraction(:, m), self%run)
-            end do
+            call take_columns(self%curve(i, k), population, columns, fraction, deviation, self%run)
          end do
          if (size(self%mean, 1) == 0) cycle
          if (present(united)) then
@@ -188,7 +185,39 @@ contains
       end do
    end subroutine add
 
-   !> Set the standard errors of the curve of a wall whose mechanisms are in series
+   !> Take what a curve has of a wall: the wall as a whole, or those of its rows that are of one mechanism
+   pure subroutine take_columns(curve, population, columns, fraction, deviation, run)
+      type(curve_sums_type), intent(inout) :: curve
+      type(population_type), intent(in) :: population
+      !> Columns of the rows and of the wall
+      integer, intent(in) :: columns(:)
+      !> Fractions of each at each level (levels, columns)
+      real(wp), intent(in) :: fraction(:, :)
+      !> Deviations of the clusters of records from them (levels, clusters, columns)
+      real(wp), intent(in) :: deviation(:, :, :)
+      !> Share of the records that run at each level
+      real(wp), intent(in) :: run(:)
+
+      real(wp) :: weight(size(columns)), mean(size(fraction, 1))
+      integer :: m
+
+      weight = population%weight_in(curve%part, columns)
+      do m = 1, size(columns)
+         if (weight(m) > 0.0_wp) curve%deviation = curve%deviation + weight(m)*deviation(:, :, m)
+      end do
+      select case (count(weight > 0.0_wp))
+      case (0)
+      case (1)
+         m = findloc(weight > 0.0_wp, .true., dim=1)
+         call leave_out(curve, weight(m), population%occurrence(columns(m)), fraction(:, m), run)
+      case default
+         ! Rows of one mechanism: they leave with their wall.
+         mean = matmul(fraction, weight)/sum(weight)
+         call leave_out(curve, sum(weight), 1.0_wp, mean, run)
+      end select
+   end subroutine take_columns
+
+   !> Set the standard errors of the curve of a wall with several mechanisms
    pure subroutine set_errors_of_wall(curve, sums, occurrence, fraction, deviation)
       type(fragility_type), intent(inout) :: curve
       type(population_errors_type), intent(in) :: sums

@@ -55,7 +55,7 @@ module dondolo_population_reader
 contains
 
    !> Read all of a population
-   subroutine read_population(file, rows, error, gravity, note)
+   subroutine read_population(file, rows, error, gravity, note, occurrence)
       !> Path of the table
       character(len=*), intent(in) :: file
       !> Its rows
@@ -66,9 +66,12 @@ contains
       real(wp), intent(in), optional :: gravity
       !> How the table was read, where there is something to say of it, else empty
       character(len=:), allocatable, intent(out), optional :: note
+      !> How the mechanisms of a wall occur whose row does not say it, one of occurrence_names; independent if absent
+      character(len=*), intent(in), optional :: occurrence
 
       type(population_table_type) :: table
 
+      if (present(occurrence)) table%occurrence = occurrence
       call table%read(file, error, gravity)
       if (allocated(error)) return
       if (present(note)) note = table%csv%note()
@@ -301,7 +304,7 @@ contains
       call table%read_lists(self%cells, self%input, problems)
    end subroutine read_row
 
-   !> Read what a row says of its weight, its group, its mechanism and its facade
+   !> Read what a row says besides the properties of its wall
    subroutine read_own(self, table, error)
       !> The reader, with a row: all but what is said of its wall is set
       class(population_reader_type), intent(inout) :: self
@@ -314,6 +317,7 @@ contains
 
       call new_settings(own, row_properties)
       if (.not. allocated(table%base_wall)) call table%read_cells(self%cells, table%row_columns, own, problems)
+      if (.not. own%has_word('occurrence')) call own%set('occurrence', trim(table%occurrence))
       call own%fill()
       call check_settings(own, problems)
       ! Spreadsheets round to -0, whose bits do not stand in the order of its value.
@@ -321,6 +325,8 @@ contains
       if (allocated(table%base_wall)) self%own%weight = table%base_wall%weight(self%row)
       self%own%p_occ = abs(own%number('p_occ'))
       self%own%group = own%word('group')
+      self%own%occurrence = own%word('occurrence')
+      self%own%alternative = trim(own%word('alternative'))
       self%own%facade = trim(own%word('facade'))
       call problems%raise(error)
    end subroutine read_own

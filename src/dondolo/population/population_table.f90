@@ -1,5 +1,5 @@
 !> What the rows of a population are taken from: a CSV table with one row a mechanism of a wall, its columns those of &wall,
-!> and weight, group, p_occ and facade; or one facade or wall with variants, as &wall says it.
+!> and those of row_properties; or one facade or wall with variants, as &wall says it.
 !>
 !> A cell that is empty was not given. A list has a column for each of its values. The text of the table stays in memory.
 module dondolo_population_table
@@ -7,10 +7,12 @@ module dondolo_population_table
    use dondolo_base_error, only : error_type, problems_type, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_odd_character, only : odd_character
-   use dondolo_base_property, only : find_item, find_property, is_list, is_many, is_text, is_words, item_name, property_type
+   use dondolo_base_property, only : choices_length, find_item, find_property, is_list, is_many, is_text, is_words, item_name, &
+      & property_type
    use dondolo_base_settings, only : settings_type
    use dondolo_base_spelling, only : say_allowed
    use dondolo_base_text, only : lower
+   use dondolo_population_occurrence, only : independent, occurrence_names
    use dondolo_population_variants, only : base_wall_type
    use dondolo_population_wall_row, only : row_properties
    use dondolo_wall_properties, only : wall_input_type, wall_properties
@@ -25,6 +27,8 @@ module dondolo_population_table
       character(len=:), allocatable :: file
       !> Gravity [m/s2]; not allocated: standard
       real(wp), allocatable :: gravity
+      !> How the mechanisms of a wall occur whose row does not say it
+      character(len=choices_length) :: occurrence = occurrence_names(independent)
       !> The wall of whose hinges or variants the rows are made; not allocated: there is a table
       type(base_wall_type), allocatable :: base_wall
       !> The table

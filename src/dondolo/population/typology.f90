@@ -11,7 +11,7 @@ module dondolo_population_typology
    use dondolo_base_text, only : to_text
    use dondolo_fragility, only : fragility_type
    use dondolo_population, only : part_type, population_type
-   use dondolo_population_series, only : fit_share
+   use dondolo_population_occurrence, only : fit_share
    use dondolo_population_weights, only : weights_of, weights_type
    use dondolo_wall, only : mechanism_names
    implicit none

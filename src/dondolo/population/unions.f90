@@ -3,7 +3,8 @@
 !> A record brings several mechanisms of a facade down together, or none. The product of their probabilities takes them as
 !> independent given the intensity, and overstates; the union counts a history, of a record, polarity and level, as soon as
 !> one of the mechanisms reaches the state in it. With p_m the probability that mechanism m can occur, and F_mh its flag,
-!> history h counts 1 - prod_m (1 - p_m F_mh) (docs/theory.md, section 6).
+!> history h counts 1 - prod_m (1 - p_m F_mh). Of alternatives a, of which one occurs with the probability p_a, it counts
+!> sum_a p_a (1 - prod_m (1 - F_mh)) (docs/theory.md, section 6).
 module dondolo_population_unions
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
@@ -12,7 +13,7 @@ module dondolo_population_unions
    use dondolo_fragility_clustered, only : cluster_errors
    use dondolo_population, only : population_type
    use dondolo_population_row_result, only : row_result_type
-   use dondolo_population_series, only : fit_share
+   use dondolo_population_occurrence, only : fit_share
    use dondolo_population_typology, only : typology_type
    use dondolo_population_weights, only : weights_of, weights_type
    implicit none
@@ -74,6 +75,10 @@ module dondolo_population_unions
    type :: union_builder_type
       !> Probability that the wall does not reach a state in a history (histories, levels, states)
       real(wp), allocatable :: survival(:, :, :)
+      !> The alternative that the last mechanism belongs to, 0 if they are independent, and whether one of its mechanisms
+      !> reaches the state (histories, levels, states)
+      integer, private :: alternative = 0
+      logical, allocatable, private :: is_reached(:, :, :)
    contains
       !> Add a mechanism
       procedure :: add
@@ -82,13 +87,16 @@ module dondolo_population_unions
 contains
 
    !> Add a mechanism
-   pure subroutine add(self, row, p_occ)
+   pure subroutine add(self, row, p_occ, alternative)
       class(union_builder_type), intent(inout) :: self
       !> What came of its row
       type(row_result_type), intent(in) :: row
       !> Probability that it can occur
       real(wp), intent(in) :: p_occ
+      !> Its alternative, 0 if the mechanisms of the wall are independent
+      integer, intent(in) :: alternative
 
+      logical :: reaches(size(row%flags, 2), size(row%flags, 3))
       integer :: i, n
 
       if (.not. allocated(self%survival)) allocate (self%survival(row%histories, size(row%flags, 2), size(row%flags, 3)), &
@@ -96,8 +104,22 @@ contains
       ! A wall that is the same from both sides runs each record once: reversed it ends alike.
       n = size(self%survival, 1)
       if (row%histories > n) self%survival = self%survival([(modulo(i - 1, n) + 1, i=1, row%histories)], :, :)
+      if (alternative > 0) then
+         if (alternative == self%alternative .and. row%histories > n) then
+            self%is_reached = self%is_reached([(modulo(i - 1, n) + 1, i=1, row%histories)], :, :)
+         else if (alternative /= self%alternative) then
+            self%is_reached = spread(spread(spread(.false., 1, size(self%survival, 1)), 2, size(reaches, 1)), 3, size(reaches, 2))
+         end if
+      end if
+      self%alternative = alternative
       do i = 1, size(self%survival, 1)
-         where (row%flags(modulo(i - 1, row%histories) + 1, :, :)) self%survival(i, :, :) = (1.0_wp - p_occ)*self%survival(i, :, :)
+         reaches = row%flags(modulo(i - 1, row%histories) + 1, :, :)
+         if (alternative == 0) then
+            where (reaches) self%survival(i, :, :) = (1.0_wp - p_occ)*self%survival(i, :, :)
+         else
+            where (reaches .and. .not. self%is_reached(i, :, :)) self%survival(i, :, :) = self%survival(i, :, :) - p_occ
+            self%is_reached(i, :, :) = self%is_reached(i, :, :) .or. reaches
+         end if
       end do
    end subroutine add
 

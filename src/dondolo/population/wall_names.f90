@@ -2,9 +2,11 @@
 module dondolo_population_wall_names
    use dondolo_base_error, only : error_type, raise_input
    use dondolo_base_kinds, only : wp
+   use dondolo_base_lines, only : lines_type
    use dondolo_base_memory, only : raise_shortage
    use dondolo_base_name_index, only : name_index_type
-   use dondolo_base_text, only : to_text
+   use dondolo_base_text, only : rounded, to_text
+   use dondolo_population_occurrence, only : exclusive, occurrence_names, sum_tolerance
    use dondolo_population_wall_row, only : wall_row_type
    implicit none
    private
@@ -22,8 +24,13 @@ module dondolo_population_wall_names
       type(name_index_type), private :: names
       !> The wall of the row before, its first row
       type(wall_row_type), private :: wall
-      !> Name of the row before, and the mechanisms that it has had, with a blank after each
+      !> Name of the row before, and the mechanisms that it has had in its alternative, with a blank after each
       character(len=:), allocatable, private :: name, mechanisms
+      !> Alternatives of the wall or the facade so far: their names and the sum of their probabilities; of the last, its number
+      !> and its probability
+      type(lines_type), private :: alternatives
+      real(wp), private :: total = 0.0_wp, p_occ = 0.0_wp
+      integer, private :: alternative = 0
    contains
       !> Place a row among those before it
       procedure :: place_row
@@ -45,7 +52,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: name, mechanism, what
-      logical :: repeats
+      logical :: repeats, is_other
 
       name = row%wall%name()
       mechanism = row%wall%mechanism_name()
@@ -58,6 +65,7 @@ contains
       else if (repeats) then
          row%continues = len(self%wall%facade) == 0
       end if
+      is_other = row%continues .and. row%occurrence == occurrence_names(exclusive) .and. .not. is_of_last_alternative(self, row)
       if (.not. row%continues) then
          if (len(row%facade) > 0) call note_name(self, 'facade', row%facade, line, error)
          if (.not. allocated(error)) call note_name(self, 'name', name, line, error)
@@ -66,7 +74,10 @@ contains
          self%wall%has_name = row%has_name .or. len(row%facade) > 0
          self%name = name
          self%mechanisms = mechanism//' '
-      else if (repeats .and. index(self%mechanisms, mechanism//' ') > 0) then
+         self%alternatives = lines_type()
+         self%alternative = 0
+         self%total = 0.0_wp
+      else if (repeats .and. .not. is_other .and. index(self%mechanisms, mechanism//' ') > 0) then
          call raise_input(error, 'name = '''//name//''': the row before gives this wall the same mechanism')
       else if (abs(self%wall%weight - row%weight) > 0.0_wp) then
          call raise_input(error, 'weight = '//to_text(row%weight)//': must be '//to_text(self%wall%weight)// &
@@ -74,6 +85,11 @@ contains
       else if (self%wall%group /= row%group) then
          call raise_input(error, 'group = '''//row%group//''': must be '''//self%wall%group// &
             & ''' as in the row before, which is of the same '//what)
+      else if (self%wall%occurrence /= row%occurrence) then
+         call raise_input(error, 'occurrence = '''//trim(row%occurrence)//''': must be '''//trim(self%wall%occurrence)// &
+            & ''' as in the row before, which is of the same '//what)
+      else if (repeats .and. is_other) then
+         self%mechanisms = mechanism//' '
       else if (repeats) then
          self%mechanisms = self%mechanisms//mechanism//' '
       else
@@ -81,7 +97,59 @@ contains
          self%name = name
          self%mechanisms = mechanism//' '
       end if
+      if (.not. allocated(error)) call place_alternative(self, what, row, error)
    end subroutine place_row
+
+   !> Is a further row of a wall of the alternative of the row before? Rows without a name of one are alternatives each
+   pure logical function is_of_last_alternative(self, row)
+      class(wall_names_type), intent(in) :: self
+      type(wall_row_type), intent(in) :: row
+
+      is_of_last_alternative = self%alternative > 0 .and. len(row%alternative) > 0
+      if (is_of_last_alternative) is_of_last_alternative = self%alternatives%line(self%alternative)%text == row%alternative
+   end function is_of_last_alternative
+
+   !> Number the alternative of a row among those of its wall, of which only one occurs
+   subroutine place_alternative(self, what, row, error)
+      class(wall_names_type), intent(inout) :: self
+      !> 'wall' or 'facade'
+      character(len=*), intent(in) :: what
+      !> The row, placed among those of the wall: the number of its alternative is set
+      type(wall_row_type), intent(inout) :: row
+      !> It does not go together with those before
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: whole
+      integer :: i
+
+      if (row%occurrence /= occurrence_names(exclusive)) then
+         if (len(row%alternative) > 0) call raise_input(error, 'alternative = '''//row%alternative// &
+            & ''': only for occurrence = '''//trim(occurrence_names(exclusive))//'''')
+         return
+      end if
+      if (is_of_last_alternative(self, row)) then
+         row%number_of_alternative = self%alternative
+         if (abs(self%p_occ - row%p_occ) > 0.0_wp) call raise_input(error, 'p_occ = '//to_text(row%p_occ)//': must be '// &
+            & to_text(self%p_occ)//' as in the row before, which is of the same alternative')
+         return
+      end if
+      do i = 1, self%alternative
+         if (len(row%alternative) == 0) exit
+         if (self%alternatives%line(i)%text /= row%alternative) cycle
+         call raise_input(error, 'alternative = '''//row%alternative//''': its rows must be consecutive')
+         return
+      end do
+      self%alternative = self%alternative + 1
+      row%number_of_alternative = self%alternative
+      call self%alternatives%add(row%alternative)
+      self%p_occ = row%p_occ
+      self%total = self%total + row%p_occ
+      if (self%total <= 1.0_wp + sum_tolerance) return
+      whole = self%wall%wall%name()
+      if (what == 'facade') whole = row%facade
+      call raise_input(error, 'p_occ = '//to_text(row%p_occ)//': the probabilities of the exclusive alternatives of '//what// &
+         & ' '''//whole//''' add up to '//rounded(self%total)//', must be at most 1')
+   end subroutine place_alternative
 
    !> Note that a row was wrong: those behind it do not go on with the wall before it, unless it was of the same
    pure subroutine pass_over(self, row)

@@ -1,7 +1,8 @@
 !> A row of a population: one mechanism of a wall, with its weight, its group and its facade.
 module dondolo_population_wall_row
    use dondolo_base_kinds, only : wp
-   use dondolo_base_property, only : is_text, property_type
+   use dondolo_base_property, only : blank, choices_length, is_text, most_choices, property_type
+   use dondolo_population_occurrence, only : independent, occurrence_names
    use dondolo_wall, only : wall_type
    implicit none
    private
@@ -9,12 +10,17 @@ module dondolo_population_wall_row
    public :: wall_row_type, row_properties
 
    !> Columns besides the properties of a wall
-   type(property_type), target, protected :: row_properties(4) = [ &
+   type(property_type), target, protected :: row_properties(6) = [ &
       & property_type('weight', default=1.0_wp, smallest=0.0_wp, largest=1.0e12_wp, &
       &   meaning='weight of the wall in its population, such as the number of walls like it'), &
       & property_type('group', is_text, meaning='group of the wall, which gets curves of its own'), &
       & property_type('p_occ', default=1.0_wp, smallest=0.0_wp, largest=1.0_wp, &
       &   meaning='probability that the mechanism can occur'), &
+      & property_type('occurrence', is_text, word=occurrence_names(independent), &
+      &   choices=reshape(occurrence_names, [most_choices], pad=blank), &
+      &   meaning='whether the mechanisms of the wall can occur together, or exclude each other'), &
+      & property_type('alternative', is_text, meaning='name of one of several exclusive alternatives: its mechanisms, on '// &
+      &   'consecutive rows, occur together'), &
       & property_type('facade', is_text, meaning='facade that the wall is part of: its walls, on consecutive rows, collapse '// &
       &   'in series')]
 
@@ -26,6 +32,12 @@ module dondolo_population_wall_row
       real(wp) :: weight = 1.0_wp
       !> Probability that the mechanism can occur
       real(wp) :: p_occ = 1.0_wp
+      !> One of occurrence_names, for all rows of the wall or the facade
+      character(len=choices_length) :: occurrence = occurrence_names(independent)
+      !> Name of its alternative, empty if none was given; and the number of the alternative among those of the wall or the
+      !> facade, 0 if its mechanisms are independent
+      character(len=:), allocatable :: alternative
+      integer :: number_of_alternative = 0
       !> Group of the wall, empty if none was given
       character(len=:), allocatable :: group
       !> Facade that the wall is part of, empty if none

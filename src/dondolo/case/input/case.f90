@@ -151,7 +151,7 @@ contains
       call self%job%put(settings)
       call echo_settings('job', settings, echoed, owner=trim(task_names(self%job%task)))
       if (allocated(self%population_file)) then
-         call put_population(self%population_file, self%designs, settings)
+         call put_population(self%population_file, self%table%occurrence, self%designs, settings)
          call echo_settings('population', settings, echoed)
       else if (allocated(self%table%base_wall)) then
          call echo_settings('wall', self%table%base_wall, echoed, last='restitution_factor', &

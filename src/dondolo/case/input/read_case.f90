@@ -217,7 +217,7 @@ contains
          return
       else if (case%job%task == typology_task) then
          group = namelist%group('population')
-         call read_population_group(group, case%population_file, case%designs, error)
+         call read_population_group(group, case%population_file, case%table%occurrence, case%designs, error)
          if (.not. allocated(error)) call check_file(group, 'file', case%population_file, error)
          return
       end if

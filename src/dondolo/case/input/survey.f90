@@ -8,6 +8,7 @@ module dondolo_case_survey
    use dondolo_base_lines, only : lines_type
    use dondolo_base_text, only : to_text
    use dondolo_case_motion_warnings, only : scale_warnings_type
+   use dondolo_case_occurrence_warnings, only : occurrence_warnings_type
    use dondolo_case_wall_warnings, only : wall_warnings_type
    use dondolo_fragility_stripes, only : plan_stripes, stripes_type
    use dondolo_fragility_study, only : study_type
@@ -34,6 +35,8 @@ module dondolo_case_survey
       integer :: walls = 0
       !> Is one of them part of a facade?
       logical :: has_facades = .false.
+      !> Has one of them exclusive alternatives?
+      logical :: has_alternatives = .false.
       !> Rows that are to be run
       integer :: first = 1, last = 0
       !> Were rows asked for, even if they are all of them?
@@ -46,6 +49,8 @@ module dondolo_case_survey
       type(scale_warnings_type) :: scales
       !> What there is to say of values that no masonry has
       type(wall_warnings_type) :: wall_warnings
+      !> What there is to say of the probabilities that mechanisms can occur
+      type(occurrence_warnings_type) :: occurrence_warnings
       !> Fingerprint of the walls
       type(fingerprint_type) :: walls_fingerprint
       !> How many values each property of a wall has at most
@@ -94,7 +99,9 @@ contains
             if (.not. row%continues) survey%walls = survey%walls + 1
             survey%has_facades = survey%has_facades .or. len(row%facade) > 0
             call survey%population%add(row%wall%mechanism_name(), row%group, row%weight, row%p_occ, &
-               & row%continues)
+               & row%number_of_alternative, row%continues)
+            call survey%occurrence_warnings%look(row)
+            survey%has_alternatives = survey%has_alternatives .or. row%number_of_alternative > 0
             survey%lengths = max(survey%lengths, row%wall%input%lengths())
             call survey%supports%look(row%wall)
             call add_wall_words(survey%used, row%wall)

@@ -31,14 +31,14 @@ contains
    end subroutine put_names
 
    !> A wall: its properties, empty cells for those that it does not have, and what follows from them
-   subroutine put_wall(table, row, lengths, has_facades)
+   subroutine put_wall(table, row, lengths, has_facades, has_alternatives)
       class(table_type), intent(inout) :: table
       !> The wall, one mechanism of it
       type(wall_row_type), intent(in) :: row
       !> How many values each property has at most; as many columns has a list
       integer, intent(in) :: lengths(:)
-      !> Are there walls that are part of a facade?
-      logical, intent(in) :: has_facades
+      !> Are there walls that are part of a facade, or that have exclusive alternatives?
+      logical, intent(in) :: has_facades, has_alternatives
 
       integer :: i
 
@@ -58,6 +58,10 @@ contains
       call table%put('p_occ', row%p_occ)
       if (any(lengths > 0 .and. is_of_building)) call put_support(table, row%wall)
       if (has_facades) call table%put('facade', row%facade)
+      if (has_alternatives) then
+         call table%put('occurrence', trim(row%occurrence))
+         call table%put('alternative', row%alternative)
+      end if
    end subroutine put_wall
 
    !> A property of a wall, of a list all values

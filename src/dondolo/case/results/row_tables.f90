@@ -63,6 +63,7 @@ contains
          row%wall = case%wall
          row%group = ''
          row%facade = ''
+         row%alternative = ''
          call put_row(case, row, results%row, verdicts, table, error)
          return
       end if
@@ -116,7 +117,7 @@ contains
       else
          lengths = case%wall%input%lengths()
       end if
-      call put_wall(table, row, lengths, case%survey%has_facades)
+      call put_wall(table, row, lengths, case%survey%has_facades, case%survey%has_alternatives)
       call table%end_row()
    end subroutine put_wall_row
 

@@ -47,6 +47,7 @@ contains
       call warn_of_records(case%suite, case%solver%gravity, results%warnings)
       call warn_of_events(case%suite, results%warnings)
       call case%survey%scales%warn(results%warnings)
+      call case%survey%occurrence_warnings%warn(results%warnings)
       if (results%population%walls == 1 .and. results%unions%count() > 0) then
          ! The number of one facade is its union.
          call fits%warn(results%typologies(:0, states), results%warnings)
