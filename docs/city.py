@@ -62,6 +62,7 @@ def main() -> None:
         restitution(study)
         intensities(study)
         dependence(study)
+        alternatives(study)
         mixture(study)
         enough(study)
         risk(study)
@@ -274,12 +275,12 @@ def intensities(study):
 def dependence(study):
     """Print curves of walls with two mechanisms: independent, under the same record, and never both."""
     for what, p_occ in (("p_occ as assumed", centre.p_occ), ("p_occ = 1", np.ones(len(centre)))):
-        independent, same, sums, weights = combined(study, p_occ)
+        independent, same, weights = combined(study, p_occ)
         i, j = np.transpose(pairs())
         series = np.average(1.0 - (1.0 - p_occ[i]) * (1.0 - p_occ[j]), weights=weights)
         ways = {"independent": (independent, series), "same record": (same, series)}
         if what == "p_occ as assumed":
-            ways["never both"] = (sums, np.average(p_occ[i] + p_occ[j], weights=weights))
+            ways["never both"] = never_both(study, weights)
         for way, (values, saturation) in ways.items():
             fraction = np.average(values, axis=0, weights=weights)
             fit = fitted(fraction, 44, saturation)
@@ -294,7 +295,7 @@ def dependence(study):
             f"   means differ by at most {np.average(off[:, j], weights=weights):.4f}, at {LEVELS[j]:.1f} g; a wall by"
             f" {off.max():.3f}"
         )
-    independent, same, _, _ = combined(study, centre.p_occ)
+    independent, same, _ = combined(study, centre.p_occ)
     check = np.abs(study.typology["all"].mean_fraction - centre_mean(study, independent)).max()
     fit = fitted(centre_mean(study, same), 44, study.typology["all"].saturation)
     print(f"population, same record: {text(fit)}; check of the sums {check:.1e}")
@@ -307,17 +308,37 @@ def pairs():
 
 
 def combined(study, p_occ):
-    """Fractions (walls, levels) of walls with two mechanisms, combined in three ways, and their weights."""
-    independent, same, sums = [], [], []
+    """Fractions (walls, levels) of walls with two mechanisms, combined in two ways, and their weights."""
+    independent, same = [], []
     for i, j in pairs():
         # A wall that folds does not depend on the polarity
         one, two = study.collapsed[i], np.tile(study.collapsed[j], 2)
         p, q = p_occ[i], p_occ[j]
         independent.append(1.0 - (1.0 - p * one.mean(axis=1)) * (1.0 - q * two.mean(axis=1)))
         same.append((1.0 - (1.0 - p * one) * (1.0 - q * two)).mean(axis=1))
-        sums.append(p * one.mean(axis=1) + q * two.mean(axis=1))
     weights = centre.weights[[i for i, _ in pairs()]]
-    return np.array(independent), np.array(same), np.array(sums), weights
+    return np.array(independent), np.array(same), weights
+
+
+def never_both(study, weights):
+    """Fractions (walls, levels) of the same walls if their mechanisms exclude each other, and the mean saturation.
+
+    The histories are those of the checkpoint, which do not depend on what can occur.
+    """
+    exclusive = replace(centre, occurrence="exclusive")
+    found = study.run("centre", exclusive, LEVELS, edp_thresholds=[0.1, 0.4])
+    curves = [found.combined[centre[i].name] for i, _ in pairs()]
+    fractions = np.array([curve.saturation * curve.collapses / curve.histories for curve in curves])
+    return fractions, np.average([curve.saturation for curve in curves], weights=weights)
+
+
+def alternatives(study):
+    """Print the mean curves of thirty houses that overturn or fold."""
+    for occurrence in ("independent", "exclusive"):
+        houses = dd.Population.from_csv(root / "data/walls/alternatives.csv", occurrence=occurrence)
+        curve = study.run("houses", houses, LEVELS)["all"]
+        values = ", ".join(f"{curve(x):.3f} at {x:g} g" for x in (0.5, 1.0, 2.0, 5.0))
+        print(f"thirty houses, {occurrence}: {values}, saturation {curve.saturation:.3f}")
 
 
 def centre_mean(study, of_pairs):
