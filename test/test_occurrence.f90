@@ -9,7 +9,6 @@ program test_occurrence
    use dondolo_base_text, only : to_text
    use dondolo_case_occurrence_warnings, only : occurrence_warnings_type
    use dondolo_case_warning, only : warnings_type
-   use dondolo_population, only : population_type
    use dondolo_population_occurrence, only : occurrence_of, wall_probability, wall_slopes
    use dondolo_population_reader, only : read_population
    use dondolo_population_row_result, only : row_result_type

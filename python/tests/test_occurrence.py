@@ -450,7 +450,9 @@ def test_connection(few):
     sampled = dd.Population.sample(
         {
             "one_sided": {"p_occ": lambda sample: np.array(list(chance.values()))[sample["connection"].astype(int)]},
-            "two_block": {"p_occ": lambda sample: 1.0 - np.array(list(chance.values()))[sample["connection"].astype(int)]},
+            "two_block": {
+                "p_occ": lambda sample: 1.0 - np.array(list(chance.values()))[sample["connection"].astype(int)]
+            },
         },
         n_walls=60,
         seed=1,

@@ -134,7 +134,9 @@ def constants() -> Constants:
     """Ask Fortran for its version, defaults and the names of its statuses."""
     longest, fewest, fitted, defaults, version, commit, statuses, errors = _core.library.constants()
     names = tuple(statuses.decode().split())
-    rtol, atol, edp_limit, gravity, least_share, same_level, least_ratio, sum_tolerance = (float(value) for value in defaults)
+    rtol, atol, edp_limit, gravity, least_share, same_level, least_ratio, sum_tolerance = (
+        float(value) for value in defaults
+    )
     return Constants(
         int(longest),
         int(fewest),

@@ -95,7 +95,7 @@ def fit_population(names: bytes, population: FlatPopulation, flags: FlatFlags | 
 def warnings_of_occurrence(
     names: bytes, p_occ: FloatArray, alternative: NDArray[np.int32], rows: NDArray[np.int32]
 ) -> list[DondoloWarning]:
-    """What the executable would warn of, of the probabilities of occurrence; names of walls or facades, a line a row."""
+    """Warnings of the executable for the probabilities of occurrence; names of walls or facades, a line a row."""
     found = receive(_core.populations.warn_of_occurrence(names, p_occ, alternative, rows))
     return unpack_warnings(found.lines)
 

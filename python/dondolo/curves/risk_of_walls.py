@@ -1,8 +1,8 @@
 """How often each wall of a population collapses, and how likely that is within some years.
 
 A mechanism can occur in a wall, or it cannot, for all earthquakes: a wall is a mixture of what can occur in it, each
-combination of mechanisms, or each of its exclusive alternatives, with a frequency lambda_is of its own. The probability that a wall drawn by weight collapses
-within t years is
+combination of mechanisms, or each of its exclusive alternatives, with a frequency lambda_is of its own. The
+probability that a wall drawn by weight collapses within t years is
 
     sum over walls and combinations of  share_is (1 - exp(-lambda_is t)),
 

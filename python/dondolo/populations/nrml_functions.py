@@ -90,7 +90,9 @@ def _single(typology: Typology, curves: list[Fragility]) -> Curves | Fragility:
     share = np.array([one.saturation if one.has_fit else 1.0 for one in curves])
     fractions = np.array([one.saturation * one.collapses / one.histories for one in curves])
     number = np.arange(len(curves))
-    members = Members(typology.levels, curves, fractions.T, np.ones(len(curves)), share, number.astype(np.int32) * 0, number)
+    members = Members(
+        typology.levels, curves, fractions.T, np.ones(len(curves)), share, number.astype(np.int32) * 0, number
+    )
 
     def probabilities(x: FloatArray) -> FloatArray:
         return share[:, None] * members.rows_at(number, x)

@@ -379,7 +379,7 @@ class Population(Shown):
 
     @functools.cached_property
     def alternative_numbers(self) -> NDArray[np.int32]:
-        """Number of the alternative of each row among those of its wall or facade; 0: its mechanisms are independent."""
+        """Number of the alternative of each row among those of its wall; 0: its mechanisms are independent."""
         numbers = _numbered(self.wholes, self.p_occ.tolist(), self.occurrence, self.alternatives)
         numbers.flags.writeable = False
         return numbers
@@ -717,7 +717,10 @@ def _numbered(
 
 
 def _check_names(
-    walls: Sequence[Wall], of_rows: Sequence[tuple[float, str, str]], facades: Sequence[str], alternatives: Sequence[str]
+    walls: Sequence[Wall],
+    of_rows: Sequence[tuple[float, str, str]],
+    facades: Sequence[str],
+    alternatives: Sequence[str],
 ) -> None:
     """Walls with one name must be mechanisms of one wall, and those of one facade must be on consecutive rows.
 

@@ -11,7 +11,7 @@ module dondolo_case_occurrence_warnings
 
    public :: occurrence_warnings_type
 
-   !> Code
+   !> Codes
    character(len=*), parameter :: probabilities_sum_to_one = 'probabilities_sum_to_one'
 
    !> Walls looked at, and what to warn of
