@@ -426,7 +426,7 @@ One wall is a wall like any other, of which the records alone are a sample.
 
 **Populations.** All walls share the records, and the walls are a sample too. The covariance of a typological curve is
 the sum of that by clusters of records and that by walls, with degrees of freedom after Satterthwaite; what belongs to
-one record and one wall alone is counted in both, which errs on the wide side. Fractions of walls with several mechanisms
+one record and one wall alone is counted in both, which errs on the wide side. Fractions of walls of several mechanisms
 are linearised. The covariances of 10 000 curves took 1.2 s, 1 % of the time of their 8.8 million histories.
 
 **Comparisons.** `Curve.compare` takes in what two curves share: clusters with the same label, records with the same
