@@ -36,6 +36,13 @@ MORE = {
         "facades",
         {"&stripes": "&stripes edp_thresholds = 0.2, 0.6, 1.0,", "'typology'": "'typology', histories = .true."},
     ),
+    "alternatives": (
+        "population",
+        {
+            "walls/population.csv'": "walls/alternatives.csv', occurrence = 'exclusive'",
+            "&stripes": "&stripes edp_thresholds = 0.5,",
+        },
+    ),
     "designs_in_states": ("designs", {"&stripes": "&stripes edp_thresholds = 0.4,"}),
     "few_variants": (
         "uncertain_strip",
@@ -163,7 +170,7 @@ def test_results(name, ran):
     assert [*differences(mine, dd.read_results(prefix), name, NOT_IN_FILES)] == []
 
 
-@pytest.mark.parametrize("name", ["facades", "states", "designs_in_states"])
+@pytest.mark.parametrize("name", ["facades", "states", "alternatives", "designs_in_states"])
 @pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 def test_damage_states(name, ran):
     """The same of every damage state."""
