@@ -413,7 +413,7 @@ def test_refused(changes, sentence):
         dd.FreeStandingWall(2.0, 0.25, name="a"),
     ]
     given = {"p_occ": [0.2, 0.3, 0.4], "occurrence": "exclusive"} | changes
-    with pytest.raises(dd.InputError) as caught:
+    with pytest.raises(dd.errors.InputError) as caught:
         dd.Population(walls, **given)
     assert str(caught.value).startswith(sentence)
 
@@ -424,7 +424,7 @@ def test_one_mechanism_twice():
     people = dd.Population(walls, p_occ=[0.4, 0.6], occurrence="exclusive")
     assert people.alternative_numbers.tolist() == [1, 2]
     for changes in ({}, {"occurrence": "exclusive", "alternatives": ["x", "x"]}):
-        with pytest.raises(dd.InputError, match="another wall of this name has the same mechanism"):
+        with pytest.raises(dd.errors.InputError, match="another wall of this name has the same mechanism"):
             dd.Population(walls, p_occ=[0.4, 0.4], **changes)
 
 
