@@ -47,6 +47,9 @@ def written(executable, root, tmp_path_factory):
     walls = dd.Population.from_csv(root / "data/walls/designs.csv")
     typology = dd.typology(walls, dd.example_records()[:6], [0.3, 0.6, 0.9, 1.2], progress=False)
     typology.write_results(folder / "python")
+    walls = dd.Population.from_csv(root / "data/walls/alternatives.csv", occurrence="exclusive")
+    exclusive = dd.typology(walls, dd.example_records()[:6], [0.3, 0.6, 0.9, 1.2], progress=False)
+    exclusive.write_results(folder / "exclusive")
     return folder
 
 
@@ -128,7 +131,7 @@ def test_keys_are_described(written, root):
     page = (root / "docs/files.md").read_text()
     keys = set(re.findall(r"(?m)^\| `(\w+)` \| (?:string|array|object|integer)", page))
     found = {path.name: set(json.loads(path.read_text())) for path in written.glob("*_run.json")}
-    assert len(found) == len(CASES) + 2
+    assert len(found) == len(CASES) + 3
     assert set().union(*found.values()) <= keys
     assert {"history"} == found["history_run.json"] - set().union(
         *(found[name] for name in found if name != "history_run.json")

@@ -94,6 +94,8 @@ WARNINGS = {
     "levels_above_usual": "livelli fino a {largest} di {im}, oltre il limite usuale {limit}: unità di misura da"
     " controllare",
     "record_without_motion": "accelerogramma {record}: accelerazione di picco nulla",
+    "probabilities_sum_to_one": "parete {wall}: le probabilità dei suoi meccanismi hanno somma 1, ma sono indipendenti:"
+    " da controllare se i meccanismi si escludono a vicenda (occurrence = 'exclusive')",
     "records_without_event": "terremoto non indicato per {records_beyond} accelerogrammi su {records}: gli"
     " errori standard li"
     " considerano indipendenti",

@@ -2,7 +2,7 @@
 !>
 !> What a study has used is said in words: mechanisms, a mechanism with its model of restitution ('two_block/default'), intensity
 !> measures without their periods ('sa'), engines, and the names below of methods. A source is cited by any of its words, or by its
-!> key. Fields are those that the paper's own list of references, or the sources themselves, state: none is guessed.
+!> key. A field that is not known is empty.
 module dondolo_base_references
    use dondolo_base_lines, only : lines_type
    use dondolo_base_text, only : to_text
