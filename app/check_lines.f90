@@ -30,9 +30,12 @@ contains
          & rounded(sheet%value('mechanism', '', 'd_0'))//' m'
       write (output_unit, '(a, 5a14)') 'kinematic    ', 'limit state', 'a_g S, g', 'stands, g', 'ratio', 'P(collapse)'
       do i = 1, size(check_states)
-         write (output_unit, '(a, 5a14)') check_methods(i)//'    ', check_states(i), cell('site', 'pga'), &
-            & cell(check_methods(i), 'capacity_pga'), cell(check_methods(i), 'ratio'), cell(check_methods(i), 'probability')
+         write (output_unit, '(a, 5a14, a)') check_methods(i)//'    ', check_states(i), cell('site', 'pga'), &
+            & cell(check_methods(i), 'capacity_pga'), cell(check_methods(i), 'ratio'), cell(check_methods(i), 'probability'), &
+            & trim(merge('  not applicable', '                ', .not. sheet%is_all_one(check_methods(i), 'applicable', &
+            & check_states(i))))
       end do
+      call print_ties(sheet)
       do k = 2, size(state_names)
          if (sheet%value('dynamic', state_names(k), 'histories') > 0.0_wp) then
             call print_histories(sheet, state_names(k))
@@ -75,6 +78,33 @@ contains
       end function cell
 
    end subroutine print_check
+
+   !> Print what each tie holds, and which of its parts gives way first
+   subroutine print_ties(sheet)
+      type(sheet_type), intent(in) :: sheet
+
+      character(len=*), parameter :: parts(5) = [character(len=7) :: 'bar', 'bearing', 'shear', 'cone', 'band']
+      character(len=:), allocatable :: item, text
+      real(wp) :: forces(size(parts))
+      integer :: i, k
+
+      i = 1
+      item = 'tie 1'
+      do while (sheet%value('tie', '', 'tie_force_per_m', item) >= 0.0_wp)
+         text = item//': holds '//rounded(sheet%value('tie', '', 'tie_force_per_m', item))//' N/m'
+         forces = [(sheet%value('tie', '', trim(parts(k))//'_force', item), k=1, size(parts))]
+         if (forces(1) > 0.0_wp) text = text//', by its '//trim(parts(minloc(forces, dim=1, mask=forces > 0.0_wp)))//':'
+         do k = 1, size(parts)
+            if (forces(k) > 0.0_wp) text = text//trim(merge(',', ' ', k > 1))//' '//trim(parts(k))//' '//rounded(forces(k))// &
+               & ' N'
+         end do
+         if (.not. forces(1) > 0.0_wp) text = text//'; bar '//rounded(sheet%value('tie', '', 'bar_force_per_m', item))// &
+            & ' N/m, anchor '//trim(merge('not checked', 'given      ', sheet%value('tie', '', 'anchor_checked', item) <= 0.0_wp))
+         write (output_unit, '(a)') text
+         i = i + 1
+         item = 'tie '//to_text(i)
+      end do
+   end subroutine print_ties
 
    !> A probability; of tails of a fitted curve no more is known than that they are small
    pure function chance(value) result(text)

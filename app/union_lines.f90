@@ -175,7 +175,7 @@ contains
             associate (verdict => verdicts%first(i))
                write (output_unit, '(a, a10, 4a15, a13)') left(verdict%name, name_width(longest)), &
                   & right(rounded(verdict%multiplier), 10), &
-                  & (right(rounded(verdict%ratio(k)), 15), k=1, size(check_states)), in_column(verdict%probability)
+                  & (ratio_of(verdict%ratio(k), verdict%is_applicable(k)), k=1, size(check_states)), in_column(verdict%probability)
             end associate
          end do
          if (verdicts%checked > shown_verdicts) write (output_unit, '(a)') '... and '// &
@@ -190,6 +190,16 @@ contains
       end associate
 
    contains
+
+      !> Capacity / demand in its column, of a check that is one for the wall
+      function ratio_of(ratio, is_applicable) result(cell)
+         real(wp), intent(in) :: ratio
+         logical, intent(in) :: is_applicable
+         character(len=15) :: cell
+
+         cell = right('not applicable', len(cell))
+         if (is_applicable) cell = right(rounded(ratio), len(cell))
+      end function ratio_of
 
       !> A probability in its column, a dash where there is none
       function in_column(probability) result(cell)

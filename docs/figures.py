@@ -38,6 +38,7 @@ def main() -> None:
     supports()
     bearing()
     ties()
+    anchor()
     interlocking()
     processing()
     pulses()
@@ -204,6 +205,23 @@ def ties():
     axes[1].set(xlabel="elongation from rest D [mm]", ylabel="force T [kN/m]", ylim=(-0.4, 10.5))
     axes[1].set_title("one of them: out, back, and out again", loc="left")
     figure.savefig(figures / "ties.png", dpi=100)
+
+
+def anchor():
+    """Draw a wall with a tie, its plate, and the frustum of masonry that it would pull out."""
+    plate = {"plate_width": 0.35, "plate_height": 0.35, "plate_thickness": 0.02}
+    wall = dd.OneSidedWall(
+        7.2,
+        0.55,
+        ties=[dd.Tie(4.0, bar=0.024, spacing=2.5, length=10.0, strength=235e6 / 1.05, **plate)],
+        masonry_compression=2e6,
+        masonry_shear=4e4,
+        masonry_tension=5e4,
+        name="wall",
+    )
+    figure, axes = new_axes(1, 1, (4.6, 4.6))
+    wall.plot(axes)
+    figure.savefig(figures / "anchor.png", dpi=100)
 
 
 def interlocking():

@@ -284,6 +284,8 @@ contains
          text = '0.15, 0.25'
          ! Of a tie: section, modulus, yield stress, and a strain beyond that at yield
          if (property%name == 'tie_area') text = '5.0E-5, 6.0E-5'
+         if (property%name == 'tie_bar') text = '0.015, 0.025'
+         if (property%name == 'tie_spacing') text = '1.5, 2.5'
          if (property%name == 'tie_modulus') text = '2.1E+11, 2.2E+11'
          if (property%name == 'tie_strength') text = '1.8E+8, 2.0E+8'
          ! Depths are measured from the lowest section
@@ -298,6 +300,7 @@ contains
       case default
          text = to_text(0.9_wp*property%default + 0.1_wp*min(property%largest, 2.0_wp*property%default + 1.0_wp))
          if (property%required .or. property%optional) text = '0.2'
+         if (property%name == 'masonry_knowledge_factor') text = '1.2'
          ! A speed ratio must stay below 1
          if (property%name == 'restitution_factor') text = '0.8'
          ! The hinge must lie in the wall
@@ -462,6 +465,10 @@ contains
       case ('hinge_at')
          call input%set('section_height', [2.0_wp])
          call input%set('section_thickness', [0.4_wp])
+      case ('tie_bar', 'tie_spacing', 'tie_plate_width', 'tie_plate_height', 'tie_plate_diameter', 'tie_plate_thickness', &
+         & 'tie_leaf', 'tie_compression', 'masonry_compression', 'masonry_shear', 'masonry_tension', 'masonry_friction', &
+         & 'masonry_knowledge_factor', 'bearing_factor')
+         call complete_plate(input, what)
       case ('tie_height', 'tie_depth', 'tie_area', 'tie_length', 'tie_modulus', 'tie_strength', 'tie_preload', 'tie_strain', &
          & 'tie_anchor_force')
          if (what /= 'tie_height') call input%set('tie_height', [0.4_wp, 0.5_wp])
@@ -495,6 +502,31 @@ contains
       if (.not. input%has('bed_bottom')) call input%set('bed_bottom', [0.1_wp])
       if (.not. input%has('bed_top')) call input%set('bed_top', [1.0_wp])
    end subroutine complete
+
+   !> Give a tie with a plate, and the masonry that it bears on
+   subroutine complete_plate(input, what)
+      type(wall_input_type), intent(inout) :: input
+      character(len=*), intent(in) :: what
+
+      character(len=*), parameter :: lists(6) = [character(len=19) :: 'tie_bar', 'tie_spacing', 'tie_plate_width', &
+         & 'tie_plate_height', 'tie_plate_thickness', 'tie_length']
+      character(len=*), parameter :: numbers(4) = [character(len=19) :: 'masonry_compression', 'masonry_shear', &
+         & 'masonry_tension', 'masonry_friction']
+      real(wp), parameter :: of_lists(6) = [0.02_wp, 2.0_wp, 0.2_wp, 0.2_wp, 0.02_wp, 8.0_wp]
+      real(wp), parameter :: of_numbers(4) = [2.0e6_wp, 4.0e4_wp, 5.0e4_wp, 0.4_wp]
+      integer :: i
+
+      call input%set('tie_height', [0.4_wp, 0.5_wp])
+      do i = 1, size(lists)
+         if (what == 'tie_plate_diameter' .and. index(lists(i), 'tie_plate_') == 1 .and. i < 5) cycle
+         if (what /= lists(i)) call input%set(trim(lists(i)), [of_lists(i)])
+      end do
+      do i = 1, size(numbers)
+         if (numbers(i) == 'masonry_friction' .and. what /= 'tie_compression') cycle
+         if (what /= numbers(i)) call input%set(trim(numbers(i)), of_numbers(i))
+      end do
+      if (what == 'masonry_friction') call input%set('tie_compression', [5.0e4_wp])
+   end subroutine complete_plate
 
    !> Do two properties describe one thing?
    pure logical function goes_with(name, what)

@@ -476,7 +476,7 @@ contains
       call refuse(input, 'tie_height = 8.5: only for mechanism = ''one_sided''')
       input = tied()
       call input%set('tie_area', [0.0_wp])
-      call refuse(input, 'tie_area = 0: must be positive')
+      call refuse(input, 'tie_area: must be given with tie_height, or tie_bar and tie_spacing')
       input = tied()
       call input%set('hinge_depth', 0.2_wp)
       call input%set('tie_height', [1.0e-3_wp])

@@ -210,12 +210,24 @@ def test_page_of_variables(root):
     assert variables.page() == (root / "docs/variables.md").read_text(encoding="utf-8"), "python docs/variables.py"
 
 
+_PLATE = {"height": 3.0, "thickness": 0.25, "tie_height": 2.6, "tie_bar": 0.012, "tie_spacing": 3.0, "tie_length": 4.0}
+_PLATE |= {"tie_plate_width": 0.3, "tie_plate_height": 0.3, "tie_plate_thickness": 0.01}
 BASES = {
     "section": {"section_height": [1.5, 1.5], "section_thickness": [0.3, 0.25]},
     "tie": {"height": 3.0, "thickness": 0.25, "tie_height": 2.8, "tie_area": 2e-5, "tie_length": 4.0},
     "interlock": {"height": 3.0, "thickness": 0.25, "interlock_overlap": 0.1, "interlock_course": 0.1}
     | {"interlock_thickness": 0.25, "interlock_spacing": 5.0},
     "stress": {"height": 3.0, "thickness": 0.25, "compressive_strength": 1e6},
+    # Strong masonry that is sheared, and weak masonry that is crushed
+    "masonry": _PLATE | {"masonry_compression": 2e6, "masonry_shear": 4e3, "masonry_tension": 1e5},
+    "bearing": _PLATE
+    | {
+        "tie_plate_width": 0.1,
+        "tie_plate_height": 0.1,
+        "masonry_compression": 2e5,
+        "masonry_shear": 1e5,
+        "masonry_tension": 1e5,
+    },
 }
 
 
@@ -224,7 +236,7 @@ def test_what_is_not_given(records):
     shown = {row.name: re.search(r" (\d[\d.e]*) if not given", row.meaning) for row in WALL}
     numbers = {name: float(found[1]) for name, found in shown.items() if found}
     assert {name.split("_")[0] for name in numbers} == set(BASES)
-    others = {"section_offset": 0.05, "tie_depth": 0.1, "tie_preload": 5e7}
+    others = {"section_offset": 0.05, "tie_depth": 0.1, "tie_preload": 5e7, "masonry_knowledge_factor": 1.0}
     for name, number in numbers.items():
         stem, other = name.split("_")[0], others.get(name, 0.7 * number)
         values = (number, [number, other] if stem == "section" else other)

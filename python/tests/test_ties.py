@@ -217,7 +217,7 @@ def test_what_the_executable_says(run, tmp_path, facade, record):
         ({"height": 0.0}, "height = 0: must be above the hinge"),
         ({"height": 9.1}, "height = 9.1: must be above the hinge, 0 m, and at most 9 m"),
         ({"depth": 0.51}, "depth = 0.51: must lie between -0.1 and 0.5 m"),
-        ({"area": -1.0}, "area = -1: must be positive"),
+        ({"area": -1.0}, "area = -1: must lie between 0"),
         ({"strain": 1e-5}, "strain = 1e-5: must be more than 0.0008738, at which it yields"),
     ],
 )

@@ -235,7 +235,7 @@ contains
       call report(error, failure)
    end subroutine capacity_curve
 
-   !> Notes on a sheet, whose lines have a tab between method, limit state and name: lines, their sentences
+   !> Notes on a sheet, whose lines have a tab between method, limit state, name and item: lines, their sentences
    subroutine check_notes(texts, values, n, sent)
       character(len=*), intent(in) :: texts
       integer(c_int), intent(in) :: n
@@ -247,18 +247,20 @@ contains
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
       character(len=:), allocatable :: line
-      integer :: i, at, first, second
+      integer :: i, at, ends(3)
 
       allocate (sheet%rows(n))
       at = 1
       do i = 1, n
          call next_line(texts, at, line)
-         first = index(line, tab)
-         second = first + index(line(first + 1:), tab)
+         ends(1) = index(line, tab)
+         ends(2) = ends(1) + index(line(ends(1) + 1:), tab)
+         ends(3) = ends(2) + index(line(ends(2) + 1:), tab)
          associate (row => sheet%rows(i))
-            row%method = line(:first - 1)
-            row%state = line(first + 1:second - 1)
-            row%quantity%name = line(second + 1:)
+            row%method = line(:ends(1) - 1)
+            row%state = line(ends(1) + 1:ends(2) - 1)
+            row%quantity%name = line(ends(2) + 1:ends(3) - 1)
+            row%item = line(ends(3) + 1:)
             row%value = values(i)
          end associate
       end do
@@ -269,7 +271,7 @@ contains
       call send(parcel, error, sent)
    end subroutine check_notes
 
-   !> A sheet as lines, with a tab between method, limit state, name, symbol, unit, formula and meaning; reals: its values
+   !> A sheet as lines, with a tab between method, limit state, name, symbol, unit, formula, meaning and item; reals: its values
    subroutine pack_sheet(sheet, parcel)
       type(sheet_type), intent(in) :: sheet
       type(parcel_type), intent(inout) :: parcel
@@ -282,7 +284,7 @@ contains
          associate (row => sheet%rows(i))
             call parcel%lines%add(trim(row%method)//tab//trim(row%state)//tab//trim(row%quantity%name)//tab// &
                & trim(row%quantity%symbol)//tab//trim(row%quantity%unit)//tab//trim(row%formula)//tab// &
-               & trim(row%quantity%meaning))
+               & trim(row%quantity%meaning)//tab//trim(row%item))
          end associate
       end do
    end subroutine pack_sheet

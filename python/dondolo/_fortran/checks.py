@@ -22,7 +22,7 @@ class SheetRow(NamedTuple):
     Attributes
     ----------
     method : str
-        'site', 'mechanism', 'linear', 'nonlinear' or 'dynamic'.
+        'site', 'mechanism', 'tie', 'linear', 'nonlinear' or 'dynamic'.
     limit_state : str
         'SLD', 'SLV' or 'SLC'; '' for all.
     quantity : str
@@ -37,6 +37,8 @@ class SheetRow(NamedTuple):
         Where the code has the formula.
     meaning : str
         The quantity in words.
+    item : str
+        What of the wall it is of, such as 'tie 1'; '' for the wall.
     """
 
     method: str
@@ -47,6 +49,7 @@ class SheetRow(NamedTuple):
     unit: str
     formula: str
     meaning: str
+    item: str = ""
 
 
 class CalculationItem(NamedTuple):
@@ -122,7 +125,7 @@ def dynamic_sheet(wall: Handle, state: str, pga: float, records: int, edp: Float
 
 def check_notes(rows: Sequence[SheetRow]) -> tuple[str, ...]:
     """What a reader of a sheet should know, a sentence each."""
-    lines = "\n".join(f"{row.method}\t{row.limit_state}\t{row.quantity}" for row in rows)
+    lines = "\n".join(f"{row.method}\t{row.limit_state}\t{row.quantity}\t{row.item}" for row in rows)
     values = np.array([row.value for row in rows], float)
     return tuple(receive(_core.checks.check_notes(lines.encode(), values)).lines)
 
@@ -145,6 +148,6 @@ def _rows(parcel: Parcel) -> tuple[SheetRow, ...]:
     """Lines of a sheet."""
     rows = []
     for line, value in zip(parcel.lines[: len(parcel.reals)], parcel.reals.tolist(), strict=True):
-        method, state, quantity, symbol, unit, formula, meaning = line.split("\t")
-        rows.append(SheetRow(method, state, quantity, symbol, value, unit, formula, meaning))
+        method, state, quantity, symbol, unit, formula, meaning, item = line.split("\t")
+        rows.append(SheetRow(method, state, quantity, symbol, value, unit, formula, meaning, item))
     return tuple(rows)

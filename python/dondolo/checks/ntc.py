@@ -41,6 +41,13 @@ if TYPE_CHECKING:
 
 part_of_results(SheetRow)
 
+# What is not satisfied of a tie, in words
+_OPEN = {
+    "hierarchy": "anchor gives way before the bar yields",
+    "plate_verified": "plate too thin",
+    "anchor_checked": "anchor not checked",
+}
+
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class CodeCheck(Shown, Saved):
@@ -53,7 +60,7 @@ class CodeCheck(Shown, Saved):
     site : Site
         The hazard.
     rows : tuple of SheetRow
-        The sheet: method, limit state, quantity, symbol, value, unit, formula and meaning of each number.
+        The sheet: method, limit state, quantity, symbol, value, unit, formula, meaning and item of each number.
     """
 
     wall: Wall
@@ -65,17 +72,19 @@ class CodeCheck(Shown, Saved):
         """Peak acceleration at the site a_g S [g], of SLV where limit states differ."""
         return self.value("site", "SLV", "pga")
 
-    def value(self, method: str, limit_state: str, quantity: str) -> float:
+    def value(self, method: str, limit_state: str, quantity: str, *, item: str | None = None) -> float:
         """A number of the sheet.
 
         Parameters
         ----------
         method : str
-            'site', 'mechanism', 'linear', 'nonlinear' or 'dynamic'.
+            'site', 'mechanism', 'tie', 'linear', 'nonlinear' or 'dynamic'.
         limit_state : str
             'SLD', 'SLV' or 'SLC'; of numbers that are the same in all, any.
         quantity : str
             Its name, such as 'alpha_0', 'd_0' or 'capacity_pga'.
+        item : str, optional
+            What of the wall it is of, such as 'tie 2'; the first that has the number if left out.
 
         Returns
         -------
@@ -88,7 +97,8 @@ class CodeCheck(Shown, Saved):
             The sheet has no such number.
         """
         for row in self.rows:
-            if (row.quantity, row.method) == (quantity, method) and row.limit_state in ("", limit_state):
+            same = (row.quantity, row.method) == (quantity, method) and row.limit_state in ("", limit_state)
+            if same and item in (None, row.item):
                 return row.value
         raise InputError(f"quantity = {quantity!r}: the check has none for method {method!r}, state {limit_state!r}")
 
@@ -109,8 +119,26 @@ class CodeCheck(Shown, Saved):
 
     @property
     def verified(self) -> dict[tuple[str, str], bool]:
-        """The verdict of each check: (method, limit state)."""
+        """The verdict of each check: (method, limit state). One that is not applicable verifies nothing."""
         return {key: value == 1.0 for key, value in self._of("verified").items()}
+
+    @property
+    def not_applicable(self) -> tuple[tuple[str, str], ...]:
+        """Checks that are not for the wall: linear SLV with q > 1 where an anchor gives way before its bar yields."""
+        return tuple(self._of("applicable"))
+
+    @property
+    def open_ties(self) -> dict[str, tuple[str, ...]]:
+        """Ties of which something is not satisfied: {'tie 1': ('hierarchy', 'plate_verified', 'anchor_checked')}."""
+        found: dict[str, tuple[str, ...]] = {}
+        for row in self.rows:
+            if (
+                row.method == "tie"
+                and row.quantity in ("hierarchy", "plate_verified", "anchor_checked")
+                and not row.value
+            ):
+                found[row.item] = (*found.get(row.item, ()), row.quantity)
+        return found
 
     def probabilities(self, curve: Fragility) -> dict[tuple[str, str], float]:
         """Probability of collapse at the peak accelerations of the check, by a fragility curve.
@@ -261,6 +289,8 @@ class CodeCheck(Shown, Saved):
         facts = [(shown[name].symbol, f"{shown[name].value:.6g} {shown[name].unit}".strip()) for name in names]
         for (method, state), holds in self.verified.items():
             text = "verified" if holds else "not verified"
+            if (method, state) in self.not_applicable:
+                text = "not applicable"
             if (method, state) in self.capacities:
                 text += f", a_g S up to {self.capacities[method, state]:.4g} g"
             else:
@@ -271,7 +301,7 @@ class CodeCheck(Shown, Saved):
                     text += " in one direction"
                 text += " beyond d_0*"
             facts.append((f"{method} {state}", text))
-        return facts
+        return [*facts, *((item, ", ".join(_OPEN[name] for name in names)) for item, names in self.open_ties.items())]
 
 
 def check_ntc(wall: Wall, site: Site, *, knowledge_factor: float = 1.35, behaviour: float = 2.0) -> CodeCheck:

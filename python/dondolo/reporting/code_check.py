@@ -111,6 +111,15 @@ def code_checks(
     }
 
 
+# Numbers of the sheet that are 1 or 0
+_YES_OR_NO = ("applicable", "hierarchy", "plate_verified", "anchor_checked")
+# What is open of ties whose anchors are known
+_OPEN_TIES = {
+    "hierarchy": "hierarchy of strengths not respected, the anchor gives way before the bar yields",
+    "plate_verified": "plate too thin",
+}
+
+
 class Verdict(NamedTuple):
     """What the checks come to, at the beginning of a report.
 
@@ -151,7 +160,11 @@ def verdict(checks: Sequence[CodeCheck | None], walls: Sequence[Wall], *, withou
         doubts.append("the hazard is that of rigid, level ground, without the factor S of soil and topography")
     if not made:
         return Verdict("doubt", "Not checked by a building code", tuple(doubts)) if doubts else None
-    verdicts = [holds for check in made for holds in check.verified.values()]
+    for item, names in (
+        (f"{check.wall.name}, {item}", names) for check in made for item, names in check.open_ties.items()
+    ):
+        doubts += [f"{_OPEN_TIES[name]}: {item}" for name in names if name in _OPEN_TIES]
+    verdicts = [holds for check in made for key, holds in check.verified.items() if key not in check.not_applicable]
     if missed:
         words = f"{verdicts.count(False)} of {len(verdicts)} checks by NTC 2018 not satisfied"
     else:
@@ -166,7 +179,11 @@ def verdict(checks: Sequence[CodeCheck | None], walls: Sequence[Wall], *, withou
 
 def unchecked_anchors(walls: Sequence[Wall]) -> list[Wall]:
     """Walls with ties whose anchors have no strength, so that the bars alone are checked."""
-    return [wall for wall in walls if any(tie.anchor_force is None for tie in parts_of(wall, "ties"))]
+    return [
+        wall
+        for wall in walls
+        if any(not (tie.anchor_force or tie.plate_width or tie.plate_diameter) for tie in parts_of(wall, "ties"))
+    ]
 
 
 def _ratio(check: CodeCheck) -> float:
@@ -182,7 +199,7 @@ def _failed(made: Sequence[CodeCheck]) -> list[str]:
     """The checks that walls do not pass, a sentence each."""
     sentences = []
     for key in dict.fromkeys(key for check in made for key in check.verified):
-        missed = [check for check in made if not check.verified.get(key, True)]
+        missed = [check for check in made if not check.verified.get(key, True) and key not in check.not_applicable]
         if not missed:
             continue
         ratios = [check.value(*key, "ratio") for check in missed if key[0] != "dynamic"]
@@ -201,16 +218,18 @@ def _site(check: CodeCheck, state: str) -> float:
 
 
 def _verdict(check: CodeCheck, key: tuple[str, str]) -> str:
+    if key in check.not_applicable:
+        return "not applicable"
     return "verified" if check.verified[key] else "not verified"
 
 
 def _sheet(rows: tuple[SheetRow, ...]) -> Table:
     """All numbers, in the order of the calculation."""
-    counts = ("records", "histories", "beyond", "verified")
+    counts = ("records", "histories", "beyond", "verified", *_YES_OR_NO)
     shown = [row for row in rows if row.quantity != "probability"]
     columns: dict[Piece, Sequence[Piece]] = {
         "quantity": [row.meaning for row in shown],
-        "check": [f"{row.method} {row.limit_state}".strip() for row in shown],
+        "check": [f"{row.item or row.method} {row.limit_state}".strip() for row in shown],
         "symbol": [row.symbol or NONE for row in shown],
         "value": [whole(row.value) if row.quantity in counts else number(row.value, 6) for row in shown],
         "unit": [row.unit or NONE for row in shown],

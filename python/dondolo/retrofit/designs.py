@@ -337,4 +337,4 @@ def _against(curve: Fragility, first: Fragility, confidence: float) -> Compariso
 
 def _steel(wall: Wall) -> float:
     """Mass of the ties of a wall [kg/m]."""
-    return _DENSITY * float(sum(tie.area * tie.length for tie in parts_of(wall, "ties")))
+    return _DENSITY * float(sum(tie.section * tie.length for tie in parts_of(wall, "ties")))

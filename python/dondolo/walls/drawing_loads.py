@@ -14,7 +14,7 @@ import numpy as np
 
 from dondolo.figures import style
 from dondolo.walls.mechanisms import TwoBlockWall
-from dondolo.walls.parts import parts_of
+from dondolo.walls.parts import Tie, parts_of
 from dondolo.walls.shape import Points, Shape, moved, storeys
 from dondolo.walls.wall import Wall, effective_property
 
@@ -31,6 +31,12 @@ _OF_TIES = (
     ("preload", "tie_preload", 1e-6, " MPa"),
     ("breaks at a strain of", "tie_strain", 1.0, ""),
     ("anchor gives way at", "tie_anchor_force", 1e-3, " kN/m"),
+    ("bar", "tie_bar", 1e3, " mm"),
+    ("every", "tie_spacing", 1.0, " m"),
+    ("plate wide", "tie_plate_width", 1e3, " mm"),
+    ("high", "tie_plate_height", 1e3, " mm"),
+    ("diameter", "tie_plate_diameter", 1e3, " mm"),
+    ("thick", "tie_plate_thickness", 1e3, " mm"),
 )
 _OF_FRICTION = (
     ("coefficient", "interlock_friction", 1.0, ""),
@@ -87,7 +93,11 @@ def draw_loads(ax: Axes, wall: Wall, rotation: float, now: Shape) -> None:
         at = _place(wall, spring.depth, spring.height, rotation)
         _spring(ax, wall, at, size, _with_prefix(spring.stiffness, "N/m²"))
     for tie in parts_of(wall, "ties"):
-        _tie(ax, _place(wall, tie.depth or 0.0, tie.height, rotation), size, f"tie {1e4 * tie.area:.3g} cm²/m")
+        _frustum(ax, wall, tie, rotation)
+        plate = tie.plate_height or tie.plate_diameter or 0.5 * size
+        _tie(
+            ax, _place(wall, tie.depth or 0.0, tie.height, rotation), size, plate, f"tie {1e4 * tie.section:.3g} cm²/m"
+        )
     for stones in parts_of(wall, "interlock"):
         _teeth(ax, wall, stones, rotation)
     for bed in parts_of(wall, "beds"):
@@ -112,7 +122,8 @@ def caption(wall: Wall) -> list[str]:
     for head, rows in (("Ties", _OF_TIES), ("Friction", _OF_FRICTION)):
         parts = []
         for words, name, factor, unit in rows:
-            if (value := effective_property(wall, name)) is not None:
+            # 0 is none, of all but preload
+            if (value := effective_property(wall, name)) is not None and (np.any(value) or name == "tie_preload"):
                 numbers = dict.fromkeys(f"{factor * one:.4g}" for one in np.atleast_1d(value))
                 parts.append(f"{words} {', '.join(numbers)}{unit}")
         if parts:
@@ -120,12 +131,25 @@ def caption(wall: Wall) -> list[str]:
     return lines
 
 
-def _tie(ax: Axes, at: Points, size: float, text: str) -> None:
+def _tie(ax: Axes, at: Points, size: float, plate: float, text: str) -> None:
     """A tie from behind the wall, and the plate that anchors it."""
     behind = np.subtract(at, (at[0] + 1.4 * size, 0.0))
     ax.plot(*zip(behind, at, strict=True), color=style.BLACK, linewidth=1.4, linestyle=(0, (6, 2, 1, 2)), zorder=5)
-    ax.plot([at[0], at[0]], [at[1] - 0.25 * size, at[1] + 0.25 * size], color=style.BLACK, linewidth=3.0, zorder=5)
+    ax.plot([at[0], at[0]], [at[1] - 0.5 * plate, at[1] + 0.5 * plate], color=style.BLACK, linewidth=3.0, zorder=5)
     _words(ax, behind, text, (0, 3))
+
+
+def _frustum(ax: Axes, wall: Wall, tie: Tie, rotation: float) -> None:
+    """The frustum of masonry that a plate would pull out, at 45 degrees."""
+    if not (plate := tie.plate_height or tie.plate_diameter):
+        return
+    outer = tie.depth or 0.0
+    leaf = tie.leaf or _inner_face(wall, tie.height) - outer
+    for way in (-1.0, 1.0):
+        start = tie.height + 0.5 * way * plate
+        depth = min(leaf, wall.height - start if way > 0.0 else start)
+        ends = [_place(wall, outer, start, rotation), _place(wall, outer + depth, start + way * depth, rotation)]
+        ax.plot(*np.transpose(ends), color=style.BLACK, linewidth=1.0, linestyle=":", zorder=5)
 
 
 def _teeth(ax: Axes, wall: Wall, stones: Any, rotation: float) -> None:

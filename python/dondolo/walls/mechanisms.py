@@ -101,6 +101,18 @@ class OneSidedWall(BlockWall):
         Ties that hold the wall.
     interlock : Interlock, optional
         Stones that overlap those of transverse walls, whose friction holds the wall.
+    masonry_compression : float, optional
+        Mean strength of the masonry in compression at plates of ties; compressive_strength if not given [Pa].
+    masonry_shear : float, optional
+        Mean shear strength without compression there [Pa].
+    masonry_tension : float, optional
+        Mean tensile strength there [Pa].
+    masonry_friction : float, optional
+        Coefficient of friction there, with tie_compression.
+    masonry_knowledge_factor : float, optional
+        Confidence factor FC of these strengths, which are divided by 2 FC; 1.35 if not given.
+    bearing_factor : float, optional
+        Strength under a plate / strength of the masonry, of the engineer; 1.0 if not given.
 
     Raises
     ------
@@ -136,6 +148,12 @@ class OneSidedWall(BlockWall):
     _: KW_ONLY
     ties: Sequence[Tie] = ()
     interlock: Interlock | None = None
+    masonry_compression: float | None = None
+    masonry_shear: float | None = None
+    masonry_tension: float | None = None
+    masonry_friction: float | None = None
+    masonry_knowledge_factor: float | None = None
+    bearing_factor: float | None = None
     leaves: float | None = None
     hinge_level: InitVar[float | Sequence[float] | None] = None
     hinge_at: InitVar[Literal["storeys"] | None] = None

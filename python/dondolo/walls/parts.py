@@ -13,6 +13,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass
 from typing import Any, ClassVar, Literal, TypeVar
 
+import numpy as np
+
 from dondolo._base.arguments import as_number, one_of
 from dondolo._fortran.walls import WALL_ABSENT, WALL_LISTS, WALL_PROPERTIES
 from dondolo._storage.saved import part_of_results
@@ -21,6 +23,11 @@ from dondolo.errors import InputError
 _ROWS = {row.name: row for row in WALL_PROPERTIES}
 # How the table says what is computed with where a number is not given
 _LEFT_OUT = re.compile(r" if not given$")
+# Numbers of ties of which 0 says that there is none
+_NONE = frozenset(row.name for row in WALL_PROPERTIES if row.name.startswith("tie_") and row.absent == 0.0) - {
+    "tie_depth",
+    "tie_preload",
+}
 
 
 @dataclass(frozen=True, repr=False)
@@ -219,6 +226,9 @@ class Bed(Part):
 class Tie(Part):
     """A tie that holds a wall until it yields and breaks, or its anchor gives way.
 
+    It is given by its `area`, or by the diameter of its `bar` and their `spacing`; its anchor by the force at which it
+    gives way, or by its plate, with the strengths of the masonry that the wall has (docs/ties.md).
+
     Examples
     --------
     >>> import dondolo as dd
@@ -226,6 +236,15 @@ class Tie(Part):
     >>> wall = dd.OneSidedWall(9.0, 0.5, ties=rods)
     >>> round(wall.greatest_acceleration / wall.trigger_acceleration, 2)
     7.32
+
+    The same with plates, whose masonry gives way before the bars yield:
+
+    >>> plate = {"plate_width": 0.3, "plate_height": 0.3, "plate_thickness": 0.015}
+    >>> rods = [dd.Tie(height, bar=0.014, spacing=3.0, length=8.0, **plate) for height in (8.5, 5.5)]
+    >>> masonry = {"masonry_compression": 2e6, "masonry_shear": 2e4, "masonry_tension": 3e4}
+    >>> wall = dd.OneSidedWall(9.0, 0.5, ties=rods, **masonry)
+    >>> round(wall.greatest_acceleration / wall.trigger_acceleration, 2)
+    3.39
     """
 
     word: ClassVar[str] = "tie"
@@ -233,13 +252,28 @@ class Tie(Part):
     height: float
     _: KW_ONLY
     depth: float | None = None
-    area: float
+    area: float | None = None
+    bar: float | None = None
+    spacing: float | None = None
     length: float
     modulus: float | None = None
     strength: float | None = None
     preload: float | None = None
     strain: float | None = None
     anchor_force: float | None = None
+    plate_width: float | None = None
+    plate_height: float | None = None
+    plate_diameter: float | None = None
+    plate_thickness: float | None = None
+    leaf: float | None = None
+    compression: float | None = None
+
+    @property
+    def section(self) -> float:
+        """Section per metre of wall [m2/m], whichever way it is given."""
+        if self.bar and self.spacing:
+            return float(0.25 * np.pi * self.bar**2 / self.spacing)
+        return self.area or 0.0
 
 
 @_described
@@ -347,7 +381,7 @@ def in_whole(part: Part) -> list[tuple[str, str, str]]:
     return [
         (name, what, f"{value:.6g}" if isinstance(value, float) else repr(value))
         for name, what, value in known
-        if value is not None
+        if value is not None and not (what in _NONE and value == 0.0)
     ]
 
 

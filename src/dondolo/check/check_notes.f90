@@ -37,10 +37,57 @@ contains
       if (sheet%value('mechanism', '', 'diaphragm_period') > 0.0_wp) call notes%add('the flexible diaphragm at the top moves '// &
          & 'the strip in its histories, but is not in the spectrum of the code: the demand of the kinematic check may be '// &
          & 'too small')
+      call add_tie_notes(sheet, notes)
       period = max(sheet%value('nonlinear', 'SLV', 'period'), sheet%value('nonlinear', 'SLC', 'period'))
       if (period > long_period) call notes%add('the equivalent period reaches '//rounded(period)//' s; beyond T_E, '// &
          & rounded(long_period)//' s or more by the soil, the displacements of NTC 2018, 3.2.3.2.3 fall, and the demand '// &
          & 'of the check does not')
    end subroutine make_check_notes
+
+   !> Notes on ties whose anchors are not checked, give way before the bar yields, or have a plate that is too thin
+   subroutine add_tie_notes(sheet, notes)
+      type(sheet_type), intent(in) :: sheet
+      type(lines_type), intent(inout) :: notes
+
+      character(len=len(sheet%rows%item)) :: item
+      integer :: i
+
+      do i = 1, size(sheet%rows)
+         associate (row => sheet%rows(i))
+            item = row%item
+            if (row%method /= 'tie' .or. row%value > 0.0_wp) cycle
+            select case (row%quantity%name)
+            case ('hierarchy')
+               call notes%add('hierarchy of strengths not respected: the anchor of '//trim(item)//' gives way at '// &
+                  & trim(of_tie('anchor_force_per_m'))//' N/m, before its bar yields at '//trim(of_tie('bar_force_per_m'))// &
+                  & ' N/m, and at once; a linear check of SLV with q > 1 is not applicable')
+            case ('plate_verified')
+               call notes%add('the plate of '//trim(item)//' is too thin: '//trim(of_tie('plate_thickness'))//' m, it needs '// &
+                  & trim(of_tie('plate_needed'))//' m; the check takes its pressure on the masonry to be even')
+            case ('anchor_checked')
+               if (sheet%value('tie', '', 'anchor_force', item) > 0.0_wp) then
+                  call notes%add('the anchor of '//trim(item)//' is not checked with the confidence factor of the '// &
+                     & 'check: its masonry has masonry_knowledge_factor = '//trim(of_tie('anchor_knowledge')))
+               else
+                  call notes%add('the anchor of '//trim(item)//' is not checked: neither its plate nor a force at '// &
+                     & 'which it gives way is given')
+               end if
+            end select
+         end associate
+      end do
+
+   contains
+
+      !> A number of the tie
+      function of_tie(name)
+         !> Name of the quantity
+         character(len=*), intent(in) :: name
+         !> Its text
+         character(len=24) :: of_tie
+
+         of_tie = rounded(sheet%value('tie', '', name, item))
+      end function of_tie
+
+   end subroutine add_tie_notes
 
 end module dondolo_check_notes

@@ -42,6 +42,34 @@ module dondolo_check_sheet
       & quantity_type('level', 'z', 'm', 'level above the ground whose spectrum is the demand'), &
       & quantity_type('diaphragm_period', 'T_d', 's', 'period of the flexible diaphragm at the top, not in the demand'), &
       & quantity_type('tie_fracture', '', 'm', 'displacement at which ties break that carry more than half'), &
+      & quantity_type('bar', 'D_bar', 'm', 'diameter of the bar'), &
+      & quantity_type('spacing', 's', 'm', 'distance of two bars'), &
+      & quantity_type('yield_stress', 'f_yd', 'Pa', 'yield stress of the bar, of the plate too'), &
+      & quantity_type('plate_width', 'a', 'm', 'width of the plate'), &
+      & quantity_type('plate_height', 'b', 'm', 'height of the plate'), &
+      & quantity_type('plate_diameter', 'D', 'm', 'diameter of the plate'), &
+      & quantity_type('masonry_thickness', 't', 'm', 'thickness of the masonry that the plate bears on'), &
+      & quantity_type('edge_distance', 'c', 'm', 'from the plate to the top of the wall'), &
+      & quantity_type('anchor_knowledge', 'FC', '', 'confidence factor of the strengths of the masonry at the plate'), &
+      & quantity_type('bearing_strength', 'k f_d', 'Pa', 'strength under the plate, k f_m/(FC gamma_M)'), &
+      & quantity_type('shear_strength', 'f_v0d', 'Pa', 'shear strength without compression, f_v0/(FC gamma_M)'), &
+      & quantity_type('tensile_strength', 'f_td', 'Pa', 'tensile strength, f_t/(FC gamma_M)'), &
+      & quantity_type('friction_stress', 'mu sigma_0', 'Pa', 'friction on the horizontal faces round the plate'), &
+      & quantity_type('bar_force', 'T_bar', 'N', 'yield force of the bar'), &
+      & quantity_type('bearing_force', 'T_bearing', 'N', 'force that crushes the masonry under the plate'), &
+      & quantity_type('shear_force', 'T_shear', 'N', 'force that shears the masonry round the plate'), &
+      & quantity_type('cone_force', 'T_cone', 'N', 'force that pulls out a frustum of masonry'), &
+      & quantity_type('band_force', 'T_band', 'N', 'force that pulls out a band of masonry from plate to plate'), &
+      & quantity_type('anchor_force', 'T_anchor', 'N', 'least of these, at which the anchor gives way'), &
+      & quantity_type('bar_force_per_m', 'T_bar/s', 'N/m', 'yield force of the bar per metre of wall'), &
+      & quantity_type('anchor_force_per_m', 'T_anchor/s', 'N/m', 'force at which the anchor gives way, per metre of wall'), &
+      & quantity_type('tie_force_per_m', 'T/s', 'N/m', 'largest force of the tie, per metre of wall'), &
+      & quantity_type('plate_needed', '', 'm', 'thickness that the plate needs so as not to yield'), &
+      & quantity_type('plate_thickness', 's_p', 'm', 'thickness of the plate'), &
+      & quantity_type('plate_verified', '', '', '1: the plate is thick enough, 0: it is not'), &
+      & quantity_type('hierarchy', '', '', '1: the bar yields before the anchor gives way, 0: it does not'), &
+      & quantity_type('anchor_checked', '', '', '1: the anchor is checked or its force is given, 0: it is not'), &
+      & quantity_type('applicable', '', '', '0: not applicable, an anchor gives way before its bar yields'), &
       & quantity_type('capacity_ag', 'a_gC', 'g', 'a_g that the wall withstands'), &
       & quantity_type('capacity_pga', 'a_gC S', 'g', 'peak acceleration at the site that the wall withstands'), &
       & quantity_type('displacement', 'd_C', 'm', 'displacement that the wall withstands'), &
@@ -60,7 +88,7 @@ module dondolo_check_sheet
 
    !> A line of a sheet
    type :: sheet_row_type
-      !> Part of the check: 'site', 'mechanism', 'linear', 'nonlinear', 'dynamic'
+      !> Part of the check: 'site', 'mechanism', 'tie', 'linear', 'nonlinear', 'dynamic'
       character(len=name_length) :: method = ''
       !> Limit state, 'SLD', 'SLV' or 'SLC'; empty: all
       character(len=4) :: state = ''
@@ -70,6 +98,8 @@ module dondolo_check_sheet
       real(wp) :: value = 0.0_wp
       !> Where the code has the formula
       character(len=name_length) :: formula = ''
+      !> What of the wall it is of, such as 'tie 1'; empty: the wall
+      character(len=name_length) :: item = ''
    end type sheet_row_type
 
    !> A sheet
@@ -81,6 +111,8 @@ module dondolo_check_sheet
       procedure :: add
       !> The value of a line
       procedure :: value
+      !> Is a quantity 1 in all lines that have it?
+      procedure :: is_all_one
    end type sheet_type
 
 contains
@@ -96,7 +128,7 @@ contains
    end function find_quantity
 
    !> Add a line
-   pure subroutine add(self, method, state, name, value, formula)
+   pure subroutine add(self, method, state, name, value, formula, item)
       class(sheet_type), intent(inout) :: self
       !> Part of the check, limit state, and name of the quantity
       character(len=*), intent(in) :: method, state, name
@@ -104,6 +136,8 @@ contains
       real(wp), intent(in) :: value
       !> Where the code has the formula; absent: it has none
       character(len=*), intent(in), optional :: formula
+      !> What of the wall it is of; absent: the wall
+      character(len=*), intent(in), optional :: item
 
       type(sheet_row_type) :: row
 
@@ -112,27 +146,57 @@ contains
       row%quantity = quantities(find_quantity(name))
       row%value = value
       if (present(formula)) row%formula = formula
+      if (present(item)) row%item = item
       if (.not. allocated(self%rows)) allocate (self%rows(0))
       self%rows = [self%rows, row]
    end subroutine add
 
    !> The value of a line, of the first of its name; -1 where there is none
-   pure real(wp) function value(self, method, state, name)
+   pure real(wp) function value(self, method, state, name, item)
       class(sheet_type), intent(in) :: self
       !> Part of the check, limit state, and name of the quantity; for the lines of all states any state
       character(len=*), intent(in) :: method, state, name
+      !> What of the wall it is of; absent: the first
+      character(len=*), intent(in), optional :: item
 
       integer :: i
 
       value = -1.0_wp
+      if (.not. allocated(self%rows)) return
       do i = 1, size(self%rows)
          associate (row => self%rows(i))
             if (row%method /= method .or. row%quantity%name /= name) cycle
             if (row%state /= state .and. row%state /= '') cycle
+            if (present(item)) then
+               if (row%item /= item) cycle
+            end if
             value = row%value
             return
          end associate
       end do
    end function value
+
+   !> Is a quantity, 1 or 0, 1 in all lines of a method that have it?
+   pure logical function is_all_one(self, method, name, state)
+      class(sheet_type), intent(in) :: self
+      !> Part of the check, and name of the quantity
+      character(len=*), intent(in) :: method, name
+      !> Limit state; absent: of all
+      character(len=*), intent(in), optional :: state
+
+      integer :: i
+
+      is_all_one = .true.
+      if (.not. allocated(self%rows)) return
+      do i = 1, size(self%rows)
+         associate (row => self%rows(i))
+            if (row%method /= method .or. row%quantity%name /= name) cycle
+            if (present(state)) then
+               if (row%state /= state) cycle
+            end if
+            is_all_one = is_all_one .and. row%value > 0.0_wp
+         end associate
+      end do
+   end function is_all_one
 
 end module dondolo_check_sheet

@@ -25,6 +25,7 @@ module dondolo_check_kinematic
    use dondolo_base_error, only : error_type, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_wall, only : wall_type
+   use dondolo_wall_anchor, only : anchor_type
    use dondolo_wall_body, only : wall_body_type
    use dondolo_wall_mechanism, only : mechanism_type
    use dondolo_wall_one_block_model, only : one_block_model_type
@@ -60,6 +61,8 @@ module dondolo_check_kinematic
       !> Of each mode of the building that the wall stands on: period [s], damping ratio, and participation times shape at the
       !> level of the wall, for a strip the mean of its floors; of size 0 on the ground
       real(wp), allocatable :: period(:), damping(:), participation(:)
+      !> Anchors of the ties
+      type(anchor_type), allocatable :: anchors(:)
       !> What gives the moments
       class(mechanism_type), allocatable, private :: mechanism
       !> Radius of the edge a [m]
@@ -126,7 +129,7 @@ contains
 
       real(wp), allocatable :: participation(:)
 
-      allocate (kinematic%period(0), kinematic%damping(0), kinematic%participation(0))
+      allocate (kinematic%period(0), kinematic%damping(0), kinematic%participation(0), kinematic%anchors(0))
       if (.not. allocated(wall%building)) return
       associate (building => wall%building)
          participation = building%participation
@@ -157,6 +160,7 @@ contains
       real(wp) :: first, second
 
       kinematic%edge = body%actions%edge
+      if (allocated(body%anchors)) kinematic%anchors = body%anchors
       associate (carried => body%actions%carried, masonry => body%body)
          weight = [kinematic%gravity*masonry%mass, carried%weight + &
             & merge(0.0_wp, kinematic%gravity*carried%pushed, carried%weight > 0.0_wp)]

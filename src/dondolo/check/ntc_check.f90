@@ -16,6 +16,7 @@ module dondolo_check_ntc_check
    use dondolo_check_input, only : check_input_type, state_names
    use dondolo_check_kinematic, only : kinematic_type
    use dondolo_check_sheet, only : sheet_type
+   use dondolo_check_tie_rows, only : put_ties
    use dondolo_fragility, only : fragility_type
    implicit none
    private
@@ -44,6 +45,7 @@ contains
          call put_site(sheet, kinematic, input, i)
       end do
       call put_mechanism(sheet, kinematic, input)
+      call put_ties(sheet, kinematic%anchors, input%knowledge_factor)
       spectrum = spectrum_of(kinematic, input, 1)
       call put_linear(sheet, kinematic, input, spectrum, 1)
       spectrum = spectrum_of(kinematic, input, 2)
@@ -78,7 +80,7 @@ contains
       if (.not. curve%has_fit()) return
       do i = 1, size(sheet%rows)
          associate (row => sheet%rows(i))
-            call longer%add(row%method, row%state, row%quantity%name, row%value, row%formula)
+            call longer%add(row%method, row%state, row%quantity%name, row%value, row%formula, row%item)
             if (row%quantity%name == 'pga' .or. row%quantity%name == 'capacity_pga') call longer%add(row%method, row%state, &
                & 'probability', curve%probability(row%value))
          end associate
@@ -144,6 +146,7 @@ contains
 
       character(len=3) :: name
       real(wp) :: factor
+      logical :: is_brittle
 
       name = state_names(state)
       factor = 1.0_wp
@@ -153,7 +156,10 @@ contains
       end if
       call sheet%add('linear', name, 'floor_pga', spectrum%peak_acceleration(), merge('C8.7.1.8', 'C7.2.3  ', &
          & size(spectrum%period) == 0))
-      call put_capacity(sheet, 'linear', name, factor*activation(kinematic, input, spectrum), spectrum)
+      ! An anchor that gives way has none of the ductility that q stands for
+      is_brittle = factor > 1.0_wp .and. any(kinematic%anchors%is_brittle())
+      if (is_brittle) call sheet%add('linear', name, 'applicable', 0.0_wp)
+      call put_capacity(sheet, 'linear', name, factor*activation(kinematic, input, spectrum), spectrum, .not. is_brittle)
    end subroutine put_linear
 
    !> Factor on the site's a_g at which the mechanism starts
@@ -201,17 +207,20 @@ contains
       call sheet%add('nonlinear', name, 'spectral_demand', spectrum%acceleration(period, dampings(state)), &
          & merge('NTC 3.2.3.2.1', 'C7.2.3       ', size(spectrum%period) == 0))
       call sheet%add('nonlinear', name, 'demand', demand, merge('NTC 3.2.3.2.3', 'C8.7.1.12    ', size(spectrum%period) == 0))
-      call put_capacity(sheet, 'nonlinear', name, max(d/demand, activation(kinematic, input, spectrum)), spectrum)
+      call put_capacity(sheet, 'nonlinear', name, max(d/demand, activation(kinematic, input, spectrum)), spectrum, &
+         & is_applicable=.true.)
    end subroutine put_nonlinear
 
    !> Put the a_g that a wall withstands
-   pure subroutine put_capacity(sheet, method, state, factor, spectrum)
+   pure subroutine put_capacity(sheet, method, state, factor, spectrum, is_applicable)
       type(sheet_type), intent(inout) :: sheet
       !> Part of the check and limit state
       character(len=*), intent(in) :: method, state
       !> a_g that the wall withstands / that of the site
       real(wp), intent(in) :: factor
       type(floor_spectrum_type), intent(in) :: spectrum
+      !> Is the check one for the wall? Else it verifies nothing
+      logical, intent(in) :: is_applicable
 
       character(len=13) :: place
 
@@ -222,7 +231,7 @@ contains
       call sheet%add(method, state, 'capacity_pga', factor*spectrum%ground%pga)
       ! The ratio in a_g S is the zeta_E of the mechanism
       call sheet%add(method, state, 'ratio', factor, merge('NTC 8.3, C8.3', '             ', state == 'SLV'))
-      call sheet%add(method, state, 'verified', merge(1.0_wp, 0.0_wp, factor >= 1.0_wp))
+      call sheet%add(method, state, 'verified', merge(1.0_wp, 0.0_wp, is_applicable .and. factor >= 1.0_wp))
    end subroutine put_capacity
 
    !> Criterion for time histories at the peak acceleration of the site, C8.7.1.2.1.9

@@ -10,6 +10,7 @@ module dondolo_population_designs
    use dondolo_fragility_clustered, only : confidence
    use dondolo_fragility_ratio, only : compare_parameters
    use dondolo_wall, only : wall_type
+   use dondolo_wall_one_block_model, only : one_block_model_type
    use dondolo_wall_tie_statics, only : plastic_acceleration
    implicit none
    private
@@ -49,18 +50,12 @@ contains
       class(design_type), intent(inout) :: self
       type(wall_type), intent(in) :: wall
 
-      real(wp), allocatable :: area(:), length(:)
-      integer :: ties
-
       self%name = wall%name()
       self%alpha_0 = plastic_acceleration(wall%mechanism)/wall%gravity
-      ties = wall%mechanism%ties
-      if (ties == 0) return
-      area = wall%input%list('tie_area')
-      length = wall%input%list('tie_length')
-      if (size(area) == 1) area = spread(area(1), 1, ties)
-      if (size(length) == 1) length = spread(length(1), 1, ties)
-      self%steel = steel_density*sum(area*length)
+      select type (model => wall%model)
+      type is (one_block_model_type)
+         if (allocated(model%body%anchors)) self%steel = steel_density*sum(model%body%anchors%area*model%body%anchors%length)
+      end select
    end subroutine take_wall
 
    !> Relative increase of the median for each kg/m of steel more than in another design; 0: there is none [m/kg]

@@ -73,7 +73,9 @@ contains
       type(problems_type), intent(inout) :: problems
 
       real(wp) :: face
+      logical :: has_plates
 
+      has_plates = gives_plates(input)
       call input%clear('hinge_level')
       call input%clear('hinge_at')
       if (.not. level > 0.0_wp) return
@@ -93,6 +95,7 @@ contains
       call keep_above(input, level, face, 'thrust')
       call keep_above(input, level, face, 'spring')
       call keep_above(input, level, face, 'tie')
+      if (has_plates .and. .not. gives_plates(input)) call forget_masonry(input)
       call cut_beds(input, level, face)
    end subroutine cut_wall
 
@@ -166,6 +169,27 @@ contains
       ! At the hinge itself nothing has a lever
       call choose_all(input, kind, heights > level*(1.0_wp + same))
    end subroutine keep_above
+
+   !> Has a wall ties with plates?
+   pure logical function gives_plates(input)
+      class(wall_input_type), intent(in) :: input
+
+      gives_plates = any([input%list('tie_plate_width'), input%list('tie_plate_diameter')] > 0.0_wp)
+   end function gives_plates
+
+   !> Leave out the strengths of the masonry at plates, of which none is left
+   subroutine forget_masonry(input)
+      !> What is said of the wall, its ties cut
+      class(wall_input_type), intent(inout) :: input
+
+      type(property_type), pointer :: table(:)
+      integer :: i
+
+      call input%get_table(table)
+      do i = 1, size(table)
+         if (index(table(i)%name, 'masonry_') == 1 .or. table(i)%name == 'bearing_factor') call input%clear(trim(table(i)%name))
+      end do
+   end subroutine forget_masonry
 
    !> Leave only some actions of a kind: of each of their properties the values that belong to these. A property that the table
    !> gets in future is among them

@@ -155,10 +155,16 @@ module dondolo_wall_one_block_model
       & property_type('tie_depth', is_list, unit='m', owners=one_sided, optional=.true., example='0.0', &
       &   absent=0.0_wp, usual_most=3.0_wp, &
       &   meaning='depth of each anchor behind the outer face, 0 if not given'), &
-      & property_type('tie_area', is_list, unit='m2/m', owners=one_sided, optional=.true., positive=.true., &
+      & property_type('tie_area', is_list, unit='m2/m', owners=one_sided, optional=.true., smallest=0.0_wp, &
       &   largest=1.0e-2_wp, usual_least=1.0e-6_wp, usual_most=1.0e-3_wp, &
-      &   example='5.0e-5', &
+      &   example='5.0e-5', absent=0.0_wp, zero='none', &
       &   meaning='section of each tie per metre of wall: that of a bar / distance of two bars'), &
+      & property_type('tie_bar', is_list, unit='m', owners=one_sided, optional=.true., smallest=0.0_wp, largest=1.0_wp, &
+      &   usual_least=5.0e-3_wp, usual_most=0.1_wp, example='0.024', absent=0.0_wp, zero='none', &
+      &   meaning='diameter of the bar of each tie, with tie_spacing instead of tie_area'), &
+      & property_type('tie_spacing', is_list, unit='m', owners=one_sided, optional=.true., smallest=0.0_wp, largest=1.0e3_wp, &
+      &   usual_least=0.3_wp, usual_most=20.0_wp, example='2.5', absent=0.0_wp, zero='none', &
+      &   meaning='distance of two bars of each tie along the wall'), &
       & property_type('tie_length', is_list, unit='m', owners=one_sided, optional=.true., positive=.true., &
       &   smallest=0.1_wp, largest=1.0e3_wp, usual_most=60.0_wp, example='8.0', &
       &   meaning='length of each tie that is free to stretch, as a rule up to its other anchor'), &
@@ -180,6 +186,44 @@ module dondolo_wall_one_block_model
       &   largest=1.0e9_wp, usual_least=100.0_wp, usual_most=1.0e6_wp, &
       &   if_more='is it per metre of wall?', example='6.0e3', &
       &   meaning='force per metre of wall at which each anchor gives way at once; none if not given'), &
+      & property_type('tie_plate_width', is_list, unit='m', owners=one_sided, optional=.true., smallest=0.0_wp, largest=10.0_wp, &
+      &   usual_least=0.03_wp, usual_most=1.5_wp, example='0.35', absent=0.0_wp, zero='none', &
+      &   meaning='width of the plate of each tie, from which the force of its anchor follows instead of tie_anchor_force'), &
+      & property_type('tie_plate_height', is_list, unit='m', owners=one_sided, optional=.true., smallest=0.0_wp, &
+      &   largest=10.0_wp, usual_least=0.03_wp, usual_most=1.5_wp, example='0.35', absent=0.0_wp, zero='none', &
+      &   meaning='height of that plate'), &
+      & property_type('tie_plate_diameter', is_list, unit='m', owners=one_sided, optional=.true., smallest=0.0_wp, &
+      &   largest=10.0_wp, usual_least=0.03_wp, usual_most=1.5_wp, example='0.30', absent=0.0_wp, zero='none', &
+      &   meaning='diameter of a circular plate, instead of width and height'), &
+      & property_type('tie_plate_thickness', is_list, unit='m', owners=one_sided, optional=.true., smallest=0.0_wp, &
+      &   largest=1.0_wp, usual_least=3.0e-3_wp, usual_most=0.1_wp, example='0.02', absent=0.0_wp, zero='none', &
+      &   meaning='thickness of that plate, of steel like that of the bar'), &
+      & property_type('tie_leaf', is_list, unit='m', owners=one_sided, optional=.true., smallest=0.0_wp, largest=10.0_wp, &
+      &   usual_least=0.05_wp, usual_most=3.0_wp, example='0.25', absent=0.0_wp, zero='wall', &
+      &   meaning='thickness of the masonry that the plate of each tie bears on: one leaf of a wall whose leaves are not '// &
+      &   'connected; the whole wall there if not given'), &
+      & property_type('tie_compression', is_list, unit='Pa', owners=one_sided, optional=.true., smallest=0.0_wp, &
+      &   largest=1.0e8_wp, usual_least=1.0e3_wp, usual_most=1.0e6_wp, if_less='is it in MPa?', example='5.0e4', &
+      &   absent=0.0_wp, zero='none', &
+      &   meaning='vertical stress of the masonry at the plate of each tie, with masonry_friction; no friction if not given'), &
+      & property_type('masonry_compression', unit='Pa', owners=one_sided, optional=.true., positive=.true., &
+      &   largest=1.0e12_wp, usual_least=1.0e5_wp, usual_most=1.0e8_wp, example='2.0e6', &
+      &   meaning='mean strength of the masonry in compression at plates of ties; compressive_strength if not given'), &
+      & property_type('masonry_shear', unit='Pa', owners=one_sided, optional=.true., positive=.true., &
+      &   largest=1.0e12_wp, usual_least=1.0e3_wp, usual_most=1.0e6_wp, if_less='is it in MPa?', example='4.0e4', &
+      &   meaning='mean shear strength without compression there'), &
+      & property_type('masonry_tension', unit='Pa', owners=one_sided, optional=.true., positive=.true., &
+      &   largest=1.0e12_wp, usual_least=1.0e3_wp, usual_most=1.0e6_wp, if_less='is it in MPa?', example='5.0e4', &
+      &   meaning='mean tensile strength there'), &
+      & property_type('masonry_friction', owners=one_sided, optional=.true., positive=.true., largest=2.0_wp, &
+      &   usual_most=1.0_wp, if_more='is it an angle, or in per cent?', example='0.4', &
+      &   meaning='coefficient of friction there, with tie_compression'), &
+      & property_type('masonry_knowledge_factor', owners=one_sided, optional=.true., smallest=1.0_wp, largest=1.35_wp, &
+      &   example='1.35', &
+      &   meaning='confidence factor FC of these strengths, which are divided by 2 FC; 1.35 if not given'), &
+      & property_type('bearing_factor', owners=one_sided, optional=.true., positive=.true., largest=5.0_wp, &
+      &   example='1.0', &
+      &   meaning='strength under a plate / strength of the masonry, of the engineer; 1.0 if not given'), &
       & property_type('interlock_overlap', unit='m', owners=one_sided, optional=.true., positive=.true., &
       &   largest=10.0_wp, usual_most=1.0_wp, example='0.12', &
       &   meaning='length by which stones of the wall overlap those of transverse walls, whose friction holds it'), &

@@ -6,6 +6,7 @@ module dondolo_wall_body
    use dondolo_base_settings, only : settings_type
    use dondolo_base_text, only : rounded, to_text
    use dondolo_base_unit_hint, only : unit_question
+   use dondolo_wall_anchor, only : anchor_type
    use dondolo_wall_carried, only : actions_type, carried_type, spring_type, thrust_type
    use dondolo_wall_hinge_depth, only : check_hinge, read_hinge_depth
    use dondolo_wall_interlocking, only : read_interlocking
@@ -25,6 +26,8 @@ module dondolo_wall_body
       type(rigid_body_type) :: body
       !> What acts on it
       type(actions_type) :: actions
+      !> Anchors of its ties, in their order
+      type(anchor_type), allocatable :: anchors(:)
    end type wall_body_type
 
 contains
@@ -93,7 +96,8 @@ contains
       if (problems%count > before) return
       call read_hinge(input, gravity, problems, wall)
       call check_places(input, problems, wall)
-      call read_ties(input, wall%sections, wall%actions%hinge, wall%actions%edge, problems, wall%actions%restraints)
+      call read_ties(input, wall%sections, wall%actions%hinge, wall%actions%edge, problems, wall%actions%restraints, &
+         & wall%anchors)
       call read_interlocking(input, wall%sections, gravity, wall%actions%hinge, wall%actions%edge, problems, &
          & wall%actions%restraints)
       if (problems%count > before) return

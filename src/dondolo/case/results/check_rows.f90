@@ -33,6 +33,8 @@ module dondolo_case_check_rows
       real(wp) :: multiplier = 0.0_wp
       !> Capacity / demand of each check
       real(wp) :: ratio(size(check_states)) = 0.0_wp
+      !> Is each check one for the wall?
+      logical :: is_applicable(size(check_states)) = .true.
       !> Probability of collapse at the peak acceleration of the site; negative: none
       real(wp) :: probability = -1.0_wp
    end type verdict_type
@@ -98,6 +100,9 @@ contains
       end do
       call put_value('probability_site', 'site', 'SLV', 'probability')
       call put_value('probability_nonlinear_slv', 'nonlinear', 'SLV', 'probability')
+      call put_flag('anchors_checked', 'anchor_checked')
+      call put_flag('hierarchy', 'hierarchy')
+      call put_flag('plates_verified', 'plate_verified')
       call table%put('note', note)
 
    contains
@@ -115,6 +120,17 @@ contains
          if (.not. allocated(error)) value = sheet%value(method, state, quantity)
          call table%put(name, value, .not. allocated(error) .and. .not. (quantity == 'probability' .and. value < 0.0_wp))
       end subroutine put_value
+
+      !> Put 1 if all ties have 1 in the sheet, 0 if one has not; nothing where none is asked
+      subroutine put_flag(name, quantity)
+         !> Name of the column
+         character(len=*), intent(in) :: name
+         !> Quantity of the sheet
+         character(len=*), intent(in) :: quantity
+
+         call table%put(name, merge(1, 0, sheet%is_all_one('tie', quantity)), .not. allocated(error) .and. &
+            & sheet%value('tie', '', quantity) >= 0.0_wp)
+      end subroutine put_flag
 
    end subroutine put_check
 
@@ -135,13 +151,15 @@ contains
       end if
       verdicts%checked = verdicts%checked + 1
       ratio = [(sheet%value(check_methods(i), check_states(i), 'ratio'), i=1, size(check_states))]
-      where (ratio >= 1.0_wp) verdicts%verified = verdicts%verified + 1
+      verdicts%verified = verdicts%verified + nint([(sheet%value(check_methods(i), check_states(i), 'verified'), &
+         & i=1, size(check_states))])
       verdicts%least = min(verdicts%least, ratio)
       if (verdicts%checked > shown_verdicts) return
       associate (verdict => verdicts%first(verdicts%checked))
          verdict%name = row%wall%name()
          verdict%multiplier = sheet%value('mechanism', '', 'alpha_0')
          verdict%ratio = ratio
+         verdict%is_applicable = [(sheet%is_all_one(check_methods(i), 'applicable', check_states(i)), i=1, size(check_states))]
          verdict%probability = sheet%value('site', 'SLV', 'probability')
       end associate
    end subroutine count_verdict
@@ -162,6 +180,7 @@ contains
          call table%put('unit', trim(row%quantity%unit))
          call table%put('formula', trim(row%formula))
          call table%put('meaning', trim(row%quantity%meaning), is_quoted=.true.)
+         call table%put('item', trim(row%item))
       end associate
    end subroutine put_sheet_row
 

@@ -1,0 +1,269 @@
+"""Anchors of ties: bar, masonry round the plate, plate, and what they are for checks, curves and results.
+
+Numbers are worked by hand (docs/ties.md); near the top of a wall points of a grid are counted.
+"""
+
+import csv
+import re
+import subprocess
+
+import matplotlib
+import numpy as np
+import pytest
+
+import dondolo as dd
+
+matplotlib.use("agg")
+
+F_YD = 235e6 / 1.05
+MASONRY = {"masonry_compression": 2e6, "masonry_shear": 4e4, "masonry_tension": 5e4}
+PLATE = {"plate_width": 0.35, "plate_height": 0.35, "plate_thickness": 0.02}
+SITE = dd.Site(ag=(0.104, 0.261, 0.334), f0=(2.332, 2.364, 2.400), tc_star=(0.281, 0.347, 0.364), soil="B")
+
+
+def tie(**changes):
+    given = {"bar": 0.024, "spacing": 2.5, "length": 10.0, "strength": F_YD, **PLATE} | changes
+    height = given.pop("height", 4.0)
+    return dd.Tie(height, **{name: value for name, value in given.items() if value is not None})
+
+
+def wall(*ties, height=7.2, thickness=0.55, **more):
+    return dd.OneSidedWall(height, thickness, density=2000.0, ties=ties or [tie()], **MASONRY | more)
+
+
+def values(one, item="tie 1"):
+    return {row.quantity: row.value for row in dd.check_ntc(one, SITE).rows if row.item == item}
+
+
+def test_forces_by_hand():
+    found = values(wall())
+    expected = {
+        "bar_force": 101249.043235694,
+        "bearing_force": 90740.7407407407,
+        "shear_force": 29333.3333333333,
+        "cone_force": 36666.6666666667,
+        "anchor_force": 29333.3333333333,
+        "tie_force_per_m": 11733.3333333333,
+        "plate_needed": 0.0162420957317356,
+    }
+    for name, value in expected.items():
+        assert found[name] == pytest.approx(value, rel=1e-12), name
+    assert (found["hierarchy"], found["plate_verified"], found["anchor_checked"]) == (0.0, 1.0, 1.0)
+    rubbed = values(wall(tie(compression=5e4), masonry_friction=0.4))
+    assert rubbed["shear_force"] == pytest.approx(49133.3333333333, rel=1e-12)
+    # Master Magazine 7, p. 75: a circular plate, 2.79 kN
+    small = tie(plate_width=None, plate_height=None, plate_diameter=0.1)
+    round_one = values(wall(small, thickness=0.3, masonry_shear=2e4, masonry_tension=2e4))
+    assert round_one["shear_force"] == pytest.approx(2792.52680319093, rel=1e-12)
+    assert round_one["cone_force"] == pytest.approx(2792.52680319093, rel=1e-12)
+
+
+@pytest.mark.parametrize(("above", "part"), [(2.0, 1.0), (0.4, 1.0), (0.1, None)])
+def test_plate_near_the_top(above, part):
+    """The frustum is no larger than what points in it say, and the upper face is missing where the top is near."""
+    t, a, b, height = 0.55, 0.35, 0.25, 7.2
+    plate = tie(height=height - above - 0.5 * b, plate_width=a, plate_height=b)
+    found = values(wall(plate))
+    full = 2.0 * t * (a + b + 2.0 * t)
+    shear = full if part else t * (a + t) + 2.0 * t * (b + 0.5 * t + above)
+    assert found["shear_force"] == pytest.approx(shear * 4e4 / 2.7, rel=1e-12)
+    # Points of the inner face whose way back to the plate at 45 degrees stays in the wall
+    x, z = np.meshgrid(np.linspace(-t - 0.5 * a, t + 0.5 * a, 1201), np.linspace(-t - 0.5 * b, t + 0.5 * b, 1201))
+    inside = (np.abs(x) > 0.5 * a) | (np.abs(z) > 0.5 * b)
+    area = np.mean(inside & (z < 0.5 * b + above)) * (a + 2.0 * t) * (b + 2.0 * t)
+    cone = found["cone_force"] * 2.7 / 5e4
+    assert cone <= area * 1.005
+    if part:
+        assert cone == pytest.approx(area, rel=5e-3)
+
+
+def test_a_thinner_leaf_and_neighbours():
+    assert values(wall(tie(leaf=0.25)))["masonry_thickness"] == 0.25
+    # Where storeys meet behind the plate it is the thinner one
+    storeys = dd.OneSidedWall(sections=[dd.Section(4.0, 0.7), dd.Section(3.2, 0.55)], ties=[tie(height=3.9)], **MASONRY)
+    assert values(storeys)["masonry_thickness"] == 0.55
+    near = values(wall(tie(spacing=0.8)))
+    assert near["band_force"] == pytest.approx(2.0 * 0.55 * 0.8 * 4e4 / 2.7, rel=1e-12) == near["anchor_force"]
+    assert "band_force" not in values(wall())
+
+
+def test_the_same_wall_by_its_force(root):
+    """A plate and the force at which it gives way are one wall, history by history."""
+    records = dd.read_catalogue(root / "data/records/synthetic44.csv")[:8]
+    plate = wall()
+    force = values(plate)["anchor_force_per_m"]
+    bare = {"plate_width": None, "plate_height": None, "plate_thickness": None}
+    given = dd.OneSidedWall(7.2, 0.55, density=2000.0, ties=[tie(**bare, anchor_force=force)])
+    area = dd.OneSidedWall(
+        7.2, 0.55, density=2000.0,
+        ties=[tie(**bare, bar=None, spacing=None, area=np.pi * 0.024**2 / 4.0 / 2.5, anchor_force=force)],
+    )  # fmt: skip
+    runs = [dd.multiple_stripe(one, records, [0.2, 0.4, 0.8], progress=False) for one in (plate, given, area)]
+    for run in runs[1:]:
+        assert np.array_equal(run.edp, runs[0].edp)
+        assert np.array_equal(run.broken_ties, runs[0].broken_ties)
+    sheets = [dd.check_ntc(one, SITE) for one in (plate, given, area)]
+    for sheet in sheets[1:]:
+        for row in sheets[0].rows:
+            if row.method != "tie":
+                assert sheet.value(row.method, row.limit_state, row.quantity) == row.value
+
+
+def test_the_design_of_the_facade():
+    """A brittle anchor ends the linear check with q, and the sheet says so."""
+
+    def facade(**how):
+        return dd.OneSidedWall(
+            sections=[dd.Section(3.8, 0.70), dd.Section(3.4, 0.55)],
+            density=2000.0,
+            loads=[
+                dd.Load(9e3, depth=0.55, height=3.8, inertia="both"),
+                dd.Load(7e3, depth=0.40, height=7.2, inertia="both"),
+            ],
+            thrusts=[dd.Thrust(2.5e3, height=6.6)],
+            compressive_strength=1e6,
+            ties=[
+                dd.Tie(6.6, area=1e-4, length=10.0, strength=235e6, preload=50e6, strain=0.02, modulus=2.06e11, **how)
+            ],
+        )
+
+    bar, anchored = (dd.check_ntc(facade(**how), SITE) for how in ({}, {"anchor_force": 11733.3333333333}))
+    assert bar.value("mechanism", "", "alpha_0") == pytest.approx(0.436350625832744, rel=1e-12)
+    assert anchored.value("mechanism", "", "alpha_0") == pytest.approx(0.234924708785881, rel=1e-12)
+    assert anchored.value("nonlinear", "SLV", "displacement") == pytest.approx(1.94203798095088e-3, rel=1e-6)
+    assert anchored.value("linear", "SLV", "ratio") == pytest.approx(1.23345407991995, rel=1e-6)
+    assert anchored.value("nonlinear", "SLV", "ratio") == pytest.approx(0.616727039959977, rel=1e-6)
+    assert not anchored.verified["linear", "SLV"]
+    assert anchored.not_applicable == (("linear", "SLV"),)
+    assert anchored.open_ties == {"tie 1": ("hierarchy",)}
+    assert any("hierarchy of strengths not respected" in note for note in anchored.notes)
+    assert "not applicable" in str(anchored)
+    elastic = dd.check_ntc(anchored.wall, SITE, behaviour=1.0)
+    assert elastic.not_applicable == ()
+    # Without data of the anchor the sheet says that it is not checked
+    assert bar.not_applicable == ()
+    assert bar.open_ties == {"tie 1": ("anchor_checked",)}
+    assert any("the anchor of tie 1 is not checked" in note for note in bar.notes)
+
+
+def test_confidence_factor_of_the_check():
+    """The curve knows that of the wall; a greater one in the check leaves the anchor unchecked."""
+    low = wall(masonry_knowledge_factor=1.2)
+    assert values(low)["bearing_force"] == pytest.approx(2e6 / 2.4 * 0.35**2, rel=1e-12)
+    assert "anchor_checked" in dd.check_ntc(low, SITE).open_ties["tie 1"]
+    assert "anchor_checked" not in dd.check_ntc(low, SITE, knowledge_factor=1.2).open_ties["tie 1"]
+
+
+def test_a_thin_plate():
+    check = dd.check_ntc(wall(tie(plate_thickness=0.012)), SITE)
+    assert "plate_verified" in check.open_ties["tie 1"]
+    assert any("the plate of tie 1 is too thin" in note for note in check.notes)
+
+
+@pytest.mark.parametrize(
+    ("changes", "more", "words"),
+    [
+        ({"area": 1e-4}, {}, "give either .*area or .*bar"),
+        ({"spacing": None}, {}, "spacing: must be given for tie 1 with"),
+        ({"plate_height": None}, {}, "plate_height: must be given for tie 1"),
+        ({"plate_diameter": 0.3}, {}, "give either a width and a height or a diameter"),
+        ({"plate_thickness": None}, {}, "plate_thickness: must be given for tie 1 with its plate"),
+        ({"anchor_force": 1e4}, {}, "anchor_force: tie 1 has a plate, give either"),
+        ({"bar": None, "spacing": None, "area": 1e-4}, {}, "bar: must be given for tie 1 with its plate"),
+        ({"bar": 0.4}, {}, "bar = 0.4: must be less than the plate"),
+        ({"spacing": 0.3}, {}, "spacing = 0.3: must be more than the plate"),
+        ({"height": 7.1}, {}, r"ties\[0\].height = 7.1: must be at least 0.175 m, half its plate"),
+        ({"leaf": 0.6}, {}, r"ties\[0\].leaf = 0.6: must be at most 0.55 m"),
+        ({"compression": 5e4}, {}, "masonry_friction: goes with"),
+        ({}, {"masonry_shear": None}, "masonry_shear: must be given with the plates"),
+        ({}, {"masonry_compression": None}, "masonry_compression: must be given with the plates"),
+        (
+            {"plate_width": None, "plate_height": None, "plate_thickness": None}, {},
+            "masonry_shear: only with the plates of ties",
+        ),
+    ],
+)  # fmt: skip
+def test_what_is_refused(changes, more, words):
+    with pytest.raises(dd.InputError, match=words):
+        wall(tie(**changes), **more)
+
+
+def test_a_facade_keeps_the_plates_above_a_hinge():
+    """What is above a hinge has the plates that are there, and no strengths where there are none."""
+    ties = [tie(height=3.0), tie(height=6.6)]
+    parts = dd.Population.of_facade(wall(*ties), hinge_level=(0.0, 3.5, 6.8))
+    assert [len(part.ties) for part in parts] == [2, 1, 0]
+    assert values(parts[1])["bearing_force"] == values(parts[0])["bearing_force"]
+    assert parts[2].masonry_shear is None
+
+
+CASE = """&job output = 'out' /
+&wall mechanism = 'one_sided', height = 7.2, thickness = 0.55, density = 2000.0
+   tie_height = 4.0, tie_bar = 0.024, tie_spacing = 2.5, tie_length = 10.0, tie_strength = {f_yd!r}
+   tie_plate_width = 0.35, tie_plate_height = 0.35, tie_plate_thickness = 0.02
+   masonry_compression = 2.0e6, masonry_shear = 4.0e4, masonry_tension = 5.0e4 /
+&records catalogue = '{root}/data/records/synthetic44.csv' /
+&stripes levels = 0.2, 0.4, 0.6, 0.8 /
+&check ag = 0.104, 0.261, 0.334, f0 = 2.332, 2.364, 2.400, tc_star = 0.281, 0.347, 0.364, soil = 'B' /
+"""
+
+
+def test_case_files_and_archives(root, executable, tmp_path):
+    """One sheet from a case, from memory, from files and from an archive."""
+    (tmp_path / "wall.nml").write_text(CASE.format(root=root, f_yd=F_YD))
+    done = subprocess.run([executable, "wall.nml"], cwd=tmp_path, check=True, capture_output=True, text=True)
+    assert re.search(r"tie 1: holds 11730 N/m, by its shear: bar 101200 N", done.stdout)
+    assert re.search(r"linear +SLV .* not applicable", done.stdout)
+    assert "hierarchy of strengths not respected" in done.stdout
+    check = dd.check_ntc(wall(), SITE)
+    stored = dd.read_results(tmp_path / "out")
+    again = dd.run_case(tmp_path / "wall.nml", progress=False)
+    for found in (stored.check, again.check):
+        rows = [row for row in found.rows if row.method != "dynamic" and row.quantity != "probability"]
+        assert rows == [*check.rows]
+        assert found.open_ties == check.open_ties
+    assert stored.stripes.wall.ties == check.wall.ties
+    check.save(tmp_path / "check.npz")
+    assert dd.load(tmp_path / "check.npz").rows == check.rows
+    ax = stored.stripes.wall.plot()
+    assert sum(line.get_linestyle() == ":" for line in ax.lines) == 2
+    dd.report(stored, tmp_path / "report.html")
+    page = (tmp_path / "report.html").read_text()
+    assert "not applicable" in page
+    assert "hierarchy of strengths not respected" in page
+
+
+def test_populations(root, executable, tmp_path):
+    """Columns of a table; the checks of its rows, and which anchors are open."""
+    columns = [
+        "name",
+        "mechanism",
+        "height",
+        "thickness",
+        "density",
+        "tie1_height",
+        "tie1_bar",
+        "tie1_spacing",
+        "tie1_area",
+    ]
+    columns += ["tie1_length", "tie1_strength", "tie1_plate_width", "tie1_plate_height", "tie1_plate_thickness"]
+    columns += [*MASONRY]
+    plate = ["a", "one_sided", 7.2, 0.55, 2000.0, 4.0, 0.024, 2.5, "", 10.0, F_YD, 0.35, 0.35, 0.02, 2e6, 4e4, 5e4]
+    rod = ["b", "one_sided", 7.2, 0.55, 2000.0, 4.0, "", "", 1e-4, 10.0, F_YD, "", "", "", "", "", ""]
+    none = ["c", "one_sided", 7.2, 0.55, 2000.0, *[""] * 12]
+    with open(tmp_path / "walls.csv", "w", newline="") as file:
+        csv.writer(file).writerows([columns, plate, rod, none])
+    (tmp_path / "case.nml").write_text(
+        "&job task = 'typology', output = 'out' /\n&population file = 'walls.csv' /\n"
+        f"&records catalogue = '{root}/data/records/synthetic44.csv' /\n&stripes levels = 0.2, 0.4, 0.8 /\n"
+        "&check ag = 0.104, 0.261, 0.334, f0 = 2.332, 2.364, 2.400, tc_star = 0.281, 0.347, 0.364, soil = 'B' /\n"
+    )
+    done = subprocess.run([executable, "case.nml"], cwd=tmp_path, check=True, capture_output=True, text=True)
+    assert re.search(r"(?m)^a .* not applicable", done.stdout)
+    lines = [line for line in (tmp_path / "out_checks.csv").read_text().splitlines() if not line.startswith("#")]
+    rows = list(csv.DictReader(lines))
+    open_ones = [(row["anchors_checked"], row["hierarchy"], row["plates_verified"]) for row in rows]
+    assert open_ones == [("1", "0", "1"), ("0", "", ""), ("", "", "")]
+    check = dd.check_ntc(wall(), SITE)
+    assert float(rows[0]["alpha_0"]) == check.value("mechanism", "", "alpha_0")
+    assert dd.read_results(tmp_path / "out").population[0].ties == check.wall.ties
