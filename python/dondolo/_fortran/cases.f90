@@ -169,7 +169,8 @@ contains
       call send(parcel, error, sent)
    end subroutine result_tables
 
-   !> Put in the check of a case: soil, topography, ag, f0, tc_star, knowledge_factor and behaviour, without one nothing
+   !> Put in the check of a case: soil, topography, ag, f0, tc_star, knowledge_factor, behaviour, reference_life and exceedance,
+   !> without one nothing
    subroutine pack_check(case, parcel)
       type(case_type), intent(in) :: case
       type(parcel_type), intent(inout) :: parcel
@@ -183,6 +184,8 @@ contains
          call parcel%put('tc_star', real(check%tc_star, c_double))
          call parcel%put('knowledge_factor', real(check%knowledge_factor, c_double))
          call parcel%put('behaviour', real(check%behaviour, c_double))
+         call parcel%put('reference_life', real(check%reference_life, c_double))
+         call parcel%put('exceedance', real(check%exceedance, c_double))
       end associate
    end subroutine pack_check
 

@@ -31,16 +31,16 @@ module checks
 
 contains
 
-   !> What a user says of a check: a line each for code, soil and topography, and ag, f0 and tc_star with their counts, then
-   !> confidence and behaviour
+   !> What a user says of a check: a line each for code, soil and topography, and ag, f0, tc_star and exceedance with their
+   !> counts, then knowledge_factor, behaviour and reference_life, 0 for none
    subroutine read_input(texts, numbers, given, input, error)
       character(len=*), intent(in) :: texts
       real(c_double), intent(in) :: numbers(:)
-      integer(c_int), intent(in) :: given(3)
+      integer(c_int), intent(in) :: given(4)
       type(check_input_type), intent(out) :: input
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=*), parameter :: lists(3) = [character(len=7) :: 'ag', 'f0', 'tc_star']
+      character(len=*), parameter :: lists(4) = [character(len=10) :: 'ag', 'f0', 'tc_star', 'exceedance']
       character(len=*), parameter :: words(2) = [character(len=10) :: 'soil', 'topography']
       type(group_settings_type) :: settings
       type(problems_type) :: problems
@@ -55,11 +55,12 @@ contains
       end do
       next = 0
       do i = 1, size(lists)
-         call settings%set(trim(lists(i)), numbers(next + 1:next + given(i)))
+         if (given(i) > 0) call settings%set(trim(lists(i)), numbers(next + 1:next + given(i)))
          next = next + given(i)
       end do
       call settings%set('knowledge_factor', numbers(next + 1))
       call settings%set('behaviour', numbers(next + 2))
+      if (numbers(next + 3) > 0.0_c_double) call settings%set('reference_life', numbers(next + 3))
       call take_check(input, settings, problems)
       call problems%raise(error)
    end subroutine read_input
@@ -67,7 +68,7 @@ contains
    !> Spectrum of the ground of NTC 2018 in a limit state, 1 to 3: a_g S [g], F_0, T_B, T_C and T_D [s]
    subroutine ntc_parameters(texts, numbers, n, given, state, parameters, failure)
       character(len=*), intent(in) :: texts
-      integer(c_int), intent(in) :: n, given(3), state
+      integer(c_int), intent(in) :: n, given(4), state
       real(c_double), intent(in) :: numbers(n)
       real(c_double), intent(out) :: parameters(5)
       integer(c_int64_t), intent(out) :: failure(5)
@@ -94,7 +95,7 @@ contains
       type(floor_spectrum_type) :: floor
       integer :: i
 
-      ground = elastic_spectrum_type(1.0_c_double, parameters(1), parameters(2), parameters(3:))
+      ground = elastic_spectrum_type(pga=parameters(1), amplification=parameters(2), corners=parameters(3:))
       floor = new_floor_spectrum(ground, modes(1::3), modes(2::3), modes(3::3))
       do i = 1, n
          ordinates(i) = floor%acceleration(periods(i), damping)
@@ -105,7 +106,7 @@ contains
    subroutine check_ntc(walls, texts, numbers, n, given, sent)
       integer(c_int64_t), intent(in) :: walls
       character(len=*), intent(in) :: texts
-      integer(c_int), intent(in) :: n, given(3)
+      integer(c_int), intent(in) :: n, given(4)
       real(c_double), intent(in) :: numbers(n)
       integer(c_int64_t), intent(out) :: sent(5)
       type(wall_type), pointer :: wall(:)
@@ -271,7 +272,8 @@ contains
       call send(parcel, error, sent)
    end subroutine check_notes
 
-   !> A sheet as lines, with a tab between method, limit state, name, symbol, unit, formula, meaning and item; reals: its values
+   !> A sheet as lines, with a tab between method, limit state, name, symbol, unit, formula, meaning, item,
+   !> expression and numbers; reals: its values
    subroutine pack_sheet(sheet, parcel)
       type(sheet_type), intent(in) :: sheet
       type(parcel_type), intent(inout) :: parcel
@@ -284,7 +286,8 @@ contains
          associate (row => sheet%rows(i))
             call parcel%lines%add(trim(row%method)//tab//trim(row%state)//tab//trim(row%quantity%name)//tab// &
                & trim(row%quantity%symbol)//tab//trim(row%quantity%unit)//tab//trim(row%formula)//tab// &
-               & trim(row%quantity%meaning)//tab//trim(row%item))
+               & trim(row%quantity%meaning)//tab//trim(row%item)//tab// &
+               & trim(row%expression)//tab//trim(row%numbers))
          end associate
       end do
    end subroutine pack_sheet

@@ -39,6 +39,10 @@ class SheetRow(NamedTuple):
         The quantity in words.
     item : str
         What of the wall it is of, such as 'tie 1'; '' for the wall.
+    expression : str
+        The formula in symbols; '' where the number is given or has none.
+    numbers : str
+        The same with numbers in place of the symbols, of eight digits.
     """
 
     method: str
@@ -50,6 +54,8 @@ class SheetRow(NamedTuple):
     formula: str
     meaning: str
     item: str = ""
+    expression: str = ""
+    numbers: str = ""
 
 
 class CalculationItem(NamedTuple):
@@ -94,7 +100,7 @@ class SiteInput(NamedTuple):
 
     texts: bytes
     numbers: FloatArray
-    given: tuple[int, int, int]
+    given: tuple[int, int, int, int]
 
 
 def ntc_parameters(site: SiteInput, state: str) -> FloatArray:
@@ -148,6 +154,6 @@ def _rows(parcel: Parcel) -> tuple[SheetRow, ...]:
     """Lines of a sheet."""
     rows = []
     for line, value in zip(parcel.lines[: len(parcel.reals)], parcel.reals.tolist(), strict=True):
-        method, state, quantity, symbol, unit, formula, meaning, item = line.split("\t")
-        rows.append(SheetRow(method, state, quantity, symbol, value, unit, formula, meaning, item))
+        method, state, quantity, symbol, unit, *words = line.split("\t")
+        rows.append(SheetRow(method, state, quantity, symbol, value, unit, *words))
     return tuple(rows)

@@ -18,7 +18,14 @@ def site_of(run: RunFile) -> Site:
     """The site of a case with a group &check."""
     hazard = (run.setting("check", name, [0.0]) for name in ("ag", "f0", "tc_star"))
     words = {name: run.setting("check", name, "") for name in ("soil", "topography")}
-    return Site(*(values if len(values) > 1 else values[0] for values in hazard), **words)
+    life = run.setting("check", "reference_life", 0.0)
+    exceedance = run.setting("check", "exceedance", [0.0])
+    return Site(
+        *(values if len(values) > 1 else values[0] for values in hazard),
+        **words,
+        reference_life=life or None,
+        exceedance=exceedance if life else None,
+    )
 
 
 def checks_of_run(walls: Iterable[Wall], run: RunFile) -> tuple[CodeCheck | None, ...]:

@@ -139,7 +139,14 @@ def case_of(parcel: Parcel) -> Case:
         hazard = (parcel[name].tolist() for name in ("ag", "f0", "tc_star"))
         values = (one if len(one) > 1 else one[0] for one in hazard)
         given |= {name: parcel[name] for name in ("knowledge_factor", "behaviour")}
-        given["site"] = Site(*values, soil=parcel["soil"], topography=parcel["topography"])
+        life, exceedance = parcel["reference_life"], parcel["exceedance"].tolist()
+        given["site"] = Site(
+            *values,
+            soil=parcel["soil"],
+            topography=parcel["topography"],
+            reference_life=life or None,
+            exceedance=exceedance or None,
+        )
     walls = tuple(wall_from(data) for data in unpack_walls(parcel))
     records = tuple(record_from(data) for data in unpack_records(parcel))
     warn_of_notes(parcel["notes"])

@@ -77,6 +77,10 @@ class Site(Shown):
         Class of soil.
     topography : {'T1', 'T2', 'T3', 'T4'}
         The factor of the table, which is that of the top of a slope.
+    reference_life : float, optional
+        Reference period V_R [years], for return periods.
+    exceedance : sequence of three floats, optional
+        Probabilities of exceedance in that period of SLD, SLV and SLC, with reference_life.
 
     Raises
     ------
@@ -97,21 +101,27 @@ class Site(Shown):
     _: KW_ONLY
     soil: Soil = "A"
     topography: Topography = "T1"
+    reference_life: float | None = None
+    exceedance: Sequence[float] | None = None
 
     def __post_init__(self) -> None:
         for name in ("ag", "f0", "tc_star"):
             value = getattr(self, name)
             several = tuple(as_array(name, value).tolist()) if np.ndim(value) else as_number(name, value)
             object.__setattr__(self, name, several)
+        if self.reference_life is not None:
+            object.__setattr__(self, "reference_life", as_number("reference_life", self.reference_life))
+        if self.exceedance is not None:
+            object.__setattr__(self, "exceedance", tuple(as_array("exceedance", self.exceedance).tolist()))
         self._parameters("SLV")
 
     def _input(self, knowledge_factor: float = 1.35, behaviour: float = 2.0) -> SiteInput:
         """The site as Fortran takes it, with what a check needs besides."""
         words = b"\n".join(as_text(name, getattr(self, name)) for name in ("soil", "topography"))
-        lists = [np.atleast_1d(values) for values in (self.ag, self.f0, self.tc_star)]
+        lists = [np.atleast_1d(values) for values in (self.ag, self.f0, self.tc_star, self.exceedance or ())]
         factors = as_number("knowledge_factor", knowledge_factor), as_number("behaviour", behaviour)
-        a, b, c = map(len, lists)
-        return SiteInput(words, np.concatenate([*lists, factors]), (a, b, c))
+        a, b, c, d = map(len, lists)
+        return SiteInput(words, np.concatenate([*lists, factors, (self.reference_life or 0.0,)]), (a, b, c, d))
 
     def pga(self, *, limit_state: LimitState = "SLV") -> float:
         """Peak acceleration at the site a_g S [g] in a limit state."""
@@ -175,6 +185,7 @@ class Site(Shown):
             ("f0", words(self.f0)),
             ("tc_star", f"{words(self.tc_star)} s"),
             ("ground", ground),
+            *([("V_R", f"{self.reference_life:g} years")] if self.reference_life else []),
         ]
 
 

@@ -20,7 +20,7 @@ module dondolo_check_input
    character(len=choices_length), parameter :: code_names(*) = [character(len=choices_length) :: 'ntc2018']
 
    !> What a user can set
-   type(property_type), target, protected :: check_properties(8) = [ &
+   type(property_type), target, protected :: check_properties(10) = [ &
       & property_type('code', is_text, word='ntc2018', choices=reshape(code_names, [most_choices], pad=blank), &
       &   meaning='building code: NTC 2018 with Circolare 7/2019'), &
       & property_type('ag', is_list, unit='g', required=.true., smallest=0.001_wp, largest=1.0_wp, example='0.2', &
@@ -37,7 +37,12 @@ module dondolo_check_input
       &   meaning='confidence factor FC; the code has 1, 1.2 and 1.35, the last of them where no compressive strength '// &
       &   'moves the hinge'), &
       & property_type('behaviour', default=2.0_wp, smallest=1.0_wp, largest=2.0_wp, &
-      &   meaning='behaviour factor q of the linear check')]
+      &   meaning='behaviour factor q of the linear check'), &
+      & property_type('reference_life', unit='year', optional=.true., positive=.true., largest=1.0e3_wp, usual_least=10.0_wp, &
+      &   example='50.0', meaning='reference period V_R, for return periods, with exceedance'), &
+      & property_type('exceedance', is_list, optional=.true., positive=.true., largest=1.0_wp, less=.true., &
+      &   example='0.63, 0.10, 0.05', &
+      &   meaning='probabilities of exceedance in that period of SLD, SLV and SLC, whose return periods ag, f0 and tc_star have')]
 
    !> A check
    type :: check_input_type
@@ -51,11 +56,18 @@ module dondolo_check_input
       real(wp) :: knowledge_factor = 1.35_wp
       !> Behaviour factor q
       real(wp) :: behaviour = 2.0_wp
+      !> Reference period V_R [years], 0: not given; probabilities of exceedance in it, three or none
+      real(wp) :: reference_life = 0.0_wp
+      real(wp), allocatable :: exceedance(:)
    contains
       !> Spectrum of the ground in a limit state
       procedure :: spectrum
       !> Has each limit state its own hazard?
       procedure :: has_states
+      !> Return period of the hazard of a limit state
+      procedure :: return_period
+      !> Return period of a peak acceleration
+      procedure :: return_period_of
       procedure, private :: hazard
    end type check_input_type
 
@@ -78,6 +90,14 @@ contains
       input%topography = settings%word('topography')
       input%knowledge_factor = settings%number('knowledge_factor')
       input%behaviour = settings%number('behaviour')
+      if (settings%has('reference_life')) input%reference_life = settings%number('reference_life')
+      input%exceedance = settings%list('exceedance')
+      if (settings%has('reference_life') .neqv. settings%has('exceedance')) call problems%note('reference_life: must be '// &
+         & 'given with exceedance')
+      if (all(size(input%exceedance) /= [0, 3])) call problems%note('exceedance: has '//to_text(size(input%exceedance))// &
+         & ' values, must have three: SLD, SLV, SLC')
+      if (any(input%exceedance(2:) >= input%exceedance(:size(input%exceedance) - 1))) call problems%note('exceedance: must '// &
+         & 'decrease from SLD to SLC')
 
    contains
 
@@ -111,6 +131,8 @@ contains
       call settings%set('topography', input%topography)
       call settings%set('knowledge_factor', input%knowledge_factor)
       call settings%set('behaviour', input%behaviour)
+      if (input%reference_life > 0.0_wp) call settings%set('reference_life', input%reference_life)
+      if (size(input%exceedance) > 0) call settings%set('exceedance', input%exceedance)
    end subroutine put_check
 
    !> Has each limit state its own hazard?
@@ -119,6 +141,33 @@ contains
 
       has_states = max(size(self%ag), size(self%f0), size(self%tc_star)) > 1
    end function has_states
+
+   !> Return period of the hazard of a limit state, T_R = -V_R/ln(1 - P_VR) [years]: NTC 2018, 3.2.1
+   pure real(wp) function return_period(self, state)
+      class(check_input_type), intent(in) :: self
+      !> Its number in state_names
+      integer, intent(in) :: state
+
+      return_period = -self%reference_life/log(1.0_wp - self%exceedance(state))
+   end function return_period
+
+   !> Return period of a peak acceleration at the site, linear in the logarithms of both between the hazards of the limit states,
+   !> and along the nearer of these lines beyond [years]; 0 where fewer than three hazards or no reference period are given
+   pure real(wp) function return_period_of(self, ag) result(years)
+      class(check_input_type), intent(in) :: self
+      !> [g]
+      real(wp), intent(in) :: ag
+
+      integer :: i
+
+      years = 0.0_wp
+      if (.not. self%reference_life > 0.0_wp .or. size(self%ag) < 3) return
+      if (any(self%ag(2:) <= self%ag(:2))) return
+      i = merge(1, 2, ag < self%ag(2))
+      associate (a => self%ag(i:i + 1), first => self%return_period(i), second => self%return_period(i + 1))
+         years = first*(second/first)**(log(ag/a(1))/log(a(2)/a(1)))
+      end associate
+   end function return_period_of
 
    !> a_g, F_0 and T_C* of a limit state
    pure function hazard(self, state) result(values)

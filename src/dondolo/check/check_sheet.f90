@@ -1,13 +1,16 @@
 !> The sheet of a check: every number with its name, symbol, formula and unit, in the order of the calculation.
 module dondolo_check_sheet
    use dondolo_base_kinds, only : wp
+   use dondolo_base_text, only : brief
    implicit none
    private
 
-   public :: sheet_type
+   public :: sheet_type, shown
 
    !> Length of the names of methods, states and quantities, and of a formula's
    integer, parameter :: name_length = 20
+   !> And of a formula in symbols or numbers
+   integer, parameter :: formula_length = 96
 
    !> A quantity of a check
    type :: quantity_type
@@ -27,6 +30,17 @@ module dondolo_check_sheet
       & quantity_type('f0', 'F_0', '', 'largest amplification on such ground'), &
       & quantity_type('tc_star', 'T_C*', 's', 'period at which the constant velocity begins there'), &
       & quantity_type('soil_factor', 'S', '', 'factor of soil and topography, S_S S_T'), &
+      & quantity_type('stratigraphy', 'S_S', '', 'factor of the soil'), &
+      & quantity_type('topography', 'S_T', '', 'factor of the topography'), &
+      & quantity_type('tb', 'T_B', 's', 'period at which the constant acceleration begins at the site'), &
+      & quantity_type('td', 'T_D', 's', 'period at which the constant displacement begins at the site'), &
+      & quantity_type('eta', 'eta', '', 'factor of damping'), &
+      & quantity_type('reference_life', 'V_R', 'year', 'reference period'), &
+      & quantity_type('return_period_demand', 'T_R,D', 'year', 'return period of the hazard'), &
+      & quantity_type('return_period_capacity', 'T_R,C', 'year', 'return period of a_gC, along the hazards of the limit states'), &
+      & quantity_type('return_period_range', '', '', '0: T_R,C lies in 30 to 2475 years, -1: less, 1: more, not to be printed'), &
+      & quantity_type('extrapolated', '', '', '1: a_gC is below a_g of SLD or above that of SLC'), &
+      & quantity_type('zeta_e', 'zeta_E', '', 'safety index of the mechanism in a_g S, with the shape of the spectrum kept'), &
       & quantity_type('tc', 'T_C', 's', 'period at which the constant velocity begins at the site'), &
       & quantity_type('pga', 'a_g S', 'g', 'peak acceleration at the site'), &
       & quantity_type('floor_pga', 'a_Z', 'g', 'peak acceleration at the level of the wall'), &
@@ -100,6 +114,8 @@ module dondolo_check_sheet
       character(len=name_length) :: formula = ''
       !> What of the wall it is of, such as 'tie 1'; empty: the wall
       character(len=name_length) :: item = ''
+      !> Its formula in symbols, and with numbers in their places; empty where it is given or has none
+      character(len=formula_length) :: expression = '', numbers = ''
    end type sheet_row_type
 
    !> A sheet
@@ -109,6 +125,7 @@ module dondolo_check_sheet
    contains
       !> Add a line
       procedure :: add
+      procedure :: append
       !> The value of a line
       procedure :: value
       !> Is a quantity 1 in all lines that have it?
@@ -128,7 +145,7 @@ contains
    end function find_quantity
 
    !> Add a line
-   pure subroutine add(self, method, state, name, value, formula, item)
+   pure subroutine add(self, method, state, name, value, formula, item, expression, numbers)
       class(sheet_type), intent(inout) :: self
       !> Part of the check, limit state, and name of the quantity
       character(len=*), intent(in) :: method, state, name
@@ -138,6 +155,8 @@ contains
       character(len=*), intent(in), optional :: formula
       !> What of the wall it is of; absent: the wall
       character(len=*), intent(in), optional :: item
+      !> Its formula in symbols and with numbers; absent: it has none
+      character(len=*), intent(in), optional :: expression, numbers
 
       type(sheet_row_type) :: row
 
@@ -147,9 +166,28 @@ contains
       row%value = value
       if (present(formula)) row%formula = formula
       if (present(item)) row%item = item
+      if (present(expression)) row%expression = expression
+      if (present(numbers)) row%numbers = numbers
+      call self%append(row)
+   end subroutine add
+
+   !> Add a line that is made
+   pure subroutine append(self, row)
+      class(sheet_type), intent(inout) :: self
+      type(sheet_row_type), intent(in) :: row
+
       if (.not. allocated(self%rows)) allocate (self%rows(0))
       self%rows = [self%rows, row]
-   end subroutine add
+   end subroutine append
+
+   !> A number in a formula, to be computed with by hand
+   pure function shown(value) result(text)
+      real(wp), intent(in) :: value
+      !> Its text, filled up with blanks
+      character(len=24) :: text
+
+      text = brief(value)
+   end function shown
 
    !> The value of a line, of the first of its name; -1 where there is none
    pure real(wp) function value(self, method, state, name, item)

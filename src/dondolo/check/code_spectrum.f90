@@ -30,8 +30,9 @@ module dondolo_check_code_spectrum
 
    !> An elastic spectrum
    type :: elastic_spectrum_type
-      !> Factor S of soil and topography
+      !> Factor S of soil and topography, and the second of its two factors, S_T
       real(wp) :: soil_factor = 1.0_wp
+      real(wp) :: topography_factor = 1.0_wp
       !> Peak acceleration at the site a_g S [g]
       real(wp) :: pga = 0.0_wp
       !> Largest amplification F_0 at a damping of 5 %
@@ -60,9 +61,10 @@ contains
 
       real(wp) :: tc
 
+      spectrum%topography_factor = topographies(findloc(topography_names, topography, dim=1))
       associate (row => soils(:, findloc(soil_names, soil, dim=1)))
          spectrum%soil_factor = min(max(row(3) - row(4)*f0*ag, row(1)), row(2)) &
-            & *topographies(findloc(topography_names, topography, dim=1))
+            & *spectrum%topography_factor
          tc = row(5)*tc_star**(1.0_wp + row(6))
       end associate
       spectrum%pga = ag*spectrum%soil_factor

@@ -24,6 +24,7 @@
 module dondolo_check_kinematic
    use dondolo_base_error, only : error_type, raise_input
    use dondolo_base_kinds, only : wp
+   use dondolo_check_calculation, only : is_given, item_type, list_items
    use dondolo_wall, only : wall_type
    use dondolo_wall_anchor, only : anchor_type
    use dondolo_wall_body, only : wall_body_type
@@ -61,6 +62,8 @@ module dondolo_check_kinematic
       !> Of each mode of the building that the wall stands on: period [s], damping ratio, and participation times shape at the
       !> level of the wall, for a strip the mean of its floors; of size 0 on the ground
       real(wp), allocatable :: period(:), damping(:), participation(:)
+      !> Sums over the items of the calculation: moments against the mechanism and with it, weight times lever, and lever squared
+      real(wp) :: stabilising = 0.0_wp, overturning = 0.0_wp, first = 0.0_wp, second = 0.0_wp
       !> Anchors of the ties
       type(anchor_type), allocatable :: anchors(:)
       !> What gives the moments
@@ -68,7 +71,8 @@ module dondolo_check_kinematic
       !> Radius of the edge a [m]
       real(wp), private :: edge = 0.0_wp
       !> Sums of P + Q, and of their products with heights and depths from the hinge
-      real(wp), private :: weight = 0.0_wp, weight_f = 0.0_wp, weight_e = 0.0_wp
+      real(wp) :: weight = 0.0_wp
+      real(wp), private :: weight_f = 0.0_wp, weight_e = 0.0_wp
       !> Height of the centroid above the hinge, and its depth behind it if that enters d_C [m]; d/d_C
       real(wp), private :: centroid = 0.0_wp, centroid_depth = 0.0_wp, travel = 0.0_wp
    contains
@@ -118,7 +122,22 @@ contains
       kinematic%end_displacement = kinematic%displacement(wall%mechanism%capacity)
       if (wall%mechanism%unseating < right_angle) kinematic%unseating = kinematic%displacement(wall%mechanism%unseating)
       call compute_tie_fracture(kinematic)
+      call take_sums(kinematic, wall)
    end subroutine new_kinematic
+
+   !> Take the sums of the items
+   subroutine take_sums(kinematic, wall)
+      type(kinematic_type), intent(inout) :: kinematic
+      type(wall_type), intent(in) :: wall
+
+      type(item_type), allocatable :: items(:)
+
+      call list_items(wall, items)
+      kinematic%stabilising = sum(items%stabilising, mask=is_given(items%stabilising))
+      kinematic%overturning = sum(items%overturning, mask=is_given(items%overturning))
+      kinematic%first = sum(items%first, mask=is_given(items%first))
+      kinematic%second = sum(items%second, mask=is_given(items%second))
+   end subroutine take_sums
 
    !> Take the modes of the building that a wall stands on; at the base of a building the demand is that of the ground
    subroutine take_building(kinematic, wall, error)

@@ -12,10 +12,11 @@
 !> stay. That of the nonlinear check is not below the one that starts the mechanism.
 module dondolo_check_ntc_check
    use dondolo_base_kinds, only : wp
+   use dondolo_check_code_spectrum, only : damping_factor
    use dondolo_check_floor_spectrum, only : floor_spectrum_type, new_floor_spectrum
    use dondolo_check_input, only : check_input_type, state_names
    use dondolo_check_kinematic, only : kinematic_type
-   use dondolo_check_sheet, only : sheet_type
+   use dondolo_check_sheet, only : shown, sheet_type
    use dondolo_check_tie_rows, only : put_ties
    use dondolo_fragility, only : fragility_type
    implicit none
@@ -27,6 +28,8 @@ module dondolo_check_ntc_check
    real(wp), parameter :: period_factors(2:3) = [1.68_wp, 1.56_wp], dampings(2:3) = [0.08_wp, 0.10_wp]
    !> Displacements that it allows / d_0*
    real(wp), parameter :: shares(2:3) = [0.4_wp, 0.6_wp]
+   !> Return periods between which one is a number, not only less or more [years]
+   real(wp), parameter :: first_year = 30.0_wp, last_year = 2475.0_wp
 
 contains
 
@@ -80,7 +83,7 @@ contains
       if (.not. curve%has_fit()) return
       do i = 1, size(sheet%rows)
          associate (row => sheet%rows(i))
-            call longer%add(row%method, row%state, row%quantity%name, row%value, row%formula, row%item)
+            call longer%append(row)
             if (row%quantity%name == 'pga' .or. row%quantity%name == 'capacity_pga') call longer%add(row%method, row%state, &
                & 'probability', curve%probability(row%value))
          end associate
@@ -98,6 +101,7 @@ contains
 
       type(floor_spectrum_type) :: spectrum
       character(len=4) :: name
+      real(wp) :: ag
 
       name = ''
       if (input%has_states()) name = state_names(state)
@@ -106,9 +110,23 @@ contains
          call sheet%add('site', name, 'ag', ground%pga/ground%soil_factor)
          call sheet%add('site', name, 'f0', ground%amplification)
          call sheet%add('site', name, 'tc_star', input%tc_star(min(state, size(input%tc_star))))
-         call sheet%add('site', name, 'soil_factor', ground%soil_factor, 'NTC 3.2.3.2.1')
+         ag = ground%pga/ground%soil_factor
+         call sheet%add('site', name, 'stratigraphy', ground%soil_factor/ground%topography_factor, 'NTC 3.2.3.2.1')
+         call sheet%add('site', name, 'topography', ground%topography_factor, 'NTC 3.2.3.2.1')
+         call sheet%add('site', name, 'soil_factor', ground%soil_factor, 'NTC 3.2.3.2.1', expression='S_S S_T', &
+            & numbers=times(ground%soil_factor/ground%topography_factor, ground%topography_factor))
+         call sheet%add('site', name, 'tb', ground%corners(1), 'NTC 3.2.3.2.1', expression='T_C/3', &
+            & numbers=trim(shown(ground%corners(2)))//'/3')
          call sheet%add('site', name, 'tc', ground%corners(2), 'NTC 3.2.3.2.1')
-         call sheet%add('site', name, 'pga', ground%pga)
+         call sheet%add('site', name, 'td', ground%corners(3), 'NTC 3.2.3.2.1', expression='4 a_g + 1.6', &
+            & numbers='4 * '//trim(shown(ag))//' + 1.6')
+         call sheet%add('site', name, 'pga', ground%pga, expression='a_g S', numbers=times(ag, ground%soil_factor))
+         if (input%reference_life > 0.0_wp .and. input%has_states()) then
+            call sheet%add('site', name, 'reference_life', input%reference_life)
+            call sheet%add('site', name, 'return_period_demand', input%return_period(state), 'NTC 3.2.1', &
+               & expression='-V_R/ln(1 - P_VR)', numbers='-'//trim(shown(input%reference_life))//'/ln(1 - '// &
+               & trim(shown(input%exceedance(state)))//')')
+         end if
          if (size(spectrum%period) > 0) call sheet%add('site', name, 'floor_pga', spectrum%peak_acceleration(), 'C7.2.3')
       end associate
    end subroutine put_site
@@ -120,10 +138,16 @@ contains
       type(check_input_type), intent(in) :: input
 
       call sheet%add('mechanism', '', 'knowledge_factor', input%knowledge_factor, 'C8.7.1.2.1.3')
-      call sheet%add('mechanism', '', 'alpha_0', kinematic%multiplier, 'C8.7.1.1')
-      call sheet%add('mechanism', '', 'mass', kinematic%mass, 'C8.7.1.5')
-      call sheet%add('mechanism', '', 'mass_ratio', kinematic%mass_ratio, 'C8.7.1.5')
-      call sheet%add('mechanism', '', 'a_0', kinematic%capacity(0.0_wp, input%knowledge_factor), 'C8.7.1.3')
+      call sheet%add('mechanism', '', 'alpha_0', kinematic%multiplier, 'C8.7.1.1', &
+         & expression='(sum stabilising - sum overturning)/sum P z', numbers='('//trim(shown(kinematic%stabilising))//' - '// &
+         & trim(shown(kinematic%overturning))//')/'//shown(kinematic%first))
+      call sheet%add('mechanism', '', 'mass', kinematic%mass, 'C8.7.1.5', expression='(sum P z)^2/(g sum P z^2)', &
+         & numbers=trim(shown(kinematic%first))//'^2/('//times(kinematic%gravity, kinematic%second)//')')
+      call sheet%add('mechanism', '', 'mass_ratio', kinematic%mass_ratio, 'C8.7.1.5', expression='g M*/sum P', &
+         & numbers=times(kinematic%gravity, kinematic%mass)//'/'//shown(kinematic%weight))
+      call sheet%add('mechanism', '', 'a_0', kinematic%capacity(0.0_wp, input%knowledge_factor), 'C8.7.1.3', &
+         & expression='alpha_0 g/(e* FC)', numbers=times(kinematic%multiplier, kinematic%gravity)//'/('// &
+         & times(kinematic%mass_ratio, input%knowledge_factor)//')')
       call sheet%add('mechanism', '', 'd_0', kinematic%end_displacement, 'C8.7.1.4')
       if (kinematic%level > 0.0_wp) call sheet%add('mechanism', '', 'level', kinematic%level)
       if (kinematic%diaphragm_period > 0.0_wp) call sheet%add('mechanism', '', 'diaphragm_period', kinematic%diaphragm_period)
@@ -159,7 +183,9 @@ contains
       ! An anchor that gives way has none of the ductility that q stands for
       is_brittle = factor > 1.0_wp .and. any(kinematic%anchors%is_brittle())
       if (is_brittle) call sheet%add('linear', name, 'applicable', 0.0_wp)
-      call put_capacity(sheet, 'linear', name, factor*activation(kinematic, input, spectrum), spectrum, .not. is_brittle)
+      call put_capacity(sheet, 'linear', name, factor*activation(kinematic, input, spectrum), spectrum, input, .not. is_brittle, &
+         & expression='q a_0*/(g a_Z)', numbers=times(factor, kinematic%capacity(0.0_wp, input%knowledge_factor))//'/('// &
+         & times(kinematic%gravity, spectrum%peak_acceleration())//')')
    end subroutine put_linear
 
    !> Factor on the site's a_g at which the mechanism starts
@@ -193,6 +219,7 @@ contains
 
       real(wp), parameter :: pi = acos(-1.0_wp)
       character(len=3) :: name
+      character(len=:), allocatable :: expression, numbers
       real(wp) :: d, a, period, demand
 
       name = state_names(state)
@@ -200,37 +227,114 @@ contains
       a = kinematic%capacity(d, input%knowledge_factor)
       period = period_factors(state)*pi*sqrt(d/a)
       demand = spectrum%displacement(period, dampings(state), kinematic%gravity)
-      call sheet%add('nonlinear', name, 'displacement', d, 'C8.7.1.2.1.6')
-      call sheet%add('nonlinear', name, 'acceleration', a, 'C8.7.1.3')
-      call sheet%add('nonlinear', name, 'period', period, merge('C8.7.1.10', 'C8.7.1.11', state == 2))
+      expression = trim(merge('0.4 d_0*', '0.6 d_0*', state == 2))
+      numbers = times(shares(state), kinematic%end_displacement)
+      if (d < shares(state)*kinematic%end_displacement) then
+         expression = trim(merge('where ties break     ', 'where a seat is lost ', d < kinematic%unseating))
+         numbers = ''
+      end if
+      call sheet%add('nonlinear', name, 'displacement', d, 'C8.7.1.2.1.6', expression=expression, numbers=numbers)
+      call sheet%add('nonlinear', name, 'acceleration', a, 'C8.7.1.3', expression='alpha(d_C) g/(e* FC)', &
+         & numbers=times(a*kinematic%mass_ratio*input%knowledge_factor/kinematic%gravity, kinematic%gravity)//'/('// &
+         & times(kinematic%mass_ratio, input%knowledge_factor)//')')
+      call sheet%add('nonlinear', name, 'period', period, merge('C8.7.1.10', 'C8.7.1.11', state == 2), &
+         & expression=merge('1.68', '1.56', state == 2)//' pi sqrt[d_C/a(d_C)]', &
+         & numbers=merge('1.68', '1.56', state == 2)//' * pi * sqrt('//trim(shown(d))//'/'//trim(shown(a))//')')
       call sheet%add('nonlinear', name, 'damping', dampings(state), 'C8.7.1.2.1.8')
+      call sheet%add('nonlinear', name, 'eta', damping_factor(dampings(state)), 'NTC 3.2.3.2.1', &
+         & expression='sqrt[10/(5 + 100 xi)]', numbers='sqrt(10/(5 + 100 * '//trim(shown(dampings(state)))//'))')
+      call put_ordinate_formula(spectrum, period, dampings(state), expression, numbers)
       call sheet%add('nonlinear', name, 'spectral_demand', spectrum%acceleration(period, dampings(state)), &
-         & merge('NTC 3.2.3.2.1', 'C7.2.3       ', size(spectrum%period) == 0))
-      call sheet%add('nonlinear', name, 'demand', demand, merge('NTC 3.2.3.2.3', 'C8.7.1.12    ', size(spectrum%period) == 0))
-      call put_capacity(sheet, 'nonlinear', name, max(d/demand, activation(kinematic, input, spectrum)), spectrum, &
-         & is_applicable=.true.)
+         & merge('NTC 3.2.3.2.1', 'C7.2.3       ', size(spectrum%period) == 0), expression=expression, numbers=numbers)
+      call sheet%add('nonlinear', name, 'demand', demand, merge('NTC 3.2.3.2.3', 'C8.7.1.12    ', size(spectrum%period) == 0), &
+         & expression='S_e(T) g (T/2 pi)^2', numbers=times(spectrum%acceleration(period, dampings(state)), kinematic%gravity)// &
+         & ' * ('//trim(shown(period))//'/(2 * pi))^2')
+      call put_capacity(sheet, 'nonlinear', name, max(d/demand, activation(kinematic, input, spectrum)), spectrum, input, &
+         & is_applicable=.true., expression='max[d_C/d_D, a_0*/(g a_Z)]', numbers='max('//trim(shown(d))//'/'// &
+         & trim(shown(demand))//', '//trim(shown(kinematic%capacity(0.0_wp, input%knowledge_factor)))//'/('// &
+         & times(kinematic%gravity, spectrum%peak_acceleration())//'))')
    end subroutine put_nonlinear
 
+   !> The formula of an ordinate of the spectrum of the ground; in a building it is a sum over modes
+   pure subroutine put_ordinate_formula(spectrum, period, damping, expression, numbers)
+      type(floor_spectrum_type), intent(in) :: spectrum
+      !> Period [s] and damping ratio
+      real(wp), intent(in) :: period, damping
+      !> In symbols and in numbers
+      character(len=:), allocatable, intent(out) :: expression, numbers
+
+      expression = ''
+      numbers = ''
+      if (size(spectrum%period) > 0) return
+      associate (ground => spectrum%ground, tb => spectrum%ground%corners(1), tc => spectrum%ground%corners(2), &
+         & td => spectrum%ground%corners(3))
+         numbers = times(ground%pga, damping_factor(damping))//' * '//trim(shown(ground%amplification))
+         expression = 'a_g S eta F_0'
+         if (period < tb) then
+            expression = 'a_g S [1 + T/T_B (eta F_0 - 1)]'
+            numbers = trim(shown(ground%pga))//' * (1 + '//trim(shown(period))//'/'//trim(shown(tb))//' * ('// &
+               & times(damping_factor(damping), ground%amplification)//' - 1))'
+         else if (period >= td) then
+            expression = expression//' T_C T_D/T^2'
+            numbers = numbers//' * '//times(tc, td)//'/'//trim(shown(period))//'^2'
+         else if (period >= tc) then
+            expression = expression//' T_C/T'
+            numbers = numbers//' * '//trim(shown(tc))//'/'//trim(shown(period))
+         end if
+      end associate
+   end subroutine put_ordinate_formula
+
+   !> Length of a product
+   pure integer function product_length(first, second) result(length)
+      real(wp), intent(in) :: first, second
+
+      length = len_trim(shown(first)) + len_trim(shown(second)) + 3
+   end function product_length
+
+   !> A product in a formula
+   pure function times(first, second) result(text)
+      real(wp), intent(in) :: first, second
+      character(len=product_length(first, second)) :: text
+
+      text = trim(shown(first))//' * '//trim(shown(second))
+   end function times
+
    !> Put the a_g that a wall withstands
-   pure subroutine put_capacity(sheet, method, state, factor, spectrum, is_applicable)
+   pure subroutine put_capacity(sheet, method, state, factor, spectrum, input, is_applicable, expression, numbers)
       type(sheet_type), intent(inout) :: sheet
       !> Part of the check and limit state
       character(len=*), intent(in) :: method, state
       !> a_g that the wall withstands / that of the site
       real(wp), intent(in) :: factor
       type(floor_spectrum_type), intent(in) :: spectrum
+      type(check_input_type), intent(in) :: input
       !> Is the check one for the wall? Else it verifies nothing
       logical, intent(in) :: is_applicable
+      !> The factor in symbols and in numbers
+      character(len=*), intent(in) :: expression, numbers
 
       character(len=13) :: place
+      real(wp) :: ag, years
 
       place = ''
       if (method == 'linear' .and. state == 'SLV') place = 'C8.7.1.2.1.7'
       if (method == 'nonlinear') place = 'C8.7.1.2.1.8'
-      call sheet%add(method, state, 'capacity_ag', factor*spectrum%ground%pga/spectrum%ground%soil_factor, place)
-      call sheet%add(method, state, 'capacity_pga', factor*spectrum%ground%pga)
-      ! The ratio in a_g S is the zeta_E of the mechanism
-      call sheet%add(method, state, 'ratio', factor, merge('NTC 8.3, C8.3', '             ', state == 'SLV'))
+      ag = factor*spectrum%ground%pga/spectrum%ground%soil_factor
+      call sheet%add(method, state, 'capacity_ag', ag, place, expression='a_gC/a_g a_g', numbers=times(factor, &
+         & spectrum%ground%pga/spectrum%ground%soil_factor))
+      call sheet%add(method, state, 'capacity_pga', factor*spectrum%ground%pga, expression='a_gC S', &
+         & numbers=times(ag, spectrum%ground%soil_factor))
+      call sheet%add(method, state, 'ratio', factor, merge('NTC 8.3, C8.3', '             ', state == 'SLV'), &
+         & expression=expression, numbers=numbers)
+      if (is_applicable .and. state /= 'SLD') call sheet%add(method, state, 'zeta_e', factor, 'NTC 8.3, C8.3', &
+         & expression='a_gC S/(a_g S)', numbers=trim(shown(factor*spectrum%ground%pga))//'/'//shown(spectrum%ground%pga))
+      years = input%return_period_of(ag)
+      if (is_applicable .and. years > 0.0_wp) then
+         call sheet%add(method, state, 'return_period_capacity', years, expression='ln T_R linear in ln a_g')
+         call sheet%add(method, state, 'return_period_range', merge(-1.0_wp, merge(1.0_wp, 0.0_wp, years > last_year), &
+            & years < first_year))
+         call sheet%add(method, state, 'extrapolated', merge(1.0_wp, 0.0_wp, ag < input%ag(1) .or. ag > input%ag(3)))
+      end if
       call sheet%add(method, state, 'verified', merge(1.0_wp, 0.0_wp, is_applicable .and. factor >= 1.0_wp))
    end subroutine put_capacity
 
