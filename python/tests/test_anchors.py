@@ -267,3 +267,111 @@ def test_populations(root, executable, tmp_path):
     check = dd.check_ntc(wall(), SITE)
     assert float(rows[0]["alpha_0"]) == check.value("mechanism", "", "alpha_0")
     assert dd.read_results(tmp_path / "out").population[0].ties == check.wall.ties
+
+
+def of_facade(*ties):
+    """The facade of docs/cases_by_hand.md."""
+    return dd.OneSidedWall(
+        sections=[dd.Section(3.8, 0.70), dd.Section(3.4, 0.55)],
+        density=2000.0,
+        loads=[
+            dd.Load(9e3, depth=0.55, height=3.8, inertia="both"),
+            dd.Load(7e3, depth=0.40, height=7.2, inertia="both"),
+        ],
+        thrusts=[dd.Thrust(2.5e3, height=6.6)],
+        compressive_strength=1e6,
+        ties=ties,
+    )
+
+
+LIFE = dd.Site(
+    ag=(0.104, 0.261, 0.334),
+    f0=(2.332, 2.364, 2.400),
+    tc_star=(0.281, 0.347, 0.364),
+    soil="B",
+    reference_life=50.0,
+    exceedance=(0.63, 0.10, 0.05),
+)
+
+
+def computed(text):
+    """A formula with numbers, computed without dondolo."""
+    return eval(
+        text.replace("^", "**").replace("ln(", "log("), {"pi": np.pi, "sqrt": np.sqrt, "log": np.log, "max": max}
+    )
+
+
+@pytest.mark.parametrize("site", [LIFE, dd.Site(0.2, 2.5, 0.35, soil="B")])
+@pytest.mark.parametrize(
+    "one",
+    [
+        of_facade(),
+        of_facade(dd.Tie(6.6, area=1e-4, length=10.0, strength=235e6, modulus=2.06e11)),
+        dd.OneSidedWall(3.0, 0.25, hinge_depth=0.02),
+        dd.TwoBlockWall(3.0, 0.25, hinge=0.6, overburden=20e3, overburden_inertia=0, eccentricity=0.02),
+        dd.TwoBlockWall(3.0, 0.25, hinge=0.6, overburden=1.0, overburden_inertia=0, eccentricity=0.02),
+    ],
+    ids=["facade", "tied", "set_back", "strip", "nearly_bare"],
+)
+def test_formulas_with_numbers(one, site):
+    """What a row shows with numbers in place of symbols gives its value."""
+    rows = [row for row in dd.check_ntc(one, site).rows if row.numbers]
+    assert {"a_0", "period", "demand", "zeta_e", "mass_ratio", "spectral_demand"} <= {row.quantity for row in rows}
+    for row in rows:
+        assert computed(row.numbers) == pytest.approx(row.value, rel=2e-6), row
+
+
+def test_return_periods():
+    """Along straight lines in the logarithms of a_g and T_R, flagged where they are prolonged."""
+    bare, tied = (
+        dd.check_ntc(one, LIFE)
+        for one in (of_facade(), of_facade(dd.Tie(6.6, area=1e-4, length=10.0, strength=235e6, preload=50e6)))
+    )
+    found = [bare.value("site", state, "return_period_demand") for state in ("SLD", "SLV", "SLC")]
+    assert found == pytest.approx([50.2890476999767, 474.561079051495, 974.786287311184], rel=1e-12)
+    assert bare.value("nonlinear", "SLV", "ratio") == pytest.approx(0.275290807164503, rel=1e-12)
+    assert bare.value("nonlinear", "SLV", "zeta_e") == bare.value("nonlinear", "SLV", "ratio")
+    assert bare.value("nonlinear", "SLC", "zeta_e") == pytest.approx(0.316164261537535, rel=1e-12)
+    assert bare.value("nonlinear", "SLV", "return_period_capacity") == pytest.approx(20.4031023757149, rel=1e-11)
+    flags = [bare.value("nonlinear", "SLV", name) for name in ("return_period_range", "extrapolated")]
+    assert flags == [-1.0, 1.0]
+    assert tied.value("nonlinear", "SLV", "return_period_capacity") == pytest.approx(705.503287278482, rel=1e-9)
+    flags = [tied.value("nonlinear", "SLV", name) for name in ("return_period_range", "extrapolated")]
+    assert flags == [0.0, 0.0]
+    one = dd.check_ntc(
+        of_facade(), dd.Site(0.261, 2.364, 0.347, soil="B", reference_life=75.0, exceedance=(0.63, 0.1, 0.05))
+    )
+    assert not any(row.quantity.startswith("return_period") for row in one.rows)
+    with pytest.raises(dd.InputError, match="exceedance: must decrease"):
+        dd.Site(0.2, 2.5, 0.35, reference_life=50.0, exceedance=(0.05, 0.1, 0.63))
+    with pytest.raises(dd.InputError, match="reference_life: must be given with exceedance"):
+        dd.Site(0.2, 2.5, 0.35, reference_life=50.0)
+
+
+def test_what_any_wall_must_have():
+    """alpha_0 g is the trigger, d_SLV at most 0.4 d_0, and a vanishing load on top leaves the bare strip."""
+    house = dd.Building(period=0.3, damping=0.05, storeys=3, level=3.0, level_top=6.0, building_height=9.0)
+    bare = dd.TwoBlockWall(3.0, 0.25, hinge=0.6, hinge_depth=0.015, building=house)
+    strips = [
+        dd.TwoBlockWall(
+            3.0,
+            0.25,
+            hinge=0.6,
+            hinge_depth=0.015,
+            building=house,
+            overburden=load,
+            overburden_inertia=0,
+            eccentricity=-0.06,
+        )
+        for load in (8e3, 1e-6)
+    ]
+    for one in (bare, *strips, dd.OneSidedWall(5.0, 0.4, hinge_depth=0.03)):
+        check = dd.check_ntc(one, LIFE)
+        alpha = check.value("mechanism", "", "alpha_0")
+        assert alpha * one.gravity == pytest.approx(one.trigger_acceleration, rel=1e-14)
+        assert check.value("nonlinear", "SLV", "displacement") <= 0.4 * check.value("mechanism", "", "d_0") * (
+            1 + 1e-15
+        )
+    for quantity in ("alpha_0", "d_0", "a_0"):
+        values = [dd.check_ntc(one, LIFE).value("mechanism", "", quantity) for one in (bare, strips[1])]
+        assert values[1] == pytest.approx(values[0], rel=1e-8)

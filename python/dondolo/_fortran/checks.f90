@@ -287,7 +287,7 @@ contains
             call parcel%lines%add(trim(row%method)//tab//trim(row%state)//tab//trim(row%quantity%name)//tab// &
                & trim(row%quantity%symbol)//tab//trim(row%quantity%unit)//tab//trim(row%formula)//tab// &
                & trim(row%quantity%meaning)//tab//trim(row%item)//tab// &
-               & trim(row%expression)//tab//trim(row%numbers))
+               & trim(row%working%expression)//tab//trim(row%working%numbers))
          end associate
       end do
    end subroutine pack_sheet

@@ -25,6 +25,8 @@ UNITS = {
     "kg/m3": Unit("kg/m³"),
     "m2/m": Unit("cm²/m", 1e4),
     "N/m": Unit("kN/m", 1e-3),
+    "N": Unit("kN", 1e-3),
+    "year": Unit("years"),
     "N m/m": Unit("kNm/m", 1e-3),
     "N m2/m": Unit("kNm²/m", 1e-3),
     "Pa": Unit("MPa", 1e-6),

@@ -5,10 +5,10 @@ module dondolo_check_sheet
    implicit none
    private
 
-   public :: sheet_type, shown
+   public :: sheet_type, shown, working_type
 
    !> Length of the names of methods, states and quantities, and of a formula's
-   integer, parameter :: name_length = 20
+   integer, parameter :: name_length = 24
    !> And of a formula in symbols or numbers
    integer, parameter :: formula_length = 96
 
@@ -100,6 +100,12 @@ module dondolo_check_sheet
       & quantity_type('verified', '', '', '1: verified, 0: not'), &
       & quantity_type('probability', 'P', '', 'probability of collapse at the peak acceleration, by the fragility curve')]
 
+   !> A formula
+   type :: working_type
+      !> In symbols, and with numbers in their places; empty for a number that is given or has none
+      character(len=formula_length) :: expression = '', numbers = ''
+   end type working_type
+
    !> A line of a sheet
    type :: sheet_row_type
       !> Part of the check: 'site', 'mechanism', 'tie', 'linear', 'nonlinear', 'dynamic'
@@ -114,8 +120,8 @@ module dondolo_check_sheet
       character(len=name_length) :: formula = ''
       !> What of the wall it is of, such as 'tie 1'; empty: the wall
       character(len=name_length) :: item = ''
-      !> Its formula in symbols, and with numbers in their places; empty where it is given or has none
-      character(len=formula_length) :: expression = '', numbers = ''
+      !> Its formula
+      type(working_type) :: working
    end type sheet_row_type
 
    !> A sheet
@@ -145,7 +151,7 @@ contains
    end function find_quantity
 
    !> Add a line
-   pure subroutine add(self, method, state, name, value, formula, item, expression, numbers)
+   pure subroutine add(self, method, state, name, value, formula, item, working)
       class(sheet_type), intent(inout) :: self
       !> Part of the check, limit state, and name of the quantity
       character(len=*), intent(in) :: method, state, name
@@ -155,8 +161,8 @@ contains
       character(len=*), intent(in), optional :: formula
       !> What of the wall it is of; absent: the wall
       character(len=*), intent(in), optional :: item
-      !> Its formula in symbols and with numbers; absent: it has none
-      character(len=*), intent(in), optional :: expression, numbers
+      !> Its formula; absent: it has none
+      type(working_type), intent(in), optional :: working
 
       type(sheet_row_type) :: row
 
@@ -166,8 +172,7 @@ contains
       row%value = value
       if (present(formula)) row%formula = formula
       if (present(item)) row%item = item
-      if (present(expression)) row%expression = expression
-      if (present(numbers)) row%numbers = numbers
+      if (present(working)) row%working = working
       call self%append(row)
    end subroutine add
 

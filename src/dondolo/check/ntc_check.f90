@@ -16,7 +16,7 @@ module dondolo_check_ntc_check
    use dondolo_check_floor_spectrum, only : floor_spectrum_type, new_floor_spectrum
    use dondolo_check_input, only : check_input_type, state_names
    use dondolo_check_kinematic, only : kinematic_type
-   use dondolo_check_sheet, only : shown, sheet_type
+   use dondolo_check_sheet, only : sheet_type, shown, working_type
    use dondolo_check_tie_rows, only : put_ties
    use dondolo_fragility, only : fragility_type
    implicit none
@@ -113,19 +113,19 @@ contains
          ag = ground%pga/ground%soil_factor
          call sheet%add('site', name, 'stratigraphy', ground%soil_factor/ground%topography_factor, 'NTC 3.2.3.2.1')
          call sheet%add('site', name, 'topography', ground%topography_factor, 'NTC 3.2.3.2.1')
-         call sheet%add('site', name, 'soil_factor', ground%soil_factor, 'NTC 3.2.3.2.1', expression='S_S S_T', &
-            & numbers=times(ground%soil_factor/ground%topography_factor, ground%topography_factor))
-         call sheet%add('site', name, 'tb', ground%corners(1), 'NTC 3.2.3.2.1', expression='T_C/3', &
-            & numbers=trim(shown(ground%corners(2)))//'/3')
+         call sheet%add('site', name, 'soil_factor', ground%soil_factor, 'NTC 3.2.3.2.1', working=working_type('S_S S_T', &
+            & times(ground%soil_factor/ground%topography_factor, ground%topography_factor)))
+         call sheet%add('site', name, 'tb', ground%corners(1), 'NTC 3.2.3.2.1', working=working_type('T_C/3', &
+            & trim(shown(ground%corners(2)))//'/3'))
          call sheet%add('site', name, 'tc', ground%corners(2), 'NTC 3.2.3.2.1')
-         call sheet%add('site', name, 'td', ground%corners(3), 'NTC 3.2.3.2.1', expression='4 a_g + 1.6', &
-            & numbers='4 * '//trim(shown(ag))//' + 1.6')
-         call sheet%add('site', name, 'pga', ground%pga, expression='a_g S', numbers=times(ag, ground%soil_factor))
+         call sheet%add('site', name, 'td', ground%corners(3), 'NTC 3.2.3.2.1', working=working_type('4 a_g + 1.6', &
+            & '4 * '//trim(shown(ag))//' + 1.6'))
+         call sheet%add('site', name, 'pga', ground%pga, working=working_type('a_g S', times(ag, ground%soil_factor)))
          if (input%reference_life > 0.0_wp .and. input%has_states()) then
             call sheet%add('site', name, 'reference_life', input%reference_life)
             call sheet%add('site', name, 'return_period_demand', input%return_period(state), 'NTC 3.2.1', &
-               & expression='-V_R/ln(1 - P_VR)', numbers='-'//trim(shown(input%reference_life))//'/ln(1 - '// &
-               & trim(shown(input%exceedance(state)))//')')
+               & working=working_type('-V_R/ln(1 - P_VR)', '-'//trim(shown(input%reference_life))//'/ln(1 - '// &
+               & trim(shown(input%exceedance(state)))//')'))
          end if
          if (size(spectrum%period) > 0) call sheet%add('site', name, 'floor_pga', spectrum%peak_acceleration(), 'C7.2.3')
       end associate
@@ -139,15 +139,15 @@ contains
 
       call sheet%add('mechanism', '', 'knowledge_factor', input%knowledge_factor, 'C8.7.1.2.1.3')
       call sheet%add('mechanism', '', 'alpha_0', kinematic%multiplier, 'C8.7.1.1', &
-         & expression='(sum stabilising - sum overturning)/sum P z', numbers='('//trim(shown(kinematic%stabilising))//' - '// &
-         & trim(shown(kinematic%overturning))//')/'//shown(kinematic%first))
-      call sheet%add('mechanism', '', 'mass', kinematic%mass, 'C8.7.1.5', expression='(sum P z)^2/(g sum P z^2)', &
-         & numbers=trim(shown(kinematic%first))//'^2/('//times(kinematic%gravity, kinematic%second)//')')
-      call sheet%add('mechanism', '', 'mass_ratio', kinematic%mass_ratio, 'C8.7.1.5', expression='g M*/sum P', &
-         & numbers=times(kinematic%gravity, kinematic%mass)//'/'//shown(kinematic%weight))
+         & working=working_type('(sum stabilising - sum overturning)/sum P z', '('//trim(shown(kinematic%stabilising))//' - '// &
+         & trim(shown(kinematic%overturning))//')/'//shown(kinematic%first)))
+      call sheet%add('mechanism', '', 'mass', kinematic%mass, 'C8.7.1.5', working=working_type('(sum P z)^2/(g sum P z^2)', &
+         & trim(shown(kinematic%first))//'^2/('//times(kinematic%gravity, kinematic%second)//')'))
+      call sheet%add('mechanism', '', 'mass_ratio', kinematic%mass_ratio, 'C8.7.1.5', working=working_type('g M*/sum P', &
+         & times(kinematic%gravity, kinematic%mass)//'/'//shown(kinematic%weight)))
       call sheet%add('mechanism', '', 'a_0', kinematic%capacity(0.0_wp, input%knowledge_factor), 'C8.7.1.3', &
-         & expression='alpha_0 g/(e* FC)', numbers=times(kinematic%multiplier, kinematic%gravity)//'/('// &
-         & times(kinematic%mass_ratio, input%knowledge_factor)//')')
+         & working=working_type('alpha_0 g/(e* FC)', times(kinematic%multiplier, kinematic%gravity)//'/('// &
+         & times(kinematic%mass_ratio, input%knowledge_factor)//')'))
       call sheet%add('mechanism', '', 'd_0', kinematic%end_displacement, 'C8.7.1.4')
       if (kinematic%level > 0.0_wp) call sheet%add('mechanism', '', 'level', kinematic%level)
       if (kinematic%diaphragm_period > 0.0_wp) call sheet%add('mechanism', '', 'diaphragm_period', kinematic%diaphragm_period)
@@ -184,8 +184,8 @@ contains
       is_brittle = factor > 1.0_wp .and. any(kinematic%anchors%is_brittle())
       if (is_brittle) call sheet%add('linear', name, 'applicable', 0.0_wp)
       call put_capacity(sheet, 'linear', name, factor*activation(kinematic, input, spectrum), spectrum, input, .not. is_brittle, &
-         & expression='q a_0*/(g a_Z)', numbers=times(factor, kinematic%capacity(0.0_wp, input%knowledge_factor))//'/('// &
-         & times(kinematic%gravity, spectrum%peak_acceleration())//')')
+         & working=working_type('q a_0*/(g a_Z)', times(factor, kinematic%capacity(0.0_wp, input%knowledge_factor))//'/('// &
+         & times(kinematic%gravity, spectrum%peak_acceleration())//')'))
    end subroutine put_linear
 
    !> Factor on the site's a_g at which the mechanism starts
@@ -233,26 +233,26 @@ contains
          expression = trim(merge('where ties break     ', 'where a seat is lost ', d < kinematic%unseating))
          numbers = ''
       end if
-      call sheet%add('nonlinear', name, 'displacement', d, 'C8.7.1.2.1.6', expression=expression, numbers=numbers)
-      call sheet%add('nonlinear', name, 'acceleration', a, 'C8.7.1.3', expression='alpha(d_C) g/(e* FC)', &
-         & numbers=times(a*kinematic%mass_ratio*input%knowledge_factor/kinematic%gravity, kinematic%gravity)//'/('// &
-         & times(kinematic%mass_ratio, input%knowledge_factor)//')')
+      call sheet%add('nonlinear', name, 'displacement', d, 'C8.7.1.2.1.6', working=working_type(expression, numbers))
+      call sheet%add('nonlinear', name, 'acceleration', a, 'C8.7.1.3', working=working_type('alpha(d_C) g/(e* FC)', &
+         & times(a*kinematic%mass_ratio*input%knowledge_factor/kinematic%gravity, kinematic%gravity)//'/('// &
+         & times(kinematic%mass_ratio, input%knowledge_factor)//')'))
       call sheet%add('nonlinear', name, 'period', period, merge('C8.7.1.10', 'C8.7.1.11', state == 2), &
-         & expression=merge('1.68', '1.56', state == 2)//' pi sqrt[d_C/a(d_C)]', &
-         & numbers=merge('1.68', '1.56', state == 2)//' * pi * sqrt('//trim(shown(d))//'/'//trim(shown(a))//')')
+         & working=working_type(merge('1.68', '1.56', state == 2)//' pi sqrt[d_C/a(d_C)]', &
+         & merge('1.68', '1.56', state == 2)//' * pi * sqrt('//trim(shown(d))//'/'//trim(shown(a))//')'))
       call sheet%add('nonlinear', name, 'damping', dampings(state), 'C8.7.1.2.1.8')
       call sheet%add('nonlinear', name, 'eta', damping_factor(dampings(state)), 'NTC 3.2.3.2.1', &
-         & expression='sqrt[10/(5 + 100 xi)]', numbers='sqrt(10/(5 + 100 * '//trim(shown(dampings(state)))//'))')
+         & working=working_type('sqrt[10/(5 + 100 xi)]', 'sqrt(10/(5 + 100 * '//trim(shown(dampings(state)))//'))'))
       call put_ordinate_formula(spectrum, period, dampings(state), expression, numbers)
       call sheet%add('nonlinear', name, 'spectral_demand', spectrum%acceleration(period, dampings(state)), &
-         & merge('NTC 3.2.3.2.1', 'C7.2.3       ', size(spectrum%period) == 0), expression=expression, numbers=numbers)
+         & merge('NTC 3.2.3.2.1', 'C7.2.3       ', size(spectrum%period) == 0), working=working_type(expression, numbers))
       call sheet%add('nonlinear', name, 'demand', demand, merge('NTC 3.2.3.2.3', 'C8.7.1.12    ', size(spectrum%period) == 0), &
-         & expression='S_e(T) g (T/2 pi)^2', numbers=times(spectrum%acceleration(period, dampings(state)), kinematic%gravity)// &
-         & ' * ('//trim(shown(period))//'/(2 * pi))^2')
+         & working=working_type('S_e(T) g (T/2 pi)^2', times(spectrum%acceleration(period, dampings(state)), kinematic%gravity)// &
+         & ' * ('//trim(shown(period))//'/(2 * pi))^2'))
       call put_capacity(sheet, 'nonlinear', name, max(d/demand, activation(kinematic, input, spectrum)), spectrum, input, &
-         & is_applicable=.true., expression='max[d_C/d_D, a_0*/(g a_Z)]', numbers='max('//trim(shown(d))//'/'// &
+         & is_applicable=.true., working=working_type('max[d_C/d_D, a_0*/(g a_Z)]', 'max('//trim(shown(d))//'/'// &
          & trim(shown(demand))//', '//trim(shown(kinematic%capacity(0.0_wp, input%knowledge_factor)))//'/('// &
-         & times(kinematic%gravity, spectrum%peak_acceleration())//'))')
+         & times(kinematic%gravity, spectrum%peak_acceleration())//'))'))
    end subroutine put_nonlinear
 
    !> The formula of an ordinate of the spectrum of the ground; in a building it is a sum over modes
@@ -300,7 +300,7 @@ contains
    end function times
 
    !> Put the a_g that a wall withstands
-   pure subroutine put_capacity(sheet, method, state, factor, spectrum, input, is_applicable, expression, numbers)
+   pure subroutine put_capacity(sheet, method, state, factor, spectrum, input, is_applicable, working)
       type(sheet_type), intent(inout) :: sheet
       !> Part of the check and limit state
       character(len=*), intent(in) :: method, state
@@ -310,8 +310,8 @@ contains
       type(check_input_type), intent(in) :: input
       !> Is the check one for the wall? Else it verifies nothing
       logical, intent(in) :: is_applicable
-      !> The factor in symbols and in numbers
-      character(len=*), intent(in) :: expression, numbers
+      !> Formula of the factor
+      type(working_type), intent(in) :: working
 
       character(len=13) :: place
       real(wp) :: ag, years
@@ -320,17 +320,17 @@ contains
       if (method == 'linear' .and. state == 'SLV') place = 'C8.7.1.2.1.7'
       if (method == 'nonlinear') place = 'C8.7.1.2.1.8'
       ag = factor*spectrum%ground%pga/spectrum%ground%soil_factor
-      call sheet%add(method, state, 'capacity_ag', ag, place, expression='a_gC/a_g a_g', numbers=times(factor, &
-         & spectrum%ground%pga/spectrum%ground%soil_factor))
-      call sheet%add(method, state, 'capacity_pga', factor*spectrum%ground%pga, expression='a_gC S', &
-         & numbers=times(ag, spectrum%ground%soil_factor))
+      call sheet%add(method, state, 'capacity_ag', ag, place, working=working_type('a_gC/a_g a_g', times(factor, &
+         & spectrum%ground%pga/spectrum%ground%soil_factor)))
+      call sheet%add(method, state, 'capacity_pga', factor*spectrum%ground%pga, working=working_type('a_gC S', &
+         & times(ag, spectrum%ground%soil_factor)))
       call sheet%add(method, state, 'ratio', factor, merge('NTC 8.3, C8.3', '             ', state == 'SLV'), &
-         & expression=expression, numbers=numbers)
+         & working=working)
       if (is_applicable .and. state /= 'SLD') call sheet%add(method, state, 'zeta_e', factor, 'NTC 8.3, C8.3', &
-         & expression='a_gC S/(a_g S)', numbers=trim(shown(factor*spectrum%ground%pga))//'/'//shown(spectrum%ground%pga))
+         & working=working_type('a_gC S/(a_g S)', trim(shown(factor*spectrum%ground%pga))//'/'//shown(spectrum%ground%pga)))
       years = input%return_period_of(ag)
       if (is_applicable .and. years > 0.0_wp) then
-         call sheet%add(method, state, 'return_period_capacity', years, expression='ln T_R linear in ln a_g')
+         call sheet%add(method, state, 'return_period_capacity', years, working=working_type('ln T_R linear in ln a_g'))
          call sheet%add(method, state, 'return_period_range', merge(-1.0_wp, merge(1.0_wp, 0.0_wp, years > last_year), &
             & years < first_year))
          call sheet%add(method, state, 'extrapolated', merge(1.0_wp, 0.0_wp, ag < input%ag(1) .or. ag > input%ag(3)))

@@ -32,7 +32,9 @@ from dondolo.walls.parts import parts_of
 _FIGURES = 6
 # Displacements of the sheet, which are small
 _LENGTHS = ("d_0", "tie_fracture", "displacement", "demand", "mean_displacement")
-_COUNTS = ("records", "histories", "beyond")
+_COUNTS = ("records", "histories", "beyond", "applicable")
+# What is in words elsewhere: whether a return period is printed as a number
+_RANGES = ("return_period_range", "extrapolated")
 # Factors of the period, and damping [%], of the nonlinear checks
 _PERIODS = {"SLV": (1.68, 8.0), "SLC": (1.56, 10.0)}
 
@@ -320,7 +322,7 @@ def _sheet(document: Document) -> CaptionedTable:
     rows: dict[tuple[str, str, str], SheetRow] = {}
     for one in document.subjects.several:
         for row in one.check.rows:
-            if row.method in ("mechanism", "linear", "nonlinear") and row.quantity != "probability":
+            if row.method in ("mechanism", "linear", "nonlinear") and row.quantity not in ("probability", *_RANGES):
                 rows.setdefault((row.method, row.limit_state, row.quantity), row)
     # What the first wall has not comes after it
     rows = dict(sorted(rows.items(), key=lambda item: ("mechanism", "linear", "nonlinear").index(item[0][0])))
@@ -366,6 +368,8 @@ def _value(document: Document, row: SheetRow | None) -> Piece:
         return NONE
     if row.quantity == "verified":
         return outcome(document, row.value == 1.0)
+    if row.quantity == "return_period_capacity" and not 30.0 <= row.value <= 2475.0:
+        return "< 30" if row.value < 30.0 else "> 2475"
     return whole(row.value) if row.quantity in _COUNTS else cell(row.value, _unit(row), 5)
 
 
@@ -387,12 +391,19 @@ def ties(document: Document) -> list[Block]:
     ]
     if not rows:
         return [*blocks, document.say(_("The walls have no ties."))]
-    anchored = [tie.anchor_force for _name, _number, tie, _item in rows]
+    anchored = [
+        next(
+            (row.value for row in one.check.rows if (row.item, row.quantity) == (f"tie {count}", "anchor_force_per_m")),
+            None,
+        )
+        for _name, one in document.each()
+        for count in range(1, len(parts_of(one.wall, "ties")) + 1)
+    ]
     columns: dict[Piece, Sequence[Piece]] = {
         document.text(_("wall")): [name for name, *_rest in rows],
         document.text(_("tie")): [whole(count) for _name, count, *_rest in rows],
         document.text(_("height [m]")): [number(tie.height) for _name, _count, tie, _item in rows],
-        document.text(_("area [cm²/m]")): [cell(tie.area, UNITS["m2/m"]) for _name, _count, tie, _item in rows],
+        document.text(_("area [cm²/m]")): [cell(tie.section, UNITS["m2/m"]) for _name, _count, tie, _item in rows],
         document.text(_("length [m]")): [number(tie.length) for _name, _count, tie, _item in rows],
         document.text(_("strength [MPa]")): [cell(tie.strength, UNITS["Pa"]) for _name, _count, tie, _item in rows],
         document.text(_("force that holds [kN/m]")): [cell(item.force, UNITS["N/m"], 5) for *_rest, item in rows],

@@ -181,8 +181,8 @@ contains
          call table%put('formula', trim(row%formula))
          call table%put('meaning', trim(row%quantity%meaning), is_quoted=.true.)
          call table%put('item', trim(row%item))
-         call table%put('expression', trim(row%expression), is_quoted=.true.)
-         call table%put('numbers', trim(row%numbers), is_quoted=.true.)
+         call table%put('expression', trim(row%working%expression), is_quoted=.true.)
+         call table%put('numbers', trim(row%working%numbers), is_quoted=.true.)
       end associate
    end subroutine put_sheet_row
 
