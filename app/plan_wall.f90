@@ -43,8 +43,12 @@ contains
       !> Width of the column of names
       integer, intent(in) :: width
 
-      write (output_unit, '(a, a15, 2f11.3, f11.4, f11.4, f11.5, f11.4, a)') left(wall%name(), width), &
-         & wall%mechanism_name(), wall%input%number('height'), wall%input%number('thickness'), &
+      character(len=11) :: thickness
+
+      thickness = repeat(' ', len(thickness) - 1)//'-'
+      if (wall%input%has('thickness')) write (thickness, '(f11.3)') wall%input%number('thickness')
+      write (output_unit, '(a, a15, f11.3, a, f11.4, f11.4, f11.5, f11.4, a)') left(wall%name(), width), &
+         & wall%mechanism_name(), wall%input%number('height'), thickness, &
          & wall%mechanism%trigger_acceleration()/wall%gravity, wall%mechanism%frequency_parameter(), &
          & wall%mechanism%capacity, wall%mechanism%restitution, trim(load_of(wall))
    end subroutine print_row

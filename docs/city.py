@@ -238,13 +238,13 @@ def fitted(fraction, histories, saturation=1.0, top=None):
 
 
 def restitution(study):
-    """Print curves for factors of the two-block rows and for constant speed ratios of the one-sided ones."""
+    """Print curves for factors of the two-block rows and for speed ratios by number of the one-sided ones."""
     for factor in (0.84, 0.87, 0.90, 1.0):
         population = part("two_block", restitution_factor=factor)
         print(f"two_block, factor {factor}: {text(study.run(f'factor_{factor}', population, LEVELS)['all'].fit)}")
     print(f"one_sided, equation (2): {text(study.typology['one_sided'].fit)}")
     for value in (0.0, 0.3, 0.5, 0.7, 0.9):
-        population = part("one_sided", restitution="constant", restitution_value=value)
+        population = part("one_sided", restitution_value=value)
         print(f"one_sided, constant {value}: {text(study.run(f'constant_{value}', population, LEVELS)['all'].fit)}")
 
 

@@ -312,7 +312,6 @@ def overturning():
     wall = dd.FreeStandingWall(
         height=2.0 * radius * np.cos(alpha),
         thickness=2.0 * radius * np.sin(alpha),
-        restitution="constant",
         restitution_value=0.9,
         name="alpha = 0.25, p = 2.14/s, restitution 0.9",
     )

@@ -29,7 +29,6 @@ strips = {
     "dead, ratio 0.487": {
         **strip,
         "overburden_inertia": 0.0,
-        "restitution": "constant",
         "restitution_value": 0.48729473876118,
     },
     "half lifted": {**strip, "overburden_inertia": 0.5},

@@ -53,7 +53,7 @@ if __name__ == "__main__":
             )
         ),
     )
-    kept = {"restitution": "constant", "restitution_value": FACTOR * speed(0.6)}
+    kept = {"restitution_value": FACTOR * speed(0.6)}
     low, high, alone = (
         median(records, hinge=0.6, restitution_factor=FACTOR),
         median(records, hinge=0.88, restitution_factor=FACTOR),

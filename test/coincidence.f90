@@ -134,13 +134,10 @@ contains
       call input%set('thickness', thick)
       select case (choice(random, 6))
       case (1)
-         call input%set('restitution', 'constant')
          call input%set('restitution_value', 0.0_wp)
       case (2)
-         call input%set('restitution', 'constant')
          call input%set('restitution_value', 0.5_wp)
       case (3)
-         call input%set('restitution', 'constant')
          call input%set('restitution_value', merge(0.999_wp, 0.9_wp, choice(random, 5) == 1))
       end select
       call new_wall(wall, input, error)

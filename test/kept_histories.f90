@@ -116,7 +116,6 @@ contains
          call input%set('thickness', 0.25_wp)
          if (present(hinge)) call input%set('hinge', hinge)
          if (present(restitution)) then
-            call input%set('restitution', 'constant')
             call input%set('restitution_value', restitution)
          end if
          call new_wall(history%wall, input, error)

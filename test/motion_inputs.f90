@@ -44,7 +44,6 @@ contains
       call input%set('height', height)
       call input%set('thickness', thickness)
       if (present(restitution)) then
-         call input%set('restitution', 'constant')
          call input%set('restitution_value', restitution)
       end if
       call new_wall(wall, input, error)

@@ -102,10 +102,8 @@ contains
       end if
       select case (choice(random, 6))
       case (1)
-         call input%set('restitution', 'constant')
          call input%set('restitution_value', 0.0_wp)
       case (2)
-         call input%set('restitution', 'constant')
          call input%set('restitution_value', 1.0_wp - across(random, 1.0e-4_wp, 1.0_wp))
       case default
          call input%set('restitution_factor', between(random, 0.5_wp, 1.0_wp))

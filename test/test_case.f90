@@ -33,7 +33,7 @@ program test_case
    !> A catalogue of two records, a case of each task
    character(len=*), parameter :: records = "&records catalogue = 'records.csv' polarity = 'reversed' /"//lf
    character(len=*), parameter :: wall = "&wall mechanism = 'two_block', height = 3, thickness = 0.25, "// &
-      & "restitution = 'constant', restitution_value = 0.9, name = 'it''s' /"//lf
+      & "restitution_value = 0.9, name = 'it''s' /"//lf
    character(len=*), parameter :: stripes_case = "&job output = '"//scratch//"/out/x' title = 'two words' /"//lf// &
       & wall//records//"&stripes levels = 0.3, 0.5, 1 /"//lf//"&solver rtol = 1e-7 edp_limit = 0.9 /"
    character(len=*), parameter :: history_case = "&job task = 'history' output = '"//scratch//"/out/y' /"//lf//wall// &

@@ -183,7 +183,6 @@ contains
       logical :: found
 
       with_ratio = input
-      call with_ratio%set('restitution', 'constant')
       call with_ratio%set('restitution_value', 0.45_wp)
       wall = made(with_ratio)
       record = accelerogram([0.0_wp, -3.0_wp, -3.0_wp, 1.0_wp, 2.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp, 0.0_wp], 0.1_wp)

@@ -427,7 +427,6 @@ contains
                if (table(j)%required .and. has_owner(table(j), trim(mechanism_names(m))) .and. .not. &
                   & input%has(table(j)%name)) call input%set(table(j)%name, merge(3.0_wp, 0.5_wp, table(j)%name == 'height'))
             end do
-            if (what == 'restitution_value') call input%set('restitution', 'constant')
             if (what == 'bearing') call input%set('bearing', 'centre')
             if (what == 'bearing_distance') call input%set('bearing', 'inner')
             call new_wall(wall, input, error)

@@ -437,7 +437,6 @@ contains
       call suite('swings')
       do k = 1, 3
          input = strip_input(strips(walls(k)))
-         call input%set('restitution', 'constant')
          call input%set('restitution_value', 0.0_wp)
          wall = made(input)
          call wall%mechanism%support(share, tilt)

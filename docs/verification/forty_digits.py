@@ -47,7 +47,7 @@ class Block:
         self.alpha = exact((thickness / height).atan())
         self.p2 = exact(3 * self.g / (2 * (height**2 + thickness**2).sqrt()))
         sine2 = self.alpha.sin() ** 2
-        if row["restitution"] == "constant":
+        if row["restitution_value"]:
             loss = arb(float(row["restitution_value"]))
         elif self.two_sided:
             loss = 1 - sine2 * 3 / 2
@@ -198,7 +198,7 @@ def can_be_followed(row):
     """One block whose chains are short enough?"""
     if row["mechanism"] == "two_block":
         return False
-    return row["restitution"] != "constant" or float(row["restitution_value"]) <= LIMIT
+    return not row["restitution_value"] or float(row["restitution_value"]) <= LIMIT
 
 
 def main(folder):

@@ -42,7 +42,7 @@ def random_wall(rng):
     mode = rng.choice(["default", "factor", "constant"], p=[0.3, 0.35, 0.35])
     how = {}
     if mode == "constant":
-        how = {"restitution": "constant", "restitution_value": float(np.round(1.0 - 10.0 ** draw(-4.0, -0.5), 6))}
+        how = {"restitution_value": float(np.round(1.0 - 10.0 ** draw(-4.0, -0.5), 6))}
     while True:
         try:
             return _wall(kind, mode, how, rng)

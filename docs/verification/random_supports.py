@@ -47,7 +47,6 @@ def random_strip(rng):
         overburden=load,
         overburden_inertia=lifted,
         eccentricity=eccentricity,
-        restitution="constant",
         restitution_value=ratio,
         building=building(house),
     )

@@ -44,6 +44,7 @@ from dondolo.retrofit.designs import compare_designs as compare_designs
 from dondolo.walls import distributions as distributions
 from dondolo.walls.mechanisms import FreeStandingWall as FreeStandingWall
 from dondolo.walls.mechanisms import OneSidedWall as OneSidedWall
+from dondolo.walls.mechanisms import TabulatedWall as TabulatedWall
 from dondolo.walls.mechanisms import TwoBlockWall as TwoBlockWall
 from dondolo.walls.mechanisms import Wall as Wall
 from dondolo.walls.parts import Bed as Bed

@@ -44,6 +44,7 @@ SMALL = {
     "src/dondolo/case/results/(csv_table|report_rows)": "a row of a table",
     "src/dondolo/case/results/replaced": "the beginning of a file, whose length is limited",
     "src/dondolo/(base/properties/|case/input/survey|building/building)": "lists of properties",
+    "src/dondolo/wall/table_fit.f90": "rows of a table, 10000 at most",
     "src/dondolo/wall/(wall_(body|lists|ties)|tie_statics|interlocking)": "lists of properties",
     "src/dondolo/(case/(warnings/|groups/stripes_group)|fragility/ordinal)": "levels and states",
     "python/dondolo/_fortran/checks": "lines of the sheet of a check",

@@ -17,12 +17,11 @@ import dondolo as dd
 PLACES = {
     "facade": (dd.OneSidedWall(6.0, 0.5), {"mechanism": "one_sided", "height": 6.0, "thickness": 0.5}),
     "block": (
-        dd.FreeStandingWall(2.0, 0.3, restitution="constant", restitution_value=0.9, gravity=9.8),
+        dd.FreeStandingWall(2.0, 0.3, restitution_value=0.9, gravity=9.8),
         {
             "mechanism": "free_standing",
             "height": 2.0,
             "thickness": 0.3,
-            "restitution": "constant",
             "restitution_value": 0.9,
             "gravity": 9.8,
         },

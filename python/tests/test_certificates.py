@@ -26,8 +26,6 @@ def hard(name):
     histories = []
     for row in rows:
         said = {what: row[what] for what in list(row)[1 : list(row).index("record")] if row[what]}
-        if said["restitution"] == "constant":
-            said.pop("restitution_factor")
         wall = WALLS[row["mechanism"]](
             **{what: value if what in TEXTS else float(value) for what, value in said.items()}
         )

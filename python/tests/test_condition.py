@@ -75,7 +75,7 @@ def test_hard_histories(records, row):
     with open(ROOT / "test/reference/hard_synthetic.csv", newline="", encoding="utf-8") as file:
         said = list(csv.DictReader(line for line in file if not line.startswith("#")))[row]
     numbers = {what: float(said[what]) for what in ("height", "thickness", "hinge") if said[what]}
-    how = "restitution_value" if said["restitution"] == "constant" else "restitution_factor"
+    how = "restitution_value" if said["restitution_value"] else "restitution_factor"
     numbers[how] = float(said[how])
     wall = WALLS[said["mechanism"]](**numbers, restitution=said["restitution"])
     assert check_condition(wall, named[said["record"]], float(said["scale"]), "lanes") > 1e8

@@ -24,6 +24,7 @@ pytestmark = pytest.mark.slow
         ("site_risk", ["site_risk.png"]),
         ("code_check", ["code_check.png", "code_check.csv", "code_check.html"]),
         ("facade", ["facade.png"]),
+        ("own_mechanism", ["own_mechanism.png"]),
         ("which_tie", ["which_tie.png"]),
         ("how_sure", ["how_sure.png", "how_sure.csv"]),
         ("goodness_of_fit", ["goodness_of_fit.png"]),

@@ -17,7 +17,7 @@ ERROR = r"record '.*slow.*', scale factor .*: the time history does not get beyo
 @pytest.fixture(scope="module")
 def bouncing() -> dd.OneSidedWall:
     """A wall that hardly loses speed."""
-    return dd.OneSidedWall(HEIGHT, THICKNESS, restitution="constant", restitution_value=RESTITUTION, name="rubber")
+    return dd.OneSidedWall(HEIGHT, THICKNESS, restitution_value=RESTITUTION, name="rubber")
 
 
 @pytest.fixture(scope="module")

@@ -110,7 +110,7 @@ def test_static_quantities(mechanism):
 )
 def test_restitution(mechanism, model, impact, sense):
     bounds = []
-    for wall, bodies in random_pairs(mechanism, restitution="constant", restitution_value=0.5):
+    for wall, bodies in random_pairs(mechanism, restitution_value=0.5):
         expected = sense * independent.coefficient(bodies, impact)
         bounds.append(expected)
         changed = {"restitution": model, "restitution_value": None}
@@ -206,7 +206,7 @@ def test_bounces_that_hardly_lose_speed(engine):
     That is an extrapolation method in long double and in 33 digits, with every bounce integrated. A guard that puts the
     wall to rest among its bounces changes the EDP in the third to the sixth digit, and survives the last push.
     """
-    wall = dd.FreeStandingWall(3.0, 0.25, restitution="constant", restitution_value=0.999)
+    wall = dd.FreeStandingWall(3.0, 0.25, restitution_value=0.999)
     for over, expected, rel in ((1e-5, 0.0038075, 1e-5), (1e-4, 0.038673567, 2e-8), (1e-3, 0.5103246, 1e-7)):
         push = np.array([0.0, 1.001, *[0.99] * 20, *[1.0 + over] * 600, 0.0, 0.0])
         record = dd.Record(-wall.trigger_acceleration * push, 0.005)

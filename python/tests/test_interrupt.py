@@ -21,7 +21,7 @@ import numpy as np
 import dondolo as dd
 
 signal.signal(signal.SIGINT, signal.default_int_handler)
-wall = dd.OneSidedWall(3.0, 0.25, restitution="constant", restitution_value=0.99999)
+wall = dd.OneSidedWall(3.0, 0.25, restitution_value=0.99999)
 ground = 0.6 * wall.trigger_acceleration * np.sin(2.0 * np.pi * 0.01 * np.arange(500_000))
 for i in range(1, 4):
     ground[i::500] = -wall.trigger_acceleration * (1.0 + 1e-6)
@@ -101,7 +101,7 @@ def test_the_executable_dies_of_it(executable, tmp_path):
     (tmp_path / "case.nml").write_text(
         "&job task = 'history' output = 'out/long' /\n"
         "&wall mechanism = 'one_sided' height = 3 thickness = 0.25\n"
-        "restitution = 'constant' restitution_value = 0.99999 /\n"
+        "restitution_value = 0.99999 /\n"
         "&records catalogue = 'records.csv' /\n&history record = 1 /\n&solver engine = 'rk45' /\n"
     )
     run = subprocess.Popen(

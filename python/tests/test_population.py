@@ -23,7 +23,7 @@ ROWS = [
         restitution_factor=0.87,
         name="a",
     ),
-    dd.FreeStandingWall(1.8, 0.4, restitution="constant", restitution_value=0.7, density=2000.0, name='b, "the" #2'),
+    dd.FreeStandingWall(1.8, 0.4, restitution_value=0.7, density=2000.0, name='b, "the" #2'),
     dd.OneSidedWall(1.0, 0.25, name="c"),
 ]
 PEOPLE = dd.Population(ROWS, [2.0, 2.0, 5.0, 0.0], groups=["low", "low", "high, free", ""], p_occ=[0.4, 0.6, 1.0, 0.0])

@@ -129,7 +129,7 @@ def test_safe_window_above_the_first_overturning():
 )
 def test_zhang_and_makris(alpha, expected, tolerance):
     spectrum = dd.overturning_spectrum(
-        block(alpha, 2.14, restitution="constant", restitution_value=0.9),
+        block(alpha, 2.14, restitution_value=0.9),
         dd.pulses.one_sine,
         frequencies=[5.0 * 2.14 / (2.0 * np.pi)],
         amplitudes=np.arange(1.0, 8.0, 0.2) * alpha,
@@ -153,7 +153,7 @@ def test_makris_and_roussos():
     # Figure 11: b = 0.5 m, h = 1.5 m, one cosine of 2 pi rad/s, eta = 0.85: between 0.6245 and 0.6255 g; 0.625845 g by
     # quadrature
     spectrum = dd.overturning_spectrum(
-        dd.FreeStandingWall(3.0, 1.0, restitution="constant", restitution_value=0.85),
+        dd.FreeStandingWall(3.0, 1.0, restitution_value=0.85),
         lambda amplitude, frequency: dd.pulses.one_cosine(amplitude, frequency, error=1e-7),
         frequencies=[1.0],
         amplitudes=[0.5, 0.6, 0.65],
@@ -167,7 +167,7 @@ def test_makris_and_roussos():
 @pytest.fixture(scope="module")
 def spectrum():
     """A coarse scan of a block under one sine."""
-    wall = block(0.25, 2.14, restitution="constant", restitution_value=0.9)
+    wall = block(0.25, 2.14, restitution_value=0.9)
     ratio, height = np.linspace(0.6, 6.0, 10), np.linspace(0.25, 7.5, 30)
     return dd.overturning_spectrum(
         wall,

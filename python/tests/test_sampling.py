@@ -407,7 +407,7 @@ def test_errors(changes, sentence):
             r"wall 'facades \d+': hinge = [01].\d*: must lie between 0.01 and 0.99",
         ),
         (
-            {"restitution": "constant", "restitution_value": dd.distributions.Uniform(0.9, 1.1)},
+            {"restitution_value": dd.distributions.Uniform(0.9, 1.1)},
             r"wall 'facades \d+': restitution_value = 1.0\d*: must be",
         ),
         (

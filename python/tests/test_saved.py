@@ -36,7 +36,7 @@ def results(stripes, few, wall):
         dd.TwoBlockWall(
             3.0, 0.25, overburden=8000.0, overburden_inertia=0.0, bearing="inner", bearing_distance=0.06, name="a"
         ),
-        dd.FreeStandingWall(4.0, 0.9, restitution="constant", restitution_value=0.7, gravity=9.80665, name="caffè"),
+        dd.FreeStandingWall(4.0, 0.9, restitution_value=0.7, gravity=9.80665, name="caffè"),
         dd.TwoBlockWall(3.1, 0.27, restitution_factor=0.9, name="c"),
         dd.OneSidedWall(1.8, 0.25, name="d"),
     ]
@@ -214,7 +214,7 @@ def test_a_loaded_result_goes_on(results, tmp_path):
     [
         dd.OneSidedWall(3.1, 0.27, density=1900.0, gravity=9.80665, name="naïve: a, 'b'"),
         dd.OneSidedWall(3.0, 0.25, restitution="sorrentino", restitution_factor=0.9),
-        dd.FreeStandingWall(2.0, 0.5, restitution="constant", restitution_value=0.7),
+        dd.FreeStandingWall(2.0, 0.5, restitution_value=0.7),
         dd.TwoBlockWall(3.0, 0.25, hinge=0.6, restitution="impulse"),
         dd.TwoBlockWall(3.0, 0.25, overburden=5000.0, overburden_inertia=0.0, bearing="outer", bearing_distance=0.05),
     ],

@@ -295,9 +295,9 @@ def test_texts_of_cases_are_refused_with_what_to_write(given, told):
             r"is a ratio to restitution = 'sorrentino', must be .* for 'impulse'; the same speeds are uniform\(",
         ),
         (
-            dd.TwoBlockWall(2.7, 0.24, restitution="constant", restitution_value=0.8),
+            dd.TwoBlockWall(2.7, 0.24, restitution_value=0.8),
             "graziotti_2016",
-            "is a ratio to restitution = 'sorrentino', must be a range or distribution for 'constant'$",
+            "is a ratio to restitution = 'sorrentino', must be a range or distribution for restitution_value$",
         ),
         # The default of a wall that lifts a mass is 'impulse'.
         (
@@ -306,9 +306,9 @@ def test_texts_of_cases_are_refused_with_what_to_write(given, told):
             "for 'impulse', the model of a wall that lifts the mass of its overburden",
         ),
         (
-            dd.FreeStandingWall(2.0, 0.3, restitution="constant", restitution_value=0.8),
+            dd.FreeStandingWall(2.0, 0.3, restitution_value=0.8),
             "elgawady_2010",
-            "is a ratio to restitution = 'impulse', must be a range or distribution for 'constant'",
+            "is a ratio to restitution = 'impulse', must be a range or distribution for restitution_value",
         ),
     ],
 )
@@ -357,7 +357,7 @@ def test_stripes_name_the_range_of_their_model(motions):
     assert "times that of 'sorrentino', which for this wall is" in said(restitution="impulse")
     lifted = said(overburden=6e3, overburden_inertia=1.0)
     assert lifted.endswith("which has no mass of an overburden: they do not apply to this wall")
-    assert said(restitution="constant", restitution_value=0.8) == ""
+    assert said(restitution_value=0.8) == ""
 
 
 def test_too_small_a_sample_is_refused_before_it_runs():

@@ -15,7 +15,7 @@ import dondolo as dd
 
 WALLS = [
     dd.OneSidedWall(height=3.0, thickness=0.25),
-    dd.FreeStandingWall(height=2.0, thickness=0.4, restitution="constant", restitution_value=0.7, name="block"),
+    dd.FreeStandingWall(height=2.0, thickness=0.4, restitution_value=0.7, name="block"),
     dd.TwoBlockWall(height=3.6, thickness=0.3, hinge=0.6, overburden=8000.0, overburden_inertia=0.0, eccentricity=0.05),
 ]
 
@@ -73,11 +73,11 @@ def test_html_is_escaped():
         (lambda: dd.OneSidedWall(3.0, 0.25, gravity=0.0), "gravity = 0: must be positive"),
         (
             lambda: dd.OneSidedWall(3.0, 0.25, restitution="elastic"),
-            "restitution = 'elastic': must be one of 'default', 'sorrentino', 'impulse', 'constant'",
+            "restitution = 'elastic': must be one of 'default', 'sorrentino', 'impulse'",
         ),
         (
-            lambda: dd.OneSidedWall(3.0, 0.25, restitution="constant"),
-            "restitution_value: must be given with restitution = 'constant'",
+            lambda: dd.OneSidedWall(3.0, 0.25, restitution="impulse", restitution_value=0.5),
+            "restitution_value = 0.5: give either it or restitution",
         ),
         (lambda: dd.TwoBlockWall(3.0, 0.25, hinge=1.0), "hinge = 1: must lie between 0.01 and 0.99"),
         (

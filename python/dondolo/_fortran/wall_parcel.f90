@@ -11,6 +11,7 @@ module dondolo_wall_parcel
    use dondolo_population_wall_row, only : wall_row_type
    use dondolo_wall, only : new_wall, wall_type
    use dondolo_wall_properties, only : wall_input_type, wall_numbers, wall_properties
+   use dondolo_wall_table, only : take_table
    implicit none
    private
 
@@ -70,7 +71,8 @@ contains
                next = next + given(number, i)
             end associate
          end do
-         call new_wall(walls(i), input, error, gravity(i))
+         call take_table(input, '', error)
+         if (.not. allocated(error)) call new_wall(walls(i), input, error, gravity(i))
          if (.not. allocated(error)) cycle
          if (size(walls) > 1) call add_place(error, 'wall '''//walls(i)%name()//'''')
          return

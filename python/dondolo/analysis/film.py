@@ -14,6 +14,7 @@ from dondolo.figures import style
 from dondolo.figures.layout import lay_out
 from dondolo.walls.drawing import draw_surroundings, frame
 from dondolo.walls.shape import shape
+from dondolo.walls.wall import MasonryWall
 
 # What a film shows before the wall first moves, and after it comes to rest [s]
 _BEFORE, _AFTER = 0.5, 1.0
@@ -64,6 +65,8 @@ def animate(response: Response, frames_per_second: float, speed: float) -> FuncA
     time, _, rotation, _ = response._motion()
     first, last = film_span(response)
     wall = response.wall
+    if not isinstance(wall, MasonryWall):
+        raise InputError(f"wall '{wall.name}': has no shape to draw, it is given by a table")
     left, right = style.new_axes(size=(7.6, 4.0), columns=2, width_ratios=(2, 3))
     draw_surroundings(left, wall)
     start = shape(wall, 0.0)

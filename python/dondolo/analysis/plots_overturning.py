@@ -51,7 +51,7 @@ def draw_spectrum(spectrum: OverturningSpectrum, ax: Axes | None) -> Axes:
     ax.set_xlim(edges[0], edges[-1])
     ax.set_ylim(0.0, spectrum.amplitude_ratio[-1])
     ax.set_xlabel("frequency of the pulse $\\omega_p / p$")
-    one_block = spectrum.wall.mechanism != "two_block"
+    one_block = spectrum.wall.mechanism not in ("two_block", "tabulated")
     ax.set_ylabel("amplitude $a_p / (g\\,\\tan\\alpha)$" if one_block else "amplitude / trigger acceleration")
     style.title(ax, f"{spectrum.wall.name}, {spectrum.pulse}")
     style.legend(ax, loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=2)

@@ -25,7 +25,7 @@ from dondolo.figures.style import Panels
 from dondolo.records.record import Record
 from dondolo.records.suite import place_of
 from dondolo.walls.ties import TieStates, number_of_ties, states_of_ties
-from dondolo.walls.wall import Wall, notes_on_supports, upload
+from dondolo.walls.wall import MasonryWall, Wall, notes_on_supports, upload
 
 if TYPE_CHECKING:
     from matplotlib.animation import FuncAnimation
@@ -434,6 +434,9 @@ def simulate(
 
 def _mass_of_block(wall: Wall) -> float:
     """Mass of a wall that is a rectangular block and nothing more, by its terms [kg/m]."""
+    problem = InputError(f"wall '{wall.name}': must be one rectangular block for its base forces")
+    if not isinstance(wall, MasonryWall):
+        raise problem
     mass, half, arm = wall.density * wall.height * wall.thickness, 0.5 * wall.height, 0.5 * wall.thickness
     angles = np.array([0.0, 0.5 * wall.capacity_angle])
     sine, cosine = np.sin(angles), np.cos(angles)
@@ -445,7 +448,7 @@ def _mass_of_block(wall: Wall) -> float:
         0.0 * angles,
     )
     if wall.mechanism == "two_block" or not np.allclose(wall.terms(angles), expected, rtol=1e-9, atol=0.0):
-        raise InputError(f"wall '{wall.name}': must be one rectangular block for its base forces")
+        raise problem
     return mass
 
 

@@ -118,6 +118,7 @@ _COLUMNS: dict[str, _Shown] = {
     "height": _Shown("height [m]", number),
     "thickness": _Shown("thickness [m]", number),
     "density": _Shown("density [kg/m3]", number),
+    "table_misfit": _Shown("misfit of its table", number),
     "hinge": _Shown("hinge / height", number),
     "overburden": _Shown("overburden [N/m]", number),
     "overburden_inertia": _Shown("of it lifted", number),

@@ -30,6 +30,7 @@ from dondolo.reporting.content import (
 from dondolo.reporting.numerals import number, percent, whole
 from dondolo.reporting.run import Run
 from dondolo.reporting.statuses import status_table
+from dondolo.walls.mechanisms import TERMS, TabulatedWall
 from dondolo.walls.population import Population
 from dondolo.walls.table import occurrence_columns
 from dondolo.walls.wall import Wall, effective_property, notes_on_supports
@@ -143,9 +144,13 @@ def _wall_facts(run: Run) -> Facts:
     wall = run.population.walls[0]
     pairs: Facts = [("name", wall.name), ("mechanism", mechanism_name(wall.mechanism))]
     for row in WALL_PROPERTIES[2:]:
+        if row.name in TERMS:
+            continue
         unit, factor = _SHOWN.get(row.unit, (_UNITS.get(row.name, row.unit), 1.0))
         if value := _set(effective_property(wall, row.name), factor):
             pairs.append((row.name.replace("_", " "), (value, f" {unit}" if unit else "")))
+    if isinstance(wall, TabulatedWall):
+        pairs += wall._facts()[:1]
     if wall.base_hinge_depth > 0.0 and getattr(wall, "hinge_depth", None) is None:
         pairs.append(("depth of the hinge", number(wall.base_hinge_depth, unit=" m")))
     pairs += [
@@ -179,17 +184,19 @@ def _main_properties(people: Population, is_alike: bool) -> Table:
     if not is_alike or np.any(people.p_occ < 1.0):
         columns["p_occ"] = people.p_occ.tolist()
     columns |= occurrence_columns(people.occurrence, people.alternatives)
-    columns |= {what: [getattr(wall, what) for wall in walls] for what in _SIZES}
-    for what in _OF_TWO_BLOCKS:
+    for what in (*_SIZES, *_OF_TWO_BLOCKS):
         values = [getattr(wall, what, None) for wall in walls]
         if any(value is not None for value in values):
             columns[what] = values
+    misfits = [wall.misfit if isinstance(wall, TabulatedWall) else None for wall in walls]
+    if any(misfit is not None for misfit in misfits):
+        columns["table_misfit"] = misfits
     return shown(columns)
 
 
 def _further_properties(walls: Sequence[Wall]) -> list[Table]:
     """Sections, loads, ties, floors: what some of the walls have, as many columns a table as a page is wide."""
-    rows = [row for row in WALL_PROPERTIES if row.name in WALL_EXTRAS and row.name not in _OF_TWO_BLOCKS]
+    rows = [row for row in WALL_PROPERTIES if row.name in WALL_EXTRAS and row.name not in (*_OF_TWO_BLOCKS, *TERMS)]
     units = {row.name: _SHOWN.get(row.unit, (row.unit, 1.0)) for row in rows}
     known = {
         name: [_set(effective_property(wall, name), factor) for wall in walls] for name, (_, factor) in units.items()

@@ -3,21 +3,32 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dondolo._base.arguments import FloatArray
 from dondolo.figures import style
 from dondolo.walls.drawing_loads import caption, draw_loads
-from dondolo.walls.mechanisms import TwoBlockWall
+from dondolo.walls.mechanisms import TabulatedWall, TwoBlockWall
 from dondolo.walls.parts import parts_of
 from dondolo.walls.shape import shape
-from dondolo.walls.wall import Wall
+from dondolo.walls.wall import MasonryWall, Wall
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
+# Values of a table
+_MARKS: dict[str, Any] = {"linestyle": "none", "marker": "o", "markerfacecolor": "none", "markersize": 3.5}
+
+
 def draw_wall(wall: Wall, rotation: float, ax: Axes | None, note: str = "") -> Axes:
-    """Draw a wall at rest (dashed) and rotated, with the hinges it rotates about and what it carries."""
+    """Draw a wall at rest (dashed) and rotated, with its hinges and what it carries; of a tabulated wall its moment."""
+    if isinstance(wall, TabulatedWall):
+        return _draw_moment(wall, rotation, ax, note)
+    assert isinstance(wall, MasonryWall)
     lines = caption(wall)
     ax = style.axes(ax, (3.6, 4.6 + 0.14 * len(lines)))
     draw_surroundings(ax, wall)
@@ -50,7 +61,32 @@ def draw_wall(wall: Wall, rotation: float, ax: Axes | None, note: str = "") -> A
     return ax
 
 
-def draw_surroundings(ax: Axes, wall: Wall) -> None:
+def _draw_moment(wall: TabulatedWall, rotation: float, ax: Axes | None, note: str) -> Axes:
+    """Draw the restoring moment of a tabulated wall, which has no shape, and where it is."""
+    ax = style.axes(ax, (4.6, 3.4))
+    q = np.linspace(0.0, float(np.max(wall.rotation)), 201)
+    ax.plot(q, _moment(wall, q), color=style.BLUE, label="as computed")
+    table = np.asarray(wall.rotation)
+    ax.plot(table, 1e-3 * np.asarray(wall.moment), color=style.GREY, label="table", **_MARKS)
+    ax.plot(
+        abs(rotation), _moment(wall, abs(rotation)), color=style.RED, linestyle="none", marker="o", label="rotation"
+    )
+    ax.axhline(0.0, color=style.BLACK, linewidth=0.8)
+    ax.axvline(wall.capacity_angle, color=style.BLACK, linewidth=0.8, linestyle="--", label="capacity")
+    ax.set_xlabel("rotation [rad]")
+    ax.set_ylabel("restoring moment [kN m per metre]")
+    style.title(ax, f"{wall.name}\nrotation {rotation:.3g} rad{note}", fontsize=9.5)
+    style.legend(ax)
+    return ax
+
+
+def _moment(wall: TabulatedWall, rotation: ArrayLike) -> FloatArray:
+    """Restoring moment G - Q [kN m per metre]."""
+    terms = wall.terms(rotation)
+    return 1e-3 * (terms.restoring_moment - terms.load_force)
+
+
+def draw_surroundings(ax: Axes, wall: MasonryWall) -> None:
     """The ground, the transverse wall of a one-sided wall, the top support of a two-block wall."""
     t, h = wall.thickness, wall.height
     reach = _reach(wall)
@@ -65,7 +101,7 @@ def draw_surroundings(ax: Axes, wall: Wall) -> None:
         ax.annotate("transverse wall", (-0.5 * reach, middle), rotation=90, ha="center", va="center", fontsize=7.5)
 
 
-def _draw_supports(ax: Axes, wall: Wall) -> None:
+def _draw_supports(ax: Axes, wall: MasonryWall) -> None:
     """The building as it leans, and arrows where it moves the wall: at its base, and at the top of what holds it."""
     if wall.building is None:
         return
@@ -99,7 +135,7 @@ def _draw_supports(ax: Axes, wall: Wall) -> None:
         )
 
 
-def _support_height(wall: Wall) -> float:
+def _support_height(wall: MasonryWall) -> float:
     """Height above its base up to which a building moves a wall [m]; 0: the building moves its base alone."""
     if not wall.support_share > 0.0:
         return 0.0
@@ -110,7 +146,7 @@ def _support_height(wall: Wall) -> float:
     return float(at_rest.inertia / at_rest.excitation_lever) / wall.support_share
 
 
-def _free_height(wall: Wall) -> float:
+def _free_height(wall: MasonryWall) -> float:
     """Height in the middle of the largest part behind the wall where no label of what holds it stands."""
     taken = [0.0, wall.height]
     if 0.0 < _support_height(wall) < wall.height:
@@ -124,12 +160,12 @@ def _free_height(wall: Wall) -> float:
     return bottom + (0.5 if len(taken) == 2 else 0.55) * gap
 
 
-def _reach(wall: Wall) -> float:
+def _reach(wall: MasonryWall) -> float:
     """How much room to leave on both sides [m]."""
     return max(1.2 * wall.thickness, 0.22 * wall.height)
 
 
-def frame(ax: Axes, wall: Wall) -> None:
+def frame(ax: Axes, wall: MasonryWall) -> None:
     """Scale and limits of the axes."""
     reach = _reach(wall)
     ax.set_aspect("equal")

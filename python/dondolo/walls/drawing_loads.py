@@ -16,7 +16,7 @@ from dondolo.figures import style
 from dondolo.walls.mechanisms import TwoBlockWall
 from dondolo.walls.parts import Tie, parts_of
 from dondolo.walls.shape import Points, Shape, moved, storeys
-from dondolo.walls.wall import Wall, effective_property
+from dondolo.walls.wall import MasonryWall, effective_property
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -50,14 +50,14 @@ _ACROSS = 44
 _PREFIXES = ((1e6, "M"), (1e3, "k"), (1.0, ""))
 
 
-def draw_loads(ax: Axes, wall: Wall, rotation: float, now: Shape) -> None:
+def draw_loads(ax: Axes, wall: MasonryWall, rotation: float, now: Shape) -> None:
     """Draw what acts on a wall where it has turned.
 
     Parameters
     ----------
     ax : Axes
         Has the limits of the drawing.
-    wall : Wall
+    wall : MasonryWall
         The wall.
     rotation : float
         Signed rotation [rad].
@@ -106,12 +106,12 @@ def draw_loads(ax: Axes, wall: Wall, rotation: float, now: Shape) -> None:
             _spring(ax, wall, _place(wall, bed.depth, float(height), rotation), size, words)
 
 
-def caption(wall: Wall) -> list[str]:
+def caption(wall: MasonryWall) -> list[str]:
     """Lines that say what the ties of a wall and its friction are made of; none for a wall without them.
 
     Parameters
     ----------
-    wall : Wall
+    wall : MasonryWall
         The wall.
 
     Returns
@@ -139,7 +139,7 @@ def _tie(ax: Axes, at: Points, size: float, plate: float, text: str) -> None:
     _words(ax, behind, text, (0, 3))
 
 
-def _frustum(ax: Axes, wall: Wall, tie: Tie, rotation: float) -> None:
+def _frustum(ax: Axes, wall: MasonryWall, tie: Tie, rotation: float) -> None:
     """The frustum of masonry that a plate would pull out, at 45 degrees."""
     if not (plate := tie.plate_height or tie.plate_diameter):
         return
@@ -152,7 +152,7 @@ def _frustum(ax: Axes, wall: Wall, tie: Tie, rotation: float) -> None:
         ax.plot(*np.transpose(ends), color=style.BLACK, linewidth=1.0, linestyle=":", zorder=5)
 
 
-def _teeth(ax: Axes, wall: Wall, stones: Any, rotation: float) -> None:
+def _teeth(ax: Axes, wall: MasonryWall, stones: Any, rotation: float) -> None:
     """Stones that overlap those of a transverse wall; every tooth is several courses where they would not be seen."""
     step, overlap = wall.height / min(24, max(2, int(wall.height / stones.course))), stones.overlap
     for bottom in np.arange(0.0, wall.height - 1.5 * step, 2.0 * step):
@@ -172,7 +172,7 @@ def _in_words(lifted: float, pushed: float) -> str:
     return ", ".join(what if part == 1.0 else f"{100.0 * part:.3g} % {what}" for part, what in parts if part)
 
 
-def _inner_face(wall: Wall, height: float) -> float:
+def _inner_face(wall: MasonryWall, height: float) -> float:
     """Depth of the inner face at a height, the innermost where storeys meet."""
     slack = 1e-6 * wall.height
     inner = [
@@ -183,7 +183,7 @@ def _inner_face(wall: Wall, height: float) -> float:
     return max(inner)
 
 
-def _place(wall: Wall, depth: float, height: float, rotation: float) -> Points:
+def _place(wall: MasonryWall, depth: float, height: float, rotation: float) -> Points:
     """Where a point of one block is."""
     at: Points = moved(wall, np.array([[wall.thickness - depth, height]]), abs(rotation))[0]
     # What rocks to both sides carries in its middle: the mirror image is the same load.
@@ -216,7 +216,7 @@ def _arrow_down(ax: Axes, at: Points, size: float, text: str, *, is_mass: bool) 
     _words(ax, np.add(at, (0.0, 0.6 * size)), text, (6, 0))
 
 
-def _spring(ax: Axes, wall: Wall, at: Points, size: float, text: str) -> None:
+def _spring(ax: Axes, wall: MasonryWall, at: Points, size: float, text: str) -> None:
     """A spring between the wall and what stands still, behind it or before it."""
     away = 1.0 if at[0] > 0.5 * wall.thickness else -1.0
     along = np.array([0.0, 0.2, 0.3, 0.5, 0.7, 0.9, 1.0, 1.2]) * size

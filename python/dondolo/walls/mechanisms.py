@@ -2,21 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import os
+from collections.abc import Callable, Sequence
 from dataclasses import KW_ONLY, InitVar, dataclass
 from typing import ClassVar, Literal
 
+import numpy as np
+from numpy.typing import ArrayLike
+
+from dondolo._base.arguments import FloatArray, as_array, as_path
 from dondolo._fortran.walls import WallData
 from dondolo._storage.saved import part_of_results
 from dondolo.walls.parts import Bed, Interlock, Load, PushedMass, Section, Spring, Thrust, Tie
-from dondolo.walls.wall import DEFAULT, Terms, Wall
+from dondolo.walls.wall import DEFAULT, MasonryWall, Terms, Wall
 
 # What the package exports of the walls: a new mechanism is added here alone
-__all__ = ["FreeStandingWall", "OneSidedWall", "Terms", "TwoBlockWall", "Wall"]
+__all__ = ["FreeStandingWall", "OneSidedWall", "TabulatedWall", "Terms", "TwoBlockWall", "Wall"]
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)
-class BlockWall(Wall):
+class BlockWall(MasonryWall):
     """What walls of one block share: storeys, the hinge, and what they carry."""
 
     sections: Sequence[Section] = ()
@@ -48,12 +53,12 @@ class OneSidedWall(BlockWall):
         Thickness of the wall [m].
     density : float, optional
         Density of the masonry [kg/m3], 1800 if left out.
-    restitution : {'default', 'sorrentino', 'impulse', 'constant'}, optional
+    restitution : {'default', 'sorrentino', 'impulse'}, optional
         Model of the impacts, 'default' if left out: against the walls behind that of Sorrentino, AlShawa and Decanini
         (2011) for the bare block; 'impulse' is the same balance with the depth of the hinge and the masses that the
         wall carries.
     restitution_value : float, optional
-        Speed after / before an impact, only with restitution = 'constant': 0 <= value < 1.
+        Speed after / before an impact, instead of a model: 0 <= value < 1.
     restitution_factor : float, optional
         Factor on the speed ratio of any model, 1 if left out.
     gravity : float, optional
@@ -167,8 +172,8 @@ class OneSidedWall(BlockWall):
 class FreeStandingWall(BlockWall):
     """A wall that stands free and rocks to both sides (the block of Housner 1963).
 
-    Parameters are those of `OneSidedWall` except its ties; the models of restitution are 'default', 'impulse' (both
-    1 - 3/2 sin^2 alpha for a bare block) and 'constant'. Since it rocks to both sides, what it carries bears at half
+    Parameters are those of `OneSidedWall` except its ties; the models of restitution are 'default' and 'impulse',
+    both 1 - 3/2 sin^2 alpha for a bare block. Since it rocks to both sides, what it carries bears at half
     its thickness, and nothing thrusts.
 
     Examples
@@ -184,11 +189,11 @@ class FreeStandingWall(BlockWall):
 
 @part_of_results
 @dataclass(frozen=True, repr=False, kw_only=True)
-class TwoBlockWall(Wall):
+class TwoBlockWall(MasonryWall):
     """A vertical strip held at base and top that folds at a hinge in between (equation (3) of Nale et al.).
 
     Parameters are those of a bare `OneSidedWall`, its hinge_depth, compressive_strength and stress_block, the models
-    of restitution 'default', 'sorrentino', 'impulse' and 'constant', and those below. 'default' is 'sorrentino', or
+    of restitution 'default', 'sorrentino' and 'impulse', and those below. 'default' is 'sorrentino', or
     'impulse' where the wall lifts the mass of an overburden, which 'sorrentino' does not know.
 
     Parameters
@@ -241,7 +246,131 @@ class TwoBlockWall(Wall):
         self._understand(bearing=bearing, bearing_distance=bearing_distance)
 
 
-MECHANISMS: dict[str, type[Wall]] = {kind.mechanism: kind for kind in (OneSidedWall, FreeStandingWall, TwoBlockWall)}
+# Columns of the table of a tabulated wall
+TERMS = ("rotation", "inertia", "lever", "moment", "vertical_lever")
+
+# Rotations at which functions are asked for their values
+_NODES = 41
+
+#: A term of a tabulated wall: its values, one for all rotations, or a function of the rotation
+Term = float | ArrayLike | Callable[[FloatArray], ArrayLike]
+
+
+@part_of_results
+@dataclass(frozen=True, repr=False, kw_only=True)
+class TabulatedWall(Wall):
+    """A wall whose terms of the equation of motion are given: of any mechanism with one rotation.
+
+    J(q) q'' + 1/2 J'(q) q'^2 + M(q) = -s L(q) u_g'', with M = G - Q (docs/own_mechanism.md). Height, restitution_value,
+    restitution_factor, gravity, name and building are those of `OneSidedWall`; restitution_value must be given.
+
+    Parameters
+    ----------
+    rotation : array_like, optional
+        Rotations q of the table, from 0 to where the restoring moment has vanished [rad]. The last alone where the
+        terms are functions, which are then asked for their values at 41 Chebyshev nodes.
+    inertia : array_like, float or callable, optional
+        Inertia J at each rotation, per metre of wall [kg m2/m].
+    lever : array_like, float or callable, optional
+        Sum of the masses times their horizontal levers L at each rotation, per metre of wall [kg m/m].
+    moment : array_like, float or callable, optional
+        Restoring moment G - Q at each rotation, per metre of wall [N m/m].
+    vertical_lever : array_like, float or callable, optional
+        Sum of the masses times their vertical levers S at each rotation, for vertical ground motion [kg m/m].
+    sides : float, optional
+        1: the wall can rock to one side only; 2: to both, and changes side at every impact. Must be given.
+    top_share : float, optional
+        Share k of the acceleration of its top, relative to that of its base, that moves the wall. With top_tilt, for a
+        wall in a `building` that holds its top.
+    top_tilt : float, optional
+        Tilt tau: factor on the displacement of the top relative to the base [1/s2].
+    table : str or path, optional
+        CSV file of the terms over the rotation, instead of the lists: columns rotation [rad], inertia [kg m2/m], lever [kg m/m], moment
+        [N m/m] and perhaps vertical_lever [kg m/m], each with its unit in brackets; also mrad, deg, t m2/m, t m/m,
+        kN m/m. With a column power in place of rotation its rows are the coefficients of polynomials in the rotation,
+        and `rotation` says how far they hold.
+
+    Raises
+    ------
+    InputError
+        A table that is not smooth: the polynomials through it miss a value by more than 0.1 % of the largest; or one of
+        no wall: inertia and lever must be positive, and the moment must fall to 0 once.
+
+    Notes
+    -----
+    Polynomials of up to degree 32 pass through the table, by least squares, with as few powers as it asks for; `misfit`
+    is the largest distance of a value from them. The capacity is the rotation at which the moment vanishes.
+
+    Examples
+    --------
+    The block of Housner (1963) by its formulas:
+
+    >>> import numpy as np
+    >>> import dondolo as dd
+    >>> block = dd.FreeStandingWall(2.0, 0.5)
+    >>> mass, radius, alpha = 1800.0, np.hypot(1.0, 0.25), np.arctan2(0.25, 1.0)
+    >>> same = dd.TabulatedWall(
+    ...     2.0,
+    ...     rotation=alpha,
+    ...     inertia=4.0 / 3.0 * mass * radius**2,
+    ...     lever=lambda q: mass * radius * np.cos(alpha - q),
+    ...     moment=lambda q: mass * 9.81 * radius * np.sin(alpha - q),
+    ...     sides=2,
+    ...     restitution_value=block.restitution_coefficient,
+    ... )
+    >>> bool(abs(same.frequency_parameter / block.frequency_parameter - 1.0) < 1e-12)
+    True
+    >>> bool(same.misfit < 1e-14)
+    True
+    """
+
+    mechanism: ClassVar[str] = "tabulated"
+
+    rotation: ArrayLike = DEFAULT
+    inertia: Term = DEFAULT
+    lever: Term = DEFAULT
+    moment: Term = DEFAULT
+    vertical_lever: Term | None = None
+    sides: float = DEFAULT
+    top_share: float | None = None
+    top_tilt: float | None = None
+    table: InitVar[str | os.PathLike[str] | None] = None
+
+    def __post_init__(self, table: str | os.PathLike[str] | None) -> None:
+        if table is None and self.rotation is not None:
+            self._sample()
+        self._understand(table=None if table is None else as_path(table).decode())
+
+    def _sample(self) -> None:
+        """Put values in the place of functions and of single numbers."""
+        q = as_array("rotation", np.ravel(np.asarray(self.rotation)))
+        if np.ndim(self.rotation) == 0:
+            q = 0.5 * q * (1.0 - np.cos(np.pi * np.arange(_NODES) / (_NODES - 1)))
+        object.__setattr__(self, "rotation", q)
+        for name in TERMS[1:]:
+            term = getattr(self, name)
+            if term is None:
+                continue
+            values = as_array(name, np.ravel(np.asarray(term(q) if callable(term) else term)))
+            object.__setattr__(self, name, np.full(len(q), values[0]) if len(values) == 1 else values)
+
+    @property
+    def misfit(self) -> float:
+        """Largest distance of a value of the table from the polynomial that is computed with / largest value."""
+        return self._static(11)
+
+    def _facts(self) -> list[tuple[str, str]]:
+        """What a reader wants to know: of the table how far it goes."""
+        facts = dict(super()._facts())
+        rotation = np.asarray(self.rotation)
+        own = {"table": f"{rotation.size} rotations up to {rotation[-1]:.6g} rad, misfit {self.misfit:.2g}"}
+        left_out = (*TERMS, "R", "alpha")
+        return [*own.items(), *((what, text) for what, text in facts.items() if what not in left_out)]
+
+
+MECHANISMS: dict[str, type[Wall]] = {
+    kind.mechanism: kind for kind in (OneSidedWall, FreeStandingWall, TwoBlockWall, TabulatedWall)
+}
 
 
 def wall_from(data: WallData) -> Wall:

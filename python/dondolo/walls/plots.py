@@ -10,6 +10,7 @@ import numpy as np
 from dondolo._base.arguments import one_of
 from dondolo.figures import style
 from dondolo.walls.population import Kind, Population
+from dondolo.walls.wall import MasonryWall
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -22,12 +23,12 @@ _BINS = 30
 
 
 def draw_population(population: Population, ax: Iterable[Axes] | None, by: Kind) -> style.Panels:
-    """Draw thickness against height above, trigger accelerations below."""
+    """Draw thickness against height above (on the axis where there is none), trigger accelerations below."""
     one_of("by", by, get_args(Kind))
     axes = above, below = style.panels(ax, 2, (6.4, 6.0), height_ratios=(3, 2))
     keys = np.array(population.groups if by == "group" else [wall.mechanism for wall in population.walls])
     height = np.array([wall.height for wall in population.walls])
-    thickness = np.array([wall.thickness for wall in population.walls])
+    thickness = np.array([wall.thickness if isinstance(wall, MasonryWall) else 0.0 for wall in population.walls])
     trigger = np.array([wall.trigger_acceleration / wall.gravity for wall in population.walls])
     edges = np.linspace(0.0, 1.02 * trigger.max(), _BINS + 1)
     for i, key in enumerate(dict.fromkeys(keys.tolist())):
@@ -52,7 +53,7 @@ def draw_population(population: Population, ax: Iterable[Axes] | None, by: Kind)
             linewidth=1.4,
             label=style.label(key or "no group"),
         )
-    top, right = 1.12 * thickness.max(), 1.05 * height.max()
+    top, right = 1.12 * thickness.max() or 1.0, 1.05 * height.max()
     for slenderness in _SLENDERNESS:
         end = min(right, slenderness * top)
         above.plot([0.0, end], [0.0, end / slenderness], color=style.GREY, linewidth=0.7, zorder=1)

@@ -33,7 +33,7 @@ from dondolo.errors import InputError
 from dondolo.figures.style import Panels
 from dondolo.walls.mechanisms import wall_from
 from dondolo.walls.table import occurrence_columns, property_columns
-from dondolo.walls.wall import Wall, property_of, walls_table
+from dondolo.walls.wall import MasonryWall, Wall, property_of, walls_table
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -538,10 +538,13 @@ class Population(Shown):
             values = list(values)
             return what, f"{min(values):.4g} to {max(values):.4g} {unit}".strip()
 
+        sizes = [(wall.height, wall.thickness) for wall in self.walls if isinstance(wall, MasonryWall)]
+        facts = [between("height", (wall.height for wall in self.walls), "m")]
+        if sizes:
+            facts.append(between("thickness", (thickness for _, thickness in sizes), "m"))
+            facts.append(between("height / thickness", (height / thickness for height, thickness in sizes)))
         return [
-            between("height", (wall.height for wall in self.walls), "m"),
-            between("thickness", (wall.thickness for wall in self.walls), "m"),
-            between("height / thickness", (wall.height / wall.thickness for wall in self.walls)),
+            *facts,
             between("trigger", (wall.trigger_acceleration / wall.gravity for wall in self.walls), "g"),
             between("p_occ", self.p_occ),
         ]

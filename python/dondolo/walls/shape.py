@@ -12,7 +12,7 @@ import numpy as np
 
 from dondolo.walls.mechanisms import TwoBlockWall
 from dondolo.walls.parts import Section, parts_of
-from dondolo.walls.wall import Wall
+from dondolo.walls.wall import MasonryWall
 
 Points = np.ndarray[Any, np.dtype[np.float64]]
 
@@ -33,12 +33,12 @@ class Shape:
     hinges: Points
 
 
-def shape(wall: Wall, rotation: float) -> Shape:
+def shape(wall: MasonryWall, rotation: float) -> Shape:
     """The position of a wall at a rotation.
 
     Parameters
     ----------
-    wall : Wall
+    wall : MasonryWall
         The wall; at rest its base lies on y = 0, from x = 0 to x = thickness.
     rotation : float
         Signed rotation, of the lower block for two-block walls [rad]; positive: outwards, to the right.
@@ -68,12 +68,12 @@ def shape(wall: Wall, rotation: float) -> Shape:
     return Shape(blocks, hinges)
 
 
-def storeys(wall: Wall) -> list[Points]:
+def storeys(wall: MasonryWall) -> list[Points]:
     """The storeys of one block at rest, those of its outer leaf if it has several.
 
     Parameters
     ----------
-    wall : Wall
+    wall : MasonryWall
         Any wall but one of two blocks.
 
     Returns
@@ -93,17 +93,17 @@ def storeys(wall: Wall) -> list[Points]:
     return found
 
 
-def _edge(wall: Wall) -> float:
+def _edge(wall: MasonryWall) -> float:
     """Radius of the edge that one block rolls on."""
     return getattr(wall, "edge_radius", None) or 0.0
 
 
-def moved(wall: Wall, points: Points, rotation: float) -> Points:
+def moved(wall: MasonryWall, points: Points, rotation: float) -> Points:
     """Points of one block, given at rest, where the wall has turned outwards.
 
     Parameters
     ----------
-    wall : Wall
+    wall : MasonryWall
         Any wall but one of two blocks.
     points : ndarray, shape (points, 2)
         Where they are at rest [m].

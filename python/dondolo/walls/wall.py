@@ -72,7 +72,8 @@ class Terms(NamedTuple):
 
 @dataclass(frozen=True, repr=False)
 class Wall:
-    """What all walls share. Use `OneSidedWall`, `FreeStandingWall` or `TwoBlockWall`.
+    """What all walls share. Use `OneSidedWall`, `FreeStandingWall`, `TwoBlockWall` or
+    `TabulatedWall`.
 
     Every number that is left out (None) gets its default from the Fortran library, and stands in the wall afterwards.
 
@@ -89,10 +90,8 @@ class Wall:
     mechanism: ClassVar[str] = ""
 
     height: float = DEFAULT
-    thickness: float = DEFAULT
     _: KW_ONLY
-    density: float = DEFAULT
-    restitution: Literal["default", "sorrentino", "impulse", "constant"] = DEFAULT
+    restitution: Literal["default", "sorrentino", "impulse"] = DEFAULT
     restitution_value: float | None = None
     restitution_factor: float | None = None
     gravity: float = DEFAULT
@@ -105,7 +104,7 @@ class Wall:
     def _understand(self, **more: Any) -> None:
         """Let Fortran check what is said of the wall, and what is given besides its fields."""
         if not self.mechanism:
-            raise TypeError("Wall has no mechanism: use OneSidedWall, FreeStandingWall or TwoBlockWall")
+            raise TypeError("Wall has no mechanism: use OneSidedWall, FreeStandingWall, TwoBlockWall or TabulatedWall")
         if self.building is not None:
             instance_of("building", self.building, Building)
         lists = properties_of_parts(self)
@@ -322,6 +321,9 @@ class Wall:
     def _facts(self) -> list[tuple[str, str]]:
         """What a reader wants to know, name and text."""
         own = {field.name: getattr(self, field.name) for field in dataclasses.fields(self) if field.name != "name"}
+        if self.restitution_value is not None:
+            # The number takes the place of a model.
+            del own["restitution"]
         facts = [(what, _in_words(value)) for what, value in own.items() if value is not None and what not in KINDS]
         facts += [(letter, f"{getattr(self, what):.6g} {unit}") for letter, what, unit in _GREEK]
         trigger = f"{self.trigger_acceleration:.6g} m/s2 ({self.trigger_acceleration / self.gravity:.4g} g)"
@@ -351,6 +353,15 @@ class Wall:
     def to_frame(self) -> Any:
         """The wall and its static quantities as a pandas DataFrame of one row."""
         return tables.frame(plain(walls_table((self,))))
+
+
+@dataclass(frozen=True, repr=False)
+class MasonryWall(Wall):
+    """What walls of one or two blocks share: a section of masonry."""
+
+    thickness: float = DEFAULT
+    _: KW_ONLY
+    density: float = DEFAULT
 
 
 def _in_words(value: Any) -> str:

@@ -114,7 +114,8 @@ contains
          type is (two_block_type)
             call take_two_blocks(kinematic, mechanism)
          class default
-            call raise_input(error, 'mechanism = '''//wall%mechanism_name()//''': the kinematic check is not for it')
+            call raise_input(error, 'mechanism = '''//wall%mechanism_name()//''': the kinematic check needs the masses and '// &
+               & 'where they are, which it does not have')
             return
          end select
       end select

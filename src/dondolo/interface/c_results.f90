@@ -28,7 +28,7 @@ module dondolo_interface_c_results
    character(len=longest), parameter :: record_numbers(4) = [character(len=longest) :: 'samples', 'dt', 'pga', 'cluster']
 
    !> Numbers of a wall
-   character(len=longest), parameter :: wall_numbers(13) = [character(len=longest) :: static_names, 'two_sided']
+   character(len=longest), parameter :: wall_numbers(14) = [character(len=longest) :: static_names, 'two_sided']
 
    !> Numbers of stripes: one each; of each level; of each history of a level; of each history, level by level
    character(len=longest), parameter :: stripes_numbers(14) = [character(len=longest) :: 'edp_limit', 'levels', 'histories', &

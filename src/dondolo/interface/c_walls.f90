@@ -9,6 +9,7 @@ module dondolo_interface_c_walls
    use dondolo_interface_handles, only : find_walls, hold, walls_type
    use dondolo_wall, only : new_wall, wall_type
    use dondolo_wall_properties, only : gravity_property, standard_gravity, wall_input_type
+   use dondolo_wall_table, only : take_table
    implicit none
    private
 
@@ -40,7 +41,8 @@ contains
          if (found%values%has(trim(gravity_property%name))) gravity = found%values%number(trim(gravity_property%name))
          allocate (held)
          allocate (held%wall(1))
-         call new_wall(held%wall(1), input, problem, gravity)
+         call take_table(input, '', problem)
+         if (.not. allocated(problem)) call new_wall(held%wall(1), input, problem, gravity)
          if (allocated(problem)) then
             deallocate (held)
          else

@@ -8,11 +8,12 @@ module dondolo_interface_wall_statics
 
    public :: static_names, statics_of
 
-   !> Their names: lengths in m, angles in rad, accelerations in m/s2, p in 1/s, the support's share without unit and its tilt in
-   !> 1/s2
-   character(len=23), parameter :: static_names(12) = [character(len=23) :: 'gravity', 'radius', 'slenderness_angle', &
+   !> Their names: lengths in m, angles in rad, accelerations in m/s2, p in 1/s, the support's share and the
+   !> misfit of a table without unit, the support's tilt in 1/s2
+   character(len=23), parameter :: static_names(13) = [character(len=23) :: 'gravity', 'radius', 'slenderness_angle', &
       & 'frequency_parameter', 'trigger_acceleration', 'capacity_angle', 'restitution_coefficient', 'base_hinge_depth', &
-      & 'greatest_acceleration', 'plastic_acceleration', 'support_share', 'support_tilt']
+      & 'greatest_acceleration', 'plastic_acceleration', 'support_share', 'support_tilt', &
+      & 'misfit']
 
 contains
 
@@ -32,7 +33,7 @@ contains
          if (allocated(wall%building)) support = [wall%building%share, wall%building%tilt]
          values = [wall%gravity, wall%model%radius, wall%model%alpha, mechanism%frequency_parameter(), &
             & mechanism%trigger_acceleration(), mechanism%capacity, mechanism%restitution, wall%model%hinge_depth, with_ties, &
-            & support]
+            & support, wall%model%misfit]
       end associate
    end function statics_of
 

@@ -175,7 +175,8 @@ contains
    subroutine check_engine(solver, mechanism, error, is_shaken)
       type(solver_type), intent(in) :: solver
       class(mechanism_type), intent(in) :: mechanism
-      !> The engine lanes was asked for, and cannot; or a build variant that there is not
+      !> The engine lanes was asked for, and cannot; or a build variant that there is not; or vertical motion of a wall that does
+      !> not know what it changes
       type(error_type), allocatable, intent(out) :: error
       !> Is there vertical motion? No, if absent
       logical, intent(in), optional :: is_shaken
@@ -184,6 +185,13 @@ contains
 
       call check_variant(error)
       if (allocated(error)) return
+      if (present(is_shaken)) then
+         if (is_shaken .and. .not. mechanism%knows_vertical()) then
+            call raise_input(error, 'vertical_lever: must be given for records with vertical motion: without it the table does '// &
+               & 'not say which part of the moment is that of masses which move up')
+            return
+         end if
+      end if
       if (solver%engine /= 'lanes') return
       constants = new_lane_constants(mechanism, solver, is_shaken)
       if (constants%form%exists) return

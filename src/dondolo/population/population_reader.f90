@@ -20,6 +20,7 @@ module dondolo_population_reader
    use dondolo_wall, only : new_wall
    use dondolo_wall_hinge_level, only : read_hinge_levels, has_hinge_level
    use dondolo_wall_properties, only : wall_input_type, wall_properties
+   use dondolo_wall_table, only : take_table
    implicit none
    private
 
@@ -291,6 +292,8 @@ contains
       !> Takes every cell that is not a number
       type(problems_type), intent(inout) :: problems
 
+      type(error_type), allocatable :: error
+
       self%input = wall_input_type()
       self%own%has_name = .true.
       if (allocated(table%base_wall)) then
@@ -302,6 +305,8 @@ contains
       self%own%has_name = table%is_given(self%cells, table%wall_columns(find_property(wall_properties, 'name')))
       call table%read_cells(self%cells, table%wall_columns, self%input, problems)
       call table%read_lists(self%cells, self%input, problems)
+      call take_table(self%input, table%file, error)
+      call problems%take(error)
    end subroutine read_row
 
    !> Read what a row says besides the properties of its wall

@@ -113,10 +113,15 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       integer :: i
+      logical :: has_terms
 
+      has_terms = self%wall_columns(find_property(wall_properties, 'table')) > 0 &
+         & .or. any(self%items(1, :) == find_property(wall_properties, 'rotation'))
       do i = 1, size(wall_properties)
          associate (property => wall_properties(i))
             if (.not. property%required .or. self%wall_columns(i) > 0) cycle
+            ! A wall whose terms are given has no blocks: what these must have is asked of their rows.
+            if (has_terms .and. len_trim(property%owners(1)) > 0) cycle
             if (len_trim(property%instead) > 0) then
                if (any(self%items(1, :) == find_property(wall_properties, trim(property%instead)))) cycle
             end if

@@ -47,6 +47,8 @@ module dondolo_wall_mechanism
       procedure :: set_restraints
       !> Whether friction acts on it
       procedure :: has_friction
+      !> Whether it knows which part of its moment vertical motion of the ground changes
+      procedure :: knows_vertical
       !> Restoring moment G - Q
       procedure :: moment
       !> Ground acceleration that balances it at a rotation
@@ -129,6 +131,15 @@ contains
       has_friction = .false.
       if (allocated(self%restraints)) has_friction = any(self%restraints%is_friction)
    end function has_friction
+
+   !> Whether the wall knows which part of its moment vertical motion of the ground changes: it does
+   pure logical function knows_vertical(self)
+      class(mechanism_type), intent(in) :: self
+
+      associate (of => self)
+      end associate
+      knows_vertical = .true.
+   end function knows_vertical
 
    !> Restoring moment G - Q, ties included [N m]
    elemental real(wp) function moment(self, q)

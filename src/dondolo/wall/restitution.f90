@@ -13,7 +13,7 @@ module dondolo_wall_restitution
 
    !> Names of the models
    character(len=choices_length), parameter :: restitution_models(*) = &
-      & [character(len=choices_length) :: 'default', 'sorrentino', 'impulse', 'constant']
+      & [character(len=choices_length) :: 'default', 'sorrentino', 'impulse']
 
    !> What tests gave for the measured speed ratio / that of the model
    type :: published_factor_type
@@ -48,7 +48,7 @@ module dondolo_wall_restitution
    type :: restitution_type
       !> Model, one of restitution_models
       character(len=:), allocatable :: model
-      !> Speed ratio of the model 'constant', 0 <= value < 1; not allocated: not given
+      !> Speed ratio by number, instead of a model, 0 <= value < 1; not allocated: not given
       real(wp), allocatable :: value
       !> Factor on the speed ratio of every model
       real(wp) :: factor = 1.0_wp
@@ -69,7 +69,7 @@ contains
       if (allocated(self%sorrentino)) model = 'sorrentino'
    end function default
 
-   !> Speed after an impact / speed before it: the model's value times the factor. A coefficient of the
+   !> Speed after an impact / speed before it: the model's value, or the number given, times the factor. A coefficient of the
    !> wrong sign (squat walls) means a plastic impact (docs/theory.md, section 3). Ranges of value and factor are
    !> those of their properties (dondolo_wall_properties)
    subroutine speed_ratio(self, models, ratio, error)
@@ -79,7 +79,7 @@ contains
       type(impact_models_type), intent(in) :: models
       !> Speed ratio e, 0 <= e < 1
       real(wp), intent(out) :: ratio
-      !> A model that the mechanism does not have; a ratio of 1 or more
+      !> A model that the mechanism does not have, or beside a number; a ratio of 1 or more
       type(error_type), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: model
@@ -88,26 +88,26 @@ contains
       ratio = 0.0_wp
       model = self%model
       if (model == 'default') model = trim(models%default())
-      select case (model)
-      case ('sorrentino')
-         if (allocated(models%sorrentino)) coefficient = models%sorrentino
-      case ('impulse')
-         if (allocated(models%impulse)) coefficient = models%impulse
-      case ('constant')
-         if (.not. allocated(self%value)) then
-            call raise_input(error, 'restitution_value: must be given with restitution = ''constant''')
-            return
-         end if
+      if (allocated(self%value) .and. self%model /= 'default') then
+         call raise_input(error, 'restitution_value = '//to_text(self%value)//': give either it or restitution')
+         return
+      else if (allocated(self%value)) then
          coefficient = self%value
-      end select
-      if (.not. allocated(coefficient)) then
-         call raise_input(error, 'restitution = '''//self%model//''': must be one of '// &
-            & join(pack(restitution_models, [.true., allocated(models%sorrentino), allocated(models%impulse), .true.])))
+      else if (.not. (allocated(models%sorrentino) .or. allocated(models%impulse))) then
+         call raise_input(error, 'restitution_value: must be given, the mechanism has no model of its impacts')
          return
       end if
-      if (allocated(self%value) .and. self%model /= 'constant') then
-         call raise_input(error, 'restitution_value = '//to_text(self%value)// &
-            & ': only with restitution = ''constant''')
+      if (.not. allocated(coefficient)) then
+         select case (model)
+         case ('sorrentino')
+            if (allocated(models%sorrentino)) coefficient = models%sorrentino
+         case ('impulse')
+            if (allocated(models%impulse)) coefficient = models%impulse
+         end select
+      end if
+      if (.not. allocated(coefficient)) then
+         call raise_input(error, 'restitution = '''//self%model//''': must be one of '// &
+            & join(pack(restitution_models, [.true., allocated(models%sorrentino), allocated(models%impulse)])))
          return
       end if
       ratio = max(0.0_wp, self%factor*coefficient)

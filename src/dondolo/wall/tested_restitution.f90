@@ -17,12 +17,13 @@ module dondolo_wall_tested_restitution
 
 contains
 
-   !> Name of the model whose speed ratio a wall has: 'default' is another one for each mechanism
+   !> Name of the model whose speed ratio a wall has: 'default' is another one for each mechanism; empty: it is a number
    pure character(len=choices_length) function model_of(wall) result(model)
       type(wall_type), intent(in) :: wall
 
       model = wall%input%word('restitution')
       if (model == 'default') model = wall%impacts%default()
+      if (wall%input%has('restitution_value')) model = ''
    end function model_of
 
    !> Limits of a published range as a ratio to the model of a wall
@@ -60,6 +61,7 @@ contains
       !> The range is of another mechanism, or a ratio to another model
       type(error_type), allocatable, intent(out) :: error
 
+      character(len=:), allocatable :: shown
       character(len=choices_length) :: model
       real(wp) :: low, high
       integer :: i
@@ -68,6 +70,8 @@ contains
       i = findloc(published_factors%name == lower(adjustl(text)), .true., dim=1)
       if (i == 0) return
       model = model_of(wall)
+      shown = ''''//trim(model)//''''
+      if (len_trim(model) == 0) shown = 'restitution_value'
       associate (tests => published_factors(i))
          if (wall%input%word('mechanism') /= tests%mechanism) then
             call raise_input(error, 'restitution_factor = '''//trim(text)//''': is of tests of mechanism = '''// &
@@ -75,7 +79,7 @@ contains
          else if (model /= tests%model) then
             call tested_range(wall, i, low, high, is_known)
             call raise_input(error, 'restitution_factor = '''//trim(text)//''': is a ratio to restitution = '''// &
-               & trim(tests%model)//''', must be a range or distribution for '''//trim(model)//'''')
+               & trim(tests%model)//''', must be a range or distribution for '//shown)
             if (is_known) then
                error%message = error%message//'; the same speeds are uniform('//rounded(low)//', '//rounded(high)// &
                   & ') for this wall'
@@ -89,7 +93,7 @@ contains
    !> The restitution of a wall of two blocks beside the tests: no other choice moves its curve as much
    subroutine make_restitution_sentence(wall, line)
       type(wall_type), intent(in) :: wall
-      !> The sentence without its subject; empty for other mechanisms and for a constant speed ratio
+      !> The sentence without its subject; empty for other mechanisms and for a speed ratio by number
       character(len=:), allocatable, intent(out) :: line
 
       character(len=choices_length) :: model
@@ -100,7 +104,7 @@ contains
       line = ''
       model = model_of(wall)
       i = findloc(published_factors%mechanism == wall%mechanism_name(), .true., dim=1)
-      if (wall%mechanism_name() /= 'two_block' .or. model == 'constant') return
+      if (wall%mechanism_name() /= 'two_block' .or. len_trim(model) == 0) return
       line = to_text(wall%input%number('restitution_factor'))//' times that of the model'
       associate (tests => published_factors(i))
          call tested_range(wall, i, low, high, is_known)

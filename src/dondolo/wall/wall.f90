@@ -14,6 +14,7 @@ module dondolo_wall
    use dondolo_wall_properties, only : gravity_property, is_beyond_bare, is_of_building, mechanism_names, standard_gravity, &
       & wall_input_type
    use dondolo_wall_restitution, only : impact_models_type, restitution_type
+   use dondolo_wall_tabulated_model, only : tabulated_model_type, tabulated_name
    use dondolo_wall_two_block_model, only : two_block_model_type, two_block_name
    implicit none
    private
@@ -119,6 +120,8 @@ contains
       select case (mechanism)
       case (two_block_name)
          allocate (two_block_model_type :: model)
+      case (tabulated_name)
+         allocate (tabulated_model_type :: model)
       case default
          allocate (one_block_model_type :: model)
       end select

@@ -27,6 +27,8 @@ module dondolo_wall_model
       real(wp) :: alpha = 0.0_wp
       !> Depth of the hinge at the base behind the face [m]
       real(wp) :: hinge_depth = 0.0_wp
+      !> Largest distance of a table of its terms from what is computed with / largest value; 0: its terms are formulas
+      real(wp) :: misfit = 0.0_wp
    contains
       !> Before defaults are filled in: set what follows from other properties
       procedure :: prepare

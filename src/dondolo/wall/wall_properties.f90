@@ -9,6 +9,7 @@ module dondolo_wall_properties
    use dondolo_building_input, only : building_rows
    use dondolo_wall_one_block_model, only : one_block_action_rows, one_block_body_rows, one_block_names
    use dondolo_wall_restitution, only : restitution_models
+   use dondolo_wall_tabulated_model, only : tabulated_name, tabulated_rows
    use dondolo_wall_two_block_model, only : two_block_hinge_rows, two_block_load_rows, two_block_name
    implicit none
    private
@@ -17,13 +18,13 @@ module dondolo_wall_properties
    public :: is_beyond_bare, is_extra, is_of_building, mechanism_names, own_properties, standard_gravity, wall_numbers
 
    !> Names of the mechanisms
-   character(len=choices_length), parameter :: mechanism_names(*) = [one_block_names, two_block_name]
+   character(len=choices_length), parameter :: mechanism_names(*) = [one_block_names, two_block_name, tabulated_name]
 
    !> Gravity unless the user sets it [m/s2]
    real(wp), parameter :: standard_gravity = 9.81_wp
 
-   !> Owners of the depth of hinges
-   character(len=choices_length), parameter :: with_hinges(most_choices) = &
+   !> Owners of what blocks of masonry have
+   character(len=choices_length), parameter :: of_blocks(most_choices) = &
       & reshape([one_block_names, two_block_name], [most_choices], pad=blank)
 
    !> What every wall has
@@ -33,38 +34,39 @@ module dondolo_wall_properties
       &   example='one_sided', meaning='how the wall rocks'), &
       & property_type('height', unit='m', required=.true., positive=.true., smallest=1.0e-3_wp, largest=1.0e3_wp, &
       &   example='3.0', meaning='height of the wall', instead='section_height', usual_most=60.0_wp), &
-      & property_type('thickness', unit='m', required=.true., positive=.true., smallest=1.0e-3_wp, largest=1.0e3_wp, &
-      &   example='0.25', meaning='thickness of the wall', instead='section_thickness', usual_most=3.0_wp), &
-      & property_type('density', unit='kg/m3', default=1800.0_wp, positive=.true., smallest=1.0e-3_wp, &
-      &   largest=1.0e5_wp, meaning='density of the masonry', usual_least=500.0_wp, usual_most=4000.0_wp, &
+      & property_type('thickness', unit='m', owners=of_blocks, required=.true., positive=.true., smallest=1.0e-3_wp, &
+      &   largest=1.0e3_wp, example='0.25', meaning='thickness of the wall', instead='section_thickness', usual_most=3.0_wp), &
+      & property_type('density', unit='kg/m3', owners=of_blocks, default=1800.0_wp, positive=.true., &
+      &   smallest=1.0e-3_wp, largest=1.0e5_wp, meaning='density of the masonry', usual_least=500.0_wp, usual_most=4000.0_wp, &
       &   if_less='is it in kN/m3 or t/m3?', if_more='is it in N/m3?')]
 
    !> Depth of the hinges behind the faces
    type(property_type), parameter :: hinge_rows(*) = [ &
-      & property_type('hinge_depth', unit='m', owners=with_hinges, optional=.true., smallest=0.0_wp, &
+      & property_type('hinge_depth', unit='m', owners=of_blocks, optional=.true., smallest=0.0_wp, &
       &   largest=1.0e3_wp, example='0.02', &
       &   usual_most=1.0_wp, &
       &   meaning='depth of the hinge behind the outer face, of each hinge of two_block behind its face'), &
-      & property_type('compressive_strength', unit='Pa', owners=with_hinges, optional=.true., positive=.true., &
+      & property_type('compressive_strength', unit='Pa', owners=of_blocks, optional=.true., positive=.true., &
       &   largest=1.0e12_wp, usual_least=1.0e5_wp, usual_most=1.0e8_wp, &
       &   example='2.0e6', &
       &   meaning='strength of the masonry, from which that depth follows'), &
-      & property_type('stress_block', owners=with_hinges, optional=.true., positive=.true., largest=1.0_wp, example='0.85', &
+      & property_type('stress_block', owners=of_blocks, optional=.true., positive=.true., largest=1.0_wp, example='0.85', &
       &   meaning='stress in the compressed part of the base / that strength, 0.85 if not given')]
 
    !> What every wall has of impacts
    type(property_type), parameter :: impact_rows(*) = [ &
       & property_type('restitution', is_text, word='default', checked_by_owner=.true., column='restitution_model', &
-      &   choices=reshape(restitution_models, [most_choices], pad=blank), meaning='model of the impacts'), &
+      &   choices=reshape(restitution_models, [most_choices], pad=blank), meaning='model of the impacts', &
+      &   more='none where restitution_value is given'), &
       & property_type('restitution_value', optional=.true., smallest=0.0_wp, largest=1.0_wp, less=.true., &
-      &   example='0.9', meaning='speed after / before an impact, only with restitution = ''constant'''), &
+      &   example='0.9', meaning='speed after / before an impact, instead of a model'), &
       & property_type('restitution_factor', default=1.0_wp, positive=.true., &
       &   usual_most=1.5_wp, &
       &   meaning='factor on the speed ratio of any model')]
 
    !> The rows of the wall itself, in the order in which a user thinks of them
    type(property_type), parameter :: own_rows(*) = [general_rows, one_block_body_rows, hinge_rows, one_block_action_rows, &
-      & two_block_hinge_rows, impact_rows, two_block_load_rows]
+      & two_block_hinge_rows, impact_rows, two_block_load_rows, tabulated_rows]
 
    !> The same, and those of the building that a wall stands on
    type(property_type), parameter :: rows(*) = [own_rows, building_rows]

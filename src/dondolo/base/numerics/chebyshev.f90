@@ -8,7 +8,7 @@ module dondolo_base_chebyshev
    implicit none
    private
 
-   public :: chebyshev_nodes, chebyshev_series, chebyshev_integral, chebyshev_value, as_powers
+   public :: chebyshev_nodes, chebyshev_series, chebyshev_integral, chebyshev_slope, chebyshev_value, as_powers
 
 contains
 
@@ -70,6 +70,25 @@ contains
       integral(0) = 0.0_wp
       integral(0) = -chebyshev_value(integral, -1.0_wp)
    end function chebyshev_integral
+
+   !> Series of the derivative; of a constant 0
+   pure function chebyshev_slope(c) result(slope)
+      !> Coefficients
+      real(wp), intent(in) :: c(0:)
+      !> Coefficients of the derivative
+      real(wp) :: slope(0:max(0, ubound(c, 1) - 1))
+
+      real(wp) :: padded(0:ubound(c, 1) + 1)
+      integer :: k
+
+      ! c'_(k-1) = c'_(k+1) + 2 k c_k
+      padded = 0.0_wp
+      do k = ubound(c, 1), 1, -1
+         padded(k - 1) = padded(k + 1) + 2.0_wp*real(k, wp)*c(k)
+      end do
+      padded(0) = 0.5_wp*padded(0)
+      slope = padded(:ubound(slope, 1))
+   end function chebyshev_slope
 
    !> Value of a series (Clenshaw's recurrence)
    pure function chebyshev_value(c, z) result(value)

@@ -2,12 +2,12 @@
 module dondolo_case
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
+   use dondolo_base_paths, only : beside
    use dondolo_base_settings, only : group_settings_type, new_settings
    use dondolo_building_input, only : building_properties
    use dondolo_case_echo, only : echo_type
    use dondolo_case_history_group, only : history_input_type
    use dondolo_case_job_group, only : history_task, job_type, stripes_task, task_names
-   use dondolo_case_paths, only : beside
    use dondolo_case_population_group, only : put_population
    use dondolo_case_records_group, only : records_input_type
    use dondolo_case_settings_group, only : echo_settings

@@ -3,6 +3,7 @@ module dondolo_case_read_case
    use dondolo_base_error, only : error_type, raise_input, status_missing
    use dondolo_base_kinds, only : wp
    use dondolo_base_memory, only : check_room
+   use dondolo_base_paths, only : beside
    use dondolo_base_system, only : is_folder
    use dondolo_base_text, only : brief, to_text
    use dondolo_case, only : case_type
@@ -12,7 +13,6 @@ module dondolo_case_read_case
    use dondolo_case_job_group, only : history_task, read_job, stripes_task, task_names, typology_task
    use dondolo_case_namelist, only : namelist_type, read_namelist
    use dondolo_case_namelist_group, only : group_type
-   use dondolo_case_paths, only : beside
    use dondolo_case_population_group, only : read_population_group
    use dondolo_case_property_tables, only : group_names
    use dondolo_case_records_group, only : read_records_group
@@ -35,6 +35,7 @@ module dondolo_case_read_case
    use dondolo_record_suite, only : new_suite
    use dondolo_wall, only : new_wall
    use dondolo_wall_properties, only : own_properties, wall_input_type, wall_properties
+   use dondolo_wall_table, only : take_table
    implicit none
    private
 
@@ -76,6 +77,7 @@ contains
       if (.not. allocated(error)) call read_values(namelist%group('wall'), wall, error, &
          & wall_properties(:own_properties))
       if (.not. allocated(error)) call read_building_group(namelist%group('building'), wall, error)
+      if (.not. allocated(error)) call read_table(namelist%group('wall'), wall, error)
       if (.not. allocated(error)) call make_wall(namelist, wall, case, error)
       if (.not. allocated(error)) call read_stripes_group(namelist%group('stripes'), case%stripes, error)
       if (.not. allocated(error)) call read_history_group(namelist%group('history'), case%history, error)
@@ -101,6 +103,19 @@ contains
          call check_scales(namelist, case, error)
       end if
    end subroutine read_case
+
+   !> Read the table of the terms of the wall
+   subroutine read_table(group, wall, error)
+      !> The group &wall
+      type(group_type), intent(in) :: group
+      !> What is said of the wall: lists take the place of the table
+      type(wall_input_type), intent(inout) :: wall
+      !> No such file, or a table of something else
+      type(error_type), allocatable, intent(out) :: error
+
+      call take_table(wall, group%file, error)
+      call group%locate(error)
+   end subroutine read_table
 
    !> Survey the population
    subroutine survey(case, rows, error)

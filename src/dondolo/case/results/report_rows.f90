@@ -47,7 +47,7 @@ contains
          call put_property(table, row%wall, wall_properties(i), lengths(i))
       end do
       associate (wall => row%wall)
-         call table%put('alpha_rad', wall%model%alpha)
+         call table%put('alpha_rad', wall%model%alpha, wall%model%alpha > 0.0_wp)
          call table%put('p_rad_s', wall%mechanism%frequency_parameter())
          call table%put('trigger_acceleration_m_s2', wall%mechanism%trigger_acceleration())
          call table%put('capacity_rad', wall%mechanism%capacity)

@@ -6,6 +6,7 @@ module dondolo_case_run_file
    use dondolo_base_json, only : json_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
+   use dondolo_base_paths, only : beside
    use dondolo_base_references, only : list_keys
    use dondolo_base_version, only : build_commit, dondolo_version_text
    use dondolo_building, only : building_type
@@ -13,7 +14,6 @@ module dondolo_case_run_file
    use dondolo_case_cited, only : list_used
    use dondolo_case_echo, only : echo_type
    use dondolo_case_job_group, only : history_task, typology_task
-   use dondolo_case_paths, only : beside
    use dondolo_case_result_files, only : written_type
    use dondolo_case_results, only : results_type
    use dondolo_case_tie_rows, only : put_tie

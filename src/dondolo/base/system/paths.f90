@@ -1,5 +1,5 @@
 !> Paths that are relative to the file they stand in.
-module dondolo_case_paths
+module dondolo_base_paths
    use dondolo_base_system, only : is_absolute, last_separator
    implicit none
    private
@@ -21,4 +21,4 @@ contains
       if (.not. is_absolute(path)) resolved = file(:last_separator(file))//path
    end function beside
 
-end module dondolo_case_paths
+end module dondolo_base_paths
