@@ -285,10 +285,10 @@ class TabulatedWall(Wall):
     top_tilt : float, optional
         Tilt tau: factor on the displacement of the top relative to the base [1/s2].
     table : str or path, optional
-        CSV file of the terms over the rotation, instead of the lists: columns rotation [rad], inertia [kg m2/m], lever [kg m/m], moment
-        [N m/m] and perhaps vertical_lever [kg m/m], each with its unit in brackets; also mrad, deg, t m2/m, t m/m,
-        kN m/m. With a column power in place of rotation its rows are the coefficients of polynomials in the rotation,
-        and `rotation` says how far they hold.
+        CSV file of the terms over the rotation, instead of the lists: columns rotation [rad], inertia [kg m2/m], lever
+        [kg m/m], moment [N m/m] and perhaps vertical_lever [kg m/m], each with its unit in brackets; also mrad, deg,
+        t m2/m, t m/m, kN m/m. With a column power in place of rotation its rows are the coefficients of polynomials in
+        the rotation, and `rotation` says how far they hold.
 
     Raises
     ------

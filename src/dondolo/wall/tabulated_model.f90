@@ -30,7 +30,7 @@ module dondolo_wall_tabulated_model
 
    !> Its properties
    type(property_type), parameter :: tabulated_rows(*) = [ &
-      & property_type('table', is_text, owners=tabulated, optional=.true., replaced=.true., example='''data/walls/arch.csv''', &
+      & property_type('table', is_text, owners=tabulated, optional=.true., replaced=.true., example='data/walls/arch.csv', &
       &   meaning='CSV file of the terms over the rotation, instead of the lists', &
       &   more='columns rotation [rad], inertia [kg m2/m], lever [kg m/m], moment [N m/m]'), &
       & property_type('rotation', is_list, unit='rad', owners=tabulated, optional=.true., smallest=0.0_wp, &
