@@ -61,7 +61,7 @@ contains
             call check(find_property(table, what) == i, what//': once')
             call check(len_trim(property%meaning) > 5, what//': has a meaning')
             call check(any(property%unit == [character(len=8) :: '', 'm', 's', 'g', 'kg/m3', 'N/m', 'N/m2', 'm/s2', 'N/m3', &
-               & 'kg/m', 'kg m2/m', 'Pa', 'm2/m']), what//': its unit')
+               & 'kg/m', 'kg m2/m', 'Pa', 'm2/m', 'rad', 'kg m/m', 'N m/m', '1/s2']), what//': its unit')
             call check(.not. (property%required .and. property%optional), what//': required or optional')
             if (property%required .or. property%optional) then
                call check(len_trim(property%example) > 0 .or. name == 'wall', what//': an example for the template')
@@ -297,6 +297,7 @@ contains
          text = '3'
          ! As many as the indices of one property need
          if (property%name == 'samples') text = '60'
+         if (property%name == 'sides') text = '2'
       case default
          text = to_text(0.9_wp*property%default + 0.1_wp*min(property%largest, 2.0_wp*property%default + 1.0_wp))
          if (property%required .or. property%optional) text = '0.2'
@@ -412,6 +413,8 @@ contains
             what = trim(table(i)%name)
             ! What a wall that rocks to both sides carries stands in its middle: test_loaded_block
             if (what == 'mechanism' .or. (is_beyond_bare(i) .and. mechanism_names(m) == 'free_standing')) cycle
+            ! Readers put what is in the file in its place
+            if (what == 'table') cycle
             call make_value(table(i), text)
             if (what == 'restitution') text = '''default'''
             call write_group('wall', table(:0), table(i), text)
@@ -427,6 +430,7 @@ contains
                if (table(j)%required .and. has_owner(table(j), trim(mechanism_names(m))) .and. .not. &
                   & input%has(table(j)%name)) call input%set(table(j)%name, merge(3.0_wp, 0.5_wp, table(j)%name == 'height'))
             end do
+            if (mechanism_names(m) == 'tabulated') call complete_table(input)
             if (what == 'bearing') call input%set('bearing', 'centre')
             if (what == 'bearing_distance') call input%set('bearing', 'inner')
             call new_wall(wall, input, error)
@@ -443,6 +447,23 @@ contains
          end do
       end do
    end subroutine test_walls
+
+   !> Give the terms of a tabulated wall, and what belongs to them
+   subroutine complete_table(input)
+      type(wall_input_type), intent(inout) :: input
+
+      real(wp), parameter :: q(*) = [0.0_wp, 0.02_wp, 0.04_wp, 0.06_wp, 0.08_wp, 0.1_wp]
+
+      call input%set('rotation', q)
+      call input%set('inertia', spread(1000.0_wp, 1, size(q)))
+      call input%set('lever', spread(500.0_wp, 1, size(q)))
+      call input%set('moment', 800.0_wp - 1.0e4_wp*q)
+      if (input%has('vertical_lever')) call input%set('vertical_lever', 80.0_wp - 1.0e3_wp*q)
+      if (.not. input%has('sides')) call input%set('sides', 2.0_wp)
+      if (.not. input%has('restitution_value')) call input%set('restitution_value', 0.5_wp)
+      if (input%has('top_share')) call input%set('top_tilt', 3.0_wp)
+      if (input%has('top_tilt') .and. .not. input%has('top_share')) call input%set('top_share', 0.5_wp)
+   end subroutine complete_table
 
    !> Give what must be given with a property
    subroutine complete(input, what)
