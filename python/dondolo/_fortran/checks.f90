@@ -136,7 +136,7 @@ contains
    subroutine check_table(walls, texts, numbers, n, given, im, lines, curves, codes, k, sent)
       integer(c_int64_t), intent(in) :: walls
       character(len=*), intent(in) :: texts, im, lines
-      integer(c_int), intent(in) :: n, given(3), k, codes(3, k)
+      integer(c_int), intent(in) :: n, given(4), k, codes(3, k)
       real(c_double), intent(in) :: numbers(n), curves(14, k)
       integer(c_int64_t), intent(out) :: sent(5)
       type(wall_type), pointer :: wall(:)
