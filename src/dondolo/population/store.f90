@@ -11,7 +11,7 @@ module dondolo_population_store
    use dondolo_base_lock, only : holder_type, lock_type, look_at_lock
    use dondolo_base_memory, only : check_room
    use dondolo_base_origin, only : check_regular
-   use dondolo_base_system, only : cut_file, remove_file, rename_file, writer_type
+   use dondolo_base_system, only : cut_file, is_folder, remove_file, rename_file, writer_type
    use dondolo_base_text, only : to_text
    use dondolo_motion_work, only : work_type
    use dondolo_population_row_result, only : row_result_type
@@ -112,7 +112,9 @@ contains
       if (.not. exists) return
       exists = .false.
       call check_regular(path, .true., error)
-      if (allocated(error) .or. store%size == 0) return
+      if (allocated(error)) return
+      ! Some systems give folders no size.
+      if (store%size == 0 .and. .not. is_folder(path)) return
       open (newunit=store%unit, file=path, access='stream', form='unformatted', action='read', status='old', iostat=stat)
       if (stat /= 0) then
          store%unit = 0
