@@ -184,7 +184,7 @@ def test_a_thin_plate():
     ],
 )  # fmt: skip
 def test_what_is_refused(changes, more, words):
-    with pytest.raises(dd.InputError, match=words):
+    with pytest.raises(dd.errors.InputError, match=words):
         wall(tie(**changes), **more)
 
 
@@ -342,9 +342,9 @@ def test_return_periods():
         of_facade(), dd.Site(0.261, 2.364, 0.347, soil="B", reference_life=75.0, exceedance=(0.63, 0.1, 0.05))
     )
     assert not any(row.quantity.startswith("return_period") for row in one.rows)
-    with pytest.raises(dd.InputError, match="exceedance: must decrease"):
+    with pytest.raises(dd.errors.InputError, match="exceedance: must decrease"):
         dd.Site(0.2, 2.5, 0.35, reference_life=50.0, exceedance=(0.05, 0.1, 0.63))
-    with pytest.raises(dd.InputError, match="reference_life: must be given with exceedance"):
+    with pytest.raises(dd.errors.InputError, match="reference_life: must be given with exceedance"):
         dd.Site(0.2, 2.5, 0.35, reference_life=50.0)
 
 

@@ -89,7 +89,7 @@ def test_vertical_motion(motions):
     assert 0.0 < expected.edp < 1.0
     assert dd.simulate(as_table(wall), shaken, scale=1.4).edp == pytest.approx(expected.edp, abs=1e-9)
     for run in (dd.simulate, lambda one, two: dd.multiple_stripe(one, two, [0.5], progress=False)):
-        with pytest.raises(dd.InputError, match=r"^vertical_lever: must be given for records with vertical motion"):
+        with pytest.raises(dd.errors.InputError, match=r"^vertical_lever: must be given for records with vertical motion"):
             run(as_table(wall, vertical_lever=None), shaken)
 
 
@@ -259,7 +259,7 @@ CORNER = np.interp(np.linspace(0.0, 0.1, 21), [0.0, 0.04, 0.09, 0.1], [900.0, 90
     ],
 )
 def test_refused(more, message):
-    with pytest.raises(dd.InputError, match=message):
+    with pytest.raises(dd.errors.InputError, match=message):
         linear(**more)
 
 
@@ -290,21 +290,21 @@ def test_refused(more, message):
 def test_refused_files(tmp_path, head, message):
     file = tmp_path / "table.csv"
     file.write_text(head + "\n0,1000,500,900\n1,1000,500,-900\n")
-    with pytest.raises(dd.InputError, match=r"^table: .*table\.csv: " + message):
+    with pytest.raises(dd.errors.InputError, match=r"^table: .*table\.csv: " + message):
         dd.TabulatedWall(2.0, table=file, sides=1, restitution_value=0.5)
-    with pytest.raises(dd.InputError, match=r"^table: .*none\.csv: no such file"):
+    with pytest.raises(dd.errors.InputError, match=r"^table: .*none\.csv: no such file"):
         dd.TabulatedWall(2.0, table=tmp_path / "none.csv", sides=1, restitution_value=0.5)
 
 
 def test_limits(motions):
     """Beyond its table a wall is not known; without masses there is no kinematic check, without a shape no film."""
     wall = linear()
-    with pytest.raises(dd.InputError, match=r"^edp_limit = 1.2: must be less than 1.11.*, where the geometry"):
+    with pytest.raises(dd.errors.InputError, match=r"^edp_limit = 1.2: must be less than 1.11.*, where the geometry"):
         dd.simulate(wall, motions[0], solver=dd.Solver(edp_limit=1.2))
     site = dd.Site(ag=0.2, f0=2.5, tc_star=0.35, soil="B")
-    with pytest.raises(dd.InputError, match="the kinematic check needs the masses"):
+    with pytest.raises(dd.errors.InputError, match="the kinematic check needs the masses"):
         dd.check_ntc(wall, site)
-    with pytest.raises(dd.InputError, match="has no shape to draw"):
+    with pytest.raises(dd.errors.InputError, match="has no shape to draw"):
         dd.simulate(wall, motions[0], history=True).animate()
 
 
