@@ -23,6 +23,7 @@ from dondolo.exchange.citing import cite as cite
 from dondolo.exchange.reading import read_results as read_results
 from dondolo.exchange.running import run_case as run_case
 from dondolo.exchange.workbook import write_workbook as write_workbook
+from dondolo.figures.themes import style as style
 from dondolo.hazard.hazard import HazardCurve as HazardCurve
 from dondolo.populations.study import typology as typology
 from dondolo.populations.uncertain_wall import uncertain_wall as uncertain_wall

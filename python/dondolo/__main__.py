@@ -101,6 +101,15 @@ def _parser() -> argparse.ArgumentParser:
         metavar="FORMAT",
     )
     plot.add_argument(
+        "--dpi", type=float, help="dots per inch of pictures, 110 by default, 600 with --width", metavar="N"
+    )
+    plot.add_argument(
+        "--width",
+        type=float,
+        help="width of the figures, in the style of journals: 88 for a column, 180 for a page",
+        metavar="MM",
+    )
+    plot.add_argument(
         "--animate", action="store_true", help="also write an animation (GIF) of a time history, of 30 s at most"
     )
     plot.set_defaults(run=_plot)
@@ -258,22 +267,26 @@ def _plot(options: argparse.Namespace) -> None:
     import matplotlib
 
     matplotlib.use("agg")
-    for prefix in options.prefixes:
-        _plot_run(prefix, options.format, options.animate)
+    if options.dpi is not None and not 10.0 <= options.dpi <= 2400.0:
+        raise dd.errors.InputError(f"--dpi {options.dpi:g}: must lie between 10 and 2400")
+    with dd.style("screen" if options.width is None else "journal", width=options.width):
+        for prefix in options.prefixes:
+            _plot_run(prefix, options)
 
 
-def _plot_run(prefix: str, kind: str, animate: bool) -> None:
+def _plot_run(prefix: str, options: argparse.Namespace) -> None:
     """Draw whatever the result files of a run hold."""
+    kind = options.format
 
     def save(name: str, draw: Callable[[], Any]) -> None:
-        _save(f"{prefix}_{name}.{kind}", kind, results.run.run, draw)
+        _save(f"{prefix}_{name}.{kind}", options, results.run.run, draw)
 
     results = dd.read_results(prefix)
     if results.response is not None:
         motion = results.response
-        save("history", lambda: motion.plot()[0])
+        save("history", motion.plot)
         save("wall", motion.plot_peak)
-        if animate:
+        if options.animate:
             _film(f"{prefix}_motion.gif", motion, results.run.run)
     if results.stripes is not None and results.fragility is not None:
         stripes = results.stripes
@@ -292,7 +305,7 @@ def _plot_designs(
     designs: dd.results.DesignComparison, walls: dd.Population, save: Callable[[str, Callable[[], Any]], None]
 ) -> None:
     """Draw designs beside each other, and each of them: they are alternatives, and have no curve in common."""
-    save("designs", lambda: designs.plot()[0])
+    save("designs", designs.plot)
     for number, wall in enumerate(walls, 1):
         save(f"design_{number}", wall.plot)
 
@@ -303,7 +316,7 @@ def _plot_walls(
     """Draw the curves of a population, or of one facade."""
     save("typology", people.plot)
     if (uncertain := results.uncertain) is not None:
-        save("uncertainty", lambda: uncertain.plot()[0])
+        save("uncertainty", uncertain.plot)
     is_facade = bool(people.facade) and people.knows_unions
     if len(people.groups) > 1 and not is_facade:
         save("combination", people.plot_combination)
@@ -318,10 +331,10 @@ def _plot_walls(
 
 def _film(path: str, motion: dd.results.Response, run: str) -> None:
     """Write an animation of a motion; one that is long is shown faster, so that the film does not take minutes."""
-    from dondolo.analysis.film import film_span
+    from dondolo.analysis.plots_response import motion_span
 
     check_replaced(path, "film")
-    first, last = film_span(motion)
+    first, last = motion_span(motion)
     span = last - first
     speed = max(1.0, span / _FILM)
     animation = motion.animate(frames_per_second=_FRAMES, speed=speed)
@@ -337,17 +350,17 @@ def _film(path: str, motion: dd.results.Response, run: str) -> None:
     _report_done("drawn", path, f" ({speed:.3g} times as fast as the motion)" if speed > 1.0 else "")
 
 
-def _save(path: str, kind: str, run: str, draw: Callable[[], Any]) -> None:
+def _save(path: str, options: argparse.Namespace, run: str, draw: Callable[[], Any]) -> None:
     """Draw a figure into a file, which appears whole or not at all."""
     import matplotlib.pyplot as plt
 
     figure = draw().figure
     try:
-        save_figure(figure, path, kind, run)
+        save_figure(figure, path, options.format, run, options.dpi)
     except dd.errors.InputError:
         raise
     except ValueError as error:
-        raise dd.errors.InputError(f"--format {kind}: {str(error).splitlines()[0]}") from None
+        raise dd.errors.InputError(f"--format {options.format}: {str(error).splitlines()[0]}") from None
     finally:
         plt.close(figure)
     _report_done("drawn", path)

@@ -79,7 +79,7 @@ def test_checks_beside(designs, few, tmp_path):
     assert table.nonlinear_slv.tolist() == [check.capacities["nonlinear", "SLV"] for check in found.checks]
     assert table.linear_slv[1] > table.linear_slv[0]
     assert "as it stands, check" in repr(found)
-    left, _ = found.plot()
+    left, _ = found.plot().figure.axes
     marks = [line for line in left.lines if line.get_marker() == "v"]
     assert [line.get_xdata()[0] for line in marks] == table.nonlinear_slv.tolist()
     found.save(tmp_path / "designs.npz")
@@ -90,7 +90,7 @@ def test_checks_beside(designs, few, tmp_path):
 def test_shown_drawn_and_saved(found, tmp_path):
     assert "thicker $t$ theta" in repr(found)
     assert "steel 4 kg/m" in repr(found)
-    left, right = found.plot()
+    left, right = found.plot().figure.axes
     assert [line.get_label() for line in left.lines if not line.get_label().startswith("_")] == list(found.names)
     assert right.get_xlabel() == "ratio to 'as it stands'"
     diamonds = next(line for line in right.lines if line.get_marker() == "D")
@@ -115,7 +115,7 @@ def test_a_design_without_a_curve(designs, few):
     assert found.comparisons[1] is None
     assert np.isnan(found.ratio[1])
     assert "hardly no curve (no_collapse)" in repr(found)
-    assert "hardly" not in [line.get_label() for line in found.plot()[0].lines]
+    assert "hardly" not in [line.get_label() for line in found.plot().lines]
 
 
 @pytest.mark.parametrize(
@@ -182,7 +182,7 @@ def test_the_executable_compares(root, run, tmp_path):
             key = kind, state.upper()
             assert check.capacities[key] == pytest.approx(float(row[f"{kind}_{state}_g"]), rel=1e-9)
             assert check.value(*key, "ratio") == pytest.approx(float(row[f"{kind}_{state}_ratio"]), rel=1e-9)
-    left, _ = stored.plot()
+    left, _ = stored.plot().figure.axes
     assert [line.get_label() for line in left.lines if not line.get_label().startswith("_")][:4] == list(found.names)
     stored.save(tmp_path / "designs.npz")
     assert dd.load(tmp_path / "designs.npz").to_frame().equals(stored.to_frame())

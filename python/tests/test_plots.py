@@ -12,7 +12,7 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from dondolo.analysis.film import film_span
+from dondolo.analysis.plots_response import motion_span
 from dondolo.figures.layout import lay_out
 from dondolo.walls.shape import shape
 from matplotlib.axes import Axes
@@ -54,7 +54,7 @@ def line(ax, label):
 
 
 def test_history_shows_the_motion(motion):
-    above, below = motion.plot()
+    above, below = motion.plot().figure.axes
     np.testing.assert_array_equal(above.get_lines()[0].get_ydata(), motion.ground_acceleration / 9.81)
     np.testing.assert_array_equal(line(below, "rotation").get_ydata(), motion.rotation / motion.wall.capacity_angle)
     np.testing.assert_array_equal(line(below, "impacts").get_xdata(), motion.time[motion.after_impact])
@@ -69,14 +69,15 @@ def test_history_shows_the_motion(motion):
 def test_history_counts_the_impacts_after_the_record_apart(sine):
     motion = dd.simulate(dd.FreeStandingWall(height=6.0, thickness=0.9), sine, 2.0)
     later = int((motion.after_impact & (motion.time > sine.duration)).sum())
-    drawn = line(motion.plot()[1], "impacts")
+    drawn = line(motion.plot().figure.axes[1], "impacts")
     assert later > 0
     assert drawn.get_label() == f"impacts ({motion.impacts}, and {later} after the record)"
 
 
 def test_history_draws_into_given_axes(motion):
     _, axes = plt.subplots(2)
-    assert list(motion.plot(axes)) == list(axes)
+    assert motion.plot(axes) is axes[0]
+    assert all(one.lines for one in axes)
 
 
 def test_history_needs_a_history(wall, records):
@@ -272,7 +273,7 @@ def test_ties_are_told_with_what_is_usual():
     ax.figure.draw_without_rendering()
     boxes = {text.get_text(): text.get_window_extent() for text in ax.texts if text.get_text()}
     for label in ("tie 0.5 cm²/m", "tie 1 cm²/m"):
-        assert not boxes[label].overlaps(boxes["transverse wall"])
+        assert not boxes[label].overlaps(boxes["transverse\nwall"])
 
 
 def test_friction_is_told_with_what_is_usual():
@@ -305,9 +306,9 @@ def test_one_sided_walls_do_not_turn_inwards(wall):
 
 def test_a_wall_on_a_building_is_moved_by_its_floor(motion, records):
     house = dd.Building(0.3, storeys=3, level=9.0, building_height=9.0)
-    above, _ = dd.simulate(dd.OneSidedWall(1.5, 0.25, building=house), records[0], 0.3).plot()
+    above, _ = dd.simulate(dd.OneSidedWall(1.5, 0.25, building=house), records[0], 0.3).plot().figure.axes
     assert above.get_ylabel() == "floor\nacceleration [g]"
-    assert motion.plot()[0].get_ylabel() == "ground\nacceleration [g]"
+    assert motion.plot().get_ylabel() == "ground\nacceleration [g]"
 
 
 def test_a_film_shows_the_time_of_the_motion():
@@ -317,11 +318,11 @@ def test_a_film_shows_the_time_of_the_motion():
     moved = dd.simulate(wall, record, 2.1)
     moves = moved.time[moved.rotation != 0.0]
     assert 5.0 < moves[0] < moves[-1] < 10.0
-    first, last = film_span(moved)
+    first, last = motion_span(moved)
     assert moves[0] - 0.55 < first < moves[0] - 0.45
     assert moves[-1] + 0.95 < last < moves[-1] + 1.05
     still = dd.simulate(wall, record, 1e-3)
-    assert film_span(still) == (still.time[0], still.time[-1])
+    assert motion_span(still) == (still.time[0], still.time[-1])
 
 
 def test_a_frame_is_drawn_once(motion, tmp_path, monkeypatch):
@@ -344,7 +345,7 @@ def test_animation_follows_the_motion(motion, tmp_path):
 
 
 def test_a_figure_that_is_laid_out_is_drawn_once(motion, tmp_path, monkeypatch):
-    figure = motion.plot()[0].figure
+    figure = motion.plot().figure
     drawn = []
     original = Axes.draw
     monkeypatch.setattr(Axes, "draw", lambda self, renderer: drawn.append(self) or original(self, renderer))
@@ -353,7 +354,7 @@ def test_a_figure_that_is_laid_out_is_drawn_once(motion, tmp_path, monkeypatch):
     figure.savefig(tmp_path / "history.png")
     assert len(drawn) == len(figure.axes) == 2
     # The same figure as one that savefig lays out
-    other = motion.plot()[0].figure
+    other = motion.plot().figure
     other.savefig(tmp_path / "other.png")
     np.testing.assert_array_equal(imread(tmp_path / "history.png"), imread(tmp_path / "other.png"))
 
@@ -379,14 +380,18 @@ def test_results_draw_themselves():
     assert drawn >= {"HazardCurve", "Record", "Spectrum"}
     assert drawn >= {"PopulationCurve", "Response", "Risk", "Stripes", "Typology", "OneSidedWall"}
     for method in methods.values():
-        _, ax, *options = inspect.signature(method).parameters.values()
+        signature = inspect.signature(method)
+        _, ax, *options, others = signature.parameters.values()
         assert (ax.name, ax.default) == ("ax", None)
         assert all(option.kind is option.KEYWORD_ONLY for option in options)
+        assert (others.name, others.kind) == ("options", others.VAR_KEYWORD)
+        assert signature.return_annotation == "Axes"
+        assert "docs/printing.md" in method.__doc__
 
 
 def test_records_and_spectra(records):
     record = records[0]
-    above, below = record.plot()
+    above, below = record.plot().figure.axes
     peak = line(above, "PGA")
     assert abs(peak.get_ydata()[0]) == record.peak_acceleration
     low, high = record.significant_times()
@@ -394,9 +399,9 @@ def test_records_and_spectra(records):
         [low, high]
     )
     np.testing.assert_array_equal(line(below, "PGV").get_ydata(), record.velocity)
-    still, _ = dd.Record([0.0, 0.0], 0.01).plot()
+    still, _ = dd.Record([0.0, 0.0], 0.01).plot().figure.axes
     assert not still.patches
-    shaken, _ = replace(record, vertical=0.5 * record.acceleration).plot()
+    shaken, _ = replace(record, vertical=0.5 * record.acceleration).plot().figure.axes
     np.testing.assert_array_equal(line(shaken, "vertical").get_ydata(), 0.5 * record.acceleration)
     spectrum = record.spectrum([1.0, 0.2, 0.5])
     ax = spectrum.plot()
@@ -432,7 +437,7 @@ def test_axes_are_returned(wall, motion, stripes):
     for draw in (wall.plot, motion.plot_peak, stripes.plot, stripes.fit().plot, stripes.plot_damage_states):
         assert draw(ax) is ax
     _, axes = plt.subplots(1, 2, squeeze=False)
-    assert list(dd.Population([wall]).plot(axes)) == list(axes.flat)
+    assert dd.Population([wall]).plot(axes) is axes[0, 0]
 
 
 @pytest.mark.parametrize(
@@ -567,7 +572,7 @@ def test_help_lists_the_commands(tmp_path):
 
 def test_plots_of_names_that_look_like_formulas(records, tmp_path):
     wall = dd.OneSidedWall(height=1.5, thickness=0.25, name="cost $x_{$")
-    figure = dd.simulate(wall, records[6]).plot()[0].figure
+    figure = dd.simulate(wall, records[6]).plot().figure
     figure.savefig(tmp_path / "history.png")
 
 

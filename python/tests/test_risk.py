@@ -647,7 +647,7 @@ def test_figure(hazard, curve, endless):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", dd.errors.DondoloWarning)
         risk = curve.risk(hazard)
-    above, middle, below = risk.plot()
+    above, middle, below = risk.plot().figure.axes
     drawn = above.get_lines()[0 if endless else 1]
     assert np.all(np.isin(hazard.levels, drawn.get_xdata())) or endless
     np.testing.assert_allclose(drawn.get_ydata(), hazard(drawn.get_xdata()))

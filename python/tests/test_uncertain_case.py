@@ -112,7 +112,7 @@ def test_results_read_back(ran):
         assert found.total_interval[k].tolist() == [float(row["total_low"]), float(row["total_high"])]
     assert len(found.sample) == 60
     assert found.as_given.theta == dd.read_results(folder / "out").typology.curves[60].theta
-    _, right = found.plot()
+    _, right = found.plot().figure.axes
     labels = [text.get_text() for text in right.get_yticklabels()]
     assert [label.split("\n")[0] for label in labels if label.split("\n")[0] in SAME]
     assert any(label.startswith("records") for label in labels)

@@ -235,10 +235,21 @@ def test_files(found, tmp_path):
 
 
 def test_plot(found):
-    left, right = found.plot()
+    left, right = found.plot().figure.axes
     assert left.get_ylabel() == "probability of collapse"
-    rows = [label.get_text().split("\n")[0] for label in right.get_yticklabels()]
-    assert set(rows) == {*SOURCES, "records", "numbers"}
+    rows = {text.get_text().split(",")[0] for text in right.texts if not text.get_text().endswith("%")}
+    words = {"restitution_factor": "ratio of restitution", "hinge": "height of the hinge"}
+    named = {words.get(name, name) for name in SOURCES} - {"hinge_depth"} | {"depth of the hinge"}
+    assert rows - {"records"} == named | {"numerical error"}
+    # Bars begin at the median with all sources at their medians, wherever their ends are.
+    middle = found.at_medians.theta
+    bars = [drawn for drawn in right.lines if len(drawn.get_xdata()) == 2 and drawn.get_linewidth() == 3.0]
+    assert len(bars) == len(SOURCES) + 2
+    assert all(min(bar.get_xdata()) <= middle <= max(bar.get_xdata()) for bar in bars)
+    # What the shares do not sum to is said.
+    (said,) = (label for label in right.get_legend_handles_labels()[1] if "shares" in label)
+    assert f"{100.0 * np.nansum(found.total):.0f} %" in said
+    assert f"another {100.0 * found.rest:.0f} %" in said
     assert "[g]" in right.get_xlabel()
     with pytest.raises(dd.errors.InputError, match="ax: must be 2 Axes"):
         found.plot([left])

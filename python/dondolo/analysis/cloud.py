@@ -204,13 +204,16 @@ class Cloud(tables.Tabular, Saved):
         low, median, high = (self._crossing(p, threshold) for p in (_LOW, 0.5, _HIGH))
         return median, 0.5 * float(np.log(high / low))
 
-    def plot(self, ax: Axes | None = None) -> Axes:
+    def plot(self, ax: Axes | None = None, **options: Any) -> Axes:
         """Draw the points, the line fitted to those that rock, and the probability of collapse.
 
         Parameters
         ----------
         ax : Axes, optional
             Where to draw; a new figure if left out.
+        **options
+            Parts to leave out by False (`legend`, `title`, `band`), and keywords of Matplotlib for the points: see
+            docs/printing.md.
 
         Returns
         -------
@@ -220,7 +223,7 @@ class Cloud(tables.Tabular, Saved):
         """
         from dondolo.analysis.plots_cloud import draw_cloud
 
-        return draw_cloud(self, ax)
+        return draw_cloud(self, ax, options)
 
     def _doubts(self) -> list[DondoloWarning]:
         """Warnings of models whose slope is not significant."""

@@ -20,7 +20,6 @@ from dondolo.curves import fitting
 from dondolo.curves.bootstrap import draw_records, resample
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloError, InputError, Interrupted
-from dondolo.figures.style import Panels
 from dondolo.records.record import Record
 from dondolo.records.record_set import plain_records
 from dondolo.walls.wall import Wall
@@ -72,24 +71,27 @@ class IntensityComparison(tables.Tabular, Saved):
         """The measure with the smallest dispersion."""
         return self.ims[int(np.argmin(self.ratio))]
 
-    def plot(self, ax: Iterable[Axes] | None = None) -> Panels:
+    def plot(self, ax: Iterable[Axes] | None = None, **options: Any) -> Axes:
         """Draw the curves of all measures on one scale, and their dispersions.
 
         Parameters
         ----------
         ax : two Axes, optional
             Where to draw; a new figure if left out.
+        **options
+            Parts to leave out by False (`legend`, `title`, `bars`, `points`), and keywords of Matplotlib for the
+            curves: see docs/printing.md.
 
         Returns
         -------
-        ndarray of two Axes
-            Probability of collapse against scale factor over its median, for an amplitude the intensity over its
-            median: the steeper, the more efficient; and the dispersions with 95 % intervals, the most efficient measure
-            at the top.
+        Axes
+            The first of the figure's: probability of collapse against scale factor over its median, for an amplitude
+            the intensity over its median: the steeper, the more efficient; and the dispersions with 95 % intervals, the
+            most efficient measure at the top.
         """
         from dondolo.analysis.plots_efficiency import draw_comparison
 
-        return draw_comparison(self, ax)
+        return draw_comparison(self, ax, options)
 
     def _table(self) -> tables.Table:
         return {

@@ -8,16 +8,15 @@ import numpy as np
 from matplotlib.animation import FuncAnimation
 
 from dondolo._base.arguments import as_number
+from dondolo.analysis.plots_response import motion_span
 from dondolo.analysis.response import Response
 from dondolo.errors import InputError
 from dondolo.figures import style
 from dondolo.figures.layout import lay_out
+from dondolo.figures.options import Options
 from dondolo.walls.drawing import draw_surroundings, frame
 from dondolo.walls.shape import shape
 from dondolo.walls.wall import MasonryWall
-
-# What a film shows before the wall first moves, and after it comes to rest [s]
-_BEFORE, _AFTER = 0.5, 1.0
 
 
 class _Film(FuncAnimation):
@@ -37,33 +36,13 @@ class _Film(FuncAnimation):
             super()._post_draw(framedata, blit)  # type: ignore[misc]
 
 
-def film_span(response: Response) -> tuple[float, float]:
-    """When a film begins and ends [s]: about the time in which the wall moves, or with the record if it does not.
-
-    Parameters
-    ----------
-    response : Response
-        Has a time history.
-
-    Returns
-    -------
-    (float, float)
-    """
-    time, _, rotation, _ = response._motion()
-    start, end = float(time[0]), float(time[-1])
-    moves = np.flatnonzero((rotation != 0.0) | (np.asarray(response.velocity) != 0.0))
-    if len(moves):
-        start, end = max(start, float(time[moves[0]]) - _BEFORE), min(end, float(time[moves[-1]]) + _AFTER)
-    return start, end
-
-
 def animate(response: Response, frames_per_second: float, speed: float) -> FuncAnimation:
     """Animate the wall beside its rotation."""
     rate, pace = as_number("frames_per_second", frames_per_second), as_number("speed", speed)
     if not (0.0 < pace < np.inf and 1.0 <= rate < np.inf):
         raise InputError(f"speed = {speed}, frames_per_second = {frames_per_second}: must be positive")
     time, _, rotation, _ = response._motion()
-    first, last = film_span(response)
+    first, last = motion_span(response)
     wall = response.wall
     if not isinstance(wall, MasonryWall):
         raise InputError(f"wall '{wall.name}': has no shape to draw, it is given by a table")
@@ -81,7 +60,7 @@ def animate(response: Response, frames_per_second: float, speed: float) -> FuncA
     (point,) = right.plot([], [], linestyle="none", marker="o", color=style.RED)
     right.set_xlabel("time [s]")
     right.set_ylabel("rotation / capacity")
-    style.title(right, f"{wall.name}, record {response.record.name}")
+    style.title(right, f"{wall.name}, record {response.record.name}", Options({}))
     right.set_xlim(first, last)
     instants = np.arange(first, last + 0.5 * pace / rate, pace / rate)
 

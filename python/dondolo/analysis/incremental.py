@@ -202,7 +202,7 @@ class Incremental(Shown, Saved):
             warn([DondoloWarning(sentence, status, {"wall": self.stripes.wall.name}, {"levels": len(levels)})])
         return curve if errors is None else with_errors(curve, errors)
 
-    def plot(self, ax: Axes | None = None) -> Axes:
+    def plot(self, ax: Axes | None = None, **options: Any) -> Axes:
         """Draw a line for each history, and their fractiles, bold.
 
         As Vamvatsikos and Cornell (2002) draw them: a flat line is a collapse. A history that survives a level above
@@ -212,6 +212,9 @@ class Incremental(Shown, Saved):
         ----------
         ax : Axes, optional
             Where to draw; a new figure if left out.
+        **options
+            Parts to leave out by False (`legend`, `title`, `points`), and keywords of Matplotlib for the fractiles: see
+            docs/printing.md.
 
         Returns
         -------
@@ -220,7 +223,7 @@ class Incremental(Shown, Saved):
         """
         from dondolo.analysis.plots_stripes import draw_incremental
 
-        return draw_incremental(self, ax)
+        return draw_incremental(self, ax, options)
 
     def _tables(self) -> dict[_Table, Any]:
         stripes = self.stripes

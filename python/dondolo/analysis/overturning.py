@@ -166,7 +166,7 @@ class OverturningSpectrum(Shown, Saved):
         ends.append(float(self.amplitudes[-1]))
         return [Window(*window) for window in zip(ends, ends[1:], states, strict=False)]
 
-    def plot(self, ax: Axes | None = None) -> Axes:
+    def plot(self, ax: Axes | None = None, **options: Any) -> Axes:
         """Draw which amplitudes overturn, without and with impacts before, against the frequency of the pulse.
 
         As Zhang and Makris (2001) draw it. Every frequency of the scan is a column, cut at the amplitudes where the
@@ -176,6 +176,9 @@ class OverturningSpectrum(Shown, Saved):
         ----------
         ax : Axes, optional
             Where to draw; a new figure if left out.
+        **options
+            Parts to leave out by False (`legend`, `title`), and keywords of Matplotlib for the boundaries: see
+            docs/printing.md.
 
         Returns
         -------
@@ -184,7 +187,7 @@ class OverturningSpectrum(Shown, Saved):
         """
         from dondolo.analysis.plots_overturning import draw_spectrum
 
-        return draw_spectrum(self, ax)
+        return draw_spectrum(self, ax, options)
 
     def _tables(self) -> dict[_Table, Any]:
         count = len(self.amplitudes)

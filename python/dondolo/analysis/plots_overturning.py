@@ -2,22 +2,24 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from dondolo.analysis.overturning import OverturningSpectrum, State
 from dondolo.figures import style
+from dondolo.figures.options import Options
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-def draw_spectrum(spectrum: OverturningSpectrum, ax: Axes | None) -> Axes:
+def draw_spectrum(spectrum: OverturningSpectrum, ax: Axes | None, given: dict[str, Any]) -> Axes:
     """Draw which amplitudes overturn, a column for each frequency, cut where the state changes."""
     from matplotlib.collections import PolyCollection
 
-    ax = style.axes(ax)
+    options = Options(given)
+    ax = style.axes(ax, (6.0, 3.8))
     x, unit = spectrum.frequency_ratio, spectrum.amplitude_unit
     inner = 0.5 * (x[1:] + x[:-1])
     first, last = (x[0] - inner[0], x[-1] - inner[-1]) if len(x) > 1 else (-0.5 * x[0], 0.5 * x[0])
@@ -46,13 +48,13 @@ def draw_spectrum(spectrum: OverturningSpectrum, ax: Axes | None) -> Axes:
         if max(boundary.below, boundary.above) >= State.OVERTURNED_AFTER_IMPACTS:
             i = int(np.searchsorted(spectrum.frequencies, boundary.frequency))
             height = 0.5 * (boundary.lower + boundary.upper) / unit
-            ax.plot(edges[i : i + 2], [height, height], color=style.BLACK, linewidth=0.9)
+            ax.plot(edges[i : i + 2], [height, height], **options.look(color=style.BLACK, linewidth=0.9))
     ax.axhline(1.0, color=style.BLACK, linewidth=0.9, linestyle="--", label="trigger acceleration")
     ax.set_xlim(edges[0], edges[-1])
     ax.set_ylim(0.0, spectrum.amplitude_ratio[-1])
     ax.set_xlabel("frequency of the pulse $\\omega_p / p$")
     one_block = spectrum.wall.mechanism not in ("two_block", "tabulated")
-    ax.set_ylabel("amplitude $a_p / (g\\,\\tan\\alpha)$" if one_block else "amplitude / trigger acceleration")
-    style.title(ax, f"{spectrum.wall.name}, {spectrum.pulse}")
-    style.legend(ax, loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=2)
+    style.y_label(ax, "amplitude $a_p / (g\\,\\tan\\alpha)$" if one_block else "amplitude / trigger acceleration")
+    style.title(ax, f"{spectrum.wall.name}, {spectrum.pulse}", options)
+    style.legend(ax, options)
     return ax

@@ -3,22 +3,50 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from dondolo._base.arguments import FloatArray
 from dondolo.analysis.response import Response
 from dondolo.figures import style
+from dondolo.figures.options import Options
 from dondolo.walls.parts import parts_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-def draw_history(response: Response, ax: Iterable[Axes] | None) -> style.Panels:
+# What is shown before a wall first moves, and after it comes to rest [s]
+_BEFORE, _AFTER = 0.5, 1.0
+
+
+def motion_span(response: Response) -> tuple[float, float]:
+    """When to begin and to end showing a motion [s]: about the time in which the wall moves, or all if it does not.
+
+    Parameters
+    ----------
+    response : Response
+        Has a time history.
+
+    Returns
+    -------
+    (float, float)
+    """
+    time, _, rotation, _ = response._motion()
+    start, end = float(time[0]), float(time[-1])
+    moves = np.flatnonzero((rotation != 0.0) | (np.asarray(response.velocity) != 0.0))
+    if len(moves):
+        start, end = max(start, float(time[moves[0]]) - _BEFORE), min(end, float(time[moves[-1]]) + _AFTER)
+    return start, end
+
+
+def draw_history(response: Response, ax: Iterable[Axes] | None, given: dict[str, Any]) -> Axes:
     """Draw the acceleration of ground or floor above, rotation / capacity below, impacts marked."""
+    options = Options(given, "points")
     time, acceleration, rotation, after_impact = response._motion()
-    axes = above, below = style.panels(ax, 2, (7.2, 4.6), sharex=True, height_ratios=(2, 3))
+    above, below = style.panels(ax, 2, (7.2, 4.2), sharex=True, height_ratios=(2, 3))
+    is_first = not style.mains(below)
     wall = response.wall
     if wall.support_share > 0.0:
         motions = response.record.under(wall, at="base"), response.record.under(wall, at="top")
@@ -33,14 +61,29 @@ def draw_history(response: Response, ax: Iterable[Axes] | None) -> style.Panels:
         above.axhline(sign * trigger, color=style.RED, linewidth=0.9, linestyle="--")
     # Friction resists in full only where the wall has not been.
     name = "trigger acceleration" if not parts_of(wall, "interlock") else "trigger, first motion"
-    above.plot([], [], color=style.RED, linewidth=0.9, linestyle="--", label=name)
-    above.set_ylabel(f"{response._support}\nacceleration [g]")
-    style.title(above, f"{wall.name}, record {response.record.name}, scale {response.scale:.4g}")
-    style.legend(above, loc="lower right", bbox_to_anchor=(1.0, 1.0), borderaxespad=0.0)
+    if name not in above.get_legend_handles_labels()[1]:
+        above.plot([], [], color=style.RED, linewidth=0.9, linestyle="--", label=name)
+    style.y_label(above, f"{response._support}\nacceleration [g]")
+    style.title(above, f"{wall.name}, record {response.record.name}, scale {response.scale:.4g}", options)
 
     ratio = rotation / wall.capacity_angle
-    below.plot(time, ratio, color=style.BLUE, label="rotation")
-    impacts = time[after_impact]
+    look = style.apart(below, options)
+    motion = {"color": look["color"], "linestyle": look["linestyle"], "label": "rotation"}
+    style.main(below, below.plot(time, ratio, **options.look(**motion))[0])
+    if options.points:
+        _draw_marks(response, below, time[after_impact], ratio, look["color"])
+    below.set_xlabel("time [s]")
+    style.y_label(below, "rotation / capacity")
+    end = motion_span(response)[1]
+    below.set_xlim(time[0], end if is_first else max(end, below.get_xlim()[1]))
+    above.set_xlim(below.get_xlim())
+    style.legend(below, options, also=(above,))
+    first: Axes = above
+    return first
+
+
+def _draw_marks(response: Response, below: Axes, impacts: FloatArray, ratio: FloatArray, color: str) -> None:
+    """Impacts, and the peak or the collapse."""
     later = len(impacts) - response.impacts
     below.plot(
         impacts,
@@ -49,25 +92,16 @@ def draw_history(response: Response, ax: Iterable[Axes] | None) -> style.Panels:
         marker="|",
         markersize=9,
         markeredgewidth=0.8,
-        color=style.BLACK,
+        color=style.BLACK if color == style.BLUE else color,
         label=f"impacts ({response.impacts}{f', and {later} after the record' if later else ''})",
     )
     peak = int(np.argmax(np.abs(ratio)))
-    height = np.copysign(response.edp, ratio[peak])
     below.plot(
         [response.time_of_peak],
-        [height],
+        [np.copysign(response.edp, ratio[peak])],
         linestyle="none",
         marker="o",
-        color=style.RED,
+        color=style.RED if color == style.BLUE else color,
         markersize=5,
         label=f"collapse, EDP = {response.edp:.3g}" if response.collapsed else f"peak, EDP = {response.edp:.3g}",
     )
-    below.set_xlabel("time [s]")
-    below.set_ylabel("rotation / capacity")
-    # A collapse ends high at the right, a motion that survives fades out there.
-    style.legend(below, loc="upper left" if response.collapsed else "upper right")
-    # Readable where the curve passes behind it too
-    below.get_legend().set_frame_on(True)
-    below.get_legend().get_frame().set(facecolor="white", alpha=0.8, linewidth=0.0)
-    return axes

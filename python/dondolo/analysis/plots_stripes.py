@@ -15,31 +15,33 @@ from dondolo.analysis.stripes import Stripes
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.plots import parameters
 from dondolo.figures import curves, style
+from dondolo.figures.options import Options
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 
-def draw_stripes(stripes: Stripes, ax: Axes | None) -> Axes:
+# Height of the row of collapses, and the distance of further rows, in parts of the limit
+_ROW, _NEXT, _TOP = 1.1, 0.17, 1.25
+
+
+def draw_stripes(stripes: Stripes, ax: Axes | None, given: dict[str, Any]) -> Axes:
     """Draw EDP against intensity, collapses set apart above."""
+    options = Options(given, "counts")
     ax = style.axes(ax)
+    others = len(style.mains(ax))
+    look = style.apart(ax, options)
     levels, edp, collapsed = stripes.levels, np.asarray(stripes.edp), np.asarray(stripes.collapsed)
     survives = stripes.ran & ~collapsed
     x = np.broadcast_to(levels[:, None], edp.shape)
     limit = stripes.edp_limit
     _draw_bounds(stripes, ax)
-    ax.plot(
-        x[survives],
-        edp[survives],
-        linestyle="none",
-        marker="o",
-        markersize=4,
-        markerfacecolor="none",
-        markeredgecolor=style.BLUE,
-        markeredgewidth=0.8,
-        label="survives" if survives.any() else None,
-    )
-    row = 1.1 * limit
+    own = {"markersize": 4, "markerfacecolor": "none", "markeredgewidth": 0.8, "label": "survives"}
+    marks = options.look(**own | look) | {"linestyle": "none"}
+    (drawn,) = ax.plot(x[survives], edp[survives], **marks if survives.any() else marks | {"label": None})
+    style.main(ax, drawn)
+    row = (_ROW + _NEXT * others) * limit
+    color = look["color"] if others else style.RED
     reached = collapsed.any(axis=1)
     ax.plot(
         levels[reached],
@@ -47,24 +49,21 @@ def draw_stripes(stripes: Stripes, ax: Axes | None) -> Axes:
         linestyle="none",
         marker="^",
         markersize=7,
-        color=style.RED,
+        color=color,
         label=f"collapses (of {span(stripes.histories)})" if reached.any() else None,
     )
-    for level, count in zip(levels[reached], collapsed.sum(axis=1)[reached], strict=True):
-        ax.annotate(
-            str(count), (level, row), (0, 6), textcoords="offset points", ha="center", fontsize=7.5, color=style.RED
-        )
-    ax.axhline(limit, color=style.BLACK, linewidth=0.9, linestyle="--", label="collapse limit")
-    ax.set_ylim(0.0, 1.25 * limit)
-    ax.set_xlim(0.0, 1.05 * levels.max())
+    is_new = "collapse limit" not in ax.get_legend_handles_labels()[1]
+    ax.axhline(
+        limit, color=style.BLACK, linewidth=0.9, linestyle="--", label="collapse limit" if is_new else None, zorder=1
+    )
+    ax.set_ylim(0.0, max((_TOP + _NEXT * others) * limit, ax.get_ylim()[1] if others else 0.0))
+    ax.set_xlim(0.0, max(1.05 * levels.max(), ax.get_xlim()[1] if others else 0.0))
+    if options.counts:
+        style.count_texts(ax, levels[reached], row, collapsed.sum(axis=1)[reached], color=color)
     ax.set_xlabel(style.im_label(stripes.im))
-    ax.set_ylabel("EDP = largest rotation / capacity")
-    style.title(ax, stripes.wall.name)
-    if stripes.status is None:
-        style.legend(ax, loc="upper left", bbox_to_anchor=(0.0, 0.8))
-    else:
-        # Bounds may run through the whole figure.
-        style.legend(ax, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2)
+    style.y_label(ax, style.EDP)
+    style.title(ax, stripes.wall.name, options)
+    style.legend(ax, options)
     return ax
 
 
@@ -86,23 +85,28 @@ def _draw_bounds(stripes: Stripes, ax: Axes) -> None:
         ax.axvspan(low, high, color=style.PURPLE, alpha=0.35, linewidth=1.0, label=text, zorder=0)
 
 
-def draw_damage_states(stripes: Stripes, ax: Axes | None, fits: Sequence[Fragility]) -> Axes:
+def draw_damage_states(stripes: Stripes, ax: Axes | None, fits: Sequence[Fragility], given: dict[str, Any]) -> Axes:
     """Draw the fitted curve of each damage state, collapse the boldest."""
+    options = Options(given, "points")
     states = {float(fit.edp_threshold or 0.0): fit for fit in fits}
-    ax = curves.axes(ax, len(states) + 1)
+    ax = curves.axes(ax)
     grid = curves.grid(stripes.levels)
     for threshold, look, marks in curves.state_looks(list(states)):
         curve = states[threshold]
         text = f"EDP ≥ {threshold:g}: {parameters(curve)}"
-        ax.plot(stripes.levels, curve.collapses / curve.histories, **marks, label=None if curve.has_fit else text)
+        if options.points or not curve.has_fit:
+            ax.plot(stripes.levels, curve.collapses / curve.histories, **marks, label=None if curve.has_fit else text)
         if curve.has_fit:
-            ax.plot(grid, curve(grid), **look, label=text)
-    return curves.finish(ax, stripes.im, grid, stripes.wall.name, "probability to reach the state")
+            ax.plot(grid, curve(grid), **options.look(**look, label=text))
+    return curves.finish(ax, options, stripes.im, grid[-1], stripes.wall.name, "probability to reach the state")
 
 
-def draw_incremental(incremental: Incremental, ax: Axes | None) -> Axes:
+def draw_incremental(incremental: Incremental, ax: Axes | None, given: dict[str, Any]) -> Axes:
     """Draw a line for each history, and the fractiles, bold."""
-    ax = style.axes(ax, (6.0, 5.0))
+    options = Options(given, "points")
+    ax = style.axes(ax, (6.0, 4.4))
+    others = len(style.mains(ax))
+    color = style.apart(ax, options)["color"]
     stripes, levels = incremental.stripes, incremental.levels
     edge = 1.2 * stripes.edp_limit
     first = incremental.first_collapse
@@ -112,7 +116,7 @@ def draw_incremental(incremental: Incremental, ax: Axes | None) -> Axes:
         ax.plot(x, y, color=style.GREY, linewidth=0.6, alpha=0.8)
     ax.plot([], [], color=style.GREY, linewidth=0.6, label=f"{len(first)} histories")
     again = ~stripes.collapsed & (levels[:, None] > first)
-    if again.any():
+    if again.any() and options.points:
         ax.plot(
             stripes.edp[again],
             np.broadcast_to(levels[:, None], again.shape)[again],
@@ -127,14 +131,17 @@ def draw_incremental(incremental: Incremental, ax: Axes | None) -> Axes:
         gone = np.isinf(edp)
         end = levels[np.argmax(gone)] if gone.any() else np.inf
         x, y = _until_collapse(edp[levels < end], levels[levels < end], end, edge)
-        ax.plot(x, y, color=style.BLUE, linewidth=2.4, linestyle=line, label=f"{text} % fractile of the EDP")
+        look = {"color": color, "linewidth": 2.4, "linestyle": line, "label": f"{text} % fractile of the EDP"}
+        (drawn,) = ax.plot(x, y, **options.look(**look))
+        if text == "50":
+            style.main(ax, drawn)
     ax.axvline(stripes.edp_limit, color=style.BLACK, linewidth=0.9, linestyle=":", label="collapse limit")
     ax.set_xlim(0.0, edge)
-    ax.set_ylim(0.0, 1.05 * levels[-1])
-    ax.set_xlabel("EDP = largest rotation / capacity")
-    ax.set_ylabel(style.im_label(stripes.im))
-    style.title(ax, stripes.wall.name)
-    style.legend(ax, loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2, handlelength=3.2)
+    ax.set_ylim(0.0, max(1.05 * levels[-1], ax.get_ylim()[1] if others else 0.0))
+    ax.set_xlabel(style.EDP)
+    style.y_label(ax, style.im_label(stripes.im))
+    style.title(ax, stripes.wall.name, options)
+    style.legend(ax, options)
     return ax
 
 

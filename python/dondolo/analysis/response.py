@@ -21,7 +21,6 @@ from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.solver import Solver, as_solver
 from dondolo.errors import DondoloError, DondoloWarning, InputError
-from dondolo.figures.style import Panels
 from dondolo.records.record import Record
 from dondolo.records.suite import place_of
 from dondolo.walls.ties import TieStates, number_of_ties, states_of_ties
@@ -191,7 +190,7 @@ class Response(Shown, Saved):
             return rotation
         return float(np.copysign(rotation, self.rotation[np.argmax(np.abs(self.rotation))]))
 
-    def plot(self, ax: Iterable[Axes] | None = None) -> Panels:
+    def plot(self, ax: Iterable[Axes] | None = None, **options: Any) -> Axes:
         """Draw the motion: acceleration of the ground above, or of the floor of a wall with a building, rotation below.
 
         Impacts are marked.
@@ -200,11 +199,14 @@ class Response(Shown, Saved):
         ----------
         ax : two Axes, optional
             Where to draw; a new figure if left out.
+        **options
+            Parts to leave out by False (`legend`, `title`, `points`), and keywords of Matplotlib for the rotation: see
+            docs/printing.md.
 
         Returns
         -------
-        ndarray of two Axes
-            Acceleration [g] and rotation / capacity against time [s].
+        Axes
+            The first of the figure's: acceleration [g] and rotation / capacity against time [s].
 
         Raises
         ------
@@ -213,15 +215,18 @@ class Response(Shown, Saved):
         """
         from dondolo.analysis.plots_response import draw_history
 
-        return draw_history(self, ax)
+        return draw_history(self, ax, options)
 
-    def plot_peak(self, ax: Axes | None = None) -> Axes:
+    def plot_peak(self, ax: Axes | None = None, **options: Any) -> Axes:
         """Draw the wall at the peak of the motion, and dashed at rest: `Wall.plot` at `peak_rotation`.
 
         Parameters
         ----------
         ax : Axes, optional
             Where to draw; a new figure if left out.
+        **options
+            Parts to leave out by False (`legend`, `title`), and keywords of Matplotlib for the blocks: see
+            docs/printing.md.
 
         Returns
         -------
@@ -230,7 +235,7 @@ class Response(Shown, Saved):
         """
         from dondolo.walls.drawing import draw_wall
 
-        return draw_wall(self.wall, self.peak_rotation, ax, f", EDP = {self.edp:.3g}")
+        return draw_wall(self.wall, self.peak_rotation, ax, options, f", EDP = {self.edp:.3g}")
 
     def animate(self, *, frames_per_second: float = 25, speed: float = 1.0) -> FuncAnimation:
         """Animate the motion: the wall beside its rotation.

@@ -555,7 +555,7 @@ class Stripes(Shown, Saved):
 
         return friction_demand(self, records, progress=progress)
 
-    def plot(self, ax: Axes | None = None) -> Axes:
+    def plot(self, ax: Axes | None = None, **options: Any) -> Axes:
         """Draw every history: EDP against intensity, collapses set apart above.
 
         Figure 4a of Nale et al.
@@ -564,6 +564,9 @@ class Stripes(Shown, Saved):
         ----------
         ax : Axes, optional
             Where to draw; a new figure if left out.
+        **options
+            Parts to leave out by False (`legend`, `title`, `counts`), and keywords of Matplotlib for the points: see
+            docs/printing.md.
 
         Returns
         -------
@@ -572,10 +575,15 @@ class Stripes(Shown, Saved):
         """
         from dondolo.analysis.plots_stripes import draw_stripes
 
-        return draw_stripes(self, ax)
+        return draw_stripes(self, ax, options)
 
     def plot_damage_states(
-        self, ax: Axes | None = None, *, edp_thresholds: ArrayLike | None = None, states: States = "separate"
+        self,
+        ax: Axes | None = None,
+        *,
+        edp_thresholds: ArrayLike | None = None,
+        states: States = "separate",
+        **options: Any,
     ) -> Axes:
         """Draw the fitted curve of each damage state, collapse the boldest.
 
@@ -585,6 +593,9 @@ class Stripes(Shown, Saved):
             Where to draw; a new figure if left out.
         edp_thresholds, states
             As for `fit_damage_states`.
+        **options
+            Parts to leave out by False (`legend`, `title`, `points`), and keywords of Matplotlib for the curves: see
+            docs/printing.md.
 
         Returns
         -------
@@ -598,7 +609,7 @@ class Stripes(Shown, Saved):
         """
         from dondolo.analysis.plots_stripes import draw_damage_states
 
-        return draw_damage_states(self, ax, self.fit_damage_states(edp_thresholds, states=states))
+        return draw_damage_states(self, ax, self.fit_damage_states(edp_thresholds, states=states), options)
 
     def _state(self, edp_threshold: float) -> Stripes:
         """The stripes as if collapse were a smaller rotation, which the bootstrap of a damage state takes for it."""

@@ -229,7 +229,7 @@ class CodeCheck(Shown, Saved):
             rows += dynamic_sheet(handle, state, level, len(np.unique(stripes.record_index[ran])), edp)
         return replace(self, rows=rows)
 
-    def plot(self, ax: Axes | None = None, *, curve: Fragility) -> Axes:
+    def plot(self, ax: Axes | None = None, *, curve: Fragility, **options: Any) -> Axes:
         """Draw the checks as lines on a fragility curve, with the probability of collapse at each.
 
         Parameters
@@ -238,6 +238,9 @@ class CodeCheck(Shown, Saved):
             Where to draw; a new figure if left out.
         curve : Fragility
             Its measure is 'pga'.
+        **options
+            Parts to leave out by False (`legend`, `title`, `band`, `bars`, `points`), and keywords of Matplotlib for
+            the curve: see docs/printing.md.
 
         Returns
         -------
@@ -253,7 +256,7 @@ class CodeCheck(Shown, Saved):
         """
         from dondolo.checks.plots import draw_check
 
-        return draw_check(self, curve, ax)
+        return draw_check(self, curve, ax, options)
 
     def to_frame(self) -> Any:
         """The sheet as a pandas DataFrame."""

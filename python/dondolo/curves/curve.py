@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_probabilities, shaped
-from dondolo.figures import style
 from dondolo.hazard.hazard import HazardCurve
 
 if TYPE_CHECKING:
@@ -54,9 +53,7 @@ class Curve(ABC):
     def ppf(self, p: ArrayLike) -> Any:
         """Lowest levels at which the probability is p, infinite where it does not come to that."""
 
-    def plot(
-        self, ax: Axes | None = None, *, label: str | None = None, color: str = style.BLUE, linestyle: str = "-"
-    ) -> Axes:
+    def plot(self, ax: Axes | None = None, *, label: str | None = None, **options: Any) -> Axes:
         """Draw the curve.
 
         Parameters
@@ -65,8 +62,9 @@ class Curve(ABC):
             Where to draw; a new figure if left out.
         label : str, optional
             Name of the curve where several are drawn into the same axes.
-        color, linestyle : str
-            Of the curve, to distinguish several.
+        **options
+            Parts to leave out by False (`legend`, `title`, `points`), and keywords of Matplotlib for the curve: see
+            docs/printing.md.
 
         Returns
         -------
@@ -87,7 +85,7 @@ class Curve(ABC):
         """
         from dondolo.curves.plots import draw_any
 
-        return draw_any(self, ax, label, color, linestyle)
+        return draw_any(self, ax, label, options)
 
     def risk(self, hazard: HazardCurve) -> Risk:
         """Mean annual frequency of collapse: the curve integrated over the hazard.

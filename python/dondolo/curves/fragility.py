@@ -24,7 +24,6 @@ from dondolo.curves.clusters import Clusters
 from dondolo.curves.curve import Curve
 from dondolo.curves.sample import Sample, given_labels
 from dondolo.errors import DondoloError, InputError
-from dondolo.figures import style
 from dondolo.walls.wall import Wall
 
 if TYPE_CHECKING:
@@ -489,14 +488,7 @@ class Fragility(Curve, Shown, Saved):
         return logistic_of_stripes(self.sample.levels, *self.sample.by_cluster(labels), self.im, labels)
 
     def plot(
-        self,
-        ax: Axes | None = None,
-        *,
-        confidence: float = 0.95,
-        label: str | None = None,
-        color: str = style.BLUE,
-        linestyle: str = "-",
-        marker: str = "o",
+        self, ax: Axes | None = None, *, confidence: float = 0.95, label: str | None = None, **options: Any
     ) -> Axes:
         """Draw the curve with its confidence band, and the fractions of collapse it was fitted to.
 
@@ -511,8 +503,9 @@ class Fragility(Curve, Shown, Saved):
             Confidence of band and bars.
         label : str, optional
             Name of the curve where several are drawn into the same axes; median and dispersion if left out.
-        color, linestyle, marker : str
-            Of the curve and its fractions, to distinguish several.
+        **options
+            Parts to leave out by False (`legend`, `title`, `band`, `bars`, `points`), and keywords of Matplotlib for
+            the curve: see docs/printing.md.
 
         Returns
         -------
@@ -526,7 +519,7 @@ class Fragility(Curve, Shown, Saved):
         """
         from dondolo.curves.plots import draw_fragility
 
-        return draw_fragility(self, ax, confidence, label, color, linestyle, marker)
+        return draw_fragility(self, ax, confidence, label, options)
 
     def to_frame(self) -> Any:
         """The curve as a pandas DataFrame of one row."""

@@ -65,7 +65,6 @@ from dondolo.curves.limited import LimitedFragility
 from dondolo.curves.mean_curve import MeanCurve
 from dondolo.curves.risk_of_walls import WallFrequencies, wall_frequencies
 from dondolo.errors import DondoloError, DondoloWarning, InputError
-from dondolo.figures.style import Panels
 from dondolo.hazard.hazard import HazardCurve
 from dondolo.hazard.integrals import (
     integrals,
@@ -319,7 +318,7 @@ class Risk(Shown, Saved):
             parts = np.add.reduceat(of_fine, np.searchsorted(fine, np.log(cuts[:-1])))
         return np.diff(np.append(0.0, np.cumsum(parts))[np.searchsorted(cuts, x)])
 
-    def plot_deaggregation(self, ax: Axes | None = None, *, n_bins: int = 20) -> Axes:
+    def plot_deaggregation(self, ax: Axes | None = None, *, n_bins: int = 20, **options: Any) -> Axes:
         """Draw what intensities contribute to the frequency, in bins, and the one that contributes most.
 
         Parameters
@@ -328,6 +327,9 @@ class Risk(Shown, Saved):
             Where to draw; a new figure if left out.
         n_bins : int
             Number of bins, equal on a logarithmic axis.
+        **options
+            Parts to leave out by False (`legend`, `title`), and keywords of Matplotlib for the bars: see
+            docs/printing.md.
 
         Returns
         -------
@@ -336,7 +338,7 @@ class Risk(Shown, Saved):
         """
         from dondolo.curves.plots_risk import draw_deaggregation
 
-        return draw_deaggregation(self, ax, as_count("n_bins", n_bins, 1))
+        return draw_deaggregation(self, ax, as_count("n_bins", n_bins, 1), options)
 
     def uncertainty(self, *, n_draws: int = 10_000, seed: int | np.random.Generator | None = 0) -> RiskUncertainty:
         """Distribution of the annual frequency: that of the fragility, for the mean hazard and each of its fractiles.
@@ -376,23 +378,26 @@ class Risk(Shown, Saved):
 
         return uncertainty(self, n_draws, seed)
 
-    def plot(self, ax: Iterable[Axes] | None = None) -> Panels:
+    def plot(self, ax: Iterable[Axes] | None = None, **options: Any) -> Axes:
         """Draw the hazard, the fragility, and the intensities that the risk comes from.
 
         Parameters
         ----------
         ax : three Axes, optional
             Where to draw; a new figure if left out.
+        **options
+            Parts to leave out by False (`legend`, `title`, `points`), and keywords of Matplotlib for the lines: see
+            docs/printing.md.
 
         Returns
         -------
-        ndarray of three Axes
-            Annual frequency of exceedance, probability of collapse and share of the risk per unit of ln IM, against
-            intensity on a logarithmic axis.
+        Axes
+            The first of the figure's: annual frequency of exceedance, probability of collapse and share of the risk per
+            unit of ln IM, against intensity on a logarithmic axis.
         """
         from dondolo.curves.plots_risk import draw_risk
 
-        return draw_risk(self, ax)
+        return draw_risk(self, ax, options)
 
     def _facts(self) -> list[tuple[str, str]]:
         of = " of one wall" if self.fragility._hides_walls else ""

@@ -138,7 +138,7 @@ class RiskUncertainty(Shown, Saved):
         table = self.table(confidence=confidence)
         tables.write_csv(path, table, [*tables.lines_of(self._facts()), f"confidence: {confidence:g}"])
 
-    def plot(self, ax: Axes | None = None, *, confidence: float = 0.95) -> Axes:
+    def plot(self, ax: Axes | None = None, *, confidence: float = 0.95, **options: Any) -> Axes:
         """Draw the distribution for the mean hazard and for each fractile, with the intervals.
 
         Parameters
@@ -147,6 +147,9 @@ class RiskUncertainty(Shown, Saved):
             Where to draw; a new figure if left out.
         confidence : float
             Of the intervals, between 0 and 1.
+        **options
+            Parts to leave out by False (`legend`, `title`, `band`, `points`), and keywords of Matplotlib for the lines:
+            see docs/printing.md.
 
         Returns
         -------
@@ -155,7 +158,7 @@ class RiskUncertainty(Shown, Saved):
         """
         from dondolo.curves.plots_risk import draw_uncertainty
 
-        return draw_uncertainty(self, ax, confidence)
+        return draw_uncertainty(self, ax, confidence, options)
 
     def _facts(self) -> list[tuple[str, str]]:
         facts = [

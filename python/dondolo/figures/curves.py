@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from dondolo.figures import style
+from dondolo.figures.options import Options
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -17,9 +18,6 @@ if TYPE_CHECKING:
 POINTS = 301
 # Chords of a thin curve of probabilities are off by about this much; a pixel is nearly ten times as much
 _OFF = 4e-4
-# What tells lines apart in grey
-LINES: tuple[Any, ...] = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)), (0, (8, 2)), (0, (1, 3)))
-_MARKERS = "osD^v<>"
 
 
 def grid(levels: ArrayLike) -> NDArray[np.float64]:
@@ -28,9 +26,9 @@ def grid(levels: ArrayLike) -> NDArray[np.float64]:
     return np.linspace(right / POINTS, right, POINTS)
 
 
-def axes(ax: Axes | None, rows: int) -> Axes:
-    """The axes given, or those of a new figure with room for so many rows of a legend below."""
-    return style.axes(ax, (6.0, 3.8 + 0.19 * rows))
+def axes(ax: Axes | None) -> Axes:
+    """The axes given, or those of a new figure."""
+    return style.axes(ax, (6.0, 3.8))
 
 
 def thin(ax: Axes, x: NDArray[np.float64], many: NDArray[np.float64], width: float, alpha: float) -> None:
@@ -60,17 +58,19 @@ def state_looks(thresholds: Sequence[float]) -> Iterator[tuple[float, dict[str, 
     colors = plt.get_cmap("viridis")(np.linspace(0.85, 0.0, count))
     for i, (threshold, color) in enumerate(zip(sorted(thresholds), colors, strict=True)):
         bold = 1.2 + 1.4 * (i + 1) / count
-        look = {"color": color, "linewidth": bold, "linestyle": LINES[(count - 1 - i) % len(LINES)]}
-        yield threshold, look, {"color": color, "linestyle": "none", "marker": _MARKERS[i % 7], "markersize": 4}
+        look = {"color": color, "linewidth": bold, "linestyle": style.LINES[(count - 1 - i) % len(style.LINES)]}
+        yield threshold, look, {"color": color, "linestyle": "none", "marker": style.MARKERS[i % 7], "markersize": 4}
 
 
-def finish(ax: Axes, im: str, x: NDArray[np.float64], title: str, ylabel: str = "probability of collapse") -> Axes:
-    """Limits, labels, title and a legend below."""
-    ax.set_xlim(0.0, x[-1])
+def finish(
+    ax: Axes, options: Options, im: str, right: float, title: str, ylabel: str = "probability of collapse"
+) -> Axes:
+    """Limits, labels, title and legend; axes that have a curve already get no narrower."""
+    is_first = len(style.mains(ax)) <= 1
+    ax.set_xlim(0.0, right if is_first else max(right, ax.get_xlim()[1]))
     ax.set_ylim(-0.02, 1.02)
     ax.set_xlabel(style.im_label(im))
-    ax.set_ylabel(ylabel)
-    style.title(ax, title)
-    longest = max(map(len, ax.get_legend_handles_labels()[1]))
-    style.legend(ax, loc="upper center", bbox_to_anchor=(0.5, -0.15), ncols=1 if longest > 36 else 2)
+    style.y_label(ax, ylabel)
+    style.title(ax, title, options)
+    style.legend(ax, options)
     return ax

@@ -8,6 +8,7 @@ from typing import Any
 from dondolo._fortran.files import whole_file
 from dondolo._fortran.origins import check_replaced, derived_mark
 from dondolo.figures.layout import lay_out
+from dondolo.figures.themes import theme
 
 # Formats of Matplotlib that have metadata, and where in it the mark is
 _METADATA = {"png": "Software", "pdf": "Creator", "svg": "Creator", "ps": "Creator", "eps": "Creator"}
@@ -15,7 +16,7 @@ _METADATA = {"png": "Software", "pdf": "Creator", "svg": "Creator", "ps": "Creat
 _ENDED = ("gif", "jpg", "jpeg", "tif", "tiff", "webp")
 
 
-def save_figure(figure: Any, path: str, kind: str, run: str) -> None:
+def save_figure(figure: Any, path: str, kind: str, run: str, dpi: float | None = None) -> None:
     """Save a figure of a run; the file appears whole or not at all.
 
     Parameters
@@ -28,6 +29,8 @@ def save_figure(figure: Any, path: str, kind: str, run: str) -> None:
         A format of Matplotlib. In those that have no place for a mark, such as 'raw', a file is not replaced.
     run : str
         Name of the run.
+    dpi : float, optional
+        Dots per inch of pictures; those of the style if left out.
 
     Raises
     ------
@@ -39,7 +42,7 @@ def save_figure(figure: Any, path: str, kind: str, run: str) -> None:
         Matplotlib does not know the format.
     """
     check_replaced(path, "figure")
-    options: dict[str, Any] = {}
+    options: dict[str, Any] = {"dpi": theme().rc["savefig.dpi"] if dpi is None else dpi}
     if kind in _METADATA:
         options["metadata"] = {_METADATA[kind]: derived_mark("figure", run)}
     if kind == "png":

@@ -444,13 +444,16 @@ class HazardCurve(Shown, Saved):
         mean, source = _cubic(u, self.annual_frequency, fine, parts), (*self.source, f"smoothed, {parts} steps in each")
         return HazardCurve(x, mean, im=self.im, fractiles=fractiles, source=source, rigid_ground=self.rigid_ground)
 
-    def plot(self, ax: Axes | None = None) -> Axes:
+    def plot(self, ax: Axes | None = None, **options: Any) -> Axes:
         """Draw the curve on logarithmic axes.
 
         Parameters
         ----------
         ax : Axes, optional
             Where to draw; a new figure if left out.
+        **options
+            Parts to leave out by False (`legend`, `title`, `band`, `points`), and keywords of Matplotlib for the mean:
+            see docs/printing.md.
 
         Returns
         -------
@@ -460,7 +463,7 @@ class HazardCurve(Shown, Saved):
         """
         from dondolo.hazard.plots import draw_hazard
 
-        return draw_hazard(self, ax)
+        return draw_hazard(self, ax, options)
 
     def _covers(self, x: FloatArray) -> Any:
         """Where is the curve given?"""

@@ -203,9 +203,7 @@ class PopulationCurve(Shown, Group, MeanCurve):
     def _drawn_to(self) -> float:
         return float(self.levels[-1])
 
-    def plot(
-        self, ax: Axes | None = None, *, label: str | None = None, color: str = style.RED, linestyle: str = "-"
-    ) -> Axes:
+    def plot(self, ax: Axes | None = None, *, label: str | None = None, **options: Any) -> Axes:
         """Draw the curves of the walls, thin, with their weighted mean and fractiles; or the mean alone, with a name.
 
         Figure 5 of Nale et al.: the red line is the typological curve.
@@ -216,8 +214,9 @@ class PopulationCurve(Shown, Group, MeanCurve):
             Where to draw; a new figure if left out.
         label : str, optional
             Name of the curve where several are drawn into the same axes: only the mean is drawn.
-        color, linestyle : str
-            Of the mean.
+        **options
+            Parts to leave out by False (`legend`, `title`, `band`, `points`), and keywords of Matplotlib for the mean:
+            see docs/printing.md.
 
         Returns
         -------
@@ -225,10 +224,12 @@ class PopulationCurve(Shown, Group, MeanCurve):
             Probability of collapse against intensity.
         """
         if label is not None:
-            return super().plot(ax, label=label, color=color, linestyle=linestyle)
+            from dondolo.curves.plots import draw_any
+
+            return draw_any(self, ax, label, options, style.mechanism_look(self.mechanism)["color"])
         from dondolo.populations.plots import draw_curve
 
-        return draw_curve(self, ax, color, linestyle)
+        return draw_curve(self, ax, options)
 
     def bootstrap(
         self,

@@ -11,99 +11,117 @@ from dondolo._base.arguments import FloatArray, as_array
 from dondolo.curves.plots import parameters
 from dondolo.errors import InputError
 from dondolo.figures import curves, style
+from dondolo.figures.options import Options
 from dondolo.populations.curve import PopulationCurve
 from dondolo.populations.typology import Typology
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-# Most walls that are drawn one by one
-_THIN = 300
+# Most walls that are drawn one by one: more would be an area, which the band is
+_THIN = 60
 # Ends and middle of the band of the walls
 _FRACTILES = np.array([0.16, 0.5, 0.84])
-# Width of a lognormal beside the mean that it is fitted to
-_FITTED = 0.6
+# A lognormal beside the mean that it is fitted to: thin, and dashed so that the mean is seen where they are the same
+_FITTED: dict[str, Any] = {"linewidth": 0.8, "linestyle": (0, (4, 4))}
+_THICK = 2.4
+# Lognormals beside several means, which have dashes themselves
+_THIN_LINE = 0.6
 
 
-def draw_curve(curve: PopulationCurve, ax: Axes | None, color: str, linestyle: str) -> Axes:
+def draw_curve(curve: PopulationCurve, ax: Axes | None, given: dict[str, Any]) -> Axes:
     """Draw the curves of the walls, thin, with their weighted mean and fractiles."""
-    ax = curves.axes(ax, 3)
+    options = Options(given, "band", "points")
+    ax = curves.axes(ax)
     grid = curves.grid(curve.levels)
     # In one call, which evaluates the curves of the walls once
     mean, fractiles, probabilities = curve._at(grid, _FRACTILES, members=True)
     walls = len(probabilities)
-    drawn = np.unique(np.linspace(0, walls - 1, _THIN).round().astype(int))
-    curves.thin(ax, grid, probabilities[drawn], 0.5, 0.5 if len(drawn) > 40 else 1.0)
-    text = f"{len(drawn)} of {walls} walls" if len(drawn) < walls else style.counted(walls, "wall")
-    ax.plot([], [], color=style.GREY, linewidth=0.5, label=text)
-    _band(ax, grid, fractiles, style.BLUE)
-    ax.plot(grid, mean, color=color, linestyle=linestyle, linewidth=2.4, label="weighted mean", zorder=4)
+    look = style.apart(ax, options, style.RED)
+    look.pop("marker")
+    if options.band:
+        drawn = np.unique(np.linspace(0, walls - 1, _THIN).round().astype(int))
+        curves.thin(ax, grid, probabilities[drawn], 0.5, 0.6 if len(drawn) > 20 else 1.0)
+        text = f"{len(drawn)} of {walls} walls" if len(drawn) < walls else style.counted(walls, "wall")
+        ax.plot([], [], color=style.GREY, linewidth=0.5, label=text)
+        _band(ax, grid, fractiles, style.BLUE)
+    line = options.look(**look, linewidth=_THICK, label="weighted mean", zorder=4)
+    style.main(ax, ax.plot(grid, mean, **line)[0])
     if curve.fit.has_fit:
         fitted = f"lognormal, {parameters(curve.fit)}"
-        ax.plot(grid, curve.fit(grid), color=style.BLACK, linewidth=1.2, linestyle="--", label=fitted, zorder=5)
+        ax.plot(grid, curve.fit(grid), color=style.BLACK, label=fitted, zorder=5, **_FITTED)
+    if options.points:
+        _fractions(ax, curve, "weighted fractions")
+    return curves.finish(ax, options, curve.im, grid[-1], curve._title())
+
+
+def _fractions(ax: Axes, curve: PopulationCurve, label: str) -> None:
+    """Weighted fractions of collapse, through which a mean is seen."""
+    look: dict[str, Any] = {"markerfacecolor": "none", "markeredgecolor": style.BLACK, "markeredgewidth": 0.7}
     ax.plot(
-        curve.levels,
-        curve.mean_fraction,
-        linestyle="none",
-        marker="o",
-        markersize=4,
-        markerfacecolor="white",
-        markeredgecolor=style.RED,
-        label="weighted fractions",
-        zorder=6,
+        curve.levels, curve.mean_fraction, linestyle="none", marker="o", markersize=4, label=label, zorder=6, **look
     )
-    return curves.finish(ax, curve.im, grid, curve._title())
 
 
-def draw_combination(typology: Typology, ax: Axes | None, group: str) -> Axes:
+def draw_combination(typology: Typology, ax: Axes | None, group: str, given: dict[str, Any]) -> Axes:
     """Draw the mean curve of each mechanism, and that of all together with its fractiles."""
+    options = Options(given, "band")
     whole = typology["all", group]
     names = [one.mechanism for one in typology.groups if one.group == group and one.mechanism != "all"]
-    ax = curves.axes(ax, len(names) + 4)
+    ax = curves.axes(ax)
     grid = curves.grid(typology.levels)
-    _band(ax, grid, whole.fractiles(grid, _FRACTILES), style.GREY)
+    if options.band:
+        _band(ax, grid, whole.fractiles(grid, _FRACTILES), style.GREY)
     where = " where it can occur" if np.any(typology.population.p_occ < 1.0) else ""
     parts = [typology[name, group] for name in names]
-    for curve, line in zip(parts, curves.LINES[1:], strict=False):
-        look = {"color": style.BLUE, "linestyle": line, "linewidth": 1.8, "zorder": 3}
+    for curve in parts:
+        look = options.look(**style.mechanism_look(curve.mechanism), linewidth=1.8, zorder=3)
         _mean(ax, grid, curve, f"{style.mechanism_name(curve.mechanism)}{where}", look)
-    look = {"color": style.RED, "linewidth": 2.4, "zorder": 4}
+    look = options.look(**style.mechanism_look("all"), linewidth=_THICK, zorder=4)
     _mean(ax, grid, whole, style.mechanism_name(whole.mechanism), look)
     _explain_fitted(ax, [*parts, whole])
-    return curves.finish(ax, typology.im, grid, f"group {group}" if group else "population")
+    return curves.finish(ax, options, typology.im, grid[-1], f"group {group}" if group else "population")
 
 
-def draw_union(typology: Typology, name: str, ax: Axes | None) -> Axes:
+def draw_union(typology: Typology, name: str, ax: Axes | None, given: dict[str, Any]) -> Axes:
     """Draw the curve of each mechanism of a facade, their product, and the union of the same histories."""
+    options = Options(given, "points")
     people = typology.population
     rows = [i for i, whole in enumerate(people.wholes) if whole == name]
-    ax = curves.axes(ax, len(rows) + 3)
+    # Mechanisms that a facade has once have their own colours; its hinges share that of their mechanism.
+    kinds = [people[row].mechanism for row in rows]
+    ax = curves.axes(ax)
     grid = curves.grid(typology.levels)
     for i, row in enumerate(rows):
         one = typology.curves[row]
         if not one.has_fit:
             continue
-        look = {"color": style.BLUE, "linestyle": curves.LINES[(i + 1) % len(curves.LINES)], "linewidth": 1.5}
-        ax.plot(grid, one(grid), label=f"{people[row].name}, {style.mechanism_name(people[row].mechanism)}", **look)
+        look = style.mechanism_look(kinds[i])
+        if kinds.count(kinds[i]) > 1:
+            look["linestyle"] = style.LINES[(i + 1) % len(style.LINES)]
+        label = style.label(f"{people[row].name}, {style.mechanism_name(kinds[i])}")
+        ax.plot(grid, one(grid), **options.look(**look, linewidth=1.5, label=label))
     union, product = typology.unions[name], typology.combined[name]
     # Of mechanisms that never occur together, the product is the same.
     is_alone = people._has_single_alternatives(name)
-    for curve, word, color, width in (
-        (product, "independent", style.GREY, 1.2),
-        (union, "same histories", style.RED, 2.4),
+    for curve, word, own in (
+        (product, "independent", {"color": style.BLACK, "linewidth": 1.2, "linestyle": ":"}),
+        (union, "same histories", style.mechanism_look("all") | {"linewidth": _THICK}),
     ):
         if curve.has_fit and not (is_alone and curve is product):
-            ax.plot(grid, curve(grid), color=color, linewidth=width, label=f"{word}: {parameters(curve)}")
-    fractions = union.saturation * union.collapses / union.histories
-    looks: dict[str, Any] = {"color": style.RED, "linestyle": "none", "marker": "o", "markersize": 4}
-    ax.plot(union.levels, fractions, **looks, label="fractions of the same histories")
-    return curves.finish(ax, typology.im, grid, name)
+            ax.plot(grid, curve(grid), **options.look(**own, label=f"{word}: {parameters(curve)}"))
+    if options.points:
+        fractions = union.saturation * union.collapses / union.histories
+        looks: dict[str, Any] = {"color": style.RED, "linestyle": "none", "marker": "o", "markersize": 4}
+        ax.plot(union.levels, fractions, **looks, label="fractions of the same histories")
+    return curves.finish(ax, options, typology.im, grid[-1], name)
 
 
-def draw_groups(typology: Typology, ax: Axes | None, mechanism: str) -> Axes:
+def draw_groups(typology: Typology, ax: Axes | None, mechanism: str, given: dict[str, Any]) -> Axes:
     """Draw the mean curve of each group beside that of the population."""
     import matplotlib.pyplot as plt
 
+    options = Options(given)
     whole = typology[mechanism]
     names = list(dict.fromkeys(curve.group for curve in typology.groups if curve.group))
     if not names:
@@ -111,69 +129,84 @@ def draw_groups(typology: Typology, ax: Axes | None, mechanism: str) -> Axes:
     known = {(curve.group, curve.mechanism) for curve in typology.groups}
     names = [name for name in names if mechanism == "all" or (name, mechanism) in known]
     parts = [typology[mechanism, name] for name in names]
-    ax = curves.axes(ax, len(names) + 2)
+    ax = curves.axes(ax)
     grid = curves.grid(typology.levels)
     colors = plt.get_cmap("viridis")(np.linspace(0.0, 0.85, len(names)))
     for i, (curve, color) in enumerate(zip(parts, colors, strict=True)):
-        look = {"color": color, "linestyle": curves.LINES[i % len(curves.LINES)], "linewidth": 1.8}
+        look = options.look(color=color, linestyle=style.LINES[(i + 1) % len(style.LINES)], linewidth=1.8)
         _mean(ax, grid, curve, f"{curve.group} ({style.counted(curve.n_walls, 'wall')})", look)
-    look = {"color": style.RED, "linewidth": 2.4}
+    look = options.look(**style.mechanism_look("all"), linewidth=_THICK)
     _mean(ax, grid, whole, f"population ({style.counted(whole.n_walls, 'wall')})", look)
     _explain_fitted(ax, [*parts, whole])
-    return curves.finish(ax, typology.im, grid, style.mechanism_name(mechanism))
+    return curves.finish(ax, options, typology.im, grid[-1], style.mechanism_name(mechanism))
 
 
 def draw_damage_states(
-    typology: Typology, ax: Axes | None, edp_thresholds: Sequence[float] | None, mechanism: str, group: str
+    typology: Typology,
+    ax: Axes | None,
+    edp_thresholds: Sequence[float] | None,
+    mechanism: str,
+    group: str,
+    given: dict[str, Any],
 ) -> Axes:
     """Draw the mean curve of each damage state, collapse the boldest."""
+    options = Options(given, "points")
     chosen = typology.edp_thresholds if edp_thresholds is None else as_array("edp_thresholds", edp_thresholds)
     thresholds = chosen.tolist()
-    ax = curves.axes(ax, len(thresholds) + 1)
+    ax = curves.axes(ax)
     grid = curves.grid(typology.levels)
     if typology.facade and typology.knows_unions and mechanism == "all":
-        return _draw_union_states(typology, ax, grid, thresholds)
+        return _draw_union_states(typology, ax, grid, thresholds, options)
     states: list[PopulationCurve] = []
     for threshold, look, marks in curves.state_looks(thresholds):
         state = typology.at(threshold)[mechanism, group]
         states.append(state)
-        _mean(ax, grid, state, f"EDP ≥ {threshold:g}", look)
-        ax.plot(state.levels, state.mean_fraction, **marks)
+        _mean(ax, grid, state, f"EDP ≥ {threshold:g}", options.look(**look))
+        if options.points:
+            ax.plot(state.levels, state.mean_fraction, **marks)
     _explain_fitted(ax, states)
     title = typology[mechanism, group]._title()
-    return curves.finish(ax, typology.im, grid, title, "probability to reach the state")
+    return curves.finish(ax, options, typology.im, grid[-1], title, "probability to reach the state")
 
 
-def _draw_union_states(typology: Typology, ax: Axes, grid: FloatArray, thresholds: list[float]) -> Axes:
+def _draw_union_states(
+    typology: Typology, ax: Axes, grid: FloatArray, thresholds: list[float], options: Options
+) -> Axes:
     """Draw the curve of one facade in each damage state, in the same histories."""
     name = typology.facade
     for threshold, look, marks in curves.state_looks(thresholds):
         union = typology.at(threshold).unions[name]
         text = style.label(f"EDP ≥ {threshold:g}: {parameters(union)}")
-        ax.plot(union.levels, union.saturation * union.collapses / union.histories, **marks)
-        ax.plot(grid, union(grid) if union.has_fit else np.full(len(grid), np.nan), **look, label=text)
-    return curves.finish(ax, typology.im, grid, name, "probability to reach the state")
+        if options.points:
+            ax.plot(union.levels, union.saturation * union.collapses / union.histories, **marks)
+        shown = union(grid) if union.has_fit else np.full(len(grid), np.nan)
+        ax.plot(grid, shown, **options.look(**look, label=text))
+    return curves.finish(ax, options, typology.im, grid[-1], name, "probability to reach the state")
 
 
 def _band(ax: Axes, grid: FloatArray, fractiles: FloatArray, color: str) -> None:
-    """Fractiles of the walls: a band with edges, and the median."""
+    """Fractiles of the walls: a band that covers the lines in it, with edges, and the median."""
+    from matplotlib.colors import to_rgb
+
     low, median, high = fractiles
-    ax.fill_between(grid, low, high, color=color, alpha=0.22, linewidth=0.0, label="16 to 84 % of the walls", zorder=2)
+    # As light as a fifth of the colour on white, but not seen through
+    light = tuple(1.0 - 0.22 * (1.0 - part) for part in to_rgb(color))
+    ax.fill_between(grid, low, high, color=light, linewidth=0.0, label="16 to 84 % of the walls", zorder=1.4)
     for edge in (low, high):
         ax.plot(grid, edge, color=color, linewidth=0.7, zorder=2)
-    ax.plot(grid, median, color=color, linewidth=1.6, linestyle=":", label="median of the walls", zorder=3)
+    ax.plot(grid, median, color=color, linewidth=1.4, linestyle=":", label="median of the walls", zorder=3)
 
 
 def _mean(ax: Axes, grid: FloatArray, curve: PopulationCurve, name: str, look: dict[str, Any]) -> None:
-    """A mean curve, and thin beside it the lognormal whose parameters its label tells."""
+    """A mean curve, and thin beside it the lognormal whose parameters its label has."""
     fitted = f"lognormal {parameters(curve.fit)}" if curve.fit.has_fit else parameters(curve.fit)
     text = style.label(f"{name}: mean; {fitted}")
-    ax.plot(grid, curve(grid), **look, label=text)
+    style.main(ax, ax.plot(grid, curve(grid), **{"label": text} | look)[0])
     if curve.fit.has_fit:
-        ax.plot(grid, curve.fit(grid), color=look["color"], linewidth=_FITTED, zorder=look.get("zorder"))
+        ax.plot(grid, curve.fit(grid), color=look["color"], linewidth=_THIN_LINE, zorder=look.get("zorder"))
 
 
 def _explain_fitted(ax: Axes, means: Sequence[PopulationCurve]) -> None:
     """What the thin lines beside means are."""
     if any(curve.fit.has_fit for curve in means):
-        ax.plot([], [], color=style.BLACK, linewidth=_FITTED, label="thin: lognormals fitted to the mean fractions")
+        ax.plot([], [], color=style.BLACK, linewidth=_THIN_LINE, label="thin: lognormals fitted to the mean fractions")

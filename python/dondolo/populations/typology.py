@@ -359,7 +359,7 @@ class Typology(Shown, Saved):
 
         return nrml_functions(self)
 
-    def plot_union(self, ax: Axes | None = None, *, name: str | None = None) -> Axes:
+    def plot_union(self, ax: Axes | None = None, *, name: str | None = None, **options: Any) -> Axes:
         """Draw the mechanisms of a facade or of a wall, their product, and the union of the same histories.
 
         Parameters
@@ -368,6 +368,9 @@ class Typology(Shown, Saved):
             Where to draw; a new figure if left out.
         name : str, optional
             One of `unions`; must be given if there are several.
+        **options
+            Parts to leave out by False (`legend`, `title`, `points`), and keywords of Matplotlib for the curves: see
+            docs/printing.md.
 
         Returns
         -------
@@ -385,15 +388,18 @@ class Typology(Shown, Saved):
             raise InputError("unions: there are none; they are of walls with several mechanisms")
         chosen = next(iter(self.unions)) if name is None and len(self.unions) == 1 else name
         one_of("name", chosen, self.unions)
-        return draw_union(self, str(chosen), ax)
+        return draw_union(self, str(chosen), ax, options)
 
-    def plot(self, ax: Axes | None = None) -> Axes:
+    def plot(self, ax: Axes | None = None, **options: Any) -> Axes:
         """Draw the curve of the whole population, ``typology["all"].plot()``, or of one facade, `plot_union`.
 
         Parameters
         ----------
         ax : Axes, optional
             Where to draw; a new figure if left out.
+        **options
+            Parts to leave out by False (`legend`, `title`, `band`, `points`), and keywords of Matplotlib for the mean:
+            see docs/printing.md.
 
         Returns
         -------
@@ -405,9 +411,9 @@ class Typology(Shown, Saved):
         InputError
             The walls are designs of one wall.
         """
-        return self.plot_union(ax) if self.facade and self.knows_unions else self["all"].plot(ax)
+        return self.plot_union(ax, **options) if self.facade and self.knows_unions else self["all"].plot(ax, **options)
 
-    def plot_combination(self, ax: Axes | None = None, *, group: str = "") -> Axes:
+    def plot_combination(self, ax: Axes | None = None, *, group: str = "", **options: Any) -> Axes:
         """Draw the mean curve of each mechanism, and that of all together with its fractiles.
 
         A thin line beside a mean curve is the lognormal with the parameters of the legend.
@@ -418,6 +424,9 @@ class Typology(Shown, Saved):
             Where to draw; a new figure if left out.
         group : str
             Only the walls of this group; '' for the whole population.
+        **options
+            Parts to leave out by False (`legend`, `title`, `band`), and keywords of Matplotlib for the curves: see
+            docs/printing.md.
 
         Returns
         -------
@@ -432,9 +441,9 @@ class Typology(Shown, Saved):
         """
         from dondolo.populations.plots import draw_combination
 
-        return draw_combination(self, ax, group)
+        return draw_combination(self, ax, group, options)
 
-    def plot_groups(self, ax: Axes | None = None, *, mechanism: str = "all") -> Axes:
+    def plot_groups(self, ax: Axes | None = None, *, mechanism: str = "all", **options: Any) -> Axes:
         """Draw the mean curve of each group beside that of the population.
 
         A thin line beside a mean curve is the lognormal with the parameters of the legend.
@@ -445,6 +454,9 @@ class Typology(Shown, Saved):
             Where to draw; a new figure if left out.
         mechanism : str
             Only the walls of this mechanism; groups without it are left out.
+        **options
+            Parts to leave out by False (`legend`, `title`), and keywords of Matplotlib for the curves: see
+            docs/printing.md.
 
         Returns
         -------
@@ -458,7 +470,7 @@ class Typology(Shown, Saved):
         """
         from dondolo.populations.plots import draw_groups
 
-        return draw_groups(self, ax, mechanism)
+        return draw_groups(self, ax, mechanism, options)
 
     def plot_damage_states(
         self,
@@ -467,6 +479,7 @@ class Typology(Shown, Saved):
         edp_thresholds: Sequence[float] | None = None,
         mechanism: str = "all",
         group: str = "",
+        **options: Any,
     ) -> Axes:
         """Draw the mean curve of each damage state, or the curve of one facade, collapse the boldest.
 
@@ -480,6 +493,9 @@ class Typology(Shown, Saved):
             Which of `edp_thresholds`; all if left out.
         mechanism, group : str
             Only the walls of this mechanism, of this group, as in ``typology[mechanism, group]``.
+        **options
+            Parts to leave out by False (`legend`, `title`, `points`), and keywords of Matplotlib for the curves: see
+            docs/printing.md.
 
         Returns
         -------
@@ -493,7 +509,7 @@ class Typology(Shown, Saved):
         """
         from dondolo.populations.plots import draw_damage_states
 
-        return draw_damage_states(self, ax, edp_thresholds, mechanism, group)
+        return draw_damage_states(self, ax, edp_thresholds, mechanism, group, options)
 
     def _tables(self) -> dict[_Table, Any]:
         found: dict[_Table, Any] = {} if self.are_alternatives else {"typology": lambda: typology_table(self)}

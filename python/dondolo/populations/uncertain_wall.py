@@ -42,7 +42,7 @@ from dondolo.walls.wall import Wall, property_of, upload
 if TYPE_CHECKING:
     from concurrent.futures import Executor
 
-    from dondolo.figures.style import Panels
+    from matplotlib.axes import Axes
 
 # Shares at which one source alone is moved to its ends, and where it stays otherwise
 _ENDS = (0.05, 0.95)
@@ -154,24 +154,27 @@ class UncertainWall(tables.Tabular, Saved):
         """Both together."""
         return math.hypot(self.beta_records, self.beta_model)
 
-    def plot(self, ax: Iterable[Any] | None = None) -> Panels:
+    def plot(self, ax: Iterable[Any] | None = None, **options: Any) -> Axes:
         """Draw the curves of the sample, and what moves the median: records, each source, numbers.
 
         Parameters
         ----------
         ax : two Axes, optional
             Where to draw; a new figure if left out.
+        **options
+            Parts to leave out by False (`legend`, `title`, `band`, `bars`), and keywords of Matplotlib for the mean:
+            see docs/printing.md.
 
         Returns
         -------
-        ndarray of two Axes
-            Probability of collapse against intensity; and a tornado diagram: the median's 95 % interval for other
-            records, its values with one source at its 5 and 95 % fractiles, and what the estimated error of the numbers
-            could change.
+        Axes
+            The first of the figure's: probability of collapse against intensity; and a tornado diagram: the median's 95
+            % interval for other records, its values with one source at its 5 and 95 % fractiles, and what the estimated
+            error of the numbers could change.
         """
         from dondolo.populations.plots_uncertain import draw_uncertain_wall
 
-        return draw_uncertain_wall(self, ax)
+        return draw_uncertain_wall(self, ax, options)
 
     def write_results(self, prefix: str | os.PathLike[str], *, spreadsheet_safe: bool = False) -> None:
         """Write all tables into files of the names that the executable gives them, as `Typology.write_results`.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -83,13 +83,16 @@ class HingeSearch(tables.Tabular, Saved):
         """Its curve."""
         return self.curves[int(np.nanargmin(self.thetas))]
 
-    def plot(self, ax: Axes | None = None) -> Axes:
+    def plot(self, ax: Axes | None = None, **options: Any) -> Axes:
         """Draw medians and trigger accelerations against the height of the hinge.
 
         Parameters
         ----------
         ax : Axes, optional
             Where to draw; a new figure if left out.
+        **options
+            Parts to leave out by False (`legend`, `title`, `band`), and keywords of Matplotlib for the medians: see
+            docs/printing.md.
 
         Returns
         -------
@@ -98,7 +101,7 @@ class HingeSearch(tables.Tabular, Saved):
         """
         from dondolo.populations.plots_uncertain import draw_hinges
 
-        return draw_hinges(self, ax)
+        return draw_hinges(self, ax, options)
 
     def _table(self) -> tables.Table:
         return {

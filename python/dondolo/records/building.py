@@ -128,6 +128,7 @@ class Building:
         periods: ArrayLike | None = None,
         damping: float = 0.05,
         site: Site | None = None,
+        **options: Any,
     ) -> Axes:
         """Draw the response spectra of the floor against those of the ground.
 
@@ -143,6 +144,9 @@ class Building:
             Damping ratio of what stands on the floor.
         site : Site, optional
             Whose spectrum of the floor by the code, of SLV, is drawn beside them; the records are drawn as they are.
+        **options
+            Parts to leave out by False (`legend`, `title`), and keywords of Matplotlib for the medians: see
+            docs/printing.md.
 
         Returns
         -------
@@ -153,7 +157,7 @@ class Building:
         from dondolo.records.plots import draw_floor
         from dondolo.records.record_set import scaled_records
 
-        return draw_floor(self, scaled_records(records), periods, damping, ax=ax, site=site)
+        return draw_floor(self, scaled_records(records), periods, damping, ax=ax, site=site, given=options)
 
     def _facts(self) -> list[tuple[str, str]]:
         """What a reader wants to know, name and text."""

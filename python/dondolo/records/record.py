@@ -31,8 +31,6 @@ from dondolo.records.spectrum import Spectrum
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from dondolo.figures.style import Panels
-
 
 @part_of_results
 @dataclass(frozen=True, eq=False, repr=False, init=False)
@@ -295,22 +293,26 @@ class Record:
         """Ground velocity at the samples, 0 at the first [m/s]; exact for accelerations linear in between."""
         return suite.velocity(self)
 
-    def plot(self, ax: Iterable[Axes] | None = None) -> Panels:
+    def plot(self, ax: Iterable[Axes] | None = None, **options: Any) -> Axes:
         """Draw acceleration and velocity over time.
 
         Parameters
         ----------
         ax : two Axes, optional
             Where to draw; a new figure if left out.
+        **options
+            Parts to leave out by False (`legend`, `title`, `band`, `points`), and keywords of Matplotlib for the lines:
+            see docs/printing.md.
 
         Returns
         -------
-        ndarray of two Axes
-            Acceleration above, with its peak and, shaded, the time from 5 to 95 % of Arias' integral; velocity below.
+        Axes
+            The first of the figure's: acceleration above, with its peak and, shaded, the time from 5 to 95 % of Arias'
+            integral; velocity below.
         """
         from dondolo.records.plots import draw_record
 
-        return draw_record(self, ax)
+        return draw_record(self, ax, options)
 
     def significant_times(self, *, low: float = 0.05, high: float = 0.95) -> tuple[float, float]:
         """Times at which Arias' integral of the squared acceleration reaches two parts of its end value [s].

@@ -437,7 +437,12 @@ class RecordSet(Shown, Saved):
         write_catalogue(self, path)
 
     def plot(
-        self, ax: Axes | None = None, *, target: TargetSpectrum | None = None, periods: ArrayLike | None = None
+        self,
+        ax: Axes | None = None,
+        *,
+        target: TargetSpectrum | None = None,
+        periods: ArrayLike | None = None,
+        **options: Any,
     ) -> Axes:
         """Draw the response spectra of the rows, times their factors, their mean and dispersion, and a target.
 
@@ -449,6 +454,9 @@ class RecordSet(Shown, Saved):
             Drawn too.
         periods : array_like, optional
             [s]; those of the target, or 100 from 0.05 to 4 s, if left out.
+        **options
+            Parts to leave out by False (`legend`, `title`, `band`), and keywords of Matplotlib for the median: see
+            docs/printing.md.
 
         Returns
         -------
@@ -457,7 +465,7 @@ class RecordSet(Shown, Saved):
         """
         from dondolo.records.plots import draw_spectra
 
-        return draw_spectra(self, target, periods, ax)
+        return draw_spectra(self, target, periods, ax, options)
 
     def _column(self, name: str) -> NDArray[Any]:
         """A column: numbers where every value is one, else texts."""

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -90,19 +90,22 @@ class Selection(Shown, Saved):
         ratio = self.median / self.target.sa - 1.0
         return float(ratio.min()), float(ratio.max())
 
-    def plot(self, ax: Axes | None = None) -> Axes:
+    def plot(self, ax: Axes | None = None, **options: Any) -> Axes:
         """Draw the spectra of the records and the target.
 
         Parameters
         ----------
         ax : Axes, optional
             Where to draw; a new figure if left out.
+        **options
+            Parts to leave out by False (`legend`, `title`, `band`), and keywords of Matplotlib for the median: see
+            docs/printing.md.
 
         Returns
         -------
         Axes
         """
-        return self.records.plot(ax, target=self.target)
+        return self.records.plot(ax, target=self.target, **options)
 
     def _facts(self) -> list[tuple[str, str]]:
         low, high = self.largest_deviation

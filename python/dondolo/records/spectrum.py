@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -43,13 +43,16 @@ class Spectrum(tables.Tabular, Saved):
         """Pseudo-spectral acceleration, (2 pi / T)**2 times the displacement [m/s2]."""
         return (2.0 * np.pi / self.periods) ** 2 * self.displacement
 
-    def plot(self, ax: Axes | None = None) -> Axes:
+    def plot(self, ax: Axes | None = None, **options: Any) -> Axes:
         """Draw the pseudo-acceleration against the period.
 
         Parameters
         ----------
         ax : Axes, optional
             Where to draw; a new figure if left out.
+        **options
+            Parts to leave out by False (`legend`, `title`), and keywords of Matplotlib for the line: see
+            docs/printing.md.
 
         Returns
         -------
@@ -58,7 +61,7 @@ class Spectrum(tables.Tabular, Saved):
         """
         from dondolo.records.plots import draw_spectrum
 
-        return draw_spectrum(self, ax)
+        return draw_spectrum(self, ax, options)
 
     def _table(self) -> tables.Table:
         return {

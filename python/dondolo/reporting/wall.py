@@ -63,7 +63,7 @@ def curves(stripes: Stripes, states: Sequence[Fragility]) -> dict[str, Any]:
         ),
         "fragility": figure(curve.plot, f"Fractions of collapse and fitted fragility curve: {in_words(curve)}."),
         "states": figure(
-            lambda: draw_damage_states(stripes, None, states),
+            lambda: draw_damage_states(stripes, None, states, {}),
             f"Fragility curves of the damage states EDP {', '.join(f'{one.edp_threshold:g}' for one in states)}.",
         )
         if len(states) > 1

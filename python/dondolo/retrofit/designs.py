@@ -36,7 +36,7 @@ from dondolo.walls.population import Population
 from dondolo.walls.wall import Wall, upload
 
 if TYPE_CHECKING:
-    from dondolo.figures.style import Panels
+    from matplotlib.axes import Axes
 
 # Checks that are shown beside the curves: method and limit state
 _CHECKS = (("linear", "SLV"), ("nonlinear", "SLV"))
@@ -114,24 +114,27 @@ class DesignComparison(tables.Tabular, Saved):
         ratio: FloatArray = self.alpha_0 / self.alpha_0[0]
         return ratio
 
-    def plot(self, ax: Iterable[Any] | None = None) -> Panels:
+    def plot(self, ax: Iterable[Any] | None = None, **options: Any) -> Axes:
         """Draw the curves of all designs, and the ratios of their medians to that of the first.
 
         Parameters
         ----------
         ax : two Axes, optional
             Where to draw; a new figure if left out.
+        **options
+            Parts to leave out by False (`legend`, `title`, `bars`, `points`), and keywords of Matplotlib for the
+            curves: see docs/printing.md.
 
         Returns
         -------
-        ndarray of two Axes
-            Probability of collapse against intensity, with what each withstands by the nonlinear check of SLV where
-            there is one and the measure is PGA; and the ratios with their intervals, beside those of the static
-            accelerations.
+        Axes
+            The first of the figure's: probability of collapse against intensity, with what each withstands by the
+            nonlinear check of SLV where there is one and the measure is PGA; and the ratios with their intervals,
+            beside those of the static accelerations.
         """
         from dondolo.retrofit.plots import draw_designs
 
-        return draw_designs(self, ax)
+        return draw_designs(self, ax, options)
 
     def write_results(self, prefix: str | os.PathLike[str], *, spreadsheet_safe: bool = False) -> None:
         """Write all tables into files of the names that the executable gives them, as `Typology.write_results`.

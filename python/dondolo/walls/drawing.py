@@ -10,6 +10,8 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray
 from dondolo.figures import style
+from dondolo.figures.options import Options
+from dondolo.figures.themes import theme
 from dondolo.walls.drawing_loads import caption, draw_loads
 from dondolo.walls.mechanisms import TabulatedWall, TwoBlockWall
 from dondolo.walls.parts import parts_of
@@ -24,27 +26,32 @@ if TYPE_CHECKING:
 _MARKS: dict[str, Any] = {"linestyle": "none", "marker": "o", "markerfacecolor": "none", "markersize": 3.5}
 
 
-def draw_wall(wall: Wall, rotation: float, ax: Axes | None, note: str = "") -> Axes:
+def draw_wall(wall: Wall, rotation: float, ax: Axes | None, given: dict[str, Any], note: str = "") -> Axes:
     """Draw a wall at rest (dashed) and rotated, with its hinges and what it carries; of a tabulated wall its moment."""
+    from matplotlib.patches import Polygon
+
+    options = Options(given)
     if isinstance(wall, TabulatedWall):
-        return _draw_moment(wall, rotation, ax, note)
+        return _draw_moment(wall, rotation, ax, options, note)
     assert isinstance(wall, MasonryWall)
     lines = caption(wall)
-    ax = style.axes(ax, (3.6, 4.6 + 0.14 * len(lines)))
+    ax = style.axes(ax, (3.6, 4.6))
     draw_surroundings(ax, wall)
     for block in shape(wall, 0.0).blocks:
         ax.fill(*block.T, facecolor="none", edgecolor=style.GREY, linestyle="--", linewidth=0.9)
     now = shape(wall, rotation)
     for block in now.blocks:
-        ax.fill(*block.T, facecolor=style.BRICK, edgecolor=style.BLACK, linewidth=1.1, alpha=0.9)
+        own = {"facecolor": style.BRICK, "edgecolor": style.BLACK, "linewidth": 1.1, "alpha": 0.9}
+        ax.fill(*block.T, **options.look(Polygon, **own))
     ax.plot(*now.hinges.T, linestyle="none", marker="o", color=style.RED, markersize=6, label="hinge", zorder=4)
     frame(ax, wall)
     _draw_supports(ax, wall)
     draw_loads(ax, wall, rotation, now)
     if lines:
-        text = "\n".join(lines)
-        ax.annotate(text, (0.0, 0.0), (-30, -34), "axes fraction", textcoords="offset points", fontsize=7.5, va="top")
-    style.title(ax, f"{wall.name}\nrotation {rotation:.3g} rad{note}", fontsize=9.5)
+        size, text = theme().note, "\n".join(lines)
+        style.make_room(ax, 1.3 * size * len(lines))
+        ax.annotate(text, (0.0, 0.0), (-30, -34), "axes fraction", textcoords="offset points", fontsize=size, va="top")
+    style.title(ax, f"{wall.name}\nrotation {rotation:.3g} rad{note}", options)
     # A legend's own marker would pass for one more hinge.
     base = now.hinges[0]
     right = base[0] > 0.5 * wall.thickness
@@ -55,17 +62,17 @@ def draw_wall(wall: Wall, rotation: float, ax: Axes | None, note: str = "") -> A
         (9 if right else -9, 6),
         textcoords="offset points",
         ha="left" if right else "right",
-        fontsize=8.5,
+        fontsize=theme().legend,
         color=style.RED,
     )
     return ax
 
 
-def _draw_moment(wall: TabulatedWall, rotation: float, ax: Axes | None, note: str) -> Axes:
+def _draw_moment(wall: TabulatedWall, rotation: float, ax: Axes | None, options: Options, note: str) -> Axes:
     """Draw the restoring moment of a tabulated wall, which has no shape, and where it is."""
     ax = style.axes(ax, (4.6, 3.4))
     q = np.linspace(0.0, float(np.max(wall.rotation)), 201)
-    ax.plot(q, _moment(wall, q), color=style.BLUE, label="as computed")
+    ax.plot(q, _moment(wall, q), **options.look(color=style.BLUE, label="as computed"))
     table = np.asarray(wall.rotation)
     ax.plot(table, 1e-3 * np.asarray(wall.moment), color=style.GREY, label="table", **_MARKS)
     ax.plot(
@@ -75,8 +82,8 @@ def _draw_moment(wall: TabulatedWall, rotation: float, ax: Axes | None, note: st
     ax.axvline(wall.capacity_angle, color=style.BLACK, linewidth=0.8, linestyle="--", label="capacity")
     ax.set_xlabel("rotation [rad]")
     ax.set_ylabel("restoring moment [kN m per metre]")
-    style.title(ax, f"{wall.name}\nrotation {rotation:.3g} rad{note}", fontsize=9.5)
-    style.legend(ax)
+    style.title(ax, f"{wall.name}\nrotation {rotation:.3g} rad{note}", options)
+    style.legend(ax, options)
     return ax
 
 
@@ -94,11 +101,13 @@ def draw_surroundings(ax: Axes, wall: MasonryWall) -> None:
     if isinstance(wall, TwoBlockWall):
         for left in (-0.5 * reach, t):
             ax.fill_between([left, left + 0.5 * reach], h, 1.03 * h, facecolor=style.LIGHT, linewidth=0.0)
-        ax.annotate("held at the top", (t + 0.1 * reach, 0.955 * h), fontsize=7.5)
+        ax.annotate("held at the top", (t + 0.1 * reach, 0.955 * h), fontsize=theme().note)
     elif not wall.two_sided:
         ax.fill_betweenx([0.0, h], -reach, 0.0, facecolor=style.LIGHT, hatch="//", edgecolor="white", linewidth=0.0)
-        middle = _free_height(wall)
-        ax.annotate("transverse wall", (-0.5 * reach, middle), rotation=90, ha="center", va="center", fontsize=7.5)
+        middle, is_whole = _free_height(wall)
+        # Between labels of what holds the wall there is half the room.
+        text = "transverse wall" if is_whole else "transverse\nwall"
+        ax.annotate(text, (-0.5 * reach, middle), rotation=90, ha="center", va="center", fontsize=theme().note)
 
 
 def _draw_supports(ax: Axes, wall: MasonryWall) -> None:
@@ -114,7 +123,7 @@ def _draw_supports(ax: Axes, wall: MasonryWall) -> None:
         (end - 0.35 * reach, 0.0),
         (0, 3),
         textcoords="offset points",
-        fontsize=7.5,
+        fontsize=theme().note,
         ha="center",
         color=style.BLUE,
     )
@@ -129,7 +138,7 @@ def _draw_supports(ax: Axes, wall: MasonryWall) -> None:
             (end - 0.35 * reach, top),
             (0, 3),
             textcoords="offset points",
-            fontsize=7.5,
+            fontsize=theme().note,
             ha="center",
             color=style.BLUE,
         )
@@ -146,8 +155,8 @@ def _support_height(wall: MasonryWall) -> float:
     return float(at_rest.inertia / at_rest.excitation_lever) / wall.support_share
 
 
-def _free_height(wall: MasonryWall) -> float:
-    """Height in the middle of the largest part behind the wall where no label of what holds it stands."""
+def _free_height(wall: MasonryWall) -> tuple[float, bool]:
+    """Height in the middle of the largest part behind the wall without labels of what holds it; is that all of it?"""
     taken = [0.0, wall.height]
     if 0.0 < _support_height(wall) < wall.height:
         taken.append(_support_height(wall))
@@ -157,7 +166,7 @@ def _free_height(wall: MasonryWall) -> float:
     taken.sort()
     gap, bottom = max((above - below, below) for below, above in pairwise(taken))
     # A label stands above its height
-    return bottom + (0.5 if len(taken) == 2 else 0.55) * gap
+    return bottom + (0.5 if len(taken) == 2 else 0.55) * gap, len(taken) == 2
 
 
 def _reach(wall: MasonryWall) -> float:

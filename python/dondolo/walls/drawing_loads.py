@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dondolo.figures import style
+from dondolo.figures.themes import theme
 from dondolo.walls.mechanisms import TwoBlockWall
 from dondolo.walls.parts import Tie, parts_of
 from dondolo.walls.shape import Points, Shape, moved, storeys
@@ -200,7 +201,15 @@ def _words(ax: Axes, at: Points, text: str, shift: tuple[float, float], ha: str 
     """A value beside what it belongs to."""
     back = {"facecolor": "white", "edgecolor": "none", "alpha": 0.75, "pad": 0.6}
     ax.annotate(
-        text, tuple(at), shift, textcoords="offset points", fontsize=7.5, ha=ha, va="bottom", zorder=6, bbox=back
+        text,
+        tuple(at),
+        shift,
+        textcoords="offset points",
+        fontsize=theme().note,
+        ha=ha,
+        va="bottom",
+        zorder=6,
+        bbox=back,
     )
 
 

@@ -30,7 +30,6 @@ from dondolo._fortran.walls import (
 from dondolo._storage import tables
 from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
-from dondolo.figures.style import Panels
 from dondolo.walls.mechanisms import wall_from
 from dondolo.walls.table import occurrence_columns, property_columns
 from dondolo.walls.wall import MasonryWall, Wall, property_of, walls_table
@@ -552,7 +551,7 @@ class Population(Shown):
     def _repr_html_(self) -> str:
         return html_of("Population", [*self._facts(), *self._ranges()])
 
-    def plot(self, ax: Iterable[Axes] | None = None, *, by: Kind = "mechanism") -> Panels:
+    def plot(self, ax: Iterable[Axes] | None = None, *, by: Kind = "mechanism", **options: Any) -> Axes:
         """Draw the walls: thickness against height above, trigger accelerations below.
 
         Parameters
@@ -561,12 +560,15 @@ class Population(Shown):
             Where to draw; a new figure if left out.
         by : {'mechanism', 'group'}
             Property that distinguishes the walls.
+        **options
+            Parts to leave out by False (`legend`, `title`), and keywords of Matplotlib for the marks: see
+            docs/printing.md.
 
         Returns
         -------
-        ndarray of two Axes
-            Thickness against height [m], with lines of equal slenderness; and the weight of what begins to rock in an
-            interval of ground acceleration [g]. Each mechanism of a wall counts for itself.
+        Axes
+            The first of the figure's: thickness against height [m], with lines of equal slenderness; and the weight of
+            what begins to rock in an interval of ground acceleration [g]. Each mechanism of a wall counts for itself.
 
         Raises
         ------
@@ -575,7 +577,7 @@ class Population(Shown):
         """
         from dondolo.walls.plots import draw_population
 
-        return draw_population(self, ax, by)
+        return draw_population(self, ax, by, options)
 
     def to_frame(self) -> Any:
         """The walls, their static quantities and weights.

@@ -289,7 +289,7 @@ class Wall:
         energy: FloatArray = wall_terms(upload((self,)), rotation)[5]
         return energy
 
-    def plot(self, ax: Axes | None = None, *, rotation: float | None = None) -> Axes:
+    def plot(self, ax: Axes | None = None, *, rotation: float | None = None, **options: Any) -> Axes:
         """Draw the wall at rest (dashed) and rotated, with the hinges it rotates about.
 
         Parameters
@@ -298,6 +298,9 @@ class Wall:
             Where to draw; a new figure if left out.
         rotation : float, optional
             Signed rotation, of the lower block for two-block walls [rad]; half the capacity if left out.
+        **options
+            Parts to leave out by False (`legend`, `title`), and keywords of Matplotlib for the blocks: see
+            docs/printing.md.
 
         Returns
         -------
@@ -316,7 +319,7 @@ class Wall:
             raise InputError(f"rotation = {angle:g}: a one-sided wall rotates outwards only, it must not be negative")
         # Asked for what it weighs there, a wall refuses rotations that it cannot have.
         self.terms(abs(angle))
-        return draw_wall(self, angle, ax)
+        return draw_wall(self, angle, ax, options)
 
     def _facts(self) -> list[tuple[str, str]]:
         """What a reader wants to know, name and text."""
