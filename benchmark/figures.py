@@ -9,37 +9,26 @@ matplotlib.use("agg")
 import cost_model
 import matplotlib.pyplot as plt
 import numpy as np
-from dondolo.figures.style import BLACK, BLUE, BRICK, GREY, LIGHT, RC, RED, mechanism_name
+from dondolo.figures.style import BLACK, BLUE, BRICK, GREY, LIGHT, RED, mechanism_name
+from dondolo.figures.themes import theme
 from matplotlib.ticker import NullFormatter
 from programs import DONDOLO
 
 LOWEST = 1e-17  # errors of zero are drawn at this value
 OPEN = {"markerfacecolor": "white"}
+# One colour and one mark for each program, whose settings are joined method by method
 LOOKS = {
+    "dondolo, lanes": {"color": RED, "marker": "*", "markersize": 10, "linewidth": 2.2},
     "dondolo, rk45": {"color": RED, "marker": "o", "linewidth": 2.2},
-    "dondolo, lanes": {"color": RED, "marker": "*", "markersize": 9, "linewidth": 2.2},
-    "C++ by hand, RKN4, steps a sample": {"color": BLUE, "marker": "s"},
-    "Boost.odeint, cut": {"color": BLUE, "marker": "^"},
-    "Boost.odeint, free": {"color": BLUE, "marker": "^", "linestyle": ":", **OPEN},
-    "heyoka, scalar": {"color": BLACK, "marker": "D"},
-    "heyoka, batch": {"color": BLACK, "marker": "D", "linestyle": ":", **OPEN},
-    "SUNDIALS, dopri5": {"color": BLACK, "marker": "v"},
-    "SUNDIALS, adams": {"color": BLACK, "marker": "<", "linestyle": "--"},
-    "SUNDIALS, adams_free": {"color": BLACK, "marker": "<", "linestyle": ":", **OPEN},
-    "numbalsoda, dop853": {"color": GREY, "marker": "p"},
-    "numbalsoda, lsoda": {"color": GREY, "marker": "p", "linestyle": ":", **OPEN},
-    "SciPy, RK45": {"color": GREY, "marker": "o"},
-    "SciPy, DOP853": {"color": GREY, "marker": "s"},
-    "SciPy, LSODA": {"color": GREY, "marker": "^"},
-    "SciPy, RK45/record": {"color": GREY, "marker": "o", "linestyle": ":", **OPEN},
-    "GNU Octave, ode45": {"color": BLACK, "marker": "x"},
-    "GNU Octave, ode45/sample": {"color": BLACK, "marker": "+"},
+    "C++ by hand": {"color": BLUE, "marker": "s"},
+    "Boost.odeint": {"color": BLUE, "marker": "^", **OPEN},
+    "heyoka": {"color": BLACK, "marker": "D"},
+    "SUNDIALS": {"color": BLACK, "marker": "v", **OPEN},
+    "numbalsoda": {"color": GREY, "marker": "p"},
+    "SciPy": {"color": GREY, "marker": "o", **OPEN},
+    "GNU Octave": {"color": BLACK, "marker": "x"},
 }
-MEASURES = (
-    ("median", "median"),
-    ("most", "99 % are no worse"),
-    ("worst", "worst"),
-)
+MEASURES = (("median", "median error of the EDP"), ("worst", "largest error of the EDP"))
 
 
 def save(figure, folder, name):
@@ -51,39 +40,36 @@ def save(figure, folder, name):
 
 def work(folder, results):
     """Draw error against time per history, for every program."""
-    by_dondolo = [each for each in results if each.program == DONDOLO.name]
-    with plt.rc_context(RC):
-        figure, axes = plt.subplots(2, 2, figsize=(9.6, 9.6), sharex=True, layout="constrained")
+    with plt.rc_context(dict(theme().rc)):
+        figure, axes = plt.subplots(1, 3, figsize=(10.4, 4.6), sharex=True, layout="constrained")
         for name, look in LOOKS.items():
-            own = [each for each in results if each.name == name]
-            if not own:
-                continue
-            times = [each.ms_of_all for each in own]
-            style = {"markersize": 4.5, "linewidth": 1.1} | look
-            for ax, (what, _) in zip(axes.flat, MEASURES, strict=False):
-                ax.loglog(times, np.maximum([getattr(each, what) for each in own], LOWEST), label=name, **style)
-            axes[1, 1].plot(times, [100.0 * each.share for each in own], **style)
-        for ax, (_, title) in zip(axes.flat, MEASURES, strict=False):
-            ax.set(title=title, ylabel="error of the EDP")
-        axes[1, 1].set_yscale("symlog", linthresh=0.1)
-        axes[1, 1].set_yticks([0, 0.1, 1, 10, 100], ["0", "0.1", "1", "10", "100"])
-        axes[1, 1].set(title="EDPs off by more than 1e-6", ylabel="% of the histories", ylim=(-0.02, 100))
-        axes[1, 1].axhline(1.0, color=GREY, linewidth=1, zorder=0)
-        for ax in axes[1]:
-            ax.set(xlabel="time per history [ms]")
-            ax.xaxis.set_minor_formatter(NullFormatter())
-        for ax, (what, _) in zip(axes.flat, MEASURES, strict=False):
-            ax.set(xlim=ax.get_xlim(), ylim=ax.get_ylim())
-            for look, own in (
-                ({"color": LIGHT, "label": "front of the others"}, [r for r in results if r.program != DONDOLO.name]),
-                ({"color": BRICK, "label": "front of dondolo", "linestyle": (0, (1.6, 0.5))}, by_dondolo),
+            style = {"markersize": 4.5, "linewidth": 1.0} | look
+            methods = dict.fromkeys(each.name for each in results if each.name.startswith(name))
+            for i, method in enumerate(methods):
+                own = [each for each in results if each.name == method]
+                times, label = [each.ms_of_all for each in own], name if i == 0 else None
+                for ax, (what, _) in zip(axes, MEASURES, strict=False):
+                    ax.loglog(times, np.maximum([getattr(each, what) for each in own], LOWEST), label=label, **style)
+                axes[2].plot(times, [100.0 * each.share for each in own], **style)
+        for ax, (what, ylabel) in zip(axes, MEASURES, strict=False):
+            ax.set(ylabel=ylabel, xlim=ax.get_xlim(), ylim=ax.get_ylim())
+            for own, label, dashes in (
+                ([each for each in results if each.program != DONDOLO.name], "best of the others", "-"),
+                ([each for each in results if each.program == DONDOLO.name], "best of dondolo", (0, (1.6, 0.5))),
             ):
                 times, errors = front(own, what)
                 # From the upper end of the axes to their right end
                 corners = [times[0], *times, ax.get_xlim()[1]], [ax.get_ylim()[1], *errors, errors[-1]]
-                ax.step(*corners, where="post", linewidth=5, zorder=0, **look)
-        handles = axes[0, 0].get_legend_handles_labels()
-        figure.legend(*handles, loc="outside lower center", ncols=4)
+                color = LIGHT if dashes == "-" else BRICK
+                ax.step(*corners, where="post", linewidth=5, zorder=0, color=color, linestyle=dashes, label=label)
+        axes[2].set_yscale("symlog", linthresh=0.1)
+        axes[2].set_yticks([0, 0.1, 1, 10, 100], ["0", "0.1", "1", "10", "100"])
+        axes[2].set(ylabel="EDPs off by more than 1e-6 [%]", ylim=(-0.02, 100))
+        axes[2].axhline(1.0, color=GREY, linewidth=1, zorder=0)
+        for ax in axes:
+            ax.set(xlabel="time per history [ms]")
+            ax.xaxis.set_minor_formatter(NullFormatter())
+        figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=6, frameon=False)
     save(figure, folder, "work")
 
 
@@ -111,7 +97,7 @@ MODEL = {"color": BLACK, "linewidth": 1.1, "linestyle": "--"}
 
 def scaling(folder, rows):
     """Draw time against threads, walls, records, levels, length and sampling, with the fitted growth; and memory."""
-    with plt.rc_context(RC):
+    with plt.rc_context(dict(theme().rc)):
         figure, axes = plt.subplots(2, 4, figsize=(12.0, 5.8), layout="constrained")
         speed_ups(axes[0, 0], rows)
         for ax, (kind, xlabel, ylabel, is_divided) in zip(axes.flat[1:], PANELS, strict=False):
@@ -183,7 +169,7 @@ def ticks(ax, size):
 
 def arithmetic(folder, shares):
     """Draw the share of the arithmetic limit that each mechanism reaches, from {mechanism: spread}."""
-    with plt.rc_context(RC):
+    with plt.rc_context(dict(theme().rc)):
         figure, ax = plt.subplots(figsize=(7.2, 2.6), layout="constrained")
         places, rows = np.arange(len(shares)), [asdict(share.times(100.0)) for share in shares.values()]
         medians, bars = bars_of(rows)

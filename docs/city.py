@@ -15,9 +15,9 @@ import matplotlib
 
 matplotlib.use("agg")
 
-import matplotlib.pyplot as plt
 import numpy as np
 from dondolo.figures import style
+from dondolo.figures.options import Options
 
 import dondolo as dd
 
@@ -440,32 +440,30 @@ def risk(study):
 def draw(studies):
     """Draw the figures for the synthetic records, with the recorded ones for comparison if available."""
     typology = studies["synthetic44"].typology
-    with plt.rc_context(style.RC):
-        figure, axes = plt.subplots(1, 2, figsize=(10.4, 4.9), layout="constrained")
+    axes = style.new_axes(size=(10.4, 4.2), columns=2)
     for ax, mechanism in zip(axes, MECHANISMS, strict=True):
         typology[mechanism].plot(ax)
-    figure.savefig(figures / "city_mechanisms.png", dpi=100)
+    axes[0].figure.savefig(figures / "city_mechanisms.png", dpi=100)
 
-    with plt.rc_context(style.RC):
-        figure, axes = plt.subplots(1, 2, figsize=(10.4, 5.0), layout="constrained")
+    axes = style.new_axes(size=(10.4, 4.2), columns=2)
     typology.plot_combination(axes[0])
     typology.plot_damage_states(axes[1])
-    figure.savefig(figures / "city_combined.png", dpi=100)
+    axes[0].figure.savefig(figures / "city_combined.png", dpi=100)
 
-    with plt.rc_context(style.RC):
-        figure, axes = plt.subplots(1, 3, figsize=(10.4, 3.9), layout="constrained")
+    axes = style.new_axes(size=(10.4, 3.4), columns=3)
     draw_sets(axes[0], studies)
     draw_sizes(axes[1], typology)
     draw_mixture(axes[2], typology)
     for ax in axes:
-        style.legend(ax, loc="upper center", bbox_to_anchor=(0.5, -0.17))
-    figure.savefig(figures / "city_discussion.png", dpi=100)
+        style.legend(ax, Options({}))
+    axes[0].figure.savefig(figures / "city_discussion.png", dpi=100)
 
 
 def draw_sets(ax, studies):
     """Draw mean curves of both mechanisms under each set of records."""
     x = np.linspace(0.0, 2.0, 101)
-    for mechanism, color in zip(MECHANISMS, (style.RED, style.BLUE), strict=True):
+    for mechanism in MECHANISMS:
+        color = style.mechanism_look(mechanism)["color"]
         for (name, study), line in zip(studies.items(), ("-", "--"), strict=False):
             label = f"{mechanism.replace('_', '-')}, {name}"
             ax.plot(x, study.typology[mechanism](x), color=color, linestyle=line, label=label)
@@ -475,7 +473,8 @@ def draw_sets(ax, studies):
 
 def draw_sizes(ax, typology):
     """Draw medians of the walls against the ratio of trigger acceleration and frequency parameter."""
-    for mechanism, color, marker in zip(MECHANISMS, (style.RED, style.BLUE), ("o", "^"), strict=True):
+    for mechanism, marker in zip(MECHANISMS, ("o", "^"), strict=True):
+        color = style.mechanism_look(mechanism)["color"]
         rows = rows_of(mechanism)
         velocity = [centre[i].trigger_acceleration / centre[i].frequency_parameter for i in rows]
         theta = [typology.curves[i].theta for i in rows]
@@ -496,7 +495,7 @@ def draw_mixture(ax, typology):
     ax.plot(x, typology["all"](x), color=style.RED, linewidth=2.4, label="weighted mean of the walls")
     whole = typology["all"]
     label = f"lognormal times saturation {whole.saturation:.2f}"
-    ax.plot(x, whole.fit(x), color=style.BLACK, linestyle="--", label=label)
+    ax.plot(x, whole.fit(x), color=style.BLACK, linewidth=0.9, linestyle=(0, (4, 4)), label=label)
     raw = fitted(typology["all"].mean_fraction, 44)
     ax.plot(x, raw(x), color=style.BLACK, linestyle=":", label="lognormal fitted without saturation")
     ax.set_ylim(0.0, 1.02)

@@ -15,6 +15,8 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from dondolo.figures import style
+from dondolo.figures.options import Options
+from dondolo.figures.themes import theme
 from dondolo.walls.shape import shape
 
 import dondolo as dd
@@ -35,6 +37,7 @@ def main() -> None:
     quick_start()
     intensities()
     mechanisms()
+    symbols()
     supports()
     bearing()
     ties()
@@ -49,7 +52,7 @@ def main() -> None:
 
 def new_axes(rows, columns, size, **options):
     """Create a figure of several axes in the style of dondolo."""
-    with plt.rc_context(style.RC):
+    with plt.rc_context(dict(theme().rc)):
         return plt.subplots(rows, columns, figsize=size, layout="constrained", **options)
 
 
@@ -58,8 +61,8 @@ def front():
     wall = dd.OneSidedWall(height=1.5, thickness=0.25, name="parapet")
     response = dd.simulate(wall, next(r for r in records if r.name == "22_norcia_2016_m6.5_b"), 1.134)
     stripes = dd.multiple_stripe(wall, records, levels=np.linspace(0.1, 1.2, 12), polarity="both")
-    with plt.rc_context(style.RC):
-        figure = plt.figure(figsize=(11.0, 3.6), layout="constrained")
+    with plt.rc_context(dict(theme().rc)):
+        figure = plt.figure(figsize=(11.0, 4.4), layout="constrained")
         grid = figure.add_gridspec(2, 3, width_ratios=[0.7, 1.3, 1.3])
         drawing, ground, rotation, curve = (
             figure.add_subplot(place) for place in (grid[:, 0], grid[0, 1], grid[1, 1], grid[:, 2])
@@ -68,7 +71,6 @@ def front():
     response.plot_peak(drawing)
     response.plot([ground, rotation])
     stripes.fit().plot(curve)
-    curve.set_ylim(0.0, 1.25)
     for ax, title in ((drawing, "A wall rocks"), (ground, "under each record"), (curve, "How likely is it to fall?")):
         ax.set_title(title, loc="left")
     figure.savefig(figures / "front.png", dpi=110)
@@ -78,7 +80,7 @@ def quick_start():
     """Draw stripes and curve of the README's first example."""
     wall = dd.OneSidedWall(height=1.5, thickness=0.25, name="parapet")
     stripes = dd.multiple_stripe(wall, records, levels=np.linspace(0.1, 1.2, 12), polarity="both")
-    figure, axes = new_axes(1, 2, (9.6, 3.8))
+    figure, axes = new_axes(1, 2, (9.6, 4.4))
     stripes.plot(axes[0])
     stripes.fit().plot(axes[1])
     figure.savefig(figures / "quick_start.png", dpi=100)
@@ -88,8 +90,8 @@ def intensities():
     """Draw the comparison of intensity measures."""
     wall = dd.OneSidedWall(height=1.5, thickness=0.25, name="parapet")
     ims = ["pga", "pgv", "pgd", "arias", "cav", "hi", "sa(0.2)", "sa(0.5)", "sa(1)", "saavg(0.2:2)"]
-    axes = dd.compare_intensities(wall, records, ims).plot()
-    axes[0].figure.savefig(figures / "intensity_measures.png", dpi=100)
+    ax = dd.compare_intensities(wall, records, ims).plot()
+    ax.figure.savefig(figures / "intensity_measures.png", dpi=100)
 
 
 def mechanisms():
@@ -104,6 +106,136 @@ def mechanisms():
         shown.plot(ax, rotation=part * shown.capacity_angle)
         ax.set_title(shown.name, loc="left", family="monospace")
     figure.savefig(figures / "mechanisms.png", dpi=100)
+
+
+def symbols():
+    """Draw what the symbols of equations (1) to (4) mean, on a block and on two, thicker than walls are."""
+    block = dd.OneSidedWall(height=3.0, thickness=0.9)
+    strip = dd.TwoBlockWall(height=3.0, thickness=0.7, hinge=0.55)
+    figure, axes = new_axes(1, 2, (8.4, 5.6))
+    moved, apart = shape(block, 0.5 * block.capacity_angle), shape(strip, 0.45 * strip.capacity_angle)
+    for ax, now in zip(axes, (moved, apart), strict=True):
+        for corners in now.blocks:
+            ax.fill(*corners.T, facecolor=style.BRICK, edgecolor=style.BLACK, linewidth=1.0, alpha=0.6)
+        ax.plot(*now.hinges.T, "o", color=style.RED, markersize=6, zorder=5)
+        ax.set_aspect("equal")
+        ax.axis("off")
+    one_block(axes[0], moved)
+    two_blocks(axes[1], apart)
+    figure.savefig(figures / "symbols.png", dpi=100)
+
+
+def one_block(ax, now):
+    """Draw the symbols of equations (1) and (2) on a block that has turned about O."""
+    (toe,), (corners,) = now.hinges, now.blocks
+    centre = corners.mean(axis=0)
+    edge = far_end(corners, toe, 3.0)
+    ax.plot([-0.5, 2.2], [0.0, 0.0], color=style.BLACK, linewidth=1.4)
+    ax.fill_betweenx([0.0, 3.0], -0.5, 0.0, facecolor=style.LIGHT, hatch="//", edgecolor="white", linewidth=0.0)
+    ax.text(-0.25, 1.5, "transverse wall", rotation=90, ha="center", va="center", fontsize=8.5)
+    radius(ax, toe, centre, "$R$")
+    vertical(ax, toe, 2.1)
+    angle(ax, toe, 1.35, np.array([0.0, 1.0]), edge - toe, "$\\theta$")
+    angle(ax, toe, 0.75, edge - toe, centre - toe, "$\\alpha$")
+    ax.plot(*centre, "o", color=style.BLACK, markersize=4)
+    ax.annotate("", np.add(centre, (0.0, -0.55)), centre, arrowprops={"arrowstyle": "-|>", "color": style.BLACK})
+    ax.text(*np.add(centre, (-0.06, -0.62)), "$M_b\\,g$", ha="right")
+    ax.text(*np.add(toe, (0.05, -0.06)), "$O$, hinge", color=style.RED, va="top")
+    span(ax, toe, far_end(corners, toe, 0.9), "$t = 2b$", 0.16)
+    span(ax, toe, edge, "$H = 2h$", -0.16)
+    ax.annotate("", (1.9, -0.28), (1.2, -0.28), arrowprops={"arrowstyle": "<|-|>", "color": style.BLUE})
+    ax.text(1.95, -0.28, "$\\ddot{u}_g$", color=style.BLUE, va="center")
+    ax.set_title("(a) equations (1) and (2)", loc="left")
+    ax.set(xlim=(-0.7, 2.6), ylim=(-0.5, 3.6))
+
+
+def two_blocks(ax, now):
+    """Draw the symbols of equations (3) and (4) on two blocks."""
+    (base, middle, top), (lower, upper) = now.hinges, now.blocks
+    ax.plot([-0.6, 2.0], [0.0, 0.0], color=style.BLACK, linewidth=1.4)
+    up = np.array([0.0, 1.0])
+    for start, end, name in ((base, middle, "1"), (middle, top, "2")):
+        centre = 0.5 * (start + end)
+        ax.plot(*np.array([start, end]).T, color=style.BLACK, linewidth=0.8, linestyle=":")
+        radius(ax, start, centre, f"$R_{name}$")
+        ax.plot(*centre, "o", color=style.BLACK, markersize=4)
+        vertical(ax, start, 1.25)
+        angle(ax, start, 0.85, up, end - start, f"$\\beta_{name}$")
+    edge, side = far_end(lower, base, 1.65), far_end(upper, middle, 1.35)
+    angle(ax, base, 1.2, up, edge - base, "$\\varphi$")
+    angle(ax, base, 0.38, edge - base, middle - base, "$\\alpha_1$")
+    angle(ax, middle, 1.2, up, side - middle, "$\\psi$")
+    angle(ax, middle, 0.38, side - middle, top - middle, "$\\alpha_2$")
+    for at, name, shift in (
+        (base, "$O_1$", (0.06, -0.16)),
+        (middle, "$O_2$", (-0.25, -0.02)),
+        (top, "hinge", (0.08, 0.0)),
+    ):
+        ax.text(*np.add(at, shift), name, color=style.RED)
+    corner = far_end(upper, top, 0.7)
+    centre = 0.5 * (top + corner)
+    load = centre + (top - centre) * 0.5
+    ax.annotate(
+        "", load, np.add(load, (0.0, 0.5)), arrowprops={"arrowstyle": "-|>", "color": style.BLUE, "linewidth": 1.6}
+    )
+    ax.text(*np.add(load, (0.05, 0.4)), "$N$", color=style.BLUE)
+    span(ax, centre, load, "$e$", -0.1)
+    span(ax, far_end(lower, base, 0.7), base, "$2b$", -0.16)
+    outer = 1.25
+    for low, high, words in ((0.0, 1.65, "$2h_1 = rH$"), (1.65, 3.0, "$2h_2 = (1 - r)H$")):
+        ax.annotate("", (outer, low), (outer, high), arrowprops={"arrowstyle": "<->", "linewidth": 0.8})
+        ax.text(outer + 0.06, 0.5 * (low + high), words, va="center")
+    ax.set_title("(b) equations (3) and (4)", loc="left")
+    ax.set(xlim=(-0.8, 2.5), ylim=(-0.5, 3.9))
+
+
+def far_end(corners, start, length):
+    """The corner of a block at the other end of the side of a length that begins at a corner."""
+    away = np.abs(np.linalg.norm(corners - start, axis=1) - length)
+    return corners[np.argmin(away)]
+
+
+def radius(ax, start, end, name):
+    """Draw a radius from a hinge to a centroid."""
+    ax.annotate("", end, start, arrowprops={"arrowstyle": "-|>", "color": style.BLACK, "linewidth": 1.2, "shrinkA": 0})
+    side = np.sign(end[0] - start[0])
+    ax.text(*(start + 0.45 * (end - start) + np.array([0.06 * side, 0.0])), name, ha="left" if side > 0.0 else "right")
+
+
+def vertical(ax, start, length):
+    """Draw a vertical from which angles count."""
+    ax.plot([start[0]] * 2, [start[1], start[1] + length], color=style.GREY, linewidth=0.8, linestyle="--")
+
+
+def angle(ax, at, size, first, second, name):
+    """Draw an angle between two directions, named outside of its arc."""
+    ends = np.unwrap([np.arctan2(first[1], first[0]), np.arctan2(second[1], second[0])])
+    turn = np.linspace(*ends, 40)
+    arc = at[:, None] + size * np.array([np.cos(turn), np.sin(turn)])
+    ax.plot(*arc, color=style.BLUE, linewidth=1.1)
+    middle = 0.5 * ends.sum()
+    ax.text(
+        *(at + (size + 0.09) * np.array([np.cos(middle), np.sin(middle)])),
+        name,
+        color=style.BLUE,
+        ha="center",
+        va="center",
+    )
+
+
+def span(ax, start, end, words, away):
+    """Draw a dimension beside a side."""
+    along = (end - start) / np.linalg.norm(end - start)
+    shift = away * np.array([-along[1], along[0]])
+    ax.annotate(
+        "", end + shift, start + shift, arrowprops={"arrowstyle": "<->", "linewidth": 0.8, "shrinkA": 0, "shrinkB": 0}
+    )
+    ax.text(
+        *(0.5 * (start + end) + 2.1 * shift),
+        words,
+        ha="center" if away > 0.0 or words == "$e$" else "left",
+        va="center",
+    )
 
 
 def supports():
@@ -281,7 +413,7 @@ def processing():
     axes[0].set_xlim(-10.0, clean.duration + 10.0)
     axes[2].set_xlabel("time [s]")
     axes[0].set_title(f"{clean.name} (synthetic) with noise added", loc="left")
-    style.legend(axes[1], loc="upper left")
+    style.legend(axes[2], Options({}))
     figure.savefig(figures / "processing.png", dpi=100)
 
 
@@ -321,7 +453,7 @@ def overturning():
         spectrum = dd.overturning_spectrum(
             wall, pulse, frequencies=ratio * p / (2.0 * np.pi), amplitudes=height * np.tan(alpha)
         )
-        spectrum.plot(ax)
+        spectrum.plot(ax, legend=False)
         ax.set_title(pulse.__name__, loc="left", family="monospace")
     axes[1].set_ylabel("")
     # Zhang and Makris (2001), figures 7 and 8, linear block: overturns from, safe from, without impact from
@@ -336,8 +468,6 @@ def overturning():
         markeredgecolor=style.BLACK,
         label="published, linear block",
     )
-    for ax in axes:
-        ax.get_legend().remove()
     figure.legend(*axes[0].get_legend_handles_labels(), loc="outside lower center", ncols=3, frameon=False)
     figure.savefig(figures / "overturning_spectrum.png", dpi=100)
 
@@ -419,7 +549,7 @@ def spectra():
     axes[2].set_ylabel("standard deviation of ln(Sa/PGA)")
     axes[2].set_ylim(0.0, None)
     for ax in axes:
-        style.legend(ax, loc="lower left" if ax is not axes[2] else "upper left")
+        style.legend(ax, Options({}))
     figure.savefig(figures / "synthetic_spectra.png", dpi=100)
 
 

@@ -51,4 +51,4 @@ for name, ties in cases.items():
 
 docs = Path(__file__).parent
 found = runpy.run_path(str(docs / "examples/which_tie.py"))["found"]
-found.plot()[0].figure.savefig(docs / "figures/which_tie.png", dpi=100)
+found.plot().figure.savefig(docs / "figures/which_tie.png", dpi=100)

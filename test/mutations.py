@@ -217,8 +217,8 @@ EDITS = [
     # Figures
     Edit(
         "bars of the fractions ignore the saturation",
-        "(fragility.saturation * part for part in (fraction, low, high))",
-        "(part for part in (fraction, low, high))",
+        "(fragility.saturation * part for part in (z / n, low, high))",
+        "(part for part in (z / n, low, high))",
         "test_plots.py::test_bars_end_at_the_saturation",
     ),
     Edit(

@@ -24,6 +24,6 @@ motion = dd.simulate(wall, record, scale=2.0)
 print(motion)
 
 # %% Plots of the time history, and of the wall at its peak
-axes = motion.plot()
-axes[0].figure.savefig(out / "first_wall_history.png")
+ax = motion.plot()
+ax.figure.savefig(out / "first_wall_history.png")
 motion.plot_peak().figure.savefig(out / "first_wall_peak.png")

@@ -27,4 +27,4 @@ sources = {
 found = dd.uncertain_wall(strip, records, np.linspace(0.2, 3.0, 15), sources=sources, n_variants=400)
 print(found)
 found.to_csv(out / "how_sure.csv")
-found.plot()[0].figure.savefig(out / "how_sure.png", dpi=110)
+found.plot().figure.savefig(out / "how_sure.png", dpi=110)

@@ -24,4 +24,4 @@ print(stripes.fit())
 ims = ["pga", "pgv", "pgd", "arias", "cav", "hi", "sa(0.2)", "sa(0.5)", "sa(1)", "saavg(0.2:2)"]
 comparison = dd.compare_intensities(wall, records, ims)
 print(comparison)
-comparison.plot()[0].figure.savefig(out / "intensity_measures.png")
+comparison.plot().figure.savefig(out / "intensity_measures.png")

@@ -36,5 +36,5 @@ rocking = first.rotd(second, lambda record: dd.simulate(pinnacle, record, 1.5, h
 print(f"EDP: RotD50 {rocking.rotd50:.3f}, RotD100 {rocking.rotd100:.3f} at {rocking.angle:.0f} degrees")
 
 # %%
-axes = dd.simulate(wall, clean, scale=2.0).plot()
-axes[0].figure.savefig(out / "process_records.png")
+ax = dd.simulate(wall, clean, scale=2.0).plot()
+ax.figure.savefig(out / "process_records.png")

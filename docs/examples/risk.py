@@ -37,7 +37,7 @@ for low, high in ((0.02, 0.4), (0.4, 0.8), (0.8, 1.6)):
     share = risk.deaggregate([low, high])[0] / risk.annual_frequency
     print(f"{100 * share:.0f} % of it comes from {low} to {high} g")
 print(f"{100 * risk.above[0] / risk.annual_frequency:.0f} % of it, at least, from above")
-risk.plot()[0].figure.savefig(out / "risk.png")
+risk.plot().figure.savefig(out / "risk.png")
 
 # %% The curve for OpenQuake, with rotations of 0.4 of the capacity as a less severe damage state
 reached = dd.fit_fragility(stripes.levels, (stripes.edp >= 0.4).sum(axis=1), stripes.edp.shape[1], im="pga")

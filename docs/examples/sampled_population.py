@@ -53,7 +53,7 @@ town.to_csv(out / "town.csv")
 assert dd.Population.from_csv(out / "town.csv").walls == town.walls
 
 # %%
-town.plot()[0].figure.savefig(out / "sampled_population.png")
+town.plot().figure.savefig(out / "sampled_population.png")
 
 # %% Their fragility
 records = dd.read_catalogue(data / "records" / "synthetic44.csv")

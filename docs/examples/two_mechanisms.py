@@ -4,7 +4,6 @@
 from pathlib import Path
 
 import numpy as np
-from dondolo.figures import style
 
 import dondolo as dd
 
@@ -30,6 +29,6 @@ print(f"median acceleration of the tied wall: {curves[1].theta / curves[0].theta
 print(curves[0].compare(curves[1]))
 
 # %%
-ax = curves[0].plot(label="loose: overturns as a whole", color=style.RED, linestyle="--", marker="s")
+ax = curves[0].plot(label="loose: overturns as a whole")
 curves[1].plot(ax, label="tied: folds in two blocks")
 ax.figure.savefig(out / "two_mechanisms.png")

@@ -29,4 +29,4 @@ levels = [0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0, 1.2, 1.5, 2.0]
 site = dd.Site(ag=0.2, f0=2.5, tc_star=0.35, soil="B")
 found = dd.compare_designs(designs, records, levels, site=site)
 print(found.to_frame().to_string())
-found.plot()[0].figure.savefig(out / "which_tie.png")
+found.plot().figure.savefig(out / "which_tie.png")

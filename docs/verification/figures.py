@@ -7,15 +7,15 @@ matplotlib.use("agg")
 import matplotlib.pyplot as plt
 import numpy as np
 from cases import ROOT
-from dondolo.figures.style import BLACK, BLUE, GREY, RC, RED
+from dondolo.figures.style import BLACK, BLUE, GREY, MECHANISMS, RED
+from dondolo.figures.themes import theme
 from study import DEFAULT, TOLERANCES
 
 FOLDER = ROOT / "docs" / "figures"
 LOWEST = 1e-17  # errors of zero are drawn at this value
 LOOKS = {
-    "one_sided": {"color": BLUE, "marker": "o"},
-    "two_block": {"color": RED, "marker": "s"},
-    "free_standing": {"color": BLACK, "marker": "^"},
+    mechanism: {"color": MECHANISMS[mechanism][0], "marker": marker}
+    for mechanism, marker in (("one_sided", "o"), ("two_block", "s"), ("free_standing", "^"))
 }
 QUANTILES = {
     "median": (0.5, {"color": BLUE, "marker": "o", "linestyle": "-"}),
@@ -38,7 +38,7 @@ def shown(errors):
 
 def work(study):
     """Draw error against tolerance, and against time per history."""
-    with plt.rc_context(RC):
+    with plt.rc_context(dict(theme().rc)):
         figure, axes = plt.subplots(2, 3, figsize=(9.6, 6.4), sharey=True, layout="constrained")
         for column, (wall, name) in enumerate(study.recorded()):
             milliseconds = [study.milliseconds[wall, name, rtol] for rtol in TOLERANCES]
@@ -78,7 +78,7 @@ def work(study):
 
 def boundary(study, nearest):
     """Draw errors of the histories nearest to the limit, and the error of all against their margin."""
-    with plt.rc_context(RC):
+    with plt.rc_context(dict(theme().rc)):
         figure, (left, right) = plt.subplots(1, 2, figsize=(9.6, 4.2), layout="constrained")
         for wall, name, i in nearest:
             errors = shown([study.errors(wall, name, rtol).edp[i] for rtol in TOLERANCES])
@@ -118,7 +118,7 @@ def boundary(study, nearest):
 
 def estimate(study):
     """Draw estimated against true error."""
-    with plt.rc_context(RC):
+    with plt.rc_context(dict(theme().rc)):
         figure, axes = plt.subplots(1, 3, figsize=(9.6, 3.6), sharey=True, layout="constrained")
         line = np.array([LOWEST, 1.0])
         for ax, wall in zip(axes, LOOKS, strict=True):
@@ -148,7 +148,7 @@ def estimate(study):
 def shortcuts(table):
     """Draw wrong flags and wrong EDPs of each shortcut; the table is {wall: {shortcut: errors}}."""
     names = list(next(iter(table.values())))
-    with plt.rc_context(RC):
+    with plt.rc_context(dict(theme().rc)):
         figure, (left, right) = plt.subplots(1, 2, figsize=(9.6, 3.8), sharey=True, layout="constrained")
         for offset, (wall, each) in zip((-0.22, 0.0, 0.22), table.items(), strict=True):
             places = np.arange(len(names)) + offset

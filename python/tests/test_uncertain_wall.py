@@ -248,8 +248,8 @@ def test_plot(found):
     assert all(min(bar.get_xdata()) <= middle <= max(bar.get_xdata()) for bar in bars)
     # What the shares do not sum to is said.
     (said,) = (label for label in right.get_legend_handles_labels()[1] if "shares" in label)
-    assert f"{100.0 * np.nansum(found.total):.0f} %" in said
-    assert f"another {100.0 * found.rest:.0f} %" in said
+    assert f"{100.0 * np.nansum(found.total):.0f}\u00a0%" in said
+    assert f"another {100.0 * found.rest:.0f}\u00a0%" in said
     assert "[g]" in right.get_xlabel()
     with pytest.raises(dd.errors.InputError, match="ax: must be 2 Axes"):
         found.plot([left])

@@ -373,7 +373,7 @@ def make_room(ax: Axes, height: float) -> None:
     from matplotlib.layout_engine import ConstrainedLayoutEngine, TightLayoutEngine
 
     figure: Any = ax.figure
-    given = _ROOMS.setdefault(ax, 0.0)
+    given = _ROOMS.get(ax, 0.0)
     more = max(0.0, height - given) / 72.0
     _ROOMS[ax] = max(height, given)
     if figure in _OWN:
@@ -386,7 +386,7 @@ def make_room(ax: Axes, height: float) -> None:
         figure.set_size_inches(wide, high + more)
     elif not isinstance(figure.get_layout_engine(), ConstrainedLayoutEngine | TightLayoutEngine):
         # As a colour bar takes its room from its axes
-        place = ax.get_position(original=True)
-        lift = min(more * figure.dpi / figure.bbox.height, 0.75 * place.height)
-        ax.set_position((place.x0, place.y0 + lift, place.width, place.height - lift))
+        box = ax.get_position(original=True)
+        lift = min(more * figure.dpi / figure.bbox.height, 0.75 * box.height)
+        ax.set_position((box.x0, box.y0 + lift, box.width, box.height - lift))
         ax.set_in_layout(True)

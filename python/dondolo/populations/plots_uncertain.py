@@ -124,8 +124,12 @@ def _name_of(source: str, low: float, high: float) -> str:
 def _of_shares(found: UncertainWall) -> str:
     """What the shares at the right are, and why their sum is not 100 %."""
     total = 100.0 * float(np.nansum(found.total))
-    words = f"right: shares in the variance of ln θ, each with its interactions: {total:.0f} %"
-    return f"{words}; another {100.0 * found.rest:.0f} % are noise of the counts" if np.isfinite(found.rest) else words
+    words = f"right: shares in the variance of ln θ, each with its interactions: {total:.0f}\u00a0%"
+    return (
+        f"{words}; another {100.0 * found.rest:.0f}\u00a0% are noise of the counts"
+        if np.isfinite(found.rest)
+        else words
+    )
 
 
 def draw_hinges(found: HingeSearch, ax: Axes | None, given: dict[str, Any]) -> Axes:
