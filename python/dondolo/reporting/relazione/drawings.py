@@ -9,6 +9,7 @@ import numpy as np
 
 from dondolo._fortran.checks import capacity_curve
 from dondolo.figures import style
+from dondolo.figures.options import Options
 from dondolo.records.building import Building
 from dondolo.records.codes import LimitState
 from dondolo.reporting.relazione.document import Document, _
@@ -184,7 +185,7 @@ def draw_capacity(document: Document, one: Subject) -> Any:
     ax.set_ylim(bottom=0.0)
     ax.set_xlabel("d [cm]")
     ax.set_ylabel("a [m/s²]")
-    style.legend(ax)
+    style.legend(ax, Options({}))
     return ax
 
 
@@ -210,7 +211,7 @@ def draw_spectra(document: Document) -> Any:
     ax.set_xlim(0.0, 4.0)
     ax.set_ylim(bottom=0.0)
     if len(states) > 1:
-        style.legend(ax)
+        style.legend(ax, Options({}))
     return ax
 
 
@@ -234,5 +235,5 @@ def draw_fragility(document: Document) -> Any:
     ax.set_ylim(0.0, 1.0)
     ax.set_xlabel("PGA [g]")
     ax.set_ylabel(document.text(_("probability of collapse")))
-    style.legend(ax)
+    style.legend(ax, Options({}))
     return ax
