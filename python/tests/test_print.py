@@ -177,7 +177,7 @@ def words_in(figure):
 
 
 @pytest.mark.slow
-@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 @pytest.mark.parametrize("name", NAMES)
 def test_texts_are_inside_and_apart(name, drawings):
     """Whatever lays the figure out, no text is cut off and none lies on another."""
@@ -199,7 +199,7 @@ def test_texts_are_inside_and_apart(name, drawings):
 
 
 @pytest.mark.slow
-@pytest.mark.filterwarnings("ignore::dondolo.DondoloWarning")
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 @pytest.mark.parametrize("name", NAMES)
 def test_one_vocabulary(name, drawings):
     """Legend and title of every figure can be left out, and so can the parts it has; others are refused by name."""
@@ -213,12 +213,13 @@ def test_one_vocabulary(name, drawings):
     known = ["legend", "title", *HAVE.get(name, ())]
     for part in ("band", "bars", "points", "counts"):
         if part not in known:
-            with pytest.raises(dd.InputError, match=f"^{part}: this figure has none; its parts are {', '.join(known)}"):
+            said = f"^{part}: this figure has none; its parts are {', '.join(known)}"
+            with pytest.raises(dd.errors.InputError, match=said):
                 draw(**{part: False})
         else:
             assert len(draw(legend=False, **{part: False}).figure.findobj()) < whole
         plt.close("all")
-    with pytest.raises(dd.InputError, match="legend = 'best': must be True or False"):
+    with pytest.raises(dd.errors.InputError, match="legend = 'best': must be True or False"):
         draw(legend="best")
     with pytest.raises(AttributeError, match="colur"):
         draw(colur="red")
@@ -341,7 +342,7 @@ def test_a_style_ends_with_its_block(curve):
         assert mpl.rcParams["font.size"] == 13.0
         assert curve.plot().figure.get_figwidth() == 6.0
     for wrong, message in (({"name": "poster"}, "style = 'poster'"), ({"width": 3.0}, "width = 3: must lie between")):
-        with pytest.raises(dd.InputError, match=message):
+        with pytest.raises(dd.errors.InputError, match=message):
             dd.style(**wrong)
 
 
