@@ -9,7 +9,7 @@ from dondolo.checks.ntc import CodeCheck
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import InputError
 from dondolo.exchange.results import Results
-from dondolo.walls.wall import Wall
+from dondolo.walls.wall import MasonryWall, Wall
 
 # States that stand beside each other in a table
 MOST = 6
@@ -21,7 +21,7 @@ class Subject:
 
     Attributes
     ----------
-    wall : Wall
+    wall : MasonryWall
     check : CodeCheck
     curve : Fragility or None
         Of collapse.
@@ -29,7 +29,7 @@ class Subject:
         The run that it is of.
     """
 
-    wall: Wall
+    wall: MasonryWall
     check: CodeCheck
     curve: Fragility | None
     results: Results
@@ -90,7 +90,7 @@ def subjects_of(found: Sequence[Results]) -> Subjects:
                 f"{where}: has no check: run the case with a group &check, which a calculation report is of"
             )
         if results.check is not None:
-            several.append(Subject(results.check.wall, results.check, results.fragility, results))
+            several.append(Subject(_checked(results.check.wall), results.check, results.fragility, results))
             continue
         people = results.typology
         if people is not None and people.facade and people.knows_unions and results.designs is None:
@@ -102,7 +102,7 @@ def subjects_of(found: Sequence[Results]) -> Subjects:
         for wall, check, curve in zip(people.walls, results.checks, people.curves, strict=True):
             if check is None:
                 raise InputError(f"{where}: wall '{wall.name}' is not checked: the table of checks has the reason")
-            several.append(Subject(wall, check, curve, results))
+            several.append(Subject(_checked(wall), check, curve, results))
     if len(several) > MOST:
         raise InputError(f"results: have {len(several)} walls, must be at most {MOST}: write several reports")
     first = several[0].check.site
@@ -112,3 +112,9 @@ def subjects_of(found: Sequence[Results]) -> Subjects:
                 f"{one.results.run.path or 'results'}: the site of its check is another than that of the first"
             )
     return Subjects(tuple(several), facade, union)
+
+
+def _checked(wall: Wall) -> MasonryWall:
+    """A wall that has a check: it has sections and a density, for walls of tables have none."""
+    assert isinstance(wall, MasonryWall)
+    return wall
