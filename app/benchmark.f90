@@ -15,7 +15,7 @@ module dondolo_benchmark
    use dondolo_population_row_result, only : row_result_type
    use dondolo_population_run_rows, only : run_rows
    use dondolo_population_wall_row, only : wall_row_type
-   use dondolo_wall, only : mechanism_names
+   use dondolo_wall, only : masonry_names
    implicit none
    private
 
@@ -27,7 +27,7 @@ module dondolo_benchmark
    !> What the work gives, once
    type :: outcome_type
       !> Collapses and histories of each mechanism
-      integer :: collapses(size(mechanism_names)) = 0, histories(size(mechanism_names)) = 0
+      integer :: collapses(size(masonry_names)) = 0, histories(size(masonry_names)) = 0
       !> Sum of all EDPs, each rounded to a millionth [1e-6]
       integer(int64) :: edps = 0
    end type outcome_type
@@ -124,7 +124,7 @@ contains
          associate (wall => walls(i)%wall)
             call multiple_stripe(stripes, wall, study, error)
             if (allocated(error)) return
-            kind = findloc(mechanism_names == wall%mechanism_name(), .true., dim=1)
+            kind = findloc(masonry_names == wall%mechanism_name(), .true., dim=1)
          end associate
          fingerprint%collapses(kind) = fingerprint%collapses(kind) + sum(stripes%collapses())
          fingerprint%histories(kind) = fingerprint%histories(kind) + size(stripes%response)
@@ -244,10 +244,10 @@ contains
       integer :: i
 
       write (output_unit, '(a16, 3a20)') 'mechanism', 'histories/s', '1e9 operations/s', '% of the loop'
-      do i = 1, size(mechanism_names)
+      do i = 1, size(masonry_names)
          call measure(case, walls((i - 1)*walls_of_each + 1:i*walls_of_each), copies, threads, found, error)
          if (allocated(error)) return
-         write (line, '(a16, i20, 2f20.2)') trim(mechanism_names(i)), nint(found%histories_per_second()), &
+         write (line, '(a16, i20, 2f20.2)') trim(masonry_names(i)), nint(found%histories_per_second()), &
             & 1.0e-9_wp*found%operations_per_second(), 100.0_wp*found%operations_per_second()/limit
          write (output_unit, '(a)') trim(line)
       end do
@@ -262,8 +262,8 @@ contains
       integer :: i
 
       write (output_unit, '(a)') 'fingerprint of the results:'
-      do i = 1, size(mechanism_names)
-         write (output_unit, '(a)') '   '//trim(mechanism_names(i))//': '//to_text(fingerprint%collapses(i))// &
+      do i = 1, size(masonry_names)
+         write (output_unit, '(a)') '   '//trim(masonry_names(i))//': '//to_text(fingerprint%collapses(i))// &
             & ' collapses in '//to_text(fingerprint%histories(i))//' histories'
       end do
       write (output_unit, '(a)') '   sum of the EDPs: '//to_text(fingerprint%edps)//' millionths', &

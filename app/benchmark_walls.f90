@@ -10,7 +10,7 @@ module dondolo_benchmark_walls
    use dondolo_record, only : record_type
    use dondolo_record_suite, only : new_suite
    use dondolo_record_synthetic_suite, only : suite_record, synthetic44
-   use dondolo_wall, only : mechanism_names, new_wall, wall_input_type, wall_type
+   use dondolo_wall, only : masonry_names, new_wall, wall_input_type, wall_type
    implicit none
    private
 
@@ -40,17 +40,17 @@ contains
       type(record_type), allocatable :: records(:)
       integer :: i, j, number
 
-      allocate (records(2*size(synthetic44)), rows(size(mechanism_names)*walls_of_each))
+      allocate (records(2*size(synthetic44)), rows(size(masonry_names)*walls_of_each))
       do i = 1, size(records)
          call suite_record((i + 1)/2, 2 - modulo(i, 2), records(i), error)
          if (allocated(error)) return
       end do
       number = 0
-      do i = 1, size(mechanism_names)
+      do i = 1, size(masonry_names)
          do j = 1, walls_of_each
             number = number + 1
             input = wall_input_type()
-            call input%set('mechanism', trim(mechanism_names(i)))
+            call input%set('mechanism', trim(masonry_names(i)))
             call input%set('height', heights(j))
             call input%set('thickness', thicknesses(j))
             call new_wall(rows(number)%wall, input, error)

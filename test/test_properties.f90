@@ -61,7 +61,7 @@ contains
             call check(find_property(table, what) == i, what//': once')
             call check(len_trim(property%meaning) > 5, what//': has a meaning')
             call check(any(property%unit == [character(len=8) :: '', 'm', 's', 'g', 'kg/m3', 'N/m', 'N/m2', 'm/s2', 'N/m3', &
-               & 'kg/m', 'kg m2/m', 'Pa', 'm2/m', 'rad', 'kg m/m', 'N m/m', '1/s2']), what//': its unit')
+               & 'kg/m', 'kg m2/m', 'Pa', 'm2/m', 'rad', 'kg m/m', 'N m/m', '1/s2', 'year']), what//': its unit')
             call check(.not. (property%required .and. property%optional), what//': required or optional')
             if (property%required .or. property%optional) then
                call check(len_trim(property%example) > 0 .or. name == 'wall', what//': an example for the template')
@@ -247,6 +247,10 @@ contains
          write (unit, '(a)') 'levels = 0.1, 0.2'
       else if (name == 'uncertainty' .and. property%kind == is_integer) then
          write (unit, '(a)') 'hinge = ''uniform(0.5, 0.6)'''
+      else if (property%name == 'reference_life') then
+         write (unit, '(a)') 'exceedance = 0.6, 0.3, 0.2'
+      else if (property%name == 'exceedance') then
+         write (unit, '(a)') 'reference_life = 50'
       else if (property%name == 'vertical_factor') then
          write (unit, '(a)') 'vertical = ''recorded'''
       end if
@@ -293,6 +297,7 @@ contains
          ! One for all limit states
          if (any(property%name == [character(len=8) :: 'ag', 'tc_star'])) text = '0.25'
          if (property%name == 'f0') text = '2.5'
+         if (property%name == 'exceedance') text = '0.6, 0.3, 0.2'
       case (is_integer, is_number_or_name)
          text = '3'
          ! As many as the indices of one property need

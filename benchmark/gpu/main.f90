@@ -10,7 +10,7 @@ program dondolo_gpu
    use dondolo_base_text, only : to_text
    use dondolo_gpu_walls, only : gpu_study_type
    use dondolo_motion_response, only : response_type
-   use dondolo_wall, only : mechanism_names
+   use dondolo_wall, only : masonry_names
    implicit none
 
    !> Rounds, in which both have their turn; the median counts
@@ -40,8 +40,8 @@ program dondolo_gpu
    write (output_unit, '(a)') '', &
       & 'mechanism       walls  histories  processor [s]  graphics [s]  of it launch [s]         ratio (least to largest)'// &
       & '  other flags  EDPs beyond 1e-6  largest'
-   do i = 1, size(mechanism_names)
-      call compare(trim(mechanism_names(i)), error)
+   do i = 1, size(masonry_names)
+      call compare(trim(masonry_names(i)), error)
       if (.not. allocated(error)) cycle
       write (error_unit, '(a)') 'dondolo-gpu: '//error%message
       stop 1, quiet=.true.

@@ -196,7 +196,7 @@ def test_table(tmp_path):
         "overburden,overburden_inertia,eccentricity,weight,group,p_occ"
     )
     assert lines[2] == "a,one_sided,6.4,0.38,1800,,default,,1,,,,2,low,0.4"
-    assert lines[4] == '"b, ""the"" #2",free_standing,1.8,0.4,2000,,constant,0.7,1,,,,5,"high, free",1'
+    assert lines[4] == '"b, ""the"" #2",free_standing,1.8,0.4,2000,,default,0.7,1,,,,5,"high, free",1'
     back = dd.Population.from_csv(tmp_path / "walls.csv")
     assert same(back, PEOPLE)
     assert back.origin == ("read from walls.csv",)

@@ -53,6 +53,7 @@ def things(wall, stripes, few, records, root, tmp_path_factory):
     hazard = dd.HazardCurve([0.05, 0.5, 3.0], [0.05, 0.001, 1e-7])
     risk = curve.risk(hazard)
     two_block = dd.TwoBlockWall(3.0, 0.25)
+    arch = dd.TabulatedWall(2.0, table=root / "data/walls/arch.csv", sides=1, restitution_value=0.9)
     pulses = {"frequencies": [1.0, 2.0], "amplitudes": [0.2, 0.6]}
     target = dd.TargetSpectrum.ec8(0.25, soil="C", periods=[0.1, 0.2, 0.5, 1.0, 2.0])
     prefix = tmp_path_factory.mktemp("results") / "people"
@@ -63,7 +64,7 @@ def things(wall, stripes, few, records, root, tmp_path_factory):
     case = dd.read_case(path)
     house = dd.Building(0.3, storeys=3, level=9.0, building_height=9.0)
     found = [
-        wall, dd.FreeStandingWall(1.5, 0.25), two_block, dd.Population([wall, other]), house,
+        wall, dd.FreeStandingWall(1.5, 0.25), two_block, arch, dd.Population([wall, other]), house,
         records[0], dd.RecordSet(few), dd.RecordSet(records).select(target, 5), records[0].spectrum([0.1, 1.0]), site,
         target, stripes, curve, curve.bootstrap(n_resamples=20), curve.goodness_of_fit(), ida, ida.fit(),
         dd.cloud(wall, records),

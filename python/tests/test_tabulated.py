@@ -89,7 +89,9 @@ def test_vertical_motion(motions):
     assert 0.0 < expected.edp < 1.0
     assert dd.simulate(as_table(wall), shaken, scale=1.4).edp == pytest.approx(expected.edp, abs=1e-9)
     for run in (dd.simulate, lambda one, two: dd.multiple_stripe(one, two, [0.5], progress=False)):
-        with pytest.raises(dd.errors.InputError, match=r"^vertical_lever: must be given for records with vertical motion"):
+        with pytest.raises(
+            dd.errors.InputError, match=r"^vertical_lever: must be given for records with vertical motion"
+        ):
             run(as_table(wall, vertical_lever=None), shaken)
 
 
@@ -315,4 +317,4 @@ def test_shown():
     assert wall.plot().get_ylabel() == "restoring moment [kN m per metre]"
     assert wall == linear(name="own")
     assert hash(wall) == hash(linear(name="own"))
-    assert dd.Population([wall]).plot()[0].get_ylabel() == "thickness [m]"
+    assert dd.Population([wall]).plot().get_ylabel() == "thickness [m]"

@@ -202,10 +202,12 @@ def _further_properties(walls: Sequence[Wall]) -> list[Table]:
         name: [_set(effective_property(wall, name), factor) for wall in walls] for name, (_, factor) in units.items()
     }
     having = [i for i in range(len(walls)) if any(cells[i] for cells in known.values())]
+    # Plates of ties and the like are 0 where they are not given: they have a column only where a wall has them.
+    absent = {name for name in units if all(_is_absent(effective_property(wall, name)) for wall in walls)}
     columns: list[tuple[Piece, Sequence[Piece]]] = [
         (name.replace("_", " ") + (f" [{unit}]" if unit else ""), cells)
         for name, (unit, _) in units.items()
-        if any(cells := [known[name][i] for i in having])
+        if name not in absent and any(cells := [known[name][i] for i in having])
     ]
     tables = []
     for first in range(0, len(columns), _ACROSS):
@@ -213,6 +215,12 @@ def _further_properties(walls: Sequence[Wall]) -> list[Table]:
         part |= dict(columns[first : first + _ACROSS])
         tables.append(Table.of(part, map(str, part)))
     return tables
+
+
+def _is_absent(values: Any) -> bool:
+    """Is a property not given, or 0, or every number of a list?"""
+    several = values if isinstance(values, tuple) else (values,)
+    return all(value is None or value == 0.0 for value in several)
 
 
 def _set(value: Any, factor: float = 1.0) -> Piece:

@@ -11,8 +11,8 @@ module dondolo_wall
    use dondolo_wall_mechanism, only : mechanism_type
    use dondolo_wall_model, only : wall_model_type
    use dondolo_wall_one_block_model, only : one_block_model_type
-   use dondolo_wall_properties, only : gravity_property, is_beyond_bare, is_of_building, mechanism_names, standard_gravity, &
-      & wall_input_type
+   use dondolo_wall_properties, only : gravity_property, is_beyond_bare, is_of_building, masonry_names, mechanism_names, &
+      & standard_gravity, wall_input_type
    use dondolo_wall_restitution, only : impact_models_type, restitution_type
    use dondolo_wall_tabulated_model, only : tabulated_model_type, tabulated_name
    use dondolo_wall_two_block_model, only : two_block_model_type, two_block_name
@@ -20,7 +20,7 @@ module dondolo_wall
    private
 
    public :: wall_input_type, wall_type, new_wall
-   public :: mechanism_names, standard_gravity
+   public :: masonry_names, mechanism_names, standard_gravity
 
    !> A wall: what was said of it with every default filled in, and its mechanism
    type :: wall_type

@@ -15,17 +15,19 @@ module dondolo_wall_properties
    private
 
    public :: wall_input_type, wall_properties, gravity_property
-   public :: is_beyond_bare, is_extra, is_of_building, mechanism_names, own_properties, standard_gravity, wall_numbers
+   public :: is_beyond_bare, is_extra, is_of_building, masonry_names, mechanism_names, own_properties, standard_gravity
+   public :: wall_numbers
 
-   !> Names of the mechanisms
-   character(len=choices_length), parameter :: mechanism_names(*) = [one_block_names, two_block_name, tabulated_name]
+   !> Names of the mechanisms of blocks of masonry, and of all
+   character(len=choices_length), parameter :: masonry_names(*) = [one_block_names, two_block_name]
+   character(len=choices_length), parameter :: mechanism_names(*) = [masonry_names, tabulated_name]
 
    !> Gravity unless the user sets it [m/s2]
    real(wp), parameter :: standard_gravity = 9.81_wp
 
    !> Owners of what blocks of masonry have
    character(len=choices_length), parameter :: of_blocks(most_choices) = &
-      & reshape([one_block_names, two_block_name], [most_choices], pad=blank)
+      & reshape(masonry_names, [most_choices], pad=blank)
 
    !> What every wall has
    type(property_type), parameter :: general_rows(*) = [ &
