@@ -830,10 +830,10 @@ people "a negative thickness" "${head}\n# a comment\na,one_sided,3,-0.3,1\n" \
    'walls.csv: line 4: thickness = -0.3: must be positive'
 people "unknown mechanism" "${head}a,arch,3,0.3,1\n" "walls.csv: line 2: mechanism = 'arch': must be one of"
 people "a row too short" "${head}a,one_sided,3\n" 'walls.csv: line 2: 3 cells: must be 5'
-printf '%b' "${head}a,one_sided,-3,0.3,1\nb,one_sided,3,0.3,1\nb,one_sided,3,0.3,1\nc,arch,3,-0.3,1\n" >walls.csv
+printf '%b' "${head}a,one_sided,-3,0.3,1\nb,one_sided,3,0.3,1\nb,one_sided,3,0.3,1\nc,arch,-3,0.3,1\n" >walls.csv
 run people.nml
 check "population: everything wrong at once" equal "$(cut -c 1-40 stderr | tr '\n' ';')" \
-   "dondolo: walls.csv: line 2: height = -3:;dondolo: walls.csv: line 4: name = 'b': ;dondolo: walls.csv: line 5: mechanism = ;dondolo: walls.csv: line 5: thickness = ;"
+   "dondolo: walls.csv: line 2: height = -3:;dondolo: walls.csv: line 4: name = 'b': ;dondolo: walls.csv: line 5: mechanism = ;dondolo: walls.csv: line 5: height = -3:;"
 check "population: everything wrong at once: exit code" equal "$rc" 2
 people "a name that would move the cursor" "${head}a\\0033[2Jb,one_sided,3,0.3,1\n" \
    "walls.csv: line 2: name = 'a\x1b[2Jb': must be one line without control characters"

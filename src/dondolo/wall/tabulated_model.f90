@@ -38,16 +38,16 @@ module dondolo_wall_tabulated_model
       &   meaning='rotations q of the table, from 0 to where the restoring moment has vanished', &
       &   more='the last alone where the table is one of powers'), &
       & property_type('inertia', is_list, unit='kg m2/m', owners=tabulated, optional=.true., positive=.true., &
-      &   largest=1.0e12_wp, column='inertia_kg_m2_m', example='4078.0, 4078.0, 4078.0', &
+      &   largest=1.0e12_wp, example='4078.0, 4078.0, 4078.0', &
       &   meaning='inertia J at each rotation, per metre of wall'), &
       & property_type('lever', is_list, unit='kg m/m', owners=tabulated, optional=.true., smallest=-1.0e12_wp, &
-      &   largest=1.0e12_wp, column='lever_kg_m_m', example='2025.0, 2030.0, 2034.0', &
+      &   largest=1.0e12_wp, example='2025.0, 2030.0, 2034.0', &
       &   meaning='sum of the masses times their horizontal levers L at each rotation, per metre of wall'), &
       & property_type('moment', is_list, unit='N m/m', owners=tabulated, optional=.true., smallest=-1.0e12_wp, &
-      &   largest=1.0e12_wp, column='moment_n_m_m', example='1655.0, 1258.0, 860.0', &
+      &   largest=1.0e12_wp, example='1655.0, 1258.0, 860.0', &
       &   meaning='restoring moment G - Q at each rotation, per metre of wall'), &
       & property_type('vertical_lever', is_list, unit='kg m/m', owners=tabulated, optional=.true., smallest=-1.0e12_wp, &
-      &   largest=1.0e12_wp, column='vertical_lever_kg_m_m', example='168.8, 108.0, 47.0', &
+      &   largest=1.0e12_wp, example='168.8, 108.0, 47.0', &
       &   meaning='sum of the masses times their vertical levers S at each rotation, for vertical ground motion'), &
       & property_type('sides', is_integer, owners=tabulated, optional=.true., smallest=1.0_wp, largest=2.0_wp, example='1', &
       &   meaning='1: the wall can rock to one side only; 2: to both, and changes side at every impact'), &

@@ -236,8 +236,8 @@ contains
       column = property%name
       if (present(item)) column = item_name(trim(property%name), item)
       if (len_trim(property%unit) > 0) column = trim(column)//'_'//lower(property%unit)
-      do i = 1, len(column)
-         if (column(i:i) == '/') column(i:i) = '_'
+      do i = 1, len_trim(column)
+         if (any(column(i:i) == ['/', ' '])) column(i:i) = '_'
       end do
    end function column_name
 
