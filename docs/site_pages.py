@@ -21,6 +21,7 @@ ROOMS = {
     "walls": "Walls and populations",
     "records": "Records",
     "analysis": "Analyses",
+    "figures": "Figures for print",
     "curves": "Fragility curves and risk",
     "hazard": "Hazard",
     "checks": "Building codes",
