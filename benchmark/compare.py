@@ -1,7 +1,7 @@
 """Run the benchmark: python compare.py EXECUTABLE RECORDS [--quick].
 
-Tables are written to out/benchmark. Without --quick the ratios are appended to runs.csv, and docs/performance.md and
-the speeds in README.md are written from the tables.
+Tables are written to out/benchmark. Without --quick the ratios are appended to runs.csv, and
+docs/studies/performance.md and the speeds in two pages are written from the tables.
 """
 
 import os

@@ -1,4 +1,4 @@
-"""Figures of docs/performance.md."""
+"""Figures of docs/studies/performance.md."""
 
 from dataclasses import asdict
 

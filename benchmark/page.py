@@ -1,4 +1,4 @@
-"""Write docs/performance.md, its figures and the speeds in README.md from out/benchmark: python page.py."""
+"""Write docs/studies/performance.md, its figures and the speeds in two pages from out/benchmark: python page.py."""
 
 import re
 
@@ -33,9 +33,10 @@ def write(tables, root=ROOT, log=runs.FILE):
         *scaling(rows),
         *earlier_runs(runs.read(log) | own, next(iter(own))),
     ]
-    replace_between(root / "docs" / "performance.md", sections)
+    replace_between(root / "docs" / "studies" / "performance.md", sections)
     # Within a paragraph, where a mark must not begin a line
-    replace_between(root / "README.md", speeds(results, turns), around="")
+    for place in ("README.md", "docs/performance.md"):
+        replace_between(root / place, speeds(results, turns), around="")
 
 
 def replace_between(path, lines, around="\n"):

@@ -87,7 +87,7 @@ def programs(results, turns, machine):
             "A front in the figure joins the settings that no other of dondolo, or of the other programs, beats in "
             "both time and error."
         ),
-        "![error against time per history](figures/performance_work.png)",
+        "![error against time per history](../figures/performance_work.png)",
         "",
     ]
     head = ["program", "setting", "histories", "ms per history", "wrong flags", "> 1e-6", "worst", "median"]
@@ -191,7 +191,7 @@ def limits(results, turns):
         ["mechanism", "% of the operations per second of the loop"],
         [[f"`{mechanism}`", share.times(100.0).stated()] for mechanism, share in shares(turns).items()],
     )
-    return [*lines, "![share of the arithmetic limit by mechanism](figures/performance_arithmetic.png)", ""]
+    return [*lines, "![share of the arithmetic limit by mechanism](../figures/performance_arithmetic.png)", ""]
 
 
 def speeds(results, turns):

@@ -37,7 +37,7 @@ def earlier_runs(runs, run):
 
 
 def comparison(runs, run, others):
-    """Each ratio of a run, and whether it agrees with those of other runs."""
+    """How many ratios of a run agree with those of other runs, and those that do not."""
     stated = together(runs[other] for other in others)
     found = [each for each in runs[run] if each.name in stated]
     agree = sum(each.agrees(stated[each.name]) for each in found)
@@ -56,16 +56,13 @@ def comparison(runs, run, others):
         "closely."
     )
     body = [
-        [
-            each.name,
-            each.spread.stated(),
-            stated[each.name].stated(),
-            f"{difference(each, stated[each.name]):+.1f} %",
-            "closely" if each.agrees_closely(stated[each.name]) else "yes" if each.agrees(stated[each.name]) else "no",
-        ]
+        [each.name, each.spread.stated(), stated[each.name].stated(), f"{difference(each, stated[each.name]):+.1f} %"]
         for each in found
+        if not each.agrees(stated[each.name])
     ]
-    return lines + table(["ratio", run.date, "earlier runs", "difference", "agree"], body)
+    if not body:
+        return lines
+    return lines + paragraph("Those that do not:") + table(["ratio", run.date, "earlier runs", "difference"], body)
 
 
 def apart(found):

@@ -17,7 +17,7 @@ def scaling(rows):
             "All are given as median, lower to upper quartile, and in brackets the least and the largest value. Lines "
             "are the fitted growth, stated below."
         ),
-        "![threads, sizes, memory](figures/performance_scaling.png)",
+        "![threads, sizes, memory](../figures/performance_scaling.png)",
         "",
     ]
     head = ["scaling", "threads", "histories", "s", "histories per second", "efficiency"]

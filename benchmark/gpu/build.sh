@@ -1,5 +1,5 @@
 #!/bin/bash
-# Builds dondolo-gpu, histories on a graphics processor (docs/gpu.md): bash benchmark/gpu/build.sh LIBRARY TARGET [FLAG...]
+# Builds dondolo-gpu, histories on a graphics processor (docs/studies/gpu.md): bash benchmark/gpu/build.sh LIBRARY TARGET [FLAG...]
 # LIBRARY is the build folder of the library, TARGET the folder that gets the program, and FLAGs tell gfortran what to offload
 # to; -foffload=disable leaves the histories on the processor.
 set -euo pipefail

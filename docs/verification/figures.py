@@ -1,4 +1,4 @@
-"""Figures of docs/verification.md."""
+"""Figures of docs/studies/verification.md."""
 
 import matplotlib
 

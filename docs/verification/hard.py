@@ -2,7 +2,7 @@
 
 Random walls, each under every record with a random factor, by both engines at their defaults with estimated errors.
 Those that an engine doubts, and those on which the engines disagree, are candidates; MOST of them, chosen at random,
-are run in 33 digits (docs/certification.md).
+are run in 33 digits (docs/studies/certification.md).
 """
 
 import csv

@@ -1,7 +1,7 @@
 """Write the tables walls_*.csv of test/reference: python more_walls.py RECORDS.
 
 The walls of test/reference/walls.csv, each under every second record with a random factor, in 33 digits: at relative
-tolerances of 1e-12, 1e-14 ... until two neighbours differ by 1e-7 at most (docs/certification.md).
+tolerances of 1e-12, 1e-14 ... until two neighbours differ by 1e-7 at most (docs/studies/certification.md).
 """
 
 import csv

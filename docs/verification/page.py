@@ -1,4 +1,4 @@
-"""Write docs/verification.md and its figures: python page.py EXECUTABLE SHORTCUTS RECORDS.
+"""Write docs/studies/verification.md and its figures: python page.py EXECUTABLE SHORTCUTS RECORDS.
 
 EXECUTABLE is dondolo, SHORTCUTS dondolo-shortcuts, RECORDS the folder that contains italy44.csv. Every number of the
 page is computed in a run or read from test/reference. The script takes some minutes on one core.
@@ -72,7 +72,7 @@ def write(study, executable, records):
     ]
     lines += truth(study) + work_precision(study) + third + flags(study) + estimates(study) + shortcuts(study) + tests()
     lines += loaded(executable, records) + walls(records) + ties(records)
-    (ROOT / "docs" / "verification.md").write_text("\n".join(lines).rstrip() + "\n", encoding="utf-8")
+    (ROOT / "docs" / "studies" / "verification.md").write_text("\n".join(lines).rstrip() + "\n", encoding="utf-8")
 
 
 def main():

@@ -52,7 +52,7 @@ def truth(study):
         "## 1. Reference solution",
         "",
         *paragraph(
-            "The exact solution is the motion defined in [theory.md](theory.md#4-the-hybrid-motion) for an "
+            "The exact solution is the motion defined in [theory.md](../theory.md#4-the-hybrid-motion) for an "
             "accelerogram that is linear between its samples: rocking starts, impacts occur, chains of bounces "
             "end and the peak is reached at their exact instants instead of at samples. Whether the mechanisms and "
             "the restitution represent a real wall is a separate question."
@@ -71,7 +71,7 @@ def truth(study):
         *paragraph(
             "The recorded accelerograms are 44 horizontal components from Italy, 1976 to 2016 (22 stations of "
             "the collection of Kallioras, Graziotti and Magenes 2025, CC BY 4.0; not part of this repository); "
-            "the synthetic ones are those of [data/records](../data/records/synthetic44.csv). Reference and product "
+            "the synthetic ones are those of [data/records](../../data/records/synthetic44.csv). Reference and product "
             "share their sources; section 7 lists the independent checks of both."
         ),
     ]
@@ -89,7 +89,7 @@ def work_precision(study):
             f"histories that rock and do not collapse. Times are medians of {REPEATS} runs, exclude the reading of "
             "files, and are indicative only."
         ),
-        "![error of the EDP against tolerance and time per history](figures/verification_work.png)",
+        "![error of the EDP against tolerance and time per history](../figures/verification_work.png)",
         "",
     ]
     head = ["rtol"]

@@ -189,7 +189,7 @@ def flags(study):
             "minus that of the reference:"
         ),
         *table(["wall", "history", "EDP", "at 1e-4", "at 1e-6", "at 1e-8", "at 1e-10"], rows),
-        "![errors of the histories nearest the limit](figures/verification_boundary.png)",
+        "![errors of the histories nearest the limit](../figures/verification_boundary.png)",
         "",
         *paragraph("The EDP of a history that collapses shows no margin, so the figure contains only survivals."),
     ]
@@ -249,13 +249,13 @@ def estimates(study):
             rows,
         ),
         *paragraph("Median and range are over the histories with errors above 1e-12."),
-        "![estimated against true error](figures/verification_estimate.png)",
+        "![estimated against true error](../figures/verification_estimate.png)",
         "",
         *dense_grid(study),
         *paragraph(
             "The estimate indicates the size of the error and is not a bound, so a flag can be wrong without being "
-            "uncertain. [certification.md](certification.md) tries it on hard histories, and runs those in doubt in 33 "
-            "digits."
+            "uncertain. [Hard histories](certification.md) have a study of their own, in which those in doubt are run "
+            "in 33 digits."
         ),
     ]
 

@@ -1,6 +1,6 @@
 """Walls with loads, section 8: errors of both engines against the reference, their agreement, and time per history.
 
-python sections_loaded.py EXECUTABLE RECORDS writes this section of docs/verification.md alone.
+python sections_loaded.py EXECUTABLE RECORDS writes this section of docs/studies/verification.md alone.
 """
 
 import sys
@@ -18,7 +18,7 @@ from study import DEFAULT, TIGHT, TIGHTEST
 import dondolo as dd
 
 TITLE = "## 8. Walls with loads"
-PAGE = ROOT / "docs" / "verification.md"
+PAGE = ROOT / "docs" / "studies" / "verification.md"
 REPEATS = 7
 MOST = 1.5  # time per history / that of the bare wall, lanes
 
@@ -150,9 +150,9 @@ def loaded(executable, records):
             "The engine lanes takes every wall of the next table, of 3 m by 0.25 m: 880 histories each of the recorded "
             "accelerograms, at 20 levels up to 1 g, up to 4 g for `two_block`. Columns of the engines have the wrong "
             f"flags, and the EDPs with errors above 1e-6, at the defaults against rk45 at rtol = {power(TIGHTEST)}. "
-            "Loads are on top of the wall, as in [loads.md](loads.md). Times are CPU times on one thread, the least of "
-            f"{REPEATS} runs, and include how long each wall rocks; a history may take {MOST} times as long as one of "
-            "the bare wall."
+            "Loads are on top of the wall, as in [loads.md](../loads.md). Times are CPU times on one thread, the least "
+            f"of {REPEATS} runs, and include how long each wall rocks; a history may take {MOST} times as long as one "
+            "of the bare wall."
         ),
         *table(
             [

@@ -158,12 +158,12 @@ def shortcuts(study):
         "## 6. Effect of shortcuts",
         "",
         *paragraph(
-            "[plain_motion.f90](verification/shortcuts/plain_motion.f90) integrates the same motion with a separate "
+            "[plain_motion.f90](../verification/shortcuts/plain_motion.f90) integrates the same motion with a separate "
             "loop, and applies the shortcuts that are common in programs of this kind, one at a time, at the default "
             "tolerances on the recorded set."
         ),
         *bullets(MEANINGS),
-        "![wrong flags and EDPs of each shortcut](figures/verification_shortcuts.png)",
+        "![wrong flags and EDPs of each shortcut](../figures/verification_shortcuts.png)",
         "",
     ]
     for wall, each in found.items():
@@ -222,14 +222,14 @@ def tests():
         text = (ROOT / "test" / f"{program}.f90").read_text(encoding="utf-8")
         for suite in suites:
             demand(f"call suite('{suite}')" in text, f"{program} has a suite '{suite}'")
-        rows.append([what, source, f"[{program}](../test/{program}.f90)"])
+        rows.append([what, source, f"[{program}](../../test/{program}.f90)"])
     path = "python/tests/test_independent.py"
     demand((ROOT / path).is_file(), f"{path} exists")
     rows.append(
         [
             "Coefficients, accelerations, restitutions, whole histories",
             "rigid bodies with hinges, solved by SciPy",
-            f"[test_independent](../{path})",
+            f"[test_independent](../../{path})",
         ]
     )
     return [
@@ -237,7 +237,7 @@ def tests():
         "",
         *paragraph(
             "`./run test` runs all of them. `./run mutations` introduces errors into the formulas of the statistics, "
-            "one at a time, and checks that each is caught by a test ([mutations](../test/mutations.py))."
+            "one at a time, and checks that each is caught by a test ([mutations](../../test/mutations.py))."
         ),
         *table(["quantity", "compared with", "test"], rows),
     ]

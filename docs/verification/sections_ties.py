@@ -1,6 +1,6 @@
 """A facade with two ties, section 10: errors of both engines in every history of some levels.
 
-python sections_ties.py RECORDS writes this section of docs/verification.md alone.
+python sections_ties.py RECORDS writes this section of docs/studies/verification.md alone.
 """
 
 import sys
@@ -16,7 +16,7 @@ from two_ties import PATH, facade
 import dondolo as dd
 
 TITLE = "## 10. A facade with two ties"
-PAGE = ROOT / "docs" / "verification.md"
+PAGE = ROOT / "docs" / "studies" / "verification.md"
 MOST = 0.01  # share of EDPs with errors above LARGE
 RUNS = [(engine, rtol) for engine in ("lanes", "rk45") for rtol in (DEFAULT, TIGHTEST)]
 

@@ -1,6 +1,6 @@
 """Further walls, section 9: errors of both engines, and what the estimated error finds of them.
 
-python sections_walls.py RECORDS writes this section of docs/verification.md alone.
+python sections_walls.py RECORDS writes this section of docs/studies/verification.md alone.
 """
 
 import sys
@@ -16,7 +16,7 @@ from sections_accuracy import LARGE
 import dondolo as dd
 
 TITLE = "## 9. Further walls"
-PAGE = ROOT / "docs" / "verification.md"
+PAGE = ROOT / "docs" / "studies" / "verification.md"
 ENGINES = ("lanes", "rk45")
 
 
@@ -70,9 +70,9 @@ def walls(folder):
         TITLE,
         "",
         *paragraph(
-            "Twelve more walls ([walls.csv](../test/reference/walls.csv)): slender and squat, small and large, hinges "
-            "at 0.35 to 0.85 of the height with loads beside the axis, speeds after an impact of up to 0.995 of those "
-            "before. Each runs under every second record of both sets with a random factor, "
+            "Twelve more walls ([walls.csv](../../test/reference/walls.csv)): slender and squat, small and large, "
+            "hinges at 0.35 to 0.85 of the height with loads beside the axis, speeds after an impact of up to 0.995 of "
+            "those before. Each runs under every second record of both sets with a random factor, "
             f"{number} histories; their truth is in 33 digits at relative tolerances of 1e-12 and 1e-14, tighter "
             f"where these differ by more than 1e-7; the last two agree to {small(change)}, but for {unsettled} "
             "histories that the last digit of the factor decides. Columns of an engine have the wrong flags, the EDPs "
@@ -84,7 +84,7 @@ def walls(folder):
             f"In all, lanes has {first[0]} wrong flags and {first[1]} EDPs off, {off['lanes']} of them computable, of "
             f"which {first[2]} are found, with {first[3]} false alarms; rk45 {second[0]}, {second[1]}, {off['rk45']}, "
             f"{second[2]} and {second[3]}. Every third history is in "
-            "[test_certificates](../python/tests/test_certificates.py). The tables are written by "
+            "[test_certificates](../../python/tests/test_certificates.py). The tables are written by "
             "docs/verification/more_walls.py."
         ),
     ]

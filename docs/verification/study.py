@@ -1,4 +1,4 @@
-"""All runs reported in docs/verification.md."""
+"""All runs reported in docs/studies/verification.md."""
 
 import re
 import statistics
@@ -14,7 +14,7 @@ from histories import Errors, Histories
 TOLERANCES = [10.0**-digits for digits in range(3, 14)]
 DEFAULT, TIGHT, TIGHTEST = 1e-8, 1e-12, 1e-13
 REPEATS = 3
-# The engine that is verified here; docs/performance.md compares the engine lanes with the same reference
+# The engine that is verified here; docs/studies/performance.md compares the engine lanes with the same reference
 ENGINE = "engine = 'rk45'"
 
 

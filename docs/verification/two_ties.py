@@ -1,8 +1,8 @@
 """Write test/reference/two_ties_recorded.csv: python two_ties.py RECORDS [LEVEL...], levels of PGA in g.
 
 A facade with two ties under the recorded accelerograms, every history in 33 digits and not the doubtful ones alone, at
-relative tolerances of 1e-12, 1e-14 ... until two neighbours differ by 1e-7 at most (docs/certification.md). Levels that
-the table has already are kept; the others take five to twenty minutes each.
+relative tolerances of 1e-12, 1e-14 ... until two neighbours differ by 1e-7 at most (docs/studies/certification.md).
+Levels that the table has already are kept; the others take five to twenty minutes each.
 """
 
 import csv
