@@ -4,6 +4,7 @@ The accelerograms are the embedded synthetic ones. One figure compares them with
 these are available in the folder DONDOLO_RECORDS.
 """
 
+import itertools
 import os
 import sys
 from pathlib import Path
@@ -46,6 +47,7 @@ def main() -> None:
     processing()
     pulses()
     overturning()
+    free_rocking()
     statistics()
     spectra()
 
@@ -436,6 +438,25 @@ def pulses():
     axes[0, 0].set_ylabel("acceleration / $a_p$")
     axes[1, 0].set_ylabel("velocity / $(a_p / \\omega_p)$")
     figure.savefig(figures / "pulses.png", dpi=100)
+
+
+def free_rocking():
+    """Draw the decay of a wall that is released, and the closed form of its amplitudes."""
+    wall = dd.FreeStandingWall(2.0, 0.4, name="released wall")
+    still = dd.Record([0.0, 0.0], 0.01, name="still ground")
+    motion = dd.simulate(wall, still, initial_rotation=0.8 * wall.capacity_angle)
+    figure, ax = new_axes(1, 1, (7.2, 2.8))
+    ax.plot(motion.time, motion.rotation / wall.capacity_angle, color=style.BLUE, label="rotation")
+    alpha, impacts = wall.capacity_angle, motion.time[motion.after_impact]
+    energy = np.cos(0.2 * alpha) - np.cos(alpha)
+    for number, (start, end) in enumerate(itertools.pairwise(impacts[:12]), 1):
+        left = wall.restitution_coefficient ** (2 * number) * energy
+        amplitude = (1.0 - np.arccos(np.cos(alpha) + left) / alpha) * (-1.0) ** number
+        ax.plot([start, end], [amplitude, amplitude], color=style.RED, label="closed form" if number == 1 else None)
+    ax.set(xlabel="time [s]", ylabel="rotation / capacity", xlim=(0.0, impacts[11]))
+    ax.axhline(0.0, color=style.GREY, linewidth=0.6)
+    style.legend(ax, Options({}))
+    figure.savefig(figures / "free_rocking.png", dpi=100)
 
 
 def overturning():

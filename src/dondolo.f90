@@ -34,6 +34,7 @@ module dondolo
    use dondolo_fragility_scaling, only : new_scaling, scaling_names, scaling_type
    use dondolo_fragility_stripes, only : multiple_stripe, stripes_type
    use dondolo_fragility_study, only : new_study, polarity_names, study_type
+   use dondolo_motion_initial_state, only : initial_state_type
    use dondolo_motion_queue, only : progress_interface
    use dondolo_motion_response, only : response_type, tie_response_type, trace_type
    use dondolo_motion_simulate, only : simulate
@@ -68,7 +69,7 @@ module dondolo
    public :: wall_input_type, wall_type, new_wall, mechanism_names, mechanism_type, restraint_type
    ! Motion
    public :: solver_type, check_solver, check_limit, engine_names
-   public :: simulate, response_type, trace_type, tie_response_type
+   public :: simulate, initial_state_type, response_type, trace_type, tie_response_type
    ! Fragility
    public :: suite_type, new_suite, study_type, new_study
    public :: stripes_type, multiple_stripe, polarity_names, progress_interface

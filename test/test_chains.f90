@@ -6,6 +6,7 @@ program test_chains
    use dondolo_motion_adaptive_step, only : advance, motion_type
    use dondolo_motion_dormand_prince, only : angular_acceleration, excitation_type
    use dondolo_motion_events, only : impact
+   use dondolo_motion_initial_state, only : initial_state_type
    use dondolo_motion_response, only : response_type, trace_type
    use dondolo_motion_rest, only : bounce_type, new_rest, rest_type
    use dondolo_motion_rk45, only : simulate_rk45
@@ -300,7 +301,7 @@ contains
          wall = a_wall(m)
          trace%rows = 0
          call simulate_rk45(wall%mechanism, stillness(60.0_wp), 1.0_wp, tight(1.0_wp), response, trace, &
-            & release=0.3_wp*wall%mechanism%capacity)
+            & initial=initial_state_type(0.3_wp*wall%mechanism%capacity))
          row = findloc(trace%rotation == 0.0_wp .and. trace%velocity == 0.0_wp, .true., dim=1)
          call check(row > 0, 'it comes to rest')
          call check(all(trace%rotation(row:) == 0.0_wp .and. trace%velocity(row:) == 0.0_wp), 'it stays at rest')

@@ -8,6 +8,7 @@ program test_convergence
    use dondolo_base_text, only : to_text
    use dondolo_motion_dormand_prince, only : angular_acceleration, dense_rotation, dormand_prince_step, excitation_type, &
       & state_type
+   use dondolo_motion_initial_state, only : initial_state_type
    use dondolo_motion_response, only : response_type, trace_type
    use dondolo_motion_rk45, only : simulate_rk45
    use dondolo_record, only : record_type
@@ -197,7 +198,7 @@ contains
 
       call simulate_rk45(mechanism, accelerogram(spread(0.0_wp, 1, samples + 1), &
          & 1.6_wp/(samples*mechanism%frequency_parameter())), 1.0_wp, loose(1.0_wp), response, trace, &
-         & release=0.5_wp*mechanism%capacity)
+         & initial=initial_state_type(0.5_wp*mechanism%capacity))
       i = findloc(trace%rotation, 0.0_wp, dim=1)
       impact = [trace%time(i), trace%velocity(i)]
    end function first_impact

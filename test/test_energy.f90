@@ -4,6 +4,7 @@ program test_energy
    use checks, only : check, check_close, finish, suite
    use dondolo_base_kinds, only : wp
    use dondolo_motion_dormand_prince, only : angular_acceleration, dormand_prince_step, excitation_type, state_type
+   use dondolo_motion_initial_state, only : initial_state_type
    use dondolo_motion_response, only : response_type, trace_type
    use dondolo_motion_rk45, only : simulate_rk45
    use dondolo_wall, only : wall_type
@@ -52,7 +53,7 @@ contains
          wall = a_wall(m)
          trace%rows = 0
          call simulate_rk45(wall%mechanism, stillness(8.0_wp), 1.0_wp, tight(1.0_wp), response, trace, &
-            & release=0.9_wp*wall%mechanism%capacity)
+            & initial=initial_state_type(0.9_wp*wall%mechanism%capacity))
          level = energy(wall%mechanism, trace%rotation(1), 0.0_wp)
          worst = 0.0_wp
          impacts = 0

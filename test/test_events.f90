@@ -8,6 +8,7 @@ program test_events
    use dondolo_motion_adaptive_step, only : advance, motion_type
    use dondolo_motion_dormand_prince, only : angular_acceleration
    use dondolo_motion_events, only : impact
+   use dondolo_motion_initial_state, only : initial_state_type
    use dondolo_motion_response, only : response_type, trace_type
    use dondolo_motion_rk45, only : simulate_rk45
    use dondolo_motion_solver, only : solver_type
@@ -40,16 +41,16 @@ program test_events
 contains
 
    !> The response of the linear block to the outward pushes x at its samples
-   subroutine respond(two_sided, x, dt, solver, response, trace, release)
+   subroutine respond(two_sided, x, dt, solver, response, trace, initial)
       logical, intent(in) :: two_sided
       real(wp), intent(in) :: x(:), dt
       type(solver_type), intent(in) :: solver
       type(response_type), intent(out) :: response
       type(trace_type), intent(inout), optional :: trace
-      real(wp), intent(in), optional :: release
+      type(initial_state_type), intent(in), optional :: initial
 
       call simulate_rk45(new_linear_block(p, alpha, e, two_sided), accelerogram(-x*block%trigger_acceleration(), dt), &
-         & 1.0_wp, solver, response, trace, release)
+         & 1.0_wp, solver, response, trace, initial)
    end subroutine respond
 
    !> Signed rotation and velocity in the last row of a time history that belongs to a time
@@ -151,7 +152,7 @@ contains
                allocate(x(k + 2), source=0.0_wp)
                x(k + 2) = merge(1.0_wp, -1.0_wp, m == 1)*0.2_wp/k
                trace%rows = 0
-               call respond(m == 2, x, dt, tight(1.0_wp), response, trace, release=0.5_wp*alpha)
+               call respond(m == 2, x, dt, tight(1.0_wp), response, trace, initial=initial_state_type(0.5_wp*alpha))
                deallocate(x)
                call check(response%impacts == 1, 'counted once')
                duration = (k + 1)*dt
@@ -161,7 +162,7 @@ contains
                call check_close(state(1), expected(1), 1.0e-10_wp, 'rotation after it')
                call check_close(state(2), expected(2), 1.0e-10_wp, 'velocity after it')
                ! The last sample is the impact.
-               call respond(m == 2, spread(0.0_wp, 1, k + 1), dt, tight(1.0_wp), response, release=0.5_wp*alpha)
+               call respond(m == 2, spread(0.0_wp, 1, k + 1), dt, tight(1.0_wp), response, initial=initial_state_type(0.5_wp*alpha))
                call check(response%edp == 0.5_wp .and. response%time_of_peak == 0.0_wp, 'at the end of the record')
             end do
          end do

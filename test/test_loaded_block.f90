@@ -5,6 +5,7 @@ program test_loaded_block
    use checks, only : check, check_close, check_error, check_ok, finish, suite
    use dondolo_base_error, only : error_type, problems_type
    use dondolo_base_kinds, only : wp
+   use dondolo_motion_initial_state, only : initial_state_type
    use dondolo_motion_normal_form, only : new_normal_form, normal_form_type
    use dondolo_motion_response, only : response_type
    use dondolo_motion_rest, only : new_rest, rest_type
@@ -451,7 +452,8 @@ contains
       associate (q => wall%mechanism%unseating)
          call check_close(3.0_wp*sin(q) + 0.175_wp*(1.0_wp - cos(q)), 0.06_wp, exact, 'travel of the load')
          call check(q < 0.5_wp*wall%mechanism%capacity, 'it comes before the capacity')
-         call simulate_rk45(wall%mechanism, stillness(3.0_wp), 1.0_wp, tight(1.0_wp), response, release=0.99_wp*q)
+         call simulate_rk45(wall%mechanism, stillness(3.0_wp), 1.0_wp, tight(1.0_wp), response, &
+            & initial=initial_state_type(0.99_wp*q))
          call check(.not. response%collapsed, 'released below it, the wall falls back')
       end associate
       call run_alone(wall%mechanism, accelerogram([0.0_wp, -5.0_wp, -5.0_wp, 0.0_wp, 0.0_wp], 0.1_wp), 1.0_wp, &

@@ -5,9 +5,10 @@
 !> quadrature or by an eighth-order method with tolerance 1e-11.
 program test_motion
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
-   use checks, only : check, check_close, check_error, finish, suite
+   use checks, only : check, check_close, check_error, check_ok, finish, suite
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
+   use dondolo_motion_initial_state, only : initial_state_type
    use dondolo_motion_response, only : response_type, trace_type
    use dondolo_motion_rk45, only : simulate_rk45
    use dondolo_motion_simulate, only : simulate
@@ -24,6 +25,9 @@ program test_motion
 
    call test_free_fall()
    call test_bounces()
+   call test_decay()
+   call test_restart()
+   call test_initial_refusals()
    call test_rest()
    call test_symmetries()
    call test_trace()
@@ -42,7 +46,7 @@ contains
       type(trace_type) :: trace
       integer :: i
 
-      call simulate_rk45(mechanism, stillness(6.0_wp), 1.0_wp, tight(1.0_wp), response, trace, release=q)
+      call simulate_rk45(mechanism, stillness(6.0_wp), 1.0_wp, tight(1.0_wp), response, trace, initial=initial_state_type(q))
       i = findloc(trace%rotation, 0.0_wp, dim=1)
       time = trace%time(i)
       speed = abs(trace%velocity(i))
@@ -93,7 +97,7 @@ contains
       alpha = 0.1_wp
       e = sqrt(0.7_wp)
       call simulate_rk45(new_linear_block(p, alpha, e, .true.), stillness(12.0_wp), 1.0_wp, tight(1.0_wp), response, &
-         & trace, release=0.9_wp*alpha)
+         & trace, initial=initial_state_type(0.9_wp*alpha))
       call bounces(trace, p, alpha, amplitude, time, n)
       call check(n >= 6, 'six impacts are seen')
       do i = 1, min(n, 6)
@@ -104,7 +108,7 @@ contains
       ! Equation (2) for alpha = 0.1 rad, -0.470655 rounded
       e = -one_sided_restitution(alpha)
       call simulate_rk45(new_linear_block(p, alpha, e, .false.), stillness(12.0_wp), 1.0_wp, tight(1.0_wp), response, &
-         & trace, release=0.5_wp*alpha)
+         & trace, initial=initial_state_type(0.5_wp*alpha))
       call bounces(trace, p, alpha, amplitude, time, n)
       call check(n >= 3, 'three impacts are seen')
       do i = 1, min(n, 3)
@@ -123,6 +127,134 @@ contains
       end do
       call check_close(expected, 2.912595889_wp, 1.0e-9_wp, 'total time to rest')
    end subroutine test_bounces
+
+   !> Decay of walls of each mechanism, given a rotation and a velocity: after n impacts all their energy above that of rest is
+   !> e^(2 n) of that at the start
+   subroutine test_decay()
+      type(wall_type) :: wall
+      type(response_type) :: response
+      type(trace_type) :: trace
+      type(initial_state_type) :: initial
+      type(error_type), allocatable :: error
+      real(wp) :: at_start, q, v
+      integer :: i, m, n
+
+      call suite('decay of free rocking')
+      do m = 1, 8
+         wall = a_wall(1 + modulo(m - 1, 4))
+         associate (mechanism => wall%mechanism)
+            ! Outwards, and inwards
+            initial%rotation = 0.3_wp*mechanism%capacity
+            initial%velocity = merge(0.4_wp, -0.4_wp, m > 4)*mechanism%frequency_parameter()*mechanism%capacity
+            if (mechanism%two_sided) initial = initial%times(-1.0_wp)
+            trace%rows = 0
+            call simulate(mechanism, stillness(8.0_wp), 1.0_wp, tight(1.0_wp), response, error, trace, initial=initial)
+            call check_ok(error, 'free rocking')
+            call check(trace%rotation(1) == initial%rotation .and. trace%velocity(1) == initial%velocity, 'it begins as it is told')
+            at_start = above_rest(mechanism, abs(initial%rotation), initial%velocity)
+            n = 0
+            do i = 1, trace%rows
+               if (.not. trace%after_impact(i)) cycle
+               n = n + 1
+               v = trace%velocity(i)
+               call check_close(above_rest(mechanism, 0.0_wp, v), mechanism%restitution**(2*n)*at_start, 1.0e-9_wp, &
+                  & 'energy after impacts')
+               if (n == 4) exit
+            end do
+            call check(n == 4, 'impacts are seen')
+            ! The peak: of a motion outwards the energy gives it, one inwards may rise higher than its start after an impact
+            q = response%edp*mechanism%capacity
+            if (initial%velocity*initial%side() < 0.0_wp) at_start = max(above_rest(mechanism, abs(initial%rotation), 0.0_wp), &
+               & mechanism%restitution**2*at_start)
+            call check_close(above_rest(mechanism, q, 0.0_wp), at_start, 1.0e-9_wp, 'energy of the peak')
+         end associate
+      end do
+   end subroutine test_decay
+
+   !> Energy above that of rest
+   real(wp) function above_rest(mechanism, q, v) result(energy)
+      class(mechanism_type), intent(in) :: mechanism
+      real(wp), intent(in) :: q, v
+
+      real(wp) :: j, c, g, l, load
+
+      call mechanism%terms(q, j, c, g, l, load)
+      energy = 0.5_wp*j*v**2 + mechanism%potential(q) - mechanism%potential(0.0_wp)
+   end function above_rest
+
+   !> A motion that goes on from the state at one of its samples is the same motion
+   subroutine test_restart()
+      type(wall_type) :: wall
+      type(record_type) :: record
+      type(response_type) :: whole, rest
+      type(trace_type) :: trace
+      type(initial_state_type) :: initial
+      type(error_type), allocatable :: error
+      real(wp) :: a(400)
+      integer :: i, m, row, sides(2)
+
+      call suite('a motion that goes on')
+      sides = 0
+      do m = 1, 4
+         wall = a_wall(m)
+         a = [(wall%mechanism%trigger_acceleration()*1.5_wp*sin(0.3_wp*i)*exp(-0.006_wp*i), i=1, 400)]
+         record = accelerogram(a, 0.02_wp)
+         trace%rows = 0
+         call simulate(wall%mechanism, record, 1.0_wp, tight(1.0_wp), whole, error, trace)
+         call check_ok(error, 'the whole motion')
+         do i = 20, 180, 20
+            row = minloc(abs(trace%time - 0.02_wp*(i - 1)), dim=1)
+            if (whole%collapsed .and. 0.02_wp*(i - 1) > whole%time_of_peak) exit
+            initial = initial_state_type(trace%rotation(row), trace%velocity(row))
+            if (.not. initial%moves()) cycle
+            sides = sides + merge(1, 0, [1.0_wp, -1.0_wp] == trace%side(row))
+            call simulate(wall%mechanism, accelerogram(a(i:), 0.02_wp), 1.0_wp, tight(1.0_wp), rest, error, initial=initial)
+            call check_ok(error, 'the rest of it')
+            call check(rest%collapsed .eqv. whole%collapsed, 'the same end')
+            if (whole%time_of_peak > 0.02_wp*(i - 1)) call check_close(rest%edp, whole%edp, 1.0e-8_wp, 'the same peak')
+         end do
+      end do
+      call check(all(sides > 3), 'on both sides')
+   end subroutine test_restart
+
+   !> States that a wall cannot be in
+   subroutine test_initial_refusals()
+      type(wall_type) :: one, two
+      type(solver_type) :: lanes
+      real(wp) :: nan
+
+      call suite('refused states')
+      one = made('one_sided', 3.0_wp, 0.3_wp)
+      two = made('free_standing', 3.0_wp, 0.3_wp)
+      lanes%engine = 'lanes'
+      call refuse_state(one, initial_state_type(-0.01_wp), solver_type(), 'initial_rotation = -0.01: must not be negative,')
+      call refuse_state(two, initial_state_type(-0.1_wp), solver_type(), 'initial_rotation = -0.1: must lie within 0.0996')
+      call refuse_state(one, initial_state_type(velocity=-0.01_wp), solver_type(), 'initial_velocity = -0.01: must not be')
+      nan = ieee_value(nan, ieee_quiet_nan)
+      call refuse_state(two, initial_state_type(nan), solver_type(), 'initial_rotation = NaN: must be a number')
+      call refuse_state(two, initial_state_type(velocity=nan), solver_type(), 'initial_velocity = NaN: must be a number')
+      call refuse_state(two, initial_state_type(0.01_wp), lanes, 'engine = ''lanes'': begins every history at rest')
+      call refuse_state(two, initial_state_type(velocity=-0.01_wp), solver_type(), '')
+   end subroutine test_initial_refusals
+
+   !> A motion from a state is refused with a sentence that begins so; empty: it is not
+   subroutine refuse_state(wall, initial, solver, sentence)
+      type(wall_type), intent(in) :: wall
+      type(initial_state_type), intent(in) :: initial
+      type(solver_type), intent(in) :: solver
+      character(len=*), intent(in) :: sentence
+
+      type(response_type) :: response
+      type(error_type), allocatable :: error
+
+      call simulate(wall%mechanism, stillness(1.0_wp), 1.0_wp, solver, response, error, initial=initial)
+      if (len(sentence) == 0) then
+         call check_ok(error, 'allowed')
+         call check(response%edp > 0.0_wp, 'it moves')
+      else
+         call check_error(error, sentence, 'refused state')
+      end if
+   end subroutine refuse_state
 
    !> Impacts of a trace: amplitude phi = 1 - sqrt(1 - (w/(p alpha))^2) that follows each, and its time
    subroutine bounces(trace, p, alpha, amplitude, time, n)

@@ -145,6 +145,8 @@ contains
          call parcel%put('atol', case%solver%solver%atol)
          call parcel%put('edp_limit', case%solver%solver%edp_limit)
          call parcel%put('scale', scale)
+         call parcel%put('initial_rotation', case%history%initial%rotation)
+         call parcel%put('initial_velocity', case%history%initial%velocity)
          call parcel%put('levels', case%stripes%levels)
          call parcel%put('edp_thresholds', case%stripes%thresholds)
          call parcel%put('notes', case%notes)

@@ -16,6 +16,7 @@ module histories
    use dondolo_interface_handles, only : find_suite, find_walls
    use dondolo_motion_certificate, only : certificate_type, certify_histories
    use dondolo_motion_ensemble, only : check_engine, ensemble_type, run_ensemble
+   use dondolo_motion_initial_state, only : initial_state_type
    use dondolo_motion_response, only : response_type, trace_type
    use dondolo_motion_simulate, only : simulate_wall => simulate
    use dondolo_motion_solver, only : check_limit, check_solver, solver_type
@@ -34,14 +35,15 @@ module histories
 contains
 
    !> One motion; with history = 1 also the parcel of its rows: time, ground acceleration, rotation, velocity; as integers
-   !> side and whether it is just after an impact. Times of yield and of fracture of the ties follow, negative for never
-   subroutine simulate(walls, suite, number, scale, engine, settings, history, &
+   !> side and whether it is just after an impact. Times of yield and of fracture of the ties follow, negative for never.
+   !> The initial state is rotation and velocity
+   subroutine simulate(walls, suite, number, scale, engine, settings, initial, history, &
          & edp, collapsed, impacts, time_of_peak, edp_error, sent)
       !f2py threadsafe
       integer(c_int64_t), intent(in) :: walls, suite
       character(len=*), intent(in) :: engine
       integer(c_int), intent(in) :: number, history
-      real(c_double), intent(in) :: scale, settings(5)
+      real(c_double), intent(in) :: scale, settings(5), initial(2)
       real(c_double), intent(out) :: edp, time_of_peak, edp_error
       integer(c_int), intent(out) :: collapsed, impacts
       integer(c_int64_t), intent(out) :: sent(5)
@@ -49,6 +51,7 @@ contains
       type(suite_type), pointer :: records, motions
       type(floors_type), target :: own
       type(solver_type) :: solver
+      type(initial_state_type) :: state
       type(response_type) :: response
       type(trace_type) :: trace
       type(parcel_type) :: parcel
@@ -59,11 +62,13 @@ contains
       solver = as_solver(engine, settings)
       if (.not. allocated(error)) call check_scale(records, number, scale, error)
       if (.not. allocated(error)) call find_motions(wall(1), records, 1, own, motions, error)
+      state = initial_state_type(initial(1), initial(2))
       if (.not. allocated(error)) then
          if (history == 1) then
-            call simulate_wall(wall(1)%mechanism, motions%records(number), scale, solver, response, error, trace)
+            call simulate_wall(wall(1)%mechanism, motions%records(number), scale, solver, response, error, trace, &
+               & initial=state)
          else
-            call simulate_wall(wall(1)%mechanism, motions%records(number), scale, solver, response, error)
+            call simulate_wall(wall(1)%mechanism, motions%records(number), scale, solver, response, error, initial=state)
          end if
       end if
       if (.not. allocated(error) .and. history == 1) call check_memory(bytes_of_row*real(trace%rows, c_double), error)
@@ -197,9 +202,9 @@ contains
    end subroutine is_doubtful
 
    !> What the executable would warn of, of a wall and a record, before it runs one motion
-   subroutine warn_of_motion(walls, suite, number, scale, sent)
+   subroutine warn_of_motion(walls, suite, number, scale, moves, sent)
       integer(c_int64_t), intent(in) :: walls, suite
-      integer(c_int), intent(in) :: number
+      integer(c_int), intent(in) :: number, moves
       real(c_double), intent(in) :: scale
       integer(c_int64_t), intent(out) :: sent(5)
       type(wall_type), pointer :: wall(:)
@@ -215,7 +220,7 @@ contains
       if (.not. allocated(error)) then
          call wall_warnings%look(wall(1))
          call wall_warnings%warn(warnings)
-         call warn_of_records(records, wall(1)%gravity, warnings, number)
+         call warn_of_records(records, wall(1)%gravity, warnings, number, moves == 1)
          call warn_of_fall(records%records(number), scale, wall(1)%gravity, warnings)
          call warnings%put_objects(parcel%lines)
       end if

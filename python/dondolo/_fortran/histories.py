@@ -50,12 +50,12 @@ def is_doubtful(edp: FloatArray, edp_error: FloatArray, edp_limit: float) -> NDA
     return np.asarray(doubt == 1).reshape(edp.shape)
 
 
-def warnings_of_motion(wall: Handle, record: tuple[int, int], scale: float) -> list[DondoloWarning]:
+def warnings_of_motion(wall: Handle, record: tuple[int, int], scale: float, moves: bool) -> list[DondoloWarning]:
     """What the executable would warn of, of a wall and a record times a factor, before it runs one motion.
 
-    The record is the handle of a suite and the number in it from 1.
+    The record is the handle of a suite and the number in it from 1. A wall that moves at the start may rock freely.
     """
-    return unpack_warnings(receive(_core.histories.warn_of_motion(wall.number, *record, scale)).lines)
+    return unpack_warnings(receive(_core.histories.warn_of_motion(wall.number, *record, scale, int(moves))).lines)
 
 
 def warnings_of_levels(im: str, levels: FloatArray) -> list[DondoloWarning]:

@@ -45,7 +45,7 @@ class HistoryResult:
     Attributes
     ----------
     record : str
-    scale, edp : float
+    scale, initial_rotation_rad, initial_velocity_rad_s, edp : float
     collapsed : bool
     impacts : int
     time_of_peak_s : float
@@ -57,6 +57,8 @@ class HistoryResult:
 
     record: str
     scale: float
+    initial_rotation_rad: float
+    initial_velocity_rad_s: float
     edp: float
     collapsed: bool
     impacts: int

@@ -54,6 +54,7 @@ _ADDED: dict[str, dict[str, Any]] = {
         for kind in ("Fragility", "FirstCollapseFragility", "LimitedFragility")
     },
     "HazardCurve": {"rigid_ground": False},
+    "Response": {"initial_rotation": 0.0, "initial_velocity": 0.0},
     "Logistic": {
         "likelihood_ratio": math.nan,
         "im": "",

@@ -44,6 +44,8 @@ class Response(Shown, Saved):
         What moved, and what moved it.
     scale : float
         Factor on the record, negative if its polarity was reversed.
+    initial_rotation, initial_velocity : float
+        State of the wall at the start, positive towards side 1 [rad, rad/s].
     edp : float
         Engineering demand parameter: largest rotation / capacity (equation (6) of Nale et al.); edp_limit for a
         collapse.
@@ -88,6 +90,8 @@ class Response(Shown, Saved):
     after_impact: np.ndarray[Any, np.dtype[np.bool_]] | None = None
     edp_error: float | None = None
     tie_times: FloatArray | None = None
+    initial_rotation: float = 0.0
+    initial_velocity: float = 0.0
 
     @property
     def _support(self) -> str:
@@ -286,6 +290,7 @@ class Response(Shown, Saved):
             ("wall", self.wall.name),
             ("record", self.record.name),
             ("scale", f"{self.scale:.6g}"),
+            *self._initial_state(),
             ("EDP", f"{self.edp:.6g}"),
             ("collapsed", "yes" if self.collapsed else "no"),
             ("impacts", str(self.impacts)),
@@ -300,6 +305,11 @@ class Response(Shown, Saved):
             facts.append((f"tie {number}", f"{end}, {elongation:.4g} m, {energy:.4g} J/m"))
         return [*facts, *notes_on_supports((self.wall,))]
 
+    def _initial_state(self) -> list[tuple[str, str]]:
+        if self.initial_rotation == 0.0 and self.initial_velocity == 0.0:
+            return []
+        return [("initial state", f"{self.initial_rotation:.6g} rad, {self.initial_velocity:.6g} rad/s")]
+
     def _table(self) -> tables.Table:
         reals = (*self._motion()[:3], self.velocity)
         return plain(trace_columns(reals, self.side, self.after_impact, self.wall.capacity_angle))
@@ -313,6 +323,8 @@ class Response(Shown, Saved):
         comments = [
             f"record: {self.record.name}",
             f"scale: {tables.cell(self.scale)}",
+            f"initial_rotation_rad: {tables.cell(self.initial_rotation)}",
+            f"initial_velocity_rad_s: {tables.cell(self.initial_velocity)}",
             f"edp: {tables.cell(self.edp)}",
             f"collapsed: {int(self.collapsed)}",
             f"impacts: {self.impacts}",
@@ -333,6 +345,8 @@ def simulate(
     record: Record,
     scale: float = 1.0,
     *,
+    initial_rotation: float = 0.0,
+    initial_velocity: float = 0.0,
     solver: Solver | None = None,
     history: bool = True,
     estimate_error: bool = False,
@@ -342,11 +356,16 @@ def simulate(
     Parameters
     ----------
     wall : Wall
-        The wall, at rest at the start.
+        The wall.
     record : Record
         The accelerogram.
     scale : float
         Factor on it; negative reverses its polarity.
+    initial_rotation : float
+        Rotation of the wall at the start [rad], positive towards side 1; less than what counts as collapse. A one-sided
+        wall has only side 1.
+    initial_velocity : float
+        Its angular velocity at the start [rad/s], positive towards side 1.
     solver : Solver, optional
         How the motion is integrated.
     history : bool
@@ -372,7 +391,8 @@ def simulate(
     Notes
     -----
     Equations (1) to (4) of Nale et al.; docs/theory.md, section 4. The engine is that of the stripes: EDP, flag,
-    impacts and estimated error are those that `multiple_stripe` gives this history, to the bit.
+    impacts and estimated error are those that `multiple_stripe` gives this history, to the bit. A wall that is not at
+    rest at the start is integrated by 'rk45'.
 
     Examples
     --------
@@ -384,10 +404,18 @@ def simulate(
     (False, True)
     >>> response.ties is None or response.uplift
     False
+
+    Free rocking on still ground:
+
+    >>> still = dd.Record([0.0, 0.0], 0.01, name="still")
+    >>> released = dd.simulate(wall, still, initial_rotation=0.5 * wall.capacity_angle)
+    >>> released.edp, float(released.time[released.rotation == 0.0][0]) > 0.5
+    (0.5, False)
     """
     instance_of("wall", wall, Wall)
     instance_of("record", record, Record)
     factor = as_number("scale", scale)
+    initial = [as_number("initial_rotation", initial_rotation), as_number("initial_velocity", initial_velocity)]
     history, estimate_error = as_flag("history", history), as_flag("estimate_error", estimate_error)
     how = as_solver(solver)
     settings = how._settings(estimate_error)
@@ -400,6 +428,7 @@ def simulate(
             factor,
             as_text("engine", how.engine),
             settings,
+            initial,
             int(history),
         )
     check(sent)
@@ -418,7 +447,8 @@ def simulate(
             motion["tie_times"] = np.where(times < 0.0, np.nan, times)
     # Each its own: one that is raised as an error keeps what raised it.
     found = [
-        copy(one) for one in _warnings(wall, (suite.number, place), factor if record.vertical is not None else 1.0)
+        copy(one)
+        for one in _warnings(wall, (suite.number, place), factor if record.vertical is not None else 1.0, any(initial))
     ]
     if estimate_error:
         found += warnings_of_errors(np.array([edp]), np.array([edp_error]), edp_limit)
@@ -433,6 +463,8 @@ def simulate(
         time_of_peak=time_of_peak,
         edp_limit=edp_limit,
         edp_error=edp_error if estimate_error else None,
+        initial_rotation=initial[0],
+        initial_velocity=initial[1],
         **motion,
     )
 
@@ -458,6 +490,6 @@ def _mass_of_block(wall: Wall) -> float:
 
 
 @functools.lru_cache
-def _warnings(wall: Wall, record: tuple[int, int], scale: float) -> list[DondoloWarning]:
+def _warnings(wall: Wall, record: tuple[int, int], scale: float, moves: bool) -> list[DondoloWarning]:
     """What looks odd about a wall and a record; kept, since one motion takes little longer."""
-    return warnings_of_motion(upload((wall,)), record, scale)
+    return warnings_of_motion(upload((wall,)), record, scale, moves)

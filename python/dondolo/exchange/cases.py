@@ -20,7 +20,7 @@ from dondolo.walls.population import Population
 
 # What a case has of a parcel as it is
 _WORDS = ("task", "title", "output", "im", "polarity", "engine", "states")
-_NUMBERS = ("rtol", "atol", "edp_limit", "threads", "scale")
+_NUMBERS = ("rtol", "atol", "edp_limit", "threads", "scale", "initial_rotation", "initial_velocity")
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -49,6 +49,8 @@ class Case(Shown):
         Which record a time history is of, from 0.
     scale : float
         Factor on it, with the sign of its polarity.
+    initial_rotation, initial_velocity : float
+        State of the wall at the start of a time history [rad, rad/s].
     site : Site or None
         Hazard of a check by NTC 2018.
     knowledge_factor, behaviour : float
@@ -76,6 +78,8 @@ class Case(Shown):
     threads: int
     record_index: int
     scale: float
+    initial_rotation: float
+    initial_velocity: float
     site: Site | None = None
     knowledge_factor: float = 1.35
     behaviour: float = 2.0

@@ -349,6 +349,8 @@ def _response(table: Columns, wall: Wall, result: HistoryResult, edp_limit: floa
         after_impact=table.numbers("after_impact") == 1.0,
         edp_error=result.edp_error,
         tie_times=np.array(result.tie_times) if result.tie_times else None,
+        initial_rotation=result.initial_rotation_rad,
+        initial_velocity=result.initial_velocity_rad_s,
     )
 
 

@@ -9,6 +9,7 @@ module dondolo_motion_ensemble
    use dondolo_base_text, only : brief
    use dondolo_base_threads, only : team_of
    use dondolo_motion_error_estimate, only : estimated_error, other_run, runs_of_estimate
+   use dondolo_motion_initial_state, only : initial_state_type
    use dondolo_motion_lane_constants, only : lane_constants_type, new_lane_constants
    use dondolo_motion_lane_variants, only : build_variant, check_variant, first_variant, simulate_variant
    use dondolo_motion_queue, only : progress_interface, queue_type
@@ -31,6 +32,8 @@ module dondolo_motion_ensemble
       integer, allocatable :: record(:)
       !> Factor on it, negative to reverse it
       real(wp), allocatable :: scale(:)
+      !> Rotation and velocity of the wall at the start of each
+      type(initial_state_type) :: initial
       !> Results
       type(response_type), allocatable :: response(:)
       !> What was computed
@@ -56,13 +59,15 @@ contains
 
       type(queue_type) :: queue
       type(solver_type) :: other_solver
+      type(initial_state_type) :: other_initial
       type(response_type), allocatable :: stronger(:)
       real(wp), allocatable :: scale(:)
+      real(wp) :: change
       integer :: i, k
 
       call queue%announce(merge(runs_of_estimate, 1, solver%estimate_error)*size(ensemble%record), progress)
       call queue%fill(ensemble%record, ensemble%scale, suite%by_duration)
-      call run_queue(queue, mechanism, suite, solver, threads, ensemble%work, error)
+      call run_queue(queue, mechanism, suite, solver, ensemble%initial, threads, ensemble%work, error)
       call move_alloc(queue%response, ensemble%response)
       if (allocated(error) .or. .not. solver%estimate_error) return
       scale = ensemble%scale
@@ -72,8 +77,11 @@ contains
          do i = 1, size(scale)
             call other_run(k, solver, ensemble%scale(i), other_solver, scale(i))
          end do
+         ! As much further out or in as the record is stronger or weaker
+         call other_run(k, solver, 1.0_wp, other_solver, change)
+         other_initial = ensemble%initial%times(change)
          call queue%fill(ensemble%record, scale, suite%by_duration)
-         call run_queue(queue, mechanism, suite, other_solver, threads, ensemble%work, error)
+         call run_queue(queue, mechanism, suite, other_solver, other_initial, threads, ensemble%work, error)
          if (allocated(error)) return
       end do
       ensemble%response%edp_error = estimated_error(ensemble%response, stronger, queue%response, &
@@ -81,13 +89,15 @@ contains
    end subroutine run_ensemble
 
    !> Run every history in a queue
-   subroutine run_queue(queue, mechanism, suite, solver, threads, work, error)
+   subroutine run_queue(queue, mechanism, suite, solver, initial, threads, work, error)
       !> The histories, and their results
       type(queue_type), intent(inout) :: queue
       class(mechanism_type), intent(in) :: mechanism
       type(suite_type), intent(in) :: suite
       !> Engine, tolerances and limit
       type(solver_type), intent(in) :: solver
+      !> Rotation and velocity of the wall at the start
+      type(initial_state_type), intent(in) :: initial
       !> Number of threads; 0: all that OpenMP gives
       integer, intent(in) :: threads
       !> Counts, added to
@@ -100,13 +110,16 @@ contains
       type(work_type) :: own
       character(len=16) :: variant
       integer :: number, since
+      logical :: stays
 
       variant = build_variant()
       since = watched()
-      if (solver%engine /= 'rk45') constants = new_lane_constants(mechanism, solver, suite%has_vertical)
+      ! Lanes begin at rest.
+      if (solver%engine /= 'rk45' .and. .not. initial%moves()) constants = new_lane_constants(mechanism, solver, suite%has_vertical)
       if (.not. constants%form%exists) rest = new_rest(mechanism)
-      !$omp parallel num_threads(team_of(threads, size(queue%record))) default(none) private(own, number) &
-      !$omp & shared(variant, constants, rest, mechanism, suite, solver, queue, work, since)
+      !$omp parallel num_threads(team_of(threads, size(queue%record))) default(none) &
+      !$omp & private(own, number, stays) &
+      !$omp & shared(variant, constants, rest, mechanism, suite, solver, initial, queue, work, since)
       call watch(since)
       own = work_type()
       if (constants%form%exists) then
@@ -116,10 +129,13 @@ contains
             number = queue%next()
             if (number == 0) exit
             associate (record => queue%record(number), scale => queue%scale(number))
-               if (rest%stays(suite%records(record), suite%set, record, scale)) then
+               stays = .not. initial%moves()
+               if (stays) stays = rest%stays(suite%records(record), suite%set, record, scale)
+               if (stays) then
                   call own%add(work_type(histories=1, still=1, intervals=suite%set%length(record) - 1))
                else
-                  call simulate_rk45(mechanism, suite%records(record), scale, solver, queue%response(number), work=own)
+                  call simulate_rk45(mechanism, suite%records(record), scale, solver, queue%response(number), initial=initial, &
+                     & work=own)
                end if
             end associate
             call queue%report()

@@ -7,13 +7,13 @@ module dondolo_motion_simulate
    use dondolo_base_memory, only : raise_shortage
    use dondolo_base_text, only : to_text
    use dondolo_motion_ensemble, only : check_engine, ensemble_type, raise_given_up, run_ensemble
+   use dondolo_motion_initial_state, only : check_initial_state, initial_state_type
    use dondolo_motion_lane_constants, only : lane_constants_type, new_lane_constants
    use dondolo_motion_lane_variants, only : trace_variant
    use dondolo_motion_response, only : response_type, trace_type
    use dondolo_motion_rest, only : new_rest, rest_type
    use dondolo_motion_rk45, only : simulate_rk45
    use dondolo_motion_solver, only : check_limit, check_solver, solver_type
-   use dondolo_motion_work, only : work_type
    use dondolo_record, only : record_type
    use dondolo_record_suite, only : new_suite, suite_type
    use dondolo_wall_mechanism, only : mechanism_type
@@ -27,8 +27,8 @@ module dondolo_motion_simulate
 
 contains
 
-   !> The motion of a wall, at rest at the start
-   subroutine simulate(mechanism, record, scale, solver, response, error, trace, work)
+   !> The motion of a wall, at rest at the start unless that is given
+   subroutine simulate(mechanism, record, scale, solver, response, error, trace, initial)
       class(mechanism_type), intent(in) :: mechanism
       type(record_type), intent(in) :: record
       !> Factor on it, negative to reverse its polarity
@@ -41,8 +41,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Time history, until rest or 10 s past the end of the record; computed only if present
       type(trace_type), intent(inout), optional :: trace
-      !> What was computed, without the time history
-      type(work_type), intent(out), optional :: work
+      !> Rotation and velocity at the start; absent: none
+      type(initial_state_type), intent(in), optional :: initial
 
       ! Large ones are on the heap: stacks may be small.
       type(lane_constants_type), allocatable :: constants
@@ -50,20 +50,23 @@ contains
       type(ensemble_type), allocatable :: ensemble
       type(suite_type), allocatable :: suite
       type(record_type), allocatable :: records(:)
+      type(initial_state_type) :: start
       type(rest_type) :: rest
       real(wp) :: time, side
       integer :: interval
       logical :: found
 
+      if (present(initial)) start = initial
       call check_solver(solver, error)
       if (.not. allocated(error)) call check_limit(solver, mechanism, error)
       if (.not. allocated(error)) call check_engine(solver, mechanism, error, allocated(record%vertical))
+      if (.not. allocated(error)) call check_initial_state(start, mechanism, solver, error)
       if (allocated(error)) return
       if (.not. abs(scale) <= huge(scale)) then
          call raise_input(error, 'scale = '//to_text(scale)//': must be a number')
          return
       end if
-      if (.not. (present(trace) .or. solver%estimate_error)) then
+      if (.not. (present(trace) .or. solver%estimate_error .or. start%moves())) then
          ! A wall that never moves costs a look at the record and no more.
          rest = new_rest(mechanism)
          interval = 1
@@ -74,20 +77,21 @@ contains
       allocate (constants, ensemble, suite)
       ensemble%record = [1]
       ensemble%scale = [scale]
+      ensemble%initial = start
       records = [record]
       call new_suite(suite, records)
       call run_ensemble(ensemble, mechanism, suite, solver, 1, error)
       response = ensemble%response(1)
-      if (present(work)) work = ensemble%work
+      if (present(trace)) trace%work = ensemble%work
       if (.not. allocated(error)) call check_interrupt(error)
       if (allocated(error) .or. .not. present(trace)) return
       ! Once more, row by row: the loop over lanes knows nothing of rows, nor does it pay for them.
-      if (solver%engine /= 'rk45') constants = new_lane_constants(mechanism, solver, suite%has_vertical)
+      if (solver%engine /= 'rk45' .and. .not. start%moves()) constants = new_lane_constants(mechanism, solver, suite%has_vertical)
       if (constants%form%exists) then
          call trace_variant(mechanism, constants, record, scale, trace)
          if (.not. allocated(trace%ties)) allocate (trace%ties(0))
       else
-         call simulate_rk45(mechanism, record, scale, solver, again, trace)
+         call simulate_rk45(mechanism, record, scale, solver, again, trace, start)
       end if
       call check_interrupt(error)
       if (allocated(error)) return

@@ -7,6 +7,7 @@ module dondolo_case_history_group
    use dondolo_base_text, only : to_text
    use dondolo_case_namelist_group, only : group_type
    use dondolo_case_settings_group, only : read_settings
+   use dondolo_motion_initial_state, only : initial_state_type
    use dondolo_record, only : record_type
    implicit none
    private
@@ -15,12 +16,16 @@ module dondolo_case_history_group
    public :: history_properties
 
    !> Variables of the group
-   type(property_type), target, protected :: history_properties(3) = [ &
+   type(property_type), target, protected :: history_properties(5) = [ &
       & property_type('record', is_number_or_name, default=1.0_wp, &
       &   meaning='number in the catalogue from 1, or a record''s name in quotes'), &
       & property_type('scale', default=1.0_wp, positive=.true., meaning='factor on the record'), &
       & property_type('im_level', optional=.true., positive=.true., example='0.4', &
-      &   meaning='instead of scale: level to scale the record to, in the unit of &stripes im')]
+      &   meaning='instead of scale: level to scale the record to, in the unit of &stripes im'), &
+      & property_type('initial_rotation', unit='rad', default=0.0_wp, &
+      &   meaning='rotation of the wall at the start, positive towards side 1'), &
+      & property_type('initial_velocity', unit='rad/s', default=0.0_wp, &
+      &   meaning='angular velocity of the wall at the start, positive towards side 1')]
 
    !> What is said of the time history
    type :: history_input_type
@@ -32,6 +37,8 @@ module dondolo_case_history_group
       real(wp), allocatable :: scale
       !> Level of the intensity measure to scale to, in its unit
       real(wp), allocatable :: im_level
+      !> Rotation and velocity of the wall at the start
+      type(initial_state_type) :: initial
    contains
       !> The same as settings
       procedure :: put
@@ -58,6 +65,7 @@ contains
       else
          history%record = nint(settings%number('record'))
       end if
+      history%initial = initial_state_type(settings%number('initial_rotation'), settings%number('initial_velocity'))
       if (group%has('scale') .and. group%has('im_level')) then
          call raise_input(error, group%place()//': im_level: give either scale or im_level'// &
             & group%in_line('im_level'))
@@ -130,6 +138,8 @@ contains
       else
          call settings%set('scale', self%scale)
       end if
+      call settings%set('initial_rotation', self%initial%rotation)
+      call settings%set('initial_velocity', self%initial%velocity)
    end subroutine put
 
 end module dondolo_case_history_group

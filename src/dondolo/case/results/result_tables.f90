@@ -365,6 +365,8 @@ contains
       associate (response => results%response, trace => results%trace)
          call lines%add('record: '//case%suite%records(case%history%record)%name)
          call lines%add('scale: '//to_table(case%history_scale()))
+         call lines%add('initial_rotation_rad: '//to_table(case%history%initial%rotation))
+         call lines%add('initial_velocity_rad_s: '//to_table(case%history%initial%velocity))
          call lines%add('edp: '//to_table(response%edp))
          call lines%add('collapsed: '//to_text(merge(1, 0, response%collapsed)))
          call lines%add('impacts: '//to_text(response%impacts))

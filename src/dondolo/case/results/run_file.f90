@@ -289,6 +289,8 @@ contains
          call json%open_object('history')
          call json%put('record', case%suite%records(case%history%record)%name)
          call json%put('scale', case%history_scale())
+         call json%put('initial_rotation_rad', case%history%initial%rotation)
+         call json%put('initial_velocity_rad_s', case%history%initial%velocity)
          call json%put('edp', response%edp)
          call json%put('collapsed', response%collapsed)
          call json%put('impacts', response%impacts)

@@ -62,7 +62,7 @@ contains
       select case (case%job%task)
       case (history_task)
          associate (one => case%history%record)
-            call warn_of_records(case%suite, case%solver%gravity, results%warnings, one)
+            call warn_of_records(case%suite, case%solver%gravity, results%warnings, one, case%history%initial%moves())
          end associate
          associate (record => case%suite%records(case%history%record))
             call warn_of_fall(record, case%history_scale(), case%wall%gravity, results%warnings)
@@ -70,13 +70,14 @@ contains
                call filter_record(case%wall%building, record, floor, error)
                if (allocated(error)) return
                call simulate(case%wall%mechanism, floor, case%history_scale(), case%solver%solver, results%response, &
-                  & error, results%trace, results%work)
+                  & error, results%trace, case%history%initial)
             else
                call simulate(case%wall%mechanism, record, case%history_scale(), case%solver%solver, results%response, &
-                  & error, results%trace, results%work)
+                  & error, results%trace, case%history%initial)
             end if
          end associate
          if (allocated(error)) return
+         results%work = results%trace%work
          call warn_of_error(results%response, case%solver%solver%edp_limit, results%warnings)
       case (stripes_task)
          call run_stripes(case, results, error, team, progress)

@@ -284,7 +284,7 @@ contains
    end subroutine warn_of_scales
 
    !> Warn of records without motion, and of those whose PGA or PGV / PGA no accelerograph has measured
-   subroutine warn_of_records(suite, gravity, warnings, number)
+   subroutine warn_of_records(suite, gravity, warnings, number, moves)
       type(suite_type), intent(in) :: suite
       !> What g is [m/s2]
       real(wp), intent(in) :: gravity
@@ -292,6 +292,8 @@ contains
       type(warnings_type), intent(inout) :: warnings
       !> Number of the one record to look at; all if absent
       integer, intent(in), optional :: number
+      !> Whether the wall moves at the start, so that it may be meant to rock freely; no, if absent
+      logical, intent(in), optional :: moves
 
       type(warning_type) :: warning
       character(len=:), allocatable :: text
@@ -309,6 +311,9 @@ contains
       do i = first, last
          pga = suite%peaks(i)/gravity
          if (.not. pga > 0.0_wp) then
+            if (present(moves)) then
+               if (moves) cycle
+            end if
             warning = warning_type(record_without_motion)
             call warning%about('record', suite%records(i)%name)
             call warnings%add(warning, 'record '''//suite%records(i)%name//''' has a PGA of 0: it cannot be scaled and '// &

@@ -1,6 +1,7 @@
 !> What a motion leaves: the peak and what happened, and the time history where it was asked for.
 module dondolo_motion_response
    use dondolo_base_kinds, only : wp
+   use dondolo_motion_work, only : work_type
    implicit none
    private
 
@@ -78,6 +79,8 @@ module dondolo_motion_response
       logical, allocatable :: after_impact(:)
       !> What the motion does to each of the ties; none for a wall without ties
       type(tie_response_type), allocatable :: ties(:)
+      !> What was computed for the result, without the rows
+      type(work_type) :: work
    contains
       !> Add a row
       procedure :: add

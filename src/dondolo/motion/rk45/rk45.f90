@@ -12,6 +12,7 @@ module dondolo_motion_rk45
    use dondolo_motion_restraint_state, only : restraint_state_type
    use dondolo_motion_restrained_tail, only : restrained_motion
    use dondolo_motion_history, only : starting_acceleration
+   use dondolo_motion_initial_state, only : initial_state_type
    use dondolo_motion_response, only : intervals_after, response_type, trace_type
    use dondolo_motion_rest, only : new_rest
    use dondolo_motion_solver, only : solver_type
@@ -33,7 +34,7 @@ module dondolo_motion_rk45
 contains
 
    !> The motion of a wall under an accelerogram
-   subroutine simulate_rk45(mechanism, record, scale, solver, response, trace, release, work)
+   subroutine simulate_rk45(mechanism, record, scale, solver, response, trace, initial, work)
       class(mechanism_type), intent(in) :: mechanism
       type(record_type), intent(in) :: record
       !> Factor on it, negative to reverse its polarity
@@ -43,8 +44,8 @@ contains
       type(response_type), intent(out) :: response
       !> Time history, until rest or 10 s past the end of the record; computed only if present
       type(trace_type), intent(inout), optional :: trace
-      !> Rotation from which the wall is released at the start, less than the limit [rad]; absent: it starts at rest
-      real(wp), intent(in), optional :: release
+      !> Rotation and velocity at the start, which `check_initial_state` has passed; absent: at rest
+      type(initial_state_type), intent(in), optional :: initial
       !> Counts, added to
       type(work_type), intent(inout), optional :: work
 
@@ -59,12 +60,19 @@ contains
       motion%scale = scale
       motion%step = record%dt
       last = size(record%acceleration) - 1
-      if (present(release)) motion%q = release
+      ending = at_rest
+      if (present(initial)) then
+         if (initial%moves()) then
+            ending = record_over
+            motion%side = initial%side()
+            motion%q = abs(initial%rotation)
+            motion%v = motion%side*initial%velocity
+         end if
+      end if
       motion%peak = motion%q
       call motion%restraints%begin(wall, motion%q)
       if (present(trace)) call add_row(motion, record, trace)
 
-      ending = merge(record_over, at_rest, motion%q > 0.0_wp)
       do
          if (ending == at_rest) then
             call wait(constants, record, last, motion, ending, trace)
