@@ -2,25 +2,29 @@
 module cases
    use, intrinsic :: iso_c_binding, only : c_double, c_f_pointer, c_int, c_int64_t, c_intptr_t, c_ptr
    use dondolo_base_error, only : error_type
+   use dondolo_base_json, only : json_type
    use dondolo_boundary, only : check_room
    use dondolo_case, only : case_type
+   use dondolo_case_echo, only : echo_type
    use dondolo_case_job_group, only : history_task, task_names, typology_task
    use dondolo_case_read_case, only : load_case => read_case
    use dondolo_case_result_tables, only : table_suffixes
    use dondolo_case_results, only : results_type
    use dondolo_case_run_case, only : run => run_case
    use dondolo_fragility_study, only : runs_of, study_type
+   use dondolo_interface_handles, only : find_suite
    use dondolo_parcel, only : parcel_type, send
    use dondolo_population_reader, only : read_rows
    use dondolo_population_wall_row, only : wall_row_type
    use dondolo_record_parcel, only : pack_records
+   use dondolo_record_suite, only : suite_type
    use dondolo_results_parcel, only : pack_results
    use dondolo_store_parcel, only : pack_store
    use dondolo_wall_parcel, only : pack_rows
    implicit none
    private
 
-   public :: read_case, run_case, result_tables
+   public :: read_case, read_text, run_case, result_tables
 
    !> Where the histories that the run of a thread has done, and all of them, are told: the library calls back in the thread
    !> that runs, and a callback carries no data of its own
@@ -43,6 +47,24 @@ contains
       if (.not. allocated(error)) call pack_case(case, parcel, error)
       call send(parcel, error, sent)
    end subroutine read_case
+
+   !> Read a case from its text, with accelerograms that were uploaded, which are not sent back. name: that of the case in messages
+   subroutine read_text(name, text, records, sent)
+      character(len=*), intent(in) :: name, text
+      integer(c_int64_t), intent(in) :: records
+      integer(c_int64_t), intent(out) :: sent(5)
+      type(case_type), allocatable :: case
+      type(suite_type), pointer :: suite
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+
+      ! On the heap: stacks may be small.
+      allocate (case)
+      call find_suite(records, suite, error)
+      if (.not. allocated(error)) call load_case(name, case, error, text=text, suite=suite)
+      if (.not. allocated(error)) call pack_case(case, parcel, error, with_records=.false.)
+      call send(parcel, error, sent)
+   end subroutine read_text
 
    !> Run a case. Three parcels are sent: the case (pack_case); the rows of its population (pack_store), which after Ctrl-C are
    !> those that are complete, with 1 or 0 for each record (records, levels) that runs at a level behind the integers and
@@ -104,16 +126,23 @@ contains
       told = [done, total]
    end subroutine hear
 
-   !> A case: each of its values under its name, as Python's Case has it, its walls (pack_rows) and its records (pack_records)
-   subroutine pack_case(case, parcel, error)
+   !> A case: each of its values under its name, as Python's Case has it, the JSON of its groups (settings), its walls (pack_rows)
+   !> and its records (pack_records)
+   subroutine pack_case(case, parcel, error, with_records)
       type(case_type), intent(inout) :: case
       !> Empty
       type(parcel_type), intent(inout) :: parcel
       !> Lack of memory, or the table of walls has changed
       type(error_type), allocatable, intent(out) :: error
+      !> Are its records packed? Yes if absent
+      logical, intent(in), optional :: with_records
 
       type(wall_row_type), allocatable :: rows(:)
+      type(echo_type) :: echoed
+      type(json_type) :: json
+      character(len=:), allocatable :: settings
       real(c_double) :: scale
+      logical :: packs
 
       if (case%job%task == typology_task) then
          call read_rows(case%table, rows, error)
@@ -150,9 +179,18 @@ contains
          call parcel%put('levels', case%stripes%levels)
          call parcel%put('edp_thresholds', case%stripes%thresholds)
          call parcel%put('notes', case%notes)
+         call case%echo(echoed)
+         json%is_compact = .true.
+         call json%open_object()
+         call echoed%to_json(json)
+         call json%close_object()
+         call json%get(settings)
+         call parcel%put('settings', settings)
          call pack_check(case, parcel)
          call pack_rows(rows, parcel)
-         call pack_records(case%suite%records, parcel, error)
+         packs = .true.
+         if (present(with_records)) packs = with_records
+         if (packs) call pack_records(case%suite%records, parcel, error)
       end if
    end subroutine pack_case
 

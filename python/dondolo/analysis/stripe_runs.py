@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Iterable, Mapping
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -136,6 +137,20 @@ class Study(Shown):
             complete = int(np.searchsorted(np.cumsum(plan.ran.sum(axis=1)), outcome.done, side="right"))
             partial = _stripes(request, plan, outcome, complete) if complete else None
             raise _stopped(complete, len(request.levels), partial)
+
+    def _settings(self) -> dict[str, dict[str, Any]]:
+        """The groups &records, &stripes and &solver of a case of this study, but for catalogue and gravity."""
+        request = self._request
+        rtol, atol, edp_limit, estimates, _ = request.settings.tolist()
+        errors = {"estimate_error": estimates == 1.0, "certify": self._certify}
+        return {
+            "records": {
+                "polarity": request.polarity,
+                "vertical": "none" if all(record.vertical is None for record in self.records) else "recorded",
+            },
+            "stripes": {"im": self.im, "levels": self.levels.tolist()},
+            "solver": {"engine": request.engine, "rtol": rtol, "atol": atol, "edp_limit": edp_limit, **errors},
+        }
 
     def _facts(self) -> list[tuple[str, str]]:
         return [

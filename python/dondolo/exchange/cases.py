@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+import json
 import os
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
 from dondolo._base.arguments import FloatArray, as_path
 from dondolo._base.shown import Shown
 from dondolo._fortran import _core
-from dondolo._fortran.library import Parcel, receive, warn_of_notes
+from dondolo._fortran.library import Parcel, as_text, receive, warn_of_notes
 from dondolo._fortran.records import levels_in_words, unpack_records
 from dondolo._fortran.walls import rows_of, unpack_walls
 from dondolo.analysis.stripes import States
+from dondolo.errors import InputError
+from dondolo.exchange.case_text import Settings
 from dondolo.records.codes import Site
-from dondolo.records.record import Record, record_from
+from dondolo.records.record import Record, as_records, record_from
+from dondolo.records.record_set import RecordSet
+from dondolo.records.suite import upload
 from dondolo.walls.mechanisms import wall_from
 from dondolo.walls.population import Population
 
@@ -57,6 +63,8 @@ class Case(Shown):
         Factors of that check.
     designs : bool
         Whether the walls are designs of one wall, each to be compared with the first.
+    settings : mapping
+        Its groups, each a mapping of variables to values: all that are in force, defaults included.
     """
 
     task: str
@@ -84,6 +92,7 @@ class Case(Shown):
     knowledge_factor: float = 1.35
     behaviour: float = 2.0
     designs: bool = False
+    settings: Settings
 
     def _facts(self) -> list[tuple[str, str]]:
         facts = [
@@ -134,29 +143,76 @@ def read_case(path: str | os.PathLike[str]) -> Case:
     return case_of(receive(_core.cases.read_case(as_path(path))))
 
 
-def case_of(parcel: Parcel) -> Case:
-    """A case as Fortran sends it; how its tables were read is warned of."""
-    given: dict[str, Any] = {name: parcel[name] for name in (*_WORDS, *_NUMBERS)}
-    given |= {name: bool(parcel[name]) for name in ("estimate_error", "certify", "designs")}
-    given |= {name: parcel[name].copy() for name in ("levels", "edp_thresholds")}
+def case_from_text(text: str, records: Iterable[Record], *, name: str = "case.nml") -> Case:
+    """Read a case from its text, with records that are in memory. No file that it names is opened.
+
+    Parameters
+    ----------
+    text : str
+        What a case file has in it.
+    records : iterable of Record
+        The accelerograms, in place of those of its catalogue; of a `RecordSet` without levels.
+    name : str
+        What messages call it.
+
+    Returns
+    -------
+    Case
+
+    Raises
+    ------
+    InputError
+        As `read_case`; a case that needs a table of walls or of a wall's terms, or vertical components where the
+        records have none.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> records = dd.synthetic_records(6.5, 10.0, "shallow", n_records=4)
+    >>> text = '''
+    ...     &wall    mechanism = 'one_sided', height = 1.5, thickness = 0.25 /
+    ...     &records catalogue = 'records.csv' /
+    ...     &stripes levels = 0.6, 0.8, 1.0 /
+    ...     '''
+    >>> case = dd.case_from_text(text, records)
+    >>> case.settings["wall"]["density"]
+    1800
+    """
+    if not isinstance(text, str):
+        raise InputError(f"text must be a string, not {type(text).__name__}", code="wrong_type", variable="text")
+    if isinstance(records, RecordSet) and records.level is not None:
+        raise InputError("records: run at levels of their own, which a case takes from its catalogue alone")
+    several = tuple(as_records(records))
+    suite = upload(several)
+    # A text of f2py would end at NUL
+    content = text.encode("utf-8", "replace").replace(b"\0", b"\xc0\x80")
+    return case_of(receive(_core.cases.read_text(as_text("name", name), content, suite.number)), several)
+
+
+def case_of(parcel: Parcel, given: tuple[Record, ...] | None = None) -> Case:
+    """A case as Fortran sends it, with its records unless they are given; how its tables were read is warned of."""
+    values: dict[str, Any] = {name: parcel[name] for name in (*_WORDS, *_NUMBERS)}
+    values |= {name: bool(parcel[name]) for name in ("estimate_error", "certify", "designs")}
+    values |= {name: parcel[name].copy() for name in ("levels", "edp_thresholds")}
     if "soil" in parcel.names:
         hazard = (parcel[name].tolist() for name in ("ag", "f0", "tc_star"))
-        values = (one if len(one) > 1 else one[0] for one in hazard)
-        given |= {name: parcel[name] for name in ("knowledge_factor", "behaviour")}
+        numbers = (one if len(one) > 1 else one[0] for one in hazard)
+        values |= {name: parcel[name] for name in ("knowledge_factor", "behaviour")}
         life, exceedance = parcel["reference_life"], parcel["exceedance"].tolist()
-        given["site"] = Site(
-            *values,
+        values["site"] = Site(
+            *numbers,
             soil=parcel["soil"],
             topography=parcel["topography"],
             reference_life=life or None,
             exceedance=exceedance or None,
         )
     walls = tuple(wall_from(data) for data in unpack_walls(parcel))
-    records = tuple(record_from(data) for data in unpack_records(parcel))
+    records = given or tuple(record_from(data) for data in unpack_records(parcel))
     warn_of_notes(parcel["notes"])
     return Case(
-        **given,
+        **values,
         population=Population(walls, **rows_of(parcel)),
         records=records,
         record_index=parcel["record"] - 1,
+        settings=json.loads(parcel["settings"])["settings"],
     )

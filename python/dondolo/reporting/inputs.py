@@ -13,6 +13,7 @@ from dondolo._fortran.walls import WALL_EXTRAS, WALL_PROPERTIES
 from dondolo._storage.run_file import RECORD_FACTS, RunFile
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import Stripes
+from dondolo.exchange.case_text import case_text
 from dondolo.figures.style import mechanism_name
 from dondolo.populations.typology import Typology
 from dondolo.records.record import Record
@@ -59,28 +60,6 @@ def inputs(run: Run) -> dict[str, Any]:
     if run.file is not None and run.file.inputs:
         files = _files_table(run.file)
     return {"case": case, "settings": [*run.settings, *_levels(run)], "files": files}
-
-
-def case_text(settings: Mapping[str, Mapping[str, Any]]) -> str:
-    """Settings in the notation of a case file."""
-    lines = []
-    for group, variables in settings.items():
-        parts = [f"{name} = {_namelist_value(value)}" for name, value in variables.items()] or [""]
-        lines += [f"&{group} {parts[0]}", *(f"   {part}" for part in parts[1:])]
-        lines[-1] += " /"
-    return "\n".join(lines)
-
-
-def _namelist_value(value: Any) -> str:
-    """A value in the notation of namelists."""
-    if isinstance(value, bool):
-        return ".true." if value else ".false."
-    if isinstance(value, str):
-        return "'" + value.replace("'", "''") + "'"
-    if isinstance(value, list):
-        return ", ".join(map(_namelist_value, value))
-    mantissa, _, power = repr(value).partition("e")
-    return mantissa.removesuffix(".0") + (f"e{int(power)}" if power else "")
 
 
 def _files_table(file: RunFile) -> Table:

@@ -11,6 +11,7 @@ import numpy as np
 
 from dondolo._storage.run_file import RECORD_FACTS, RunFile
 from dondolo.curves.fragility import Fragility
+from dondolo.exchange.case_text import case_text
 from dondolo.reporting.blocks import (
     Annexes,
     Block,
@@ -22,7 +23,6 @@ from dondolo.reporting.blocks import (
     symbol_of,
 )
 from dondolo.reporting.content import BETA, THETA, Piece, Table
-from dondolo.reporting.inputs import case_text
 from dondolo.reporting.numerals import NONE, Numeral, number, probability, whole
 from dondolo.reporting.relazione.checks import method_name, outcome, sums_of
 from dondolo.reporting.relazione.document import Document, _

@@ -32,7 +32,7 @@ module dondolo_case_read_case
    use dondolo_record_catalogue, only : read_catalogue, record_rows_type
    use dondolo_record_dead_channel, only : check_motion
    use dondolo_record_reading_notes, only : list_reading_notes
-   use dondolo_record_suite, only : new_suite
+   use dondolo_record_suite, only : new_suite, suite_type
    use dondolo_wall, only : new_wall
    use dondolo_wall_properties, only : own_properties, wall_input_type, wall_properties
    use dondolo_wall_table, only : take_table
@@ -48,14 +48,18 @@ contains
 
 
    !> Read a case and all its files, and check all of it
-   subroutine read_case(file, case, error, rows)
-      !> Path of the namelist file
+   subroutine read_case(file, case, error, rows, text, suite)
+      !> Path of the namelist file; with `text` its name in messages
       character(len=*), intent(in) :: file
       type(case_type), intent(out) :: case
       !> The first thing that is wrong; of a population, everything
       type(error_type), allocatable, intent(out) :: error
       !> First and last row of the population that are to be run, from 1; all if absent
       integer, intent(in), optional :: rows(2)
+      !> Contents of the namelist file, which is not read then
+      character(len=*), intent(in), optional :: text
+      !> Accelerograms in the place of those of the catalogue. No file that the case names is opened then
+      type(suite_type), intent(in), optional :: suite
 
       type(namelist_type) :: namelist
       type(wall_input_type) :: wall
@@ -64,13 +68,14 @@ contains
       case%file = file
       call check_variant(error)
       if (allocated(error)) return
-      if (is_folder(file)) then
-         call raise_input(error, file//': is a folder, must be a namelist file')
-         return
+      if (.not. present(text)) then
+         if (is_folder(file)) call raise_input(error, file//': is a folder, must be a namelist file')
+         if (allocated(error)) return
       end if
-      call read_namelist(file, namelist, error)
+      call read_namelist(file, namelist, error, text)
       if (allocated(error)) return
       call namelist%check_groups(group_names, error)
+      if (present(suite) .and. .not. allocated(error)) call refuse_files(namelist, error)
       if (.not. allocated(error)) call read_job(namelist%group('job'), case%job, error)
       if (.not. allocated(error)) call check_task(namelist, case%job%task, error)
       if (.not. allocated(error)) call read_solver_group(namelist%group('solver'), case%solver, error)
@@ -84,7 +89,11 @@ contains
       if (.not. allocated(error)) call read_check(namelist, case, error)
       if (.not. allocated(error)) call check_combinations(namelist, case, error)
       if (.not. allocated(error)) call read_records_group(namelist%group('records'), case%records_input, error)
-      if (.not. allocated(error)) call read_records(namelist%group('records'), case, runs, error)
+      if (present(suite)) then
+         if (.not. allocated(error)) call take_suite(namelist%group('records'), suite, case, error)
+      else
+         if (.not. allocated(error)) call read_records(namelist%group('records'), case, runs, error)
+      end if
       if (.not. allocated(error)) call measure_case(namelist, case, error)
       if (.not. allocated(error)) call choose_records(namelist, case, runs, error)
       if (allocated(error)) return
@@ -103,6 +112,59 @@ contains
          call check_scales(namelist, case, error)
       end if
    end subroutine read_case
+
+   !> Refuse files beside the catalogue, for a case whose accelerograms are given
+   subroutine refuse_files(namelist, error)
+      type(namelist_type), intent(in) :: namelist
+      !> Names the first
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=10), parameter :: groups(2) = [character(len=10) :: 'wall', 'population']
+      character(len=5), parameter :: names(2) = [character(len=5) :: 'table', 'file']
+      type(group_type) :: group
+      integer :: i
+
+      do i = 1, size(groups)
+         group = namelist%group(trim(groups(i)))
+         if (group%has(trim(names(i))) .and. .not. allocated(error)) call group%refuse(trim(names(i)), &
+            & 'no file is read for a case whose accelerograms are given', error)
+      end do
+   end subroutine refuse_files
+
+   !> Take accelerograms that are given
+   subroutine take_suite(group, suite, case, error)
+      !> The group &records
+      type(group_type), intent(in) :: group
+      !> The accelerograms
+      type(suite_type), intent(in) :: suite
+      !> The case: it gets a copy of them
+      type(case_type), intent(inout) :: case
+      !> They have vertical components and the case takes none, or the other way round
+      type(error_type), allocatable, intent(out) :: error
+
+      call check_polarity(group, case, error)
+      if (allocated(error)) return
+      if (allocated(case%records_input%vertical_factor) .neqv. suite%has_vertical) then
+         call raise_input(error, group%place()//': vertical = '''//case%records_input%vertical// &
+            & ''': the accelerograms given have'//trim(merge('   ', ' no', suite%has_vertical))//' vertical components'// &
+            & group%in_line('vertical'))
+         return
+      end if
+      case%suite = suite
+   end subroutine take_suite
+
+   !> Check that the polarity suits the task
+   subroutine check_polarity(group, case, error)
+      !> The group &records
+      type(group_type), intent(in) :: group
+      !> The case
+      type(case_type), intent(in) :: case
+      !> Both polarities of one time history
+      type(error_type), allocatable, intent(out) :: error
+
+      if (case%job%task == history_task .and. case%records_input%polarity == 'both') call group%refuse('polarity', &
+         & 'must be ''as_recorded'' or ''reversed'' for task = ''history''', error)
+   end subroutine check_polarity
 
    !> Read the table of the terms of the wall
    subroutine read_table(group, wall, error)
@@ -353,11 +415,8 @@ contains
       integer :: i
 
       call check_file(group, 'catalogue', case%records_input%catalogue, error)
+      if (.not. allocated(error)) call check_polarity(group, case, error)
       if (allocated(error)) return
-      if (case%job%task == history_task .and. case%records_input%polarity == 'both') then
-         call group%refuse('polarity', 'must be ''as_recorded'' or ''reversed'' for task = ''history''', error)
-         return
-      end if
       ! A factor that is not allocated is an argument that is not present
       call read_catalogue(beside(case%records_input%catalogue, case%file), records, error, note, rows, &
          & case%records_input%vertical_factor, case%job%threads)

@@ -11,7 +11,7 @@ module dondolo_case_namelist
    use dondolo_base_limits, only : longest_case
    use dondolo_base_name_index, only : name_index_type
    use dondolo_base_text, only : lower, to_text
-   use dondolo_base_text_file, only : read_text_file, text_file_type
+   use dondolo_base_text_file, only : find_lines, read_text_file, text_file_type
    use dondolo_case_namelist_group, only : group_type, variable_type
    use dondolo_case_namelist_tokens, only : comma, cut, end_of_file, equals, group_begin, group_end, quoted, token_type, word
    implicit none
@@ -35,18 +35,28 @@ module dondolo_case_namelist
 contains
 
    !> Read a namelist file
-   subroutine read_namelist(file, namelist, error)
-      !> Path of the file
+   subroutine read_namelist(file, namelist, error, content)
+      !> Path of the file; with `content` its name in messages
       character(len=*), intent(in) :: file
       !> What stands in it
       type(namelist_type), intent(out) :: namelist
       !> The file cannot be read, is too long, or is no namelist file
       type(error_type), allocatable, intent(out) :: error
+      !> What is in the file, which is not read then
+      character(len=*), intent(in), optional :: content
 
       type(text_file_type) :: text
       type(token_type), allocatable :: tokens(:)
 
-      call read_text_file(file, text, error, longest_case)
+      if (.not. present(content)) then
+         call read_text_file(file, text, error, longest_case)
+      else if (len(content) > longest_case) then
+         call raise_input(error, file//': has '//to_text(len(content))//' bytes: must be at most '//to_text(longest_case))
+      else
+         text%file = file
+         text%text = content
+         call find_lines(text, error)
+      end if
       if (allocated(error)) return
       call refuse_table(file, error)
       if (.not. allocated(error)) call cut(text, tokens, error)
