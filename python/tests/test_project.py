@@ -252,6 +252,13 @@ def test_no_single_precision_at_the_boundary():
         assert not re.search(r": .*\bfloat32\b", text), name
 
 
+def test_integers_at_the_boundary_are_as_long_on_windows(root):
+    """Of these kinds f2py makes a long of C, which has 32 bits there: addresses would be cut."""
+    for source in (root / "python/dondolo/_fortran").glob("*.f90"):
+        text = source.read_text(encoding="utf-8")
+        assert not re.search(r"integer\(c_(long|intptr_t|intmax_t|size_t)\), *intent", text), source.name
+
+
 def looked_up(text):
     """Names that a Fortran source asks settings for, or sets in them; records have metadata, whose keys may be any."""
     text = re.sub(r"&\s*\n\s*&?", " ", re.sub(r"(?m)^\s*!.*\n", "", text))
@@ -544,7 +551,8 @@ def test_no_parcel_is_lost(wall, sine):
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 20_000
 
 
-@pytest.mark.parametrize("command", ["ruff check", "ruff format --check", "fortitude check"])
+# On Windows the module os has less.
+@pytest.mark.parametrize("command", ["ruff check", "ruff format --check", "fortitude check", "mypy --platform win32"])
 def test_linters(command, root):
     tool, *options = command.split()
     tool = Path(sys.executable).with_name(tool)

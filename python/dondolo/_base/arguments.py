@@ -121,9 +121,9 @@ def as_sentences(name: str, sentences: str | Iterable[str]) -> tuple[str, ...]:
 
 
 def as_path(path: str | os.PathLike[str]) -> bytes:
-    """Turn a path into the bytes Fortran takes."""
+    """Turn a path into the bytes Fortran takes, which divides folders by '/' on Windows too."""
     try:
-        return os.fsencode(path)
+        return os.fsencode(path).replace(os.fsencode(os.sep), b"/")
     except TypeError:
         raise InputError(f"path = {path!r}: must be the path of a file") from None
 

@@ -7,6 +7,7 @@ import errno
 import os
 import re
 import stat
+import sys
 import zlib
 from pathlib import Path
 from typing import Any
@@ -25,7 +26,9 @@ _THINGS = {
 
 
 def synchronize(path: Path) -> None:
-    """Bring a file, or the names of the files of a folder, to the disk."""
+    """Bring the names of the files of a folder to the disk; Windows lets nobody do so."""
+    if sys.platform == "win32":
+        return
     descriptor = os.open(path, os.O_RDONLY)
     try:
         os.fsync(descriptor)

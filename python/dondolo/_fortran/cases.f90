@@ -1,6 +1,6 @@
 !> Case files.
 module cases
-   use, intrinsic :: iso_c_binding, only : c_double, c_f_pointer, c_int, c_int64_t, c_intptr_t, c_ptr
+   use, intrinsic :: iso_c_binding, only : c_double, c_f_pointer, c_int, c_int64_t, c_ptr
    use dondolo_base_error, only : error_type
    use dondolo_base_json, only : json_type
    use dondolo_boundary, only : check_room
@@ -73,7 +73,7 @@ contains
    subroutine run_case(path, heard, sent_case, sent_rows, sent_results)
       !f2py threadsafe
       character(len=*), intent(in) :: path
-      integer(c_intptr_t), intent(in) :: heard
+      integer(c_int64_t), intent(in) :: heard
       integer(c_int64_t), intent(out) :: sent_case(5), sent_rows(5), sent_results(5)
       type(case_type), allocatable, target :: case
       type(results_type), allocatable :: results

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray
+from dondolo._base.arguments import FloatArray, as_path
 from dondolo._base.files import as_file, thing
 from dondolo._fortran import _core
 from dondolo._fortran.library import check, receive
@@ -76,7 +76,7 @@ def whole_file(path: Any) -> Iterator[Path]:
     target = as_file("path", path)
     if what := thing(target, follow_symlinks=False):
         raise InputError(f"{target}: cannot be written: is {what}")
-    handle, run, failure = _core.files.begin_file(os.fsencode(target))
+    handle, run, failure = _core.files.begin_file(as_path(target))
     check(failure)
     try:
         yield target.with_name(f"{target.name}.{run.decode()}.new")
@@ -108,7 +108,7 @@ def locked(path: Path) -> Iterator[bool]:
     DondoloError
         The lock cannot be written.
     """
-    handle, was_killed, failure = _core.files.take_lock(os.fsencode(path))
+    handle, was_killed, failure = _core.files.take_lock(as_path(path))
     check(failure)
     try:
         yield bool(was_killed)
@@ -180,7 +180,7 @@ def result_set(prefix: Path) -> Iterator[ResultSet]:
     DondoloError
         The files cannot be written.
     """
-    handle, run, failure = _core.files.begin_set(os.fsencode(prefix))
+    handle, run, failure = _core.files.begin_set(as_path(prefix))
     check(failure)
     try:
         yield ResultSet(handle, run.decode())
@@ -190,7 +190,7 @@ def result_set(prefix: Path) -> Iterator[ResultSet]:
 
 def published_run(prefix: str | os.PathLike[str]) -> str:
     """Name of the run whose results are published; empty if there is none."""
-    return str(_core.files.published_run(os.fsencode(prefix)).decode().strip())
+    return str(_core.files.published_run(as_path(prefix)).decode().strip())
 
 
 def _lines(texts: Any) -> bytes:

@@ -6,7 +6,7 @@
 !> knows are sent as parcels (dondolo_parcel), which come last; where nothing is sent but an error, it is `failure`. Procedures that
 !> compute release Python's lock (threadsafe); those that fill or empty a handle hold it.
 module library
-   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t, c_intptr_t
+   use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use, intrinsic :: omp_lib, only : omp_set_max_active_levels
    use dondolo_base_error, only : error_type, raise_input
    use dondolo_base_interrupt, only : begin => listen, finish => end_listening
@@ -162,7 +162,7 @@ contains
    !> Contents of a parcel that another procedure has sent
    subroutine take_parcel(handle, m, n, k, integers, reals, text)
       !f2py threadsafe
-      integer(c_intptr_t), intent(in) :: handle
+      integer(c_int64_t), intent(in) :: handle
       integer(c_int), intent(in) :: m, n, k
       ! Bytes, four in a number
       integer(c_int), intent(out) :: integers(m), text((k + 3)/4)
@@ -174,7 +174,7 @@ contains
    !> The next series of a parcel whose other contents have been taken
    subroutine take_series(handle, n, values)
       !f2py threadsafe
-      integer(c_intptr_t), intent(in) :: handle
+      integer(c_int64_t), intent(in) :: handle
       integer(c_int), intent(in) :: n
       real(c_double), intent(out) :: values(n)
 

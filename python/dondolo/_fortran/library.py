@@ -233,8 +233,10 @@ class Stoppable:
             _core.library.end_listening()
 
 
-# OpenMP's threads do not survive a fork: a process that is made by one works with the thread that it has.
-os.register_at_fork(after_in_child=_core.library.work_alone)
+# OpenMP's threads do not survive a fork: a process that is made by one works with the thread that it has. Windows has
+# no fork.
+if sys.platform != "win32":
+    os.register_at_fork(after_in_child=_core.library.work_alone)
 
 
 def as_text(name: str, value: Any) -> bytes:

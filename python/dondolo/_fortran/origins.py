@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 
+from dondolo._base.arguments import as_path
 from dondolo._fortran import _core
 from dondolo._fortran.library import check, receive
 
@@ -24,7 +25,7 @@ def check_replaced(path: str | os.PathLike[str], kind: str) -> None:
     InputError
         Something else is there: another file, a symbolic link, a folder, a pipe, a device.
     """
-    check(_core.origins.check_replaced(os.fsencode(path), kind.encode()))
+    check(_core.origins.check_replaced(as_path(path), kind.encode()))
 
 
 def derived_mark(kind: str, run: str) -> str:
@@ -42,9 +43,9 @@ def derived_mark(kind: str, run: str) -> str:
 
 def replaced(prefix: str | os.PathLike[str]) -> list[str]:
     """Whose results with a prefix a run would replace: one sentence, or none."""
-    return receive(_core.origins.replaced(os.fsencode(prefix))).lines
+    return receive(_core.origins.replaced(as_path(prefix))).lines
 
 
 def outdated(prefix: str | os.PathLike[str]) -> list[str]:
     """What was made of other results than those with a prefix: a sentence for each file."""
-    return receive(_core.origins.outdated(os.fsencode(prefix))).lines
+    return receive(_core.origins.outdated(as_path(prefix))).lines

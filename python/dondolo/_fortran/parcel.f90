@@ -303,7 +303,7 @@ contains
    !> Take what a parcel holds but its series, and free it if it has none
    subroutine take(handle, integers, reals, text)
       !> Its address, which is valid once, and for each series once more; 0: nothing was sent
-      integer(c_intptr_t), intent(in) :: handle
+      integer(c_int64_t), intent(in) :: handle
       !> Its integers
       integer(c_int), intent(out) :: integers(:)
       !> Its reals
@@ -337,7 +337,7 @@ contains
    !> Take the next series of a parcel, and free the parcel after the last
    subroutine take_series(handle, values)
       !> Its address
-      integer(c_intptr_t), intent(in) :: handle
+      integer(c_int64_t), intent(in) :: handle
       !> The numbers
       real(c_double), intent(out) :: values(:)
 

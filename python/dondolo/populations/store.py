@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dondolo._base.arguments import FloatArray
+from dondolo._base.arguments import FloatArray, as_path
 from dondolo._base.files import as_file
 from dondolo._fortran import _core
 from dondolo._fortran.library import Parcel, check, receive
@@ -72,7 +72,7 @@ class Store:
 
     def __init__(self, path: str | os.PathLike[str] | None, request: Request, states: FloatArray) -> None:
         self._request, self._states = request, states
-        file = b"" if path is None else os.fsencode(as_file("checkpoint", path))
+        file = b"" if path is None else as_path(as_file("checkpoint", path))
         study, people = request._study.number, request._people.number
         handle, failure = _core.stores.open_store(file, study, people, states)
         check(failure)

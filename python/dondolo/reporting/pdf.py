@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import sys
 from pathlib import Path
 
 from dondolo._fortran.files import whole_file
@@ -69,7 +70,7 @@ def _print_by_browser(browser: str, page: Path, part: Path) -> None:
     import subprocess
 
     # Root may start it only without its sandbox; the page is our own.
-    root = ["--no-sandbox"] if os.geteuid() == 0 else []
+    root = ["--no-sandbox"] if sys.platform != "win32" and os.geteuid() == 0 else []
     quiet = ["gpu", "quic", "background-networking", "component-update", "sync", "extensions"]
     options = ["--headless", "--no-first-run", *(f"--disable-{name}" for name in quiet), "--no-pdf-header-footer"]
     target = page.with_suffix(".pdf")

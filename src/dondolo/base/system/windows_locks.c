@@ -87,7 +87,8 @@ int dondolo_look_at_lock(const char *path, char *text, size_t room)
 int dondolo_make_part(const char *path, int *descriptor)
 {
    BY_HANDLE_FILE_INFORMATION ours, there;
-   HANDLE file = dondolo_open(path, GENERIC_READ | GENERIC_WRITE | DELETE, CREATE_NEW, 0);
+   /* Without DELETE, or other programs, Python among them, could not open it */
+   HANDLE file = dondolo_open(path, GENERIC_READ | GENERIC_WRITE, CREATE_NEW, 0);
 
    *descriptor = -1;
    if (file == INVALID_HANDLE_VALUE)
