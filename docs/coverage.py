@@ -1,6 +1,6 @@
-"""Do the intervals of fragility curves contain the truth as often as they say? Writes docs/uncertainty.md.
+"""Do the intervals of fragility curves contain the truth as often as they say? Writes docs/studies/coverage.md.
 
-With --quick only a few draws are made, and the page is out/quick/uncertainty.md.
+With --quick only a few draws are made, and the page is out/quick/coverage.md.
 
 A population of synthetic records of many scenarios stands for the earthquakes that there could be. The curve of all of
 them is the truth; curves of a few records, drawn with replacement, are what a study gets. Histories are run once.
@@ -24,7 +24,7 @@ import dondolo as dd
 
 QUICK = "--quick" in sys.argv[1:]
 FOLDER = Path(__file__).parent
-PAGE = (FOLDER.parent / "out/quick" if QUICK else FOLDER) / "uncertainty.md"
+PAGE = (FOLDER.parent / "out/quick" if QUICK else FOLDER / "studies") / "coverage.md"
 RECORDS, SEED = 60 if QUICK else 600, 11
 # Studies by their number of records: with 44, shares to a third of a per cent
 DRAWS = dict.fromkeys((44, 22, 11), 10) if QUICK else {44: 4000, 22: 1000, 11: 1000}
@@ -347,8 +347,7 @@ def write_page(rows: list[list[str]], tests: list[list[str]], risks: list[list[s
         TEXT,
         f"## Coverage\n\n{RECORDS} records, {DRAWS[44]} draws of 44 and {DRAWS[22]} of fewer in each row. Share of the"
         " 95 % intervals of θ / β that contain the value of the population, in %; the standard error of a share is 0.35"
-        " and 0.7. The last column is the share of the draws without a fit or without standard errors, which take no"
-        " part.\n",
+        " and 0.7. The last column is the share of the draws excluded because they have no fit or no standard errors.\n",
         table([*head, *methods, "without"], sorted(rows, key=lambda row: -int(row[3]))),
         "## Tests of equality\n\nShare of the comparisons (`Curve.compare`) that reject equal curves at 5 %,"
         " in %, in as many draws. On the same records one curve takes a random polarity of each record, and the other"
@@ -367,92 +366,22 @@ def write_page(rows: list[list[str]], tests: list[list[str]], risks: list[list[s
     PAGE.write_text("\n".join(parts), encoding="utf-8")
 
 
-RECORDED = """44 horizontal components recorded in Italy, 20 levels from 0.05 to 1.00 g, clustered by recording (both
-components together) and by earthquake; the bootstrap draws the same clusters. Studentized, each draw is measured by
-its own clustered standard error (bootstrap-t, Efron 1981), which takes in that a few clusters tell little of their own
-scatter, as Student's t does. Percentiles do not: their intervals are too narrow where there are few clusters.
+RECORDED = """44 horizontal components recorded in Italy, 20 levels from 0.05 to 1.00 g, clustered by recording (both components
+together) and by earthquake; the bootstrap draws the same clusters. Studentized, each draw is divided by its own
+clustered standard error (bootstrap-t, Efron 1981), which accounts for the few clusters as Student's t does. Percentile
+intervals are too narrow with few clusters.
 """
 
-CHOSEN = """The 44 embedded records, as recorded. Widths of the 95 % intervals in ln θ / in ln β, with levels chosen
-one after the other; with as many equally spaced up to 2 θ, and from the 5 to the 95 % fractile of the
-curve, places which nobody knows beforehand; and with 50 levels from 0.1 to 4 g. With one draw of
-records, differences of a tenth are chance. The records limit what can be learnt: fifty stripes tell
-little more than twelve.
+CHOSEN = """The 44 embedded records, as recorded. Widths of the 95 % intervals in ln θ / in ln β, with levels chosen one after the
+other; with as many equally spaced up to 2 θ; with as many from the 5th to the 95th percentile of the curve, which is
+unknown beforehand; and with 50 levels from 0.1 to 4 g. With one draw of records, differences of a tenth are chance.
+The records limit the precision: fifty stripes add little to twelve.
 """
 
-TEXT = """# What an interval means
+TEXT = """# Coverage of intervals
 
-`./run intervals` writes this page.
-
-A fragility curve is fitted to a few dozen records, which stand for the earthquakes that there could be. With other
-records the curve would be another one. A 95 % interval is made so that, over many studies with records drawn in the
-same way, 95 of 100 intervals contain the curve of all records. It covers the choice of the records and the scatter of
-their outcomes. It does not cover the choice of the intensity measure, scaled records that differ from strong ones,
-the mechanical model, or a curve that is not lognormal: what is estimated is the lognormal closest to the fractions at
-the chosen levels.
-
-**Why not the Fisher information.** The same records are run at every level, in both polarities and with both
-components. A record that brings the wall down at 0.6 g mostly does so at 0.7 g. The Fisher information counts each
-history as new evidence; more levels then seem to be more evidence, and intervals get ever narrower. It remains
-available as `naive_covariance`, and in the columns `naive_se_*` of `*_fragility.csv`.
-
-**Clusters.** Histories of one cluster may depend on each other in any way; clusters are independent. A cluster is the
-record with its polarities and levels; records with the same `event` (a column of the catalogue, or the header of the
-file) are one cluster. Without a name, equal origin time and epicentre are one event. Without these, components with
-the same station and date are one cluster, and without these a record that is given more than once. Records whose event
-is not known count as independent, though those of one earthquake are not, and the run warns of them: state which
-belong together in a column `event`, or by `Stripes.fit(events=...)`, which sets other labels.
-
-**Estimator.** With s_g the score of cluster g and I_g its part of the information I of the probit regression, the
-covariance is I⁻¹ (Σ r_g r_gᵀ) I⁻¹ with r_g = I (I - I_g)⁻¹ s_g (Liang and Zeger 1986; correction of Mancl and DeRouen
-2001, known as CR3): (I - I_g)⁻¹ s_g is the change of the parameters if the cluster is left out, to first order.
-Intervals are symmetric in ln θ and in 1/β, the slope of the regression, with the quantile of Student's t for one
-degree of freedom less than there are clusters. If all clusters have the same histories, CR1 and CR2 agree, and
-corrections are powers of g/(g - 1). The table below decided: CR0 with the normal quantile falls short for β with 22
-records or fewer, and intervals symmetric in ln β fall short with 11.
-
-**What was tried besides.** Intervals symmetric in another power of β, in 4000 draws of 44 records (1000 of 11), and
-the nine rows of the table for each number of records. Symmetric in ln β they miss the truth three to five times as
-often on one side as on the other. In 1/β, as here, they covered 94.6 to 95.2 % with 44 records, and the truth was
-above 3.0 to 3.5 % and below 1.7 to 2.1 % of them. In 1/β² both sides are equal, and coverage was 94.7 to 95.3 % with
-44 records, and 93.7 to 96.2 instead of 92.6 to 93.8 % with 11; but then 5 to 35 % of the intervals have no upper bound.
-Degrees of freedom after Bell and McCaffrey (2002) follow from the design alone: g - 1 where all clusters have the same
-histories, as here. Degrees of freedom from the kurtosis of the changes r_g, about 2 g/(k - 1), made intervals of β 2 to
-7 % wider and gained up to one per cent of coverage.
-
-**None at all.** With fewer than three clusters, or if one alone determines the curve, `errors` gives the reason and
-there are no standard errors. A population of two walls has none either: two are too few to tell how much walls differ.
-One wall is a wall like any other, of which the records alone are a sample.
-
-**Populations.** All walls share the records, and the walls are a sample too. The covariance of a typological curve is
-the sum of that by clusters of records and that by walls, with degrees of freedom after Satterthwaite; what belongs to
-one record and one wall alone is counted in both, which errs on the wide side. Fractions of walls of several mechanisms
-are linearised. The covariances of 10 000 curves took 1.2 s, 1 % of the time of their 8.8 million histories.
-
-**Comparisons.** `Curve.compare` takes in what two curves share: clusters with the same label, records with the same
-content. It states `pairing` and the number of clusters shared. On the same records the variance of the difference
-counts, which is often much less than the sum of the variances. Between independent curves, the degrees of freedom are
-those of Welch and Satterthwaite.
-
-**Annual frequencies.** `risk.uncertainty()` draws ln θ and 1/β from the distribution that the intervals rest on,
-Student's t with the clustered covariance, and integrates each draw over the hazard; of populations the frequency is
-linearised in the records and walls. The hazard's own uncertainty is that of its fractiles, for each of which there is
-an interval of its own.
-
-**Damage states with one dispersion** (`states = 'ordinal'`). The covariance is that of all θ and β together, from the
-scores and the information of the cumulative probit model, with the same correction.
-
-**Levels that tell most.** `adaptive_stripes(wall, records, budget)` spends a budget of histories stripe by
-stripe. A record counts as one capacity, lognormal as the curve so far; stripes tell between which of their levels it
-lies. The next level maximises the determinant of the Fisher information on (ln θ, ln β) of such grouped data, which is
-the same for any other pair of parameters of the curve (D-optimal design); a level that was run already adds nothing.
-Nothing else depends on this model. Only the package has it: the executable takes its levels from the case, which is
-read and checked before anything runs.
-
-**Other intervals of the package.** Curves of first collapses (`incremental`) and dispersions of `compare_intensities`
-are clustered in the same way; the ratios of dispersions come from a bootstrap of clusters. Curves fitted to counts
-alone (`fit_fragility`) know no records and are naive. The regressions of a cloud analysis take its histories for
-independent: each record is used once, but its two components, and both polarities if asked for, are not independent.
+`./run intervals` writes this page. [Uncertainty](../uncertainty.md) explains what the intervals are. The first table
+decided the estimator: with few records intervals with CR0 and the normal quantile are too narrow for β.
 """
 
 
