@@ -1,4 +1,4 @@
-"""Print the table of docs/code_checks.md: DONDOLO_RECORDS=FOLDER python docs/code_checks.py."""
+"""Print the table of docs/studies/code_checks.md: DONDOLO_RECORDS=FOLDER python docs/code_checks.py."""
 
 import os
 from pathlib import Path

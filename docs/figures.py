@@ -6,7 +6,10 @@ these are available in the folder DONDOLO_RECORDS.
 
 import itertools
 import os
+import shutil
+import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 import matplotlib
@@ -36,6 +39,7 @@ def main() -> None:
     figures.mkdir(parents=True, exist_ok=True)
     front()
     quick_start()
+    report()
     intensities()
     mechanisms()
     symbols()
@@ -86,6 +90,27 @@ def quick_start():
     stripes.plot(axes[0])
     stripes.fit().plot(axes[1])
     figure.savefig(figures / "quick_start.png", dpi=100)
+
+
+def report():
+    """Draw the beginning of the report of the README's first command, as a browser shows it."""
+    chromium = shutil.which("chromium") or shutil.which("google-chrome")
+    if chromium is None:
+        print("skipped: the picture of a report needs Chromium")
+        return
+    dondolo = Path(sys.executable).with_name("dondolo")
+    with tempfile.TemporaryDirectory() as folder:
+        case = subprocess.run([dondolo, "--example", "parapet"], capture_output=True, text=True, check=True).stdout
+        (Path(folder) / "parapet.nml").write_text(case, encoding="utf-8")
+        subprocess.run([dondolo, "--quiet", "parapet.nml"], cwd=folder, check=True)
+        subprocess.run([dondolo, "report", "out/parapet"], cwd=folder, check=True)
+        options = ["--headless", "--no-sandbox", "--no-first-run", "--disable-gpu", "--hide-scrollbars"]
+        options += [
+            f"--user-data-dir={folder}/profile",
+            "--window-size=1000,1250",
+            f"--screenshot={figures}/report.png",
+        ]
+        subprocess.run([chromium, *options, f"file://{folder}/out/parapet_report.html"], check=True)
 
 
 def intensities():

@@ -1,0 +1,77 @@
+"""docs/troubleshooting.md, matlab_excel.md and python.md: what they quote, run and name exists."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import dondolo as dd
+
+METHODS = {
+    "record": dd.Record,
+    "records": dd.RecordSet,
+    "stripes": dd.results.Stripes,
+    "curve": dd.Fragility,
+    "typology": dd.results.Typology,
+    "study": dd.Study,
+}
+
+
+@pytest.fixture(scope="module")
+def sources(root):
+    """All sources that write messages, with literals on several lines joined."""
+    files = [file for folder in ("src", "app") for file in root.glob(f"{folder}/**/*.[fF]90")]
+    fortran = "\n".join(file.read_text(encoding="utf-8") for file in files)
+    fortran = re.sub(r"'\s*//\s*&\s*\n\s*&?\s*'", "", fortran).replace("''", "'")
+    files = list(root.glob("python/dondolo/**/*.py"))
+    assert len(files) > 50
+    python = "\n".join(file.read_text(encoding="utf-8") for file in files)
+    return fortran + re.sub(r'"\s*\n\s*f?"', "", python)
+
+
+def quoted(root):
+    """Messages in the headings of the page."""
+    page = (root / "docs/troubleshooting.md").read_text(encoding="utf-8")
+    return [message for heading in re.findall(r"(?m)^### (.*)$", page) for message in re.findall(r"`([^`]+)`", heading)]
+
+
+def test_messages_are_those_of_the_sources(root, sources):
+    messages = quoted(root)
+    assert len(messages) >= 25
+    for message in messages:
+        parts = [part.strip(" ,;:") for part in message.split("...")]
+        parts = [part for part in parts if len(part) > 3]
+        assert parts, message
+        assert [part for part in parts if part not in sources] == [], message
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(shutil.which("octave-cli") is None, reason="needs Octave")
+def test_the_script_for_matlab(root, tmp_path):
+    """The script of docs/matlab_excel.md writes a case, runs it and reads its results."""
+    script = re.search(r"```matlab\n(.*?)```", (root / "docs/matlab_excel.md").read_text(encoding="utf-8"), re.S)[1]
+    (tmp_path / "script.m").write_text(script + "disp(run.format)\n", encoding="utf-8")
+    path = f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"
+    done = subprocess.run(
+        ["octave-cli", "--no-gui", "--norc", "script.m"],
+        cwd=tmp_path, env={**os.environ, "PATH": path}, capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert "dondolo run" in done.stdout
+    assert (tmp_path / "out/wall_fragility.csv").is_file()
+
+
+def test_overview_names_what_exists(root):
+    """The page of one screen names every public function and class, and no other."""
+    page = (root / "docs/python.md").read_text(encoding="utf-8")
+    named = set(re.findall(r"dd\.(\w+)", page))
+    public = {name for name in dd.__all__ if not name.startswith("_")}
+    assert public - named == set()
+    assert named - public == set()
+    assert [path for path in re.findall(r"`(\w+)\.\w+\(", page) if path not in METHODS] == []
+    for thing, method in re.findall(r"`(\w+)\.(\w+)\(", page):
+        assert hasattr(METHODS[thing], method), f"{thing}.{method}"
