@@ -10,31 +10,36 @@ LEFT_OUT = re.compile(r", ([^,;]+) if not given|; ([^,;]+) if not given")
 MECHANISMS = next(row.choices for row in properties("wall") if row.name == "mechanism")
 
 TITLES = {
-    "job": "What is to be done",
-    "wall": "One wall, for the tasks 'stripes' and 'history'; in the columns of a population, its walls",
-    "building": "What the wall stands on, where that is not the ground; in the columns of a population, of each wall",
-    "uncertainty": "What is not known for certain of the one wall of a case, for the task 'typology' with `&wall`; each"
-    " property as a distribution: 'uniform(low, high)', 'triangular(low, mode, high)', 'normal(mean, sd)' or"
-    " 'lognormal(theta, beta)', the last two also with low, high where they are cut off",
+    "job": "The task and its output",
+    "wall": "One wall, for the tasks 'stripes' and 'history'; also as columns of a population",
+    "building": "The building below a wall that does not stand on the ground; also as columns of a population",
+    "uncertainty": "Uncertain properties of the one wall of a case, for the task 'typology' with `&wall`; each"
+    " property is a distribution: 'uniform(low, high)', 'triangular(low, mode, high)', 'normal(mean, sd)' or"
+    " 'lognormal(theta, beta)', the last two also with low, high, where they are truncated",
     "row": "Further columns of a population",
     "population": "A population of walls, for the task 'typology'",
     "records": "The accelerograms",
     "stripes": "The intensity measure and its levels",
-    "solver": "How the motions are computed",
+    "solver": "Integration of the motions",
     "check": "A check by a building code beside the curves, for the tasks 'stripes' and 'typology'",
-    "history": "Which record and how strong, for the task 'history'",
+    "history": "The record and its level, for the task 'history'",
 }
 HEAD = """# Variables of a case
 
-What a namelist file can say, group by group; `dondolo --template` prints the same as a case that runs in the root of
-the repository. The names of the groups `&wall` and `&building` are the columns of a population, and the arguments of
-the walls and of `dd.Building` in Python too; values of a list stand in columns with numbers, `period1`, `period2` ...
-In Python the lists of a wall are parts: `tie_height`, `tie_area` ... of all ties are `height`, `area` ... of each
-`dd.Tie` in the wall's `ties`, and so for `dd.Section`, `dd.Load`, `dd.PushedMass` (`inertia_mass`), `dd.Thrust`,
-`dd.Spring` and `dd.Bed`; `dd.Interlock` has what begins with `interlock`.
-A variable without a default has no value where it is left out. An empty `only for` means all mechanisms and tasks.
-This page is written by `docs/variables.py` from the tables of properties in the sources, where ranges and defaults have
-their only home.
+Every variable of a namelist file, group by group. `dondolo --template` prints the same as a case that runs.
+
+```fortran
+&wall mechanism = 'one_sided' height = 3.0 thickness = 0.25 /
+```
+
+The names of `&wall` and `&building` are also the columns of a population and the arguments of the walls and of
+`dd.Building` in Python. Values of a list are in numbered columns, `period1`, `period2` ... In Python they are parts:
+`tie_height` and `tie_area` of all ties are `height` and `area` of each `dd.Tie`. The same holds for `dd.Section`,
+`dd.Load`, `dd.PushedMass` (`inertia_mass`), `dd.Thrust`, `dd.Spring` and `dd.Bed`; `dd.Interlock` has the names that
+begin with `interlock`.
+
+A variable without a default has no value if left out. An empty `only for` means all mechanisms and tasks.
+`docs/variables.py` writes this page from the tables of properties in the sources.
 """
 
 
