@@ -347,7 +347,7 @@ def write_page(rows: list[list[str]], tests: list[list[str]], risks: list[list[s
         TEXT,
         f"## Coverage\n\n{RECORDS} records, {DRAWS[44]} draws of 44 and {DRAWS[22]} of fewer in each row. Share of the"
         " 95 % intervals of θ / β that contain the value of the population, in %; the standard error of a share is 0.35"
-        " and 0.7. The last column is the share of the draws excluded because they have no fit or no standard errors.\n",
+        " and 0.7. The last column is the share of the draws excluded for want of a fit or standard errors.\n",
         table([*head, *methods, "without"], sorted(rows, key=lambda row: -int(row[3]))),
         "## Tests of equality\n\nShare of the comparisons (`Curve.compare`) that reject equal curves at 5 %,"
         " in %, in as many draws. On the same records one curve takes a random polarity of each record, and the other"
@@ -366,16 +366,17 @@ def write_page(rows: list[list[str]], tests: list[list[str]], risks: list[list[s
     PAGE.write_text("\n".join(parts), encoding="utf-8")
 
 
-RECORDED = """44 horizontal components recorded in Italy, 20 levels from 0.05 to 1.00 g, clustered by recording (both components
-together) and by earthquake; the bootstrap draws the same clusters. Studentized, each draw is divided by its own
-clustered standard error (bootstrap-t, Efron 1981), which accounts for the few clusters as Student's t does. Percentile
-intervals are too narrow with few clusters.
+RECORDED = """44 horizontal components recorded in Italy, 20 levels from 0.05 to 1.00 g, clustered by recording (both
+components together) and by earthquake; the bootstrap draws the same clusters. Studentized, each draw is
+divided by its own clustered standard error (bootstrap-t, Efron 1981), which accounts for the few clusters
+as Student's t does. Percentile intervals are too narrow with few clusters.
 """
 
-CHOSEN = """The 44 embedded records, as recorded. Widths of the 95 % intervals in ln θ / in ln β, with levels chosen one after the
-other; with as many equally spaced up to 2 θ; with as many from the 5th to the 95th percentile of the curve, which is
-unknown beforehand; and with 50 levels from 0.1 to 4 g. With one draw of records, differences of a tenth are chance.
-The records limit the precision: fifty stripes add little to twelve.
+CHOSEN = """The 44 embedded records, as recorded. Widths of the 95 % intervals in ln θ / in ln β, with levels chosen
+one after the other; with as many equally spaced up to 2 θ; with as many from the 5th to the 95th
+percentile of the curve, which is unknown beforehand; and with 50 levels from 0.1 to 4 g. With one draw of
+records, differences of a tenth are chance. The records limit the precision: fifty stripes add little to
+twelve.
 """
 
 TEXT = """# Coverage of intervals
