@@ -1,4 +1,4 @@
-"""Compute the numbers of docs/city.md and docs/studies/city.md for the illustrative historic centre, and draw its figures into docs/figures.
+"""Compute docs/city.md and docs/studies/city.md of the illustrative historic centre, and draw their figures.
 
 Run it by ./run city; with --quick it takes every eighth wall, and draws into out/quick. Everything is computed with the
 embedded synthetic accelerograms, and also with recorded ones if they are available in the folder DONDOLO_RECORDS.
