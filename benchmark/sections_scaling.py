@@ -30,17 +30,6 @@ def scaling(rows):
             work = [f"{r['histories']:g}", spread_of(r).stated(), f"{rate:.3g}"]
             body.append([kind, f"{r['size']:g}", *work, spread_of(gain).stated(2)])
     lines += table(head, body)
-    names = {
-        "walls": "walls, a call for each",
-        "records": "records",
-        "levels": "levels",
-        "shocks": "repetitions of the record",
-        "samples": "samples for each one of the record, interpolated linearly",
-    }
-    body = [
-        [names[r["kind"]], f"{r['size']:g}", f"{r['histories']:g}", per_history(r)] for r in rows if r["kind"] in names
-    ]
-    lines += table(["parameter", "size", "histories", "ms per history"], body)
     lines += model(rows)
     gains = [spread_of(row).stated(2) for row in rows if row["kind"] == "variant speed-up"]
     own = [row for row in rows if row["kind"] == "variant"]
