@@ -32,6 +32,7 @@ module dondolo_help
       & '   dondolo nrml PREFIX          write the curves of a run for OpenQuake', &
       & '   dondolo records CATALOGUE    print a table of the records of a catalogue', &
       & '   dondolo catalogue FOLDER     make a catalogue of the accelerograms in a folder', &
+      & '   dondolo serve [CASE.nml]     show a wall in the browser: its curve moves with the sliders', &
       & '', &
       & 'Options of a run or a benchmark:', &
       & '   --threads N   number of threads, instead of the case''s; of a benchmark the most; 0: all, or OMP_NUM_THREADS', &

@@ -21,6 +21,7 @@ from dondolo.errors import visible
 from dondolo.figures.saving import mark_end, save_figure
 from dondolo.populations.nrml_functions import taxonomy_of
 from dondolo.records.catalogues import build_catalogue
+from dondolo.reporting.language import Language
 
 # An animation: frames per second, and the longest film [s]
 _FRAMES, _FILM = 15, 30.0
@@ -191,7 +192,37 @@ def _parser() -> argparse.ArgumentParser:
     catalogue.add_argument("--units", help="units of files that do not state them, for example g", metavar="UNITS")
     catalogue.add_argument("--vertical", action="store_true", help="keep vertical components")
     catalogue.set_defaults(run=_catalogue)
+    serve = commands.add_parser(
+        "serve",
+        help="show a wall in the browser: its curve moves with the sliders",
+        description="Show a wall in the browser: its fragility curve, its checks by NTC 2018 and its motion follow the "
+        "sliders. The page is for this computer only, needs no network, and ends with Ctrl-C. Needs starlette and "
+        "uvicorn (dondolo[serve]).",
+    )
+    serve.add_argument("case", nargs="?", help="a case of one wall to begin with", metavar="CASE")
+    serve.add_argument(
+        "--records", help="catalogue of the accelerograms, instead of that of the case", metavar="CATALOGUE"
+    )
+    serve.add_argument("--port", type=int, default=0, help="where to listen; a free port by default", metavar="N")
+    serve.add_argument("--no-browser", action="store_true", help="print the address and open nothing")
+    serve.add_argument("--threads", type=int, default=0, help="number of threads; all by default", metavar="N")
+    serve.add_argument("--lang", help="en or it; DONDOLO_LANG by default, or en", metavar="LANGUAGE")
+    serve.set_defaults(run=_serve)
     return parser
+
+
+def _serve(options: argparse.Namespace) -> None:
+    """Serve the page."""
+    if "OMP_WAIT_POLICY" not in os.environ:
+        # Threads that spin between two curves take the processor from the browser. OpenMP reads this when it is loaded.
+        words = [sys.executable, "-m", "dondolo", *sys.argv[1:]]
+        os.execve(sys.executable, words, {**os.environ, "OMP_WAIT_POLICY": "passive"})
+    try:
+        from dondolo.serve.server import serve
+    except ModuleNotFoundError as error:
+        raise dd.errors.DondoloError(f"serve needs {error.name}: pip install 'dondolo[serve]'") from None
+    lang = Language(options.lang).code
+    serve(options.case, options.records, options.port, not options.no_browser, options.threads, lang)
 
 
 def _records(options: argparse.Namespace) -> None:

@@ -39,12 +39,27 @@ def example_records() -> RecordSet:
     >>> len(dd.example_records())
     44
     """
+    return read_catalogue(example_catalogue())
+
+
+def example_catalogue() -> Path:
+    """Where the catalogue of these accelerograms is.
+
+    Returns
+    -------
+    Path
+
+    Raises
+    ------
+    MissingFileError
+        If dondolo was not installed by pip.
+    """
     # Not at the top: it takes longer to import than many modules together.
     from importlib import metadata
 
     for file in metadata.files("dondolo") or ():
         if file.parts[-len(_CATALOGUE) :] == _CATALOGUE:
-            return read_catalogue(Path(str(file.locate())).resolve())
+            return Path(str(file.locate())).resolve()
     raise MissingFileError(
         f"{'/'.join(_CATALOGUE)}: is not installed with this dondolo; the repository has it in data/records"
     )

@@ -127,7 +127,7 @@ def _draw_supports(ax: Axes, wall: MasonryWall) -> None:
         ha="center",
         color=style.BLUE,
     )
-    top = _support_height(wall)
+    top = support_height(wall)
     if top > 0.0:
         ax.plot([0.0, lean * top], [0.0, top], color=style.BLUE, linewidth=1.4, linestyle="--", zorder=3)
         end += lean * top
@@ -144,7 +144,7 @@ def _draw_supports(ax: Axes, wall: MasonryWall) -> None:
         )
 
 
-def _support_height(wall: MasonryWall) -> float:
+def support_height(wall: MasonryWall) -> float:
     """Height above its base up to which a building moves a wall [m]; 0: the building moves its base alone."""
     if not wall.support_share > 0.0:
         return 0.0
@@ -158,8 +158,8 @@ def _support_height(wall: MasonryWall) -> float:
 def _free_height(wall: MasonryWall) -> tuple[float, bool]:
     """Height in the middle of the largest part behind the wall without labels of what holds it; is that all of it?"""
     taken = [0.0, wall.height]
-    if 0.0 < _support_height(wall) < wall.height:
-        taken.append(_support_height(wall))
+    if 0.0 < support_height(wall) < wall.height:
+        taken.append(support_height(wall))
     taken += [part.height for of in ("ties", "thrusts", "springs") for part in parts_of(wall, of)]
     if parts_of(wall, "interlock"):
         taken.append(wall.height / 3.0)

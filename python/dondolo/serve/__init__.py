@@ -1,0 +1,1 @@
+"""A page in the browser where a wall's fragility curve follows the sliders: ``dondolo serve``."""

@@ -1,0 +1,340 @@
+"""What the page shows: curves, checks and motions of the case that it sends, under one set of records.
+
+The text of the case is all that is computed with: it is read by the library, so that the page and the executable cannot
+differ.
+"""
+
+from __future__ import annotations
+
+import pickle
+import threading
+import time
+import warnings
+from collections import OrderedDict
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+import dondolo as dd
+from dondolo._base.arguments import as_number
+from dondolo._fortran.library import properties
+from dondolo.analysis.stripes import Stripes
+from dondolo.checks.ntc import CodeCheck
+from dondolo.curves.fragility import Fragility
+from dondolo.errors import DondoloError, DondoloWarning, InputError, silent
+from dondolo.exchange.case_text import Settings, case_text
+from dondolo.exchange.cases import Case
+from dondolo.records.suite import intensities
+from dondolo.reporting.language import Language
+from dondolo.reporting.relazione.terms import status as status_in_words
+from dondolo.reporting.relazione.terms import warning as warning_in_words
+from dondolo.serve.levels import chosen_levels
+from dondolo.serve.pictures import motion_of, picture
+
+# Curves that are kept, for B and for a page that goes back
+_KEPT = 12
+# Points of a curve
+_POINTS = 161
+# Groups of a case, in their order
+_GROUPS = ("job", "wall", "building", "records", "stripes", "solver", "check")
+
+# What follows from a property of a wall that is given
+_FOLLOWS = {"section_height": "height", "section_thickness": "thickness", "restitution_value": "restitution"}
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A curve that was computed, with its case and what was warned of."""
+
+    case: Case
+    text: str
+    stripes: Stripes
+    fragility: Fragility
+    warnings: tuple[DondoloWarning, ...]
+
+
+class Bench:
+    """Records, and what walls do under them; one thing is computed at a time.
+
+    Parameters
+    ----------
+    catalogue : path
+        Catalogue of the accelerograms.
+    threads : int
+        Number of threads; 0: all.
+    """
+
+    def __init__(self, catalogue: Path, threads: int = 0) -> None:
+        records = dd.read_catalogue(catalogue)
+        if records.level is not None:
+            raise InputError(f"{catalogue}: has levels for its records, which the page cannot show")
+        self.catalogue, self.threads = catalogue, threads
+        self.records: tuple[dd.Record, ...] = tuple(records)
+        self.are_synthetic = (
+            any(
+                "synthetic" in (record.metadata.get("format", ""), Path(record.metadata.get("file", "")).parts[:1])
+                or record.metadata.get("file", "").startswith("synthetic")
+                for record in self.records
+            )
+            or "synthetic" in catalogue.stem
+        )
+        # A record remembers the suite that it was uploaded with last: parts have records of their own.
+        self._half, self._few = (pickle.loads(pickle.dumps(self.records[::step])) for step in (2, 4))
+        self._lock = threading.Lock()
+        self._curves: OrderedDict[str, Curve] = OrderedDict()
+
+    def open(self, text: str) -> dict[str, Any]:
+        """The groups of a case for the page, without what has its default."""
+        with self._lock, silent():
+            case = dd.case_from_text(text, self.records)
+        if case.task != "stripes":
+            raise InputError(
+                f"task = '{case.task}': the page shows one wall, task = 'stripes'; run this case with dondolo"
+            )
+        return sparse(case.settings)
+
+    def text(self, settings: Settings) -> str:
+        """The case as text, with the records of the page."""
+        groups = {name: dict(settings[name]) for name in _GROUPS if name in settings}
+        groups["records"] = {"catalogue": str(self.catalogue)} | {
+            name: value for name, value in groups.get("records", {}).items() if name != "catalogue"
+        }
+        return case_text(groups, commented=True) + "\n"
+
+    def curve(self, asked: Mapping[str, Any]) -> dict[str, Any]:
+        """The curve of a case, its numbers, its drawing, and what it is compared with."""
+        begin, language = time.perf_counter(), Language(asked.get("lang", "en"))
+        settings, is_draft = groups_of(asked.get("settings")), bool(asked.get("draft"))
+        with self._lock:
+            if asked.get("auto"):
+                settings = self._with_levels(settings)
+            found = self._curve(self.text(settings), is_draft)
+            answer = self._shown(found, language)
+            answer |= {"draft": is_draft, "levels": settings["stripes"]["levels"], "text": found.text}
+            if not is_draft:
+                if asked.get("b") is not None and found.fragility.has_fit:
+                    answer["comparison"] = self._comparison(found, asked["b"])
+                if isinstance(asked.get("fan"), dict):
+                    answer["fan"] = self._fan(settings, asked["fan"], bool(asked.get("auto")))
+        answer["ms"] = 1e3 * (time.perf_counter() - begin)
+        return answer
+
+    def motion(self, asked: Mapping[str, Any]) -> dict[str, Any]:
+        """The motion of the wall under one record that is scaled to a PGA in g."""
+        with self._lock, silent():
+            place, pga = asked.get("record"), as_number("PGA", asked.get("pga"))
+            if not (isinstance(place, int) and 0 <= place < len(self.records)):
+                raise InputError(f"record = {place!r}: must be a number from 0 to {len(self.records) - 1}")
+            if not 0.0 < pga <= 10.0:
+                raise InputError(f"PGA = {pga:g} g: must lie between 0 and 10")
+            case, record = (
+                dd.case_from_text(self.text(groups_of(asked.get("settings"))), self.records),
+                self.records[place],
+            )
+            scale = pga / float(intensities((record,), "pga", case.population.walls[0].gravity)[0])
+            solver = dd.Solver(rtol=case.rtol, atol=case.atol, edp_limit=case.edp_limit)
+            return motion_of(dd.simulate(case.population.walls[0], record, scale, solver=solver))
+
+    def _with_levels(self, settings: dict[str, dict[str, Any]]) -> dict[str, dict[str, Any]]:
+        """The case with levels that suit its wall."""
+        given = {name: value for name, value in settings.get("stripes", {}).items() if name in ("im", "edp_thresholds")}
+        settings = {**settings, "stripes": {**given, "levels": [1.0]}}
+        with silent():
+            case = dd.case_from_text(self.text(settings), self.records)
+            levels = chosen_levels(case, self._few, self.threads)
+        return {**settings, "stripes": {**given, "levels": levels}}
+
+    def _curve(self, text: str, is_draft: bool) -> Curve:
+        """The curve of the text of a case, computed once; that of a draft has half of the records."""
+        key = f"{is_draft}{text}"
+        if key in self._curves:
+            self._curves.move_to_end(key)
+            return self._curves[key]
+        with warnings.catch_warnings(record=True) as heard:
+            warnings.simplefilter("always", DondoloWarning)
+            case = dd.case_from_text(text, self.records)
+            if case.task != "stripes":
+                raise InputError(f"task = '{case.task}': the page shows one wall, task = 'stripes'")
+            stripes = dd.multiple_stripe(
+                case.population.walls[0],
+                self._half if is_draft else self.records,
+                case.levels,
+                im=case.im,
+                polarity=case.polarity,  # type: ignore[arg-type]
+                solver=dd.Solver(rtol=case.rtol, atol=case.atol, edp_limit=case.edp_limit, engine=case.engine),  # type: ignore[arg-type]
+                threads=self.threads,
+                progress=False,
+            )
+            fragility = stripes.fit()
+        own = tuple(one.message for one in heard if isinstance(one.message, DondoloWarning))
+        found = self._curves[key] = Curve(case, text, stripes, fragility, own)
+        while len(self._curves) > _KEPT:
+            self._curves.popitem(last=False)
+        return found
+
+    def _shown(self, found: Curve, language: Language) -> dict[str, Any]:
+        """What the page shows of a curve."""
+        wall, fit, stripes = found.case.population.walls[0], found.fragility, found.stripes
+        answer: dict[str, Any] = {
+            "status": fit.status,
+            "sentence": status_in_words(language, fit.status),
+            "im": stripes.im,
+            "stripes": [
+                stripes.levels.tolist(),
+                stripes.collapses.tolist(),
+                stripes.histories.tolist(),
+            ],
+            "histories": int(stripes.histories.sum()),
+            "trigger": wall.trigger_acceleration / wall.gravity,
+            "greatest": wall.greatest_acceleration / wall.gravity,
+            "warnings": [
+                {"code": one.code, "sentence": warning_in_words(language, one)} for one in _once(found.warnings)
+            ],
+            "wall": picture(wall),
+        }
+        if fit.has_fit:
+            answer |= curve_points(fit, 1.04 * float(stripes.levels[-1]))
+        if found.case.site is not None:
+            answer["check"] = _checked(found.case, fit)
+        return answer
+
+    def _comparison(self, found: Curve, other: Any) -> dict[str, Any] | None:
+        """The ratio of the medians of B and A with its interval, under the same records."""
+        second = self._curve(self.text(groups_of(other)), False).fragility
+        if not second.has_fit or second.im != found.fragility.im:
+            return None
+        with silent():
+            try:
+                compared = found.fragility.compare(second)
+            except DondoloError:
+                return None
+        return {"ratio": compared.ratio, "interval": list(compared.ratio_interval)}
+
+    def _fan(self, settings: dict[str, dict[str, Any]], fan: Mapping[str, Any], is_auto: bool) -> list[dict[str, Any]]:
+        """Curves of the wall where one of its numbers is smaller and larger by a share."""
+        group, name = (str(fan.get(what)) for what in ("group", "name"))
+        share, place = as_number("share", fan.get("share")), fan.get("place") or 0
+        values = settings.get(group, {}).get(name)
+        several = values if isinstance(values, list) else [values]
+        if not (isinstance(place, int) and 0 <= place < len(several) and 0.0 < share < 1.0):
+            raise InputError(f"fan = {dict(fan)}: must name a number of the case and a share of it")
+        middle = as_number(name, several[place])
+        curves: list[dict[str, Any]] = []
+        for factor in (1.0 - share, 1.0 + share):
+            changed = [*several[:place], factor * middle, *several[place + 1 :]]
+            other = {**settings, group: {**settings[group], name: changed if isinstance(values, list) else changed[0]}}
+            try:
+                with silent():
+                    found = self._curve(self.text(self._with_levels(other) if is_auto else other), False)
+            except DondoloError as error:
+                curves.append({"factor": factor, "refused": str(error)})
+                continue
+            curves.append({"factor": factor} | (_line(found) if found.fragility.has_fit else {}))
+        return curves
+
+
+def curve_points(fit: Fragility, last: float) -> dict[str, Any]:
+    """Parameters, points and band of a curve up to a level."""
+    answer = _parameters(fit)
+    x = np.linspace(0.0, max(last, min(1.25 * fit.theta, 2.0 * last)), _POINTS)
+    answer |= {"x": x.tolist(), "p": np.asarray(fit(x)).tolist()}
+    if fit.has_errors:
+        with silent():
+            low, high = fit.interval(x[1:])
+            answer["interval"] = list(fit.parameter_interval()["theta"])
+        answer["band"] = [[0.0, *np.asarray(low).tolist()], [0.0, *np.asarray(high).tolist()]]
+    return answer
+
+
+def _line(found: Curve) -> dict[str, Any]:
+    """Parameters and points of a curve, without its band."""
+    whole = curve_points(found.fragility, 1.04 * float(found.stripes.levels[-1]))
+    return {name: whole[name] for name in ("theta", "beta", "x", "p")}
+
+
+def _parameters(fit: Fragility) -> dict[str, Any]:
+    return {"theta": fit.theta, "beta": fit.beta}
+
+
+def _checked(case: Case, fit: Fragility) -> dict[str, Any]:
+    """The kinematic check by NTC 2018, and the probability of collapse at the peak acceleration of the site."""
+    assert case.site is not None
+    wall = case.population.walls[0]
+    with silent():
+        try:
+            check: CodeCheck = dd.check_ntc(
+                wall, case.site, knowledge_factor=case.knowledge_factor, behaviour=case.behaviour
+            )
+        except InputError as error:
+            return {"refused": str(error)}
+    answer: dict[str, Any] = {
+        "pga": check.pga,
+        "capacities": [[*key, value] for key, value in check.capacities.items()],
+        "verified": [[*key, value] for key, value in check.verified.items()],
+        "not_applicable": [list(key) for key in check.not_applicable],
+        "alpha_0": check.value("mechanism", "", "alpha_0"),
+        "notes": list(check.notes),
+    }
+    if fit.has_fit and fit.im == "pga":
+        answer["probability"] = float(fit(check.pga))
+    return answer
+
+
+def _once(found: tuple[DondoloWarning, ...]) -> list[DondoloWarning]:
+    """Each warning once."""
+    return list(dict.fromkeys(found))
+
+
+def groups_of(given: Any) -> dict[str, dict[str, Any]]:
+    """Groups as a page sends them, checked to be groups of values; what they say is checked by the library."""
+    if not isinstance(given, dict) or not set(given) <= set(_GROUPS):
+        raise InputError("settings: must be the groups of a case")
+    for group in given.values():
+        if not isinstance(group, dict) or not all(map(_is_value, group.values())):
+            raise InputError("settings: must be groups of values")
+        for name in group:
+            if not (isinstance(name, str) and name.isidentifier() and name.isascii() and len(name) < 64):
+                raise InputError("settings: names of variables must be words")
+    return given
+
+
+def _is_value(value: Any) -> bool:
+    """Whether a value is one that a case can have: a number, a word, yes or no, or a list of them."""
+    if isinstance(value, list):
+        return 0 < len(value) <= 1000 and all(_is_value(one) and not isinstance(one, list) for one in value)
+    if isinstance(value, str):
+        return value.isprintable() and len(value) <= 1000
+    return isinstance(value, (bool, int)) or (isinstance(value, float) and bool(np.isfinite(value)))
+
+
+def sparse(settings: Settings) -> dict[str, dict[str, Any]]:
+    """The groups of a case without what follows from the rest: defaults, sums of sections, the catalogue."""
+    found: dict[str, dict[str, Any]] = {}
+    for group, variables in settings.items():
+        defaults = {row.name: row.default.strip("'") for row in properties(group)}
+        own = {name: value for name, value in variables.items() if not _is_default(value, defaults.get(name, ""))}
+        for given, what in _FOLLOWS.items():
+            if given in own:
+                own.pop(what, None)
+        if own or group in ("wall", "building", "check"):
+            found[group] = own
+    found.setdefault("job", {})["task"] = "stripes"
+    found.setdefault("records", {}).pop("catalogue", None)
+    if found["stripes"].get("edp_thresholds") == [settings["solver"]["edp_limit"]]:
+        del found["stripes"]["edp_thresholds"]
+    return found
+
+
+def _is_default(value: Any, default: str) -> bool:
+    """Whether a value is the one that its property has when it is not given."""
+    if isinstance(value, bool):
+        return default == (".true." if value else ".false.")
+    if isinstance(value, (int, float)):
+        try:
+            return float(default) == value
+        except ValueError:
+            return False
+    return bool(value == default)

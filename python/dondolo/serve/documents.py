@@ -1,0 +1,82 @@
+"""Reports of the case on the page, each made in a process of its own, so that curves go on meanwhile."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+from dondolo.errors import DondoloError, InputError
+
+#: Kinds of documents and their media types
+DOCUMENTS = {
+    "report": "text/html; charset=utf-8",
+    "relazione": "text/html; charset=utf-8",
+    "relazione_word": "application/vnd.openxmlformats-officedocument.wordprocessingml.document",
+}
+# What a document may take [s]
+_LONGEST = 300.0
+
+
+def make_document(text: str, kind: str, lang: str) -> bytes:
+    """Run a case and write a document of its results.
+
+    Parameters
+    ----------
+    text : str
+        The case.
+    kind : str
+        One of `DOCUMENTS`.
+    lang : {'en', 'it'}
+        Language of a relazione.
+
+    Returns
+    -------
+    bytes
+
+    Raises
+    ------
+    InputError
+        The case cannot be run, or its document not be written, with the sentence of the library.
+    """
+    if kind not in DOCUMENTS or lang not in ("en", "it"):
+        raise InputError(f"kind = {kind!r}: must be one of {', '.join(DOCUMENTS)}")
+    with tempfile.TemporaryDirectory(prefix="dondolo-") as folder:
+        case, made = (
+            Path(folder) / "case.nml",
+            Path(folder) / f"{kind}.{'docx' if kind == 'relazione_word' else 'html'}",
+        )
+        case.write_text(text, encoding="utf-8")
+        command = [sys.executable, "-W", "ignore", "-m", "dondolo.serve.documents", str(case), str(made), lang]
+        try:
+            done = subprocess.run(command, capture_output=True, text=True, timeout=_LONGEST, check=False)
+        except subprocess.TimeoutExpired:
+            raise DondoloError(f"{kind}: takes more than {_LONGEST:g} s") from None
+        if done.returncode != 0 or not made.exists():
+            sentence = done.stderr.strip().splitlines()[-1:] or ["no document was written"]
+            raise InputError(sentence[0].replace(f"{folder}/", ""))
+        return made.read_bytes()
+
+
+def _main(case: str, made: str, lang: str) -> int:
+    """Write the document of a case; what is wrong goes to stderr."""
+    import matplotlib
+
+    import dondolo as dd
+
+    matplotlib.use("agg")
+    try:
+        results = dd.run_case(case, progress=False)
+        if Path(made).name.startswith("relazione"):
+            dd.calculation_report([results], made, lang=lang)
+        else:
+            dd.report(results, made)
+    except DondoloError as error:
+        print(error, file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(_main(*sys.argv[1:]))

@@ -1,0 +1,41 @@
+// The curve with its band and stripes, drawn by hand: what is on the page is the figure that can be downloaded.
+import { num, safe, t } from "./words.js";
+
+const nice = (x) => { const power = 10 ** Math.floor(Math.log10(x)); return [1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10].map((k) => k * power).find((k) => k >= x * 0.9999); };
+const step = (last, count) => { const raw = last / count, power = 10 ** Math.floor(Math.log10(raw)); return [1, 2, 2.5, 5, 10].map((k) => k * power).find((k) => k >= raw * 0.9999); };
+const digits = (x) => Math.max(0, Math.min(4, Math.ceil(-Math.log10(x) - 1e-9)) + (Math.abs(x * 10 ** Math.ceil(-Math.log10(x)) % 1) > 1e-6 ? 1 : 0));
+
+// SVG of curve A, perhaps with B, fan and marks: {x, label, kind}
+export function chart(a, b, { width, im, marks = [], fan = [] }) {
+  const left = 46, right = 14, top = 12, bottom = 44, w = Math.max(300, Math.min(900, width)), h = Math.round(Math.max(230, Math.min(430, w * 0.56)));
+  const curves = [b && b.p ? [b, "b"] : null, a ? [a, "a"] : null].filter(Boolean);
+  const last = nice(Math.max(...curves.map(([c]) => (c.x ? c.x[c.x.length - 1] : c.stripes[0][c.stripes[0].length - 1])), ...marks.map(({ x }) => 1.05 * x)));
+  const X = (x) => +(left + ((w - left - right) * x) / last).toFixed(2), Y = (p) => +(top + (h - top - bottom) * (1 - p)).toFixed(2);
+  const path = (x, p) => x.map((one, i) => `${i ? "L" : "M"}${X(Math.min(one, last))} ${Y(p[i])}`).join("");
+  const out = [];
+  for (let p = 0; p <= 10; p += 2) out.push(`<line class="${p ? "grid" : "axis"}" x1="${left}" x2="${w - right}" y1="${Y(p / 10)}" y2="${Y(p / 10)}"/><text class="tick" x="${left - 7}" y="${Y(p / 10) + 4}" text-anchor="end">${num(p / 10, 1)}</text>`);
+  const by = step(last, w < 480 ? 4 : 8);
+  for (let i = 0; i * by <= last * 1.0001; i++) out.push(`<line class="axis" x1="${X(i * by)}" x2="${X(i * by)}" y1="${Y(0)}" y2="${Y(0) + 4}"/><text class="tick" x="${X(i * by)}" y="${Y(0) + 18}" text-anchor="middle">${num(i * by, digits(by))}</text>`);
+  out.push(`<text class="tick" x="${(left + w - right) / 2}" y="${h - 6}" text-anchor="middle">${safe(im)}</text>`);
+  for (const [c, of] of curves) if (c.band) out.push(`<path class="band ${of}" d="${path(c.x, c.band[0])}${path(c.x, c.band[1]).slice(1).split("L").reverse().reduce((d, one) => `${d}L${one}`, "")}Z"/>`);
+  for (const one of fan) if (one.p) out.push(`<path class="line fan" d="${path(one.x, one.p)}"/>`);
+  marks.forEach(({ x, label, kind }, i) => {
+    const flips = X(x) > w * 0.62, y = Y(1) + 12 + 16 * i;
+    out.push(`<line class="mark-line ${kind}" x1="${X(x)}" x2="${X(x)}" y1="${Y(1)}" y2="${Y(0)}"/><text class="tick halo ${kind}" x="${X(x) + (flips ? -5 : 5)}" y="${y}" text-anchor="${flips ? "end" : "start"}">${safe(label)}</text>`);
+  });
+  for (const [c, of] of curves) {
+    if (c.p) out.push(`<path class="line ${of}" d="${path(c.x, c.p)}"/>`);
+    const [levels, collapses, histories] = c.stripes;
+    levels.forEach((level, i) => { if (level <= last) out.push(`<circle class="dot ${of}" cx="${X(level)}" cy="${Y(collapses[i] / histories[i])}" r="3.6"/>`); });
+    if (c.p && curves.length > 1) out.push(`<text class="halo ${of}" x="${X(c.theta) + (of === "a" ? 10 : -10)}" y="${Y(0.5) + 5}" text-anchor="${of === "a" ? "start" : "end"}">${of.toUpperCase()}</text>`);
+  }
+  const title = a && a.p ? `${t("curve_title", { im })}. θ = ${num(a.theta, 3)}, β = ${num(a.beta, 3)}` : t("no_curve");
+  return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${w} ${h}" role="img" aria-label="${safe(title)}">${out.join("")}</svg>`;
+}
+
+// The same as a file of its own: the style goes with it.
+export function standalone(svg) {
+  const style = getComputedStyle(document.documentElement), value = (name) => style.getPropertyValue(name);
+  const rules = [...document.styleSheets[0].cssRules].filter((rule) => rule.selectorText?.startsWith("svg")).map((rule) => rule.cssText.replaceAll("svg ", "").replace(/var\((--[\w-]+)\)/g, (_, name) => value(name))).join("\n");
+  return svg.replace(">", `><style>text{font-family:system-ui,sans-serif}${rules}</style><rect width="100%" height="100%" fill="${value("--panel")}"/>`);
+}

@@ -1,0 +1,177 @@
+// The page: what the answers of the server become.
+import { chart, standalone } from "./chart.js";
+import { draw, expand, fieldOf, labelOf, markWrong, whenDrawn } from "./form.js";
+import { changed, post, state, whenTold } from "./state.js";
+import { has, language, make, num, probability, sig, speak, t } from "./words.js";
+import { drawing, trace } from "./wall.js";
+
+const at = (id) => document.getElementById(id);
+const UNITS = { pga: "g", pgv: "m/s", arias: "m/s", cav: "m/s", pgd: "m", hi: "m" };
+const unitOf = (im) => (im.startsWith("sa") ? "g" : UNITS[im] || "");
+const nameOf = (im) => { const unit = unitOf(im), name = im.startsWith("sa") ? im.replace("sa", "Sa") : im.toUpperCase(); return unit ? `${name} [${unit}]` : name; };
+const still = matchMedia("(prefers-reduced-motion: reduce)");
+let begun = {}, film = null, making = null;
+
+async function begin() {
+  try { begun = await fetch("begin").then((response) => response.json()); } catch { at("notice").hidden = false; at("notice").textContent = t("no_answer"); return; }
+  Object.assign(state, { settings: begun.settings, properties: begun.properties, auto: !("levels" in (begun.settings.stripes || {})) });
+  speak(begun.lang);
+  expand(); words(); draw(); changed();
+}
+
+// Everything that does not depend on the answer
+function words() {
+  const job = state.settings.job ??= { task: "stripes" };
+  at("title").value = job.title || ""; at("title").placeholder = t("untitled"); at("title").setAttribute("aria-label", t("title"));
+  document.title = `${job.title || t("untitled")} · dondolo`;
+  at("wall-title").textContent = t("motion"); at("case-title").textContent = t("case_file");
+  const file = make("input", { type: "file", accept: ".nml,text/plain", onchange: () => { if (file.files[0]) file.files[0].text().then(open); file.value = ""; } });
+  const document_ = (kind, name, key) => make("button", { type: "button", "data-kind": kind, onclick: () => makeDocument(kind, name) }, t(key));
+  at("actions").replaceChildren(make("label", { class: "file" }, t("open"), file), make("button", { type: "button", onclick: () => state.answer && save(state.answer.text, `${slug()}.nml`) }, t("save")), document_("report", "report.html", "report"), document_("relazione", "relazione.html", "relazione"), document_("relazione_word", "relazione.docx", "relazione"), make("button", { type: "button", onclick: saveFigure }, t("figure")), make("button", { type: "button", lang: language() === "it" ? "en" : "it", onclick: () => { speak(language() === "it" ? "en" : "it"); words(); draw(); changed(); } }, t("other_language")));
+  at("actions").querySelector("[data-kind=relazione_word]").textContent = "Word";
+  at("actions").querySelector("[data-kind=relazione_word]").setAttribute("aria-label", `${t("relazione")}, Word`);
+  at("footer").replaceChildren(`dondolo ${begun.version} · ${t("records", { n: begun.records.length, name: begun.catalogue })} · ${t("local")}`);
+  filmForm();
+}
+at("title").addEventListener("input", () => { const { value } = at("title"); if (value) state.settings.job.title = value; else delete state.settings.job.title; document.title = `${value || t("untitled")} · dondolo`; changed(true); });
+const slug = () => (state.settings.job.title || "case").toLowerCase().replace(/[^a-z0-9]+/g, "_").replace(/^_|_$/g, "") || "case";
+function save(content, name) {
+  const url = URL.createObjectURL(content instanceof Blob ? content : new Blob([content], { type: "text/plain" }));
+  make("a", { href: url, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(url), 10e3);
+}
+async function open(text) {
+  try {
+    const { settings } = await post("open", { text });
+    Object.assign(state, { settings, auto: !("levels" in (settings.stripes || {})), fan: null, b: null, bAnswer: null });
+    expand(); words(); draw(); changed(); say(t("opened_records", { name: begun.catalogue }));
+  } catch (error) { refuse(error, true); }
+}
+async function makeDocument(kind, name) {
+  if (making || !state.answer) return;
+  const button = at("actions").querySelector(`[data-kind=${kind}]`), before = button.textContent;
+  making = kind; button.disabled = true; button.textContent = t("making");
+  const settings = { ...state.settings, stripes: { ...state.settings.stripes, levels: state.answer.levels } };
+  try { save(await post("document", { kind, settings, lang: language() }), `${slug()}_${name}`); } catch (error) { refuse(error, true); }
+  making = null; button.disabled = false; button.textContent = before;
+}
+function saveFigure() { const svg = at("chart").querySelector("svg"); if (svg && state.answer) save(new Blob([standalone(svg.outerHTML)], { type: "image/svg+xml" }), `${slug()}.svg`); }
+const say = (text) => { at("said").textContent = text; };
+
+function refuse(error, isAside = false) {
+  const sentence = error.answer?.error || t("no_answer"), errors = error.answer?.errors || [];
+  at("notice").hidden = false;
+  at("notice").replaceChildren(...(isAside ? [] : [make("strong", {}, t("refused")), " "]), sentence.replace(/^case\.nml: /, ""));
+  if (isAside) return;
+  markWrong(errors, sentence);
+  // Nothing of another wall stays.
+  at("numbers").replaceChildren(); at("warnings").replaceChildren(); at("check").replaceChildren(); at("under").replaceChildren(); at("text").textContent = "";
+  at("chart").replaceChildren(); at("wall").replaceChildren(); stopFilm();
+}
+
+function number(key, value, unit, more, kind = "") {
+  return make("div", { class: kind }, make("dt", {}, t(key)), make("dd", {}, value, unit ? make("small", {}, ` ${unit}`) : ""), more ? make("div", { class: "more" }, more) : "");
+}
+function show() {
+  const a = state.answer, unit = unitOf(a.im), fitted = "theta" in a;
+  at("notice").hidden = fitted;
+  if (!fitted) at("notice").textContent = a.sentence;
+  markWrong([], "");
+  at("numbers").className = "numbers";
+  at("numbers").replaceChildren(
+    number("theta", fitted ? sig(a.theta) : "–", unit, a.interval ? t("interval", { a: sig(a.interval[0]), b: sig(a.interval[1]) }) : "", "main"),
+    number("beta", fitted ? num(a.beta, 3) : "–", "", fitted && a.status !== "ok" ? a.sentence : ""),
+    number("trigger", num(a.trigger, 3), "g", a.greatest > 1.0001 * a.trigger ? t("greatest", { x: num(a.greatest, 3) }) : ""),
+    ...(a.check && "probability" in a.check ? [number("at_site", probability(a.check.probability), "", t("level_site", { x: num(a.check.pga, 3) }))] : []),
+  );
+  const marks = [];
+  if (a.check?.capacities && a.im === "pga") {
+    marks.push({ x: a.check.pga, label: t("level_site", { x: num(a.check.pga, 3) }), kind: "" });
+    const isFine = new Map(a.check.verified.map(([method, limit, fine]) => [method + limit, fine]));
+    for (const [method, limit, x] of a.check.capacities) if (limit === "SLV") marks.push({ x, label: t("capacity", { method: t(method), state: limit, x: num(x, 3) }), kind: isFine.get(method + limit) ? "good" : "bad" });
+  }
+  at("chart").classList.remove("old");
+  const b = state.bAnswer && state.bAnswer.im === a.im ? state.bAnswer : null;
+  at("chart").innerHTML = chart(a, b, { width: at("chart").clientWidth || 640, im: nameOf(a.im), marks, fan: a.fan || [] });
+  under(a, unit);
+  at("warnings").replaceChildren(...[...a.warnings.filter(({ code }) => code !== "note").map(({ sentence }) => sentence), ...(begun.synthetic ? [t("synthetic")] : [])].map((sentence) => make("li", {}, sentence)));
+  check(a.check);
+  if (film === null) at("wall").innerHTML = drawing(a.wall);
+  at("text").textContent = a.text;
+  if (!a.draft) say(fitted ? t("said", { x: sig(a.theta), unit }) : t("no_curve"));
+}
+function under(a, unit) {
+  const rows = [make("button", { type: "button", class: "small", onclick: () => { state.b = structuredClone({ ...state.settings, stripes: { ...state.settings.stripes, levels: a.levels } }); state.bAnswer = a; state.bAuto = state.auto; changed(); } }, t("pin"))];
+  if (state.b) rows.push(make("button", { type: "button", class: "small", onclick: () => { const auto = state.bAuto; state.settings = structuredClone(state.b); if (auto) delete state.settings.stripes.levels; state.auto = auto; state.fan = null; words(); draw(); changed(); } }, t("back")), make("button", { type: "button", class: "small", onclick: () => { state.b = state.bAnswer = null; changed(); } }, t("unpin")));
+  rows.push(make("span", { class: "said" }, a.draft ? t("draft") : t("histories", { n: a.histories, ms: num(a.ms, 0) })));
+  if (state.b && a.comparison && !a.draft) rows.push(make("div", { class: "compare" }, t("better", { x: `${num(100 * a.comparison.ratio, 0)} %`, a: num(100 * a.comparison.interval[0], 0), b: num(100 * a.comparison.interval[1], 0) })));
+  if (state.fan && a.fan) {
+    const [low, high] = a.fan, field = fieldOf(state.fan.name), value = [].concat(state.settings[state.fan.group][state.fan.name])[state.fan.place ?? 0];
+    const shown = (one) => (field ? `${num(one.factor * value * field[3], field[5])} ${field[4]}` : sig(one.factor * value));
+    rows.push(make("div", { class: "compare" }, low.refused || high.refused || t("fan", { what: labelOf(state.fan.name), low: shown(low), high: shown(high), x: low.theta ? sig(Math.min(low.theta, high.theta ?? low.theta)) : "–", y: high.theta ? sig(Math.max(high.theta, low.theta ?? high.theta)) : "–" })));
+  }
+  at("under").replaceChildren(...rows);
+}
+function check(found) {
+  if (!found) { at("check").replaceChildren(); return; }
+  if (found.refused) { at("check").replaceChildren(make("p", { class: "hint" }, found.refused)); return; }
+  const capacities = new Map(found.capacities.map(([method, limit, x]) => [`${method} ${limit}`, x])), off = new Set(found.not_applicable.map((key) => key.join(" ")));
+  const rows = found.verified.map(([method, limit, fine]) => {
+    const key = `${method} ${limit}`, isOff = off.has(key), word = t(isOff ? "not_applicable" : fine ? "verified" : "not_verified");
+    return make("tr", {}, make("th", { scope: "row" }, `${has(method) ? t(method) : method} ${limit}`), make("td", { class: "n" }, capacities.has(key) ? num(capacities.get(key), 3) : "–"), make("td", { class: isOff ? "" : fine ? "good" : "bad" }, `${isOff ? "" : fine ? "✓ " : "✗ "}${word}`));
+  });
+  const failed = found.verified.some(([, , fine]) => !fine) && found.probability < 0.01;
+  at("check").replaceChildren(make("div", { class: "scroll" }, make("table", {}, make("caption", {}, `${t("check_title")}, α₀ = ${num(found.alpha_0, 3)}`), make("thead", {}, make("tr", {}, make("th", { scope: "col" }, t("method")), make("th", { scope: "col", class: "n" }, t("capacity_head")), make("th", { scope: "col" }, t("outcome")))), make("tbody", {}, ...rows))), failed ? make("p", { class: "hint" }, t("check_why")) : "", ...found.notes.map((note) => make("p", { class: "hint", lang: "en" }, note)));
+}
+
+// The motion under one record
+function filmForm() {
+  const record = make("select", { id: "record", onchange: () => { state.record = Number(record.value); stopFilm(); show_(); } }, ...begun.records.map((name, i) => make("option", { value: i, selected: i === state.record }, name)));
+  const out = make("span", { class: "unit" }, `${num(state.pga, 2)} g`);
+  const range = make("input", { type: "range", id: "pga", min: 0.05, max: 2.5, step: 0.05, value: state.pga, oninput: () => { state.pga = Number(range.value); out.textContent = `${num(state.pga, 2)} g`; paint(); stopFilm(); show_(); } });
+  const paint = () => range.style.setProperty("--part", `${(100 * (range.value - range.min)) / (range.max - range.min)}%`);
+  paint();
+  const button = make("button", { type: "button", id: "play", class: "first", onclick: () => (film ? (stopFilm(), show_()) : play()) }, t("play"));
+  at("film").replaceChildren(make("div", { class: "film" }, make("label", { for: "record" }, t("record")), record, make("div", { class: "row" }, make("label", { for: "pga" }, t("pga")), out, range), make("div", { class: "buttons" }, button, make("span", { id: "outcome", role: "status" })), make("div", { id: "trace" })));
+}
+const show_ = () => { if (state.answer) at("wall").innerHTML = drawing(state.answer.wall); };
+function stopFilm() { if (film) cancelAnimationFrame(film.frame); film = null; if (at("play")) { at("play").textContent = t("play"); at("outcome").textContent = ""; at("trace").replaceChildren(); } }
+async function play() {
+  if (!state.answer) return;
+  const version = state.version, settings = { ...state.settings, stripes: { ...state.settings.stripes, levels: state.answer.levels } };
+  try {
+    const motion = await post("motion", { settings, record: state.record, pga: state.pga, lang: language() });
+    if (version !== state.version) return;
+    film = { motion, frame: 0 };
+    at("play").textContent = t("stop");
+    const outcome = () => { at("outcome").textContent = motion.collapsed ? t("falls") : t("stands", { x: `${num(100 * motion.edp, 0)} %` }); at("outcome").className = motion.collapsed ? "bad" : "good"; };
+    const paint = (i) => { at("wall").innerHTML = drawing(state.answer.wall, motion.frames[i]); at("trace").innerHTML = trace(motion, i); };
+    if (still.matches) { paint(motion.peak); outcome(); return; }
+    const span = motion.instants[motion.instants.length - 1] - motion.instants[0], speed = Math.max(1, span / 12), start = performance.now();
+    const tick = (now) => {
+      const i = Math.min(motion.instants.length - 1, Math.max(0, Math.floor((((now - start) / 1e3) * speed * (motion.instants.length - 1)) / span)));
+      paint(i);
+      if (i < motion.instants.length - 1) film.frame = requestAnimationFrame(tick); else { outcome(); at("play").textContent = t("stop"); }
+    };
+    film.frame = requestAnimationFrame(tick);
+  } catch (error) { refuse(error, true); }
+}
+
+let fade = 0;
+whenTold((what, error) => {
+  if (what === "waiting") {
+    if (film) { stopFilm(); }
+    clearTimeout(fade);
+    // An answer that is late: numbers of the wall before are taken away.
+    fade = setTimeout(() => { at("numbers").replaceChildren(); at("check").replaceChildren(); at("under").replaceChildren(); at("warnings").replaceChildren(); at("chart").classList.add("old"); at("wall").classList.add("old"); at("text").textContent = ""; }, 250);
+    return;
+  }
+  clearTimeout(fade);
+  if (what === "refused") refuse(error);
+  else { at("wall").classList.remove("old"); show(); }
+  window.dispatchEvent(new CustomEvent("painted"));
+});
+whenDrawn(() => {});
+let width = 0;
+new ResizeObserver(() => { if (Math.abs(at("chart").clientWidth - width) > 8) { width = at("chart").clientWidth; if (state.answer) show(); } }).observe(at("chart"));
+begin();

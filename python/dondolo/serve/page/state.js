@@ -1,0 +1,51 @@
+// The case on the page and what is asked for it. The groups of the case are all there is: the server answers for them alone.
+import { language } from "./words.js";
+
+export const state = { settings: {}, auto: true, b: null, fan: null, answer: null, bAnswer: null, properties: {}, record: 0, pga: 0.5 };
+
+// Last answers took so long that a drag is drawn with half of the records [ms]
+const SLOW = 60;
+// Pause after which a drag is over [ms]
+const PAUSE = 180;
+let flying = false, waits = false, dragging = false, slow = 0, later = 0, told = () => {};
+
+export const whenTold = (f) => { told = f; };
+
+export async function post(path, body) {
+  const response = await fetch(path, { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(body) });
+  if (path === "document" && response.ok) return response.blob();
+  const answer = await response.json().catch(() => ({ error: String(response.status) }));
+  if (!response.ok) throw Object.assign(new Error(answer.error), { answer });
+  return answer;
+}
+
+// Something has changed: ask for the curve of the newest state; one question at a time, the newest one waits.
+export function changed(moving = false) {
+  state.version = (state.version || 0) + 1;
+  dragging = moving && slow > SLOW;
+  clearTimeout(later);
+  if (moving) later = setTimeout(() => { dragging = false; if (state.answer === null || state.answer.draft) ask(); }, PAUSE);
+  told("waiting");
+  ask();
+}
+
+async function ask() {
+  if (flying) { waits = true; return; }
+  flying = true;
+  do {
+    waits = false;
+    const version = state.version, draft = dragging;
+    const body = { settings: state.settings, auto: state.auto, lang: language(), draft };
+    if (state.b && !draft) body.b = state.b;
+    if (state.fan && !draft) body.fan = state.fan;
+    try {
+      const answer = await post("curve", body);
+      if (!draft) slow = answer.ms;
+      if (version === state.version || !("error" in answer)) { state.answer = answer; state.isNewest = version === state.version; told("answer"); }
+    } catch (error) {
+      state.answer = null;
+      told("refused", error);
+    }
+  } while (waits);
+  flying = false;
+}

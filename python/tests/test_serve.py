@@ -1,0 +1,364 @@
+"""The server of the page: who gets an answer, and that the answers are those of the executable."""
+
+from __future__ import annotations
+
+import copy
+import json
+import os
+import re
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import dondolo as dd
+
+pytest.importorskip("starlette", reason="starlette is not installed")
+pytest.importorskip("httpx", reason="httpx is not installed")
+
+from dondolo.exchange.case_text import case_text
+from dondolo.serve.server import application, beginning_of
+from starlette.testclient import TestClient
+
+pytestmark = pytest.mark.filterwarnings("ignore::DeprecationWarning", "ignore:&check")
+PORT, TOKEN = 8123, "a-token"
+HOME = f"http://127.0.0.1:{PORT}"
+TIED = {
+    "job": {"task": "stripes", "title": "Facciata dell'angolo"},
+    "wall": {
+        "mechanism": "one_sided",
+        "height": 6.0,
+        "thickness": 0.5,
+        "load": [12e3],
+        "load_height": [6.0],
+        "load_depth": [0.2],
+        "load_inertia": "both",
+        "tie_height": [5.7],
+        "tie_bar": [0.014],
+        "tie_spacing": [3.0],
+        "tie_length": [8.0],
+    },
+    "records": {"polarity": "both"},
+    "stripes": {"im": "pga"},
+    "check": {"ag": [0.25], "f0": [2.5], "tc_star": [0.35], "soil": "B", "knowledge_factor": 1.2},
+}
+
+
+@pytest.fixture(scope="module")
+def bench(root):
+    """The synthetic accelerograms, and what computes with them."""
+    return beginning_of(None, str(root / "data/records/synthetic44.csv"), 0)
+
+
+@pytest.fixture
+def stranger(bench):
+    """Somebody on this computer without the token."""
+    return TestClient(application(*bench, "en", PORT, TOKEN), base_url=HOME, follow_redirects=False)
+
+
+@pytest.fixture
+def page(stranger):
+    """The page, once its address was opened."""
+    assert stranger.get(f"/?token={TOKEN}").status_code == 303
+    return stranger
+
+
+def curve(page, settings, **more):
+    """What the page gets for a case."""
+    response = page.post("/curve", json={"settings": settings, "lang": "en"} | more)
+    assert response.status_code in (200, 422), response.text
+    return response.json()
+
+
+def test_who_is_answered(stranger):
+    """Nobody without the token, from another host or origin; the token becomes a cookie and leaves the address."""
+    for path in ("/", "/page.js", "/begin", "/nowhere", "/../../etc/passwd"):
+        assert stranger.get(path).status_code == 403
+    assert stranger.post("/curve", json={}).status_code == 403
+    assert stranger.get("/?token=another").status_code == 403
+    first = stranger.get(f"/?token={TOKEN}")
+    assert (first.status_code, first.headers["location"]) == (303, "/")
+    cookie = first.headers["set-cookie"].lower()
+    assert "httponly" in cookie
+    assert "samesite=strict" in cookie
+    assert stranger.get("/").status_code == 200
+    for name, value in {
+        "host": "evil.example",
+        "origin": "http://evil.example",
+        "sec-fetch-site": "cross-site",
+        "cookie": f"dondolo-{PORT}=another",
+    }.items():
+        for method, path in (("GET", "/begin"), ("POST", "/curve")):
+            assert stranger.request(method, path, json={}, headers={name: value}).status_code == 403, (name, path)
+    assert stranger.get("/begin", headers={"host": f"localhost:{PORT}"}).status_code == 200
+    assert stranger.get("/begin", headers={"origin": HOME}).status_code == 200
+
+
+def test_what_is_answered(page):
+    """Only small JSON, only the page's own files, with a policy that lets nothing else in."""
+    assert page.get("/../../etc/passwd").status_code == 404
+    assert page.get("/bench.py").status_code == 404
+    assert page.put("/curve").status_code == 405
+    assert page.delete("/begin").status_code == 405
+    assert page.post("/curve", content="{}", headers={"content-type": "text/plain"}).status_code == 415
+    too_large = json.dumps({"text": "x" * 300_000})
+    assert page.post("/open", content=too_large, headers={"content-type": "application/json"}).status_code == 413
+    for body in ("", "[", "[]", "1", '{"settings": NaN}', "{}", '{"settings": {"wall": []}}', "[" * 100_000):
+        answer = page.post("/curve", content=body, headers={"content-type": "application/json"})
+        assert answer.status_code == 422, body[:40]
+        assert answer.json()["error"]
+    for path, kind in {"/": "text/html", "/page.js": "text/javascript", "/page.css": "text/css"}.items():
+        answer = page.get(path)
+        assert answer.headers["content-type"].startswith(kind)
+        policy = answer.headers["content-security-policy"]
+        assert "default-src 'none'" in policy
+        assert "unsafe" not in policy
+        assert answer.headers["x-content-type-options"] == "nosniff"
+        assert answer.headers["referrer-policy"] == "no-referrer"
+
+
+def test_the_page_asks_for_nothing_else(page):
+    """Every file that the page names is its own; no address of another host, no style or script within it."""
+    text = page.get("/").text
+    names = re.findall(r'(?:src|href)="([^"]+)"', text)
+    for name in names:
+        content = page.get(f"/{name}").text
+        names += re.findall(r'from "\./([^"]+)"', content)
+        assert set(re.findall(r"https?://[^\s\"'`)]+", content)) <= {"http://www.w3.org/2000/svg"}
+    assert {"page.js", "chart.js", "words.js"} <= set(names)
+    assert "style=" not in text
+    assert "onclick" not in text
+
+
+def test_files_of_an_opened_case_stay_shut(page, tmp_path):
+    """The page never follows a path of a case: its records are those that the server was given."""
+    secret = tmp_path / "secret.csv"
+    secret.write_text("secret\n")
+    wall = "&wall mechanism = 'one_sided', height = 3, thickness = 0.3 /\n&stripes levels = 0.5, 1 /\n"
+    answer = page.post("/open", json={"text": f"{wall}&records catalogue = '{secret}' /"})
+    assert answer.status_code == 200
+    assert "secret" not in answer.text
+    table = wall.replace("one_sided', height", f"tabulated', table = '{secret}', height")
+    refused = page.post("/open", json={"text": f"{table}&records catalogue = 'x' /"})
+    assert refused.status_code == 422
+    assert "no file is read" in refused.json()["error"]
+    sent = curve(page, {**TIED, "records": {"catalogue": str(secret)}}, auto=True)
+    assert str(secret) not in sent["text"]
+
+
+@pytest.mark.parametrize("name", ["tied", "facade", "gable", "parapet_on_building", "facade_strip", "garden_wall"])
+def test_what_is_shown_is_what_the_executable_computes(name, page, root, tmp_path):
+    """Median, dispersion, counts and capacities are those of a run of the text on the page, to the bit."""
+    settings, is_auto = TIED, True
+    if name != "tied":
+        settings = page.post("/open", json={"text": (root / f"data/cases/{name}.nml").read_text()}).json()["settings"]
+        is_auto = False
+    shown = curve(page, settings, auto=is_auto)
+    path = tmp_path / "shown.nml"
+    path.write_text(shown["text"])
+    command = [os.path.join(os.path.dirname(sys.executable), "dondolo"), "--quiet", path]
+    subprocess.run(command, cwd=tmp_path, check=True, capture_output=True)
+    run = dd.read_results(tmp_path / dd.read_case(path).output)
+    assert (shown["theta"], shown["beta"]) == (run.fragility.theta, run.fragility.beta)
+    assert shown["stripes"] == [
+        run.stripes.levels.tolist(),
+        run.stripes.collapses.tolist(),
+        run.stripes.histories.tolist(),
+    ]
+    assert shown["trigger"] == run.population[0].trigger_acceleration / run.population[0].gravity
+    if "check" in settings:
+        assert {(method, state): value for method, state, value in shown["check"]["capacities"]} == run.check.capacities
+
+
+ROOFS = ["gable", "garden_wall", "parapet", "parapet_on_building", "pinnacle"]
+READY = ["facade", "facade_strip", "tied_facade", "two_block", *ROOFS]
+
+
+@pytest.mark.parametrize("name", READY)
+def test_ready_cases_open_whole(name, page, root):
+    """A case that is opened is the same wall to the bit, with its levels; nothing of it is dropped."""
+    path = root / f"data/cases/{name}.nml"
+    settings = page.post("/open", json={"text": path.read_text()}).json()["settings"]
+    shown = curve(page, settings)
+    case, there = dd.read_case(path), dd.case_from_text(shown["text"], dd.example_records())
+    assert there.population[0]._properties() == case.population[0]._properties()
+    assert there.levels.tolist() == case.levels.tolist() == shown["levels"]
+    drop = {"job", "records"}
+    assert {group: there.settings[group] for group in there.settings if group not in drop} == {
+        group: case.settings[group] for group in case.settings if group not in drop
+    }
+
+
+def test_other_cases_are_refused_by_name(page, root):
+    """A population, a history and a facade with hinges are no wall with a curve."""
+    for path in sorted((root / "data/cases").glob("*.nml")):
+        answer = page.post("/open", json={"text": path.read_text()})
+        assert answer.status_code == (200 if path.stem in READY else 422), path.name
+        if path.stem not in READY:
+            assert re.search("task = |no file is read", answer.json()["error"]), path.name
+
+
+def test_drafts_pins_and_fans(page):
+    """A draft is marked and has half of the records; B is compared on the same records; a fan has two more curves."""
+    bare = copy.deepcopy(TIED)
+    bare["wall"] = {name: value for name, value in TIED["wall"].items() if not name.startswith("tie")}
+    fan = {"group": "wall", "name": "load", "place": 0, "share": 0.2}
+    whole = curve(page, TIED, auto=True, b={**bare, "stripes": {"im": "pga", "levels": [0.2, 0.4, 0.6, 0.8]}}, fan=fan)
+    assert whole["comparison"]["ratio"] > 1.0
+    low, high = whole["comparison"]["interval"]
+    assert low < whole["comparison"]["ratio"] < high
+    assert [one["factor"] for one in whole["fan"]] == [0.8, 1.2]
+    assert whole["fan"][0]["theta"] != whole["fan"][1]["theta"]
+    draft = curve(page, TIED, auto=True, draft=True)
+    assert (draft["draft"], whole["draft"]) == (True, False)
+    assert 2 * draft["stripes"][2][0] == whole["stripes"][2][0]
+    assert "comparison" not in draft
+    italian = curve(page, TIED, auto=True, lang="it")
+    assert any("fattori di scala" in one["sentence"] for one in italian["warnings"])
+    for wrong in (
+        {"group": "wall", "name": "mechanism", "share": 0.1},
+        {"share": 2},
+        {"group": "wall", "name": "load", "place": 9},
+    ):
+        assert "error" in curve(page, TIED, auto=True, fan=wrong)
+
+
+def test_motions(page):
+    """The film of a record ends as its history does."""
+    shown = curve(page, TIED, auto=True)
+    settings = {**TIED, "stripes": {"im": "pga", "levels": shown["levels"]}}
+    motion = page.post("/motion", json={"settings": settings, "record": 3, "pga": 1.5}).json()
+    case = dd.case_from_text(shown["text"], dd.example_records())
+    record = dd.example_records()[3]
+    response = dd.simulate(case.population[0], record, 1.5 / record.intensity("pga"))
+    assert (motion["edp"], motion["collapsed"], motion["impacts"]) == (
+        response.edp,
+        response.collapsed,
+        response.impacts,
+    )
+    assert len(motion["frames"]) == len(motion["instants"]) == len(motion["ratio"])
+    for wrong in ({"record": 99, "pga": 1.0}, {"record": 0, "pga": 0.0}, {"record": "a", "pga": 1.0}, {"record": 0}):
+        assert page.post("/motion", json={"settings": settings} | wrong).status_code == 422
+
+
+def _random_state(rng):
+    """A wall as sliders may leave it, some of which cannot stand."""
+    height, thickness = rng.uniform(0.5, 12.0), rng.uniform(0.1, 1.0)
+    kind = str(rng.choice(["one_sided", "free_standing", "two_block"]))
+    wall = {"mechanism": kind, "height": round(height, 2), "thickness": round(thickness, 2)}
+    settings = {"job": {"task": "stripes"}, "wall": wall, "records": {"polarity": "both"}, "stripes": {"im": "pga"}}
+    if kind == "two_block":
+        wall |= {"hinge": rng.uniform(0.3, 0.9), "overburden": rng.uniform(0, 6e4), "overburden_inertia": rng.uniform()}
+        wall["eccentricity"] = rng.uniform(-0.2, 0.2)
+    elif rng.uniform() < 0.5:
+        wall |= {"load": [rng.uniform(0, 6e4)], "load_height": [rng.uniform(0, 15.0)], "load_depth": [rng.uniform()]}
+        wall |= {"load_inertia": str(rng.choice(["both", "none", "vertical"]))}
+    if kind == "one_sided" and rng.uniform() < 0.4:
+        wall |= {"thrust": [rng.uniform(0, 1e4)], "thrust_height": [rng.uniform(0, 15.0)]}
+    if kind == "one_sided" and rng.uniform() < 0.4:
+        wall |= {"tie_height": [rng.uniform(0.2, 15.0)], "tie_bar": [rng.uniform(0.008, 0.04)]}
+        wall |= {"tie_spacing": [rng.uniform(0.5, 8.0)], "tie_length": [rng.uniform(1.0, 20.0)]}
+    if rng.uniform() < 0.3:
+        settings["building"] = {"period": [rng.uniform(0.05, 1.5)], "damping": [0.05], "storeys": 2, "level": 0.0}
+        settings["building"]["building_height"] = rng.uniform(2.0, 30.0)
+    if rng.uniform() < 0.5:
+        settings["check"] = {"ag": [rng.uniform(0.02, 0.45)], "f0": [2.5], "tc_star": [0.35], "soil": "C"}
+    return settings
+
+
+@pytest.mark.slow
+def test_random_states(page):
+    """500 states of the sliders: a curve, or the library's sentence; never a failure of the server."""
+    rng, refused = np.random.default_rng(0), []
+    for _ in range(500):
+        answer = curve(page, _random_state(rng), auto=True, draft=True)
+        if "error" in answer:
+            refused.append(answer["error"])
+            continue
+        assert answer["text"].startswith("&job")
+        assert ("theta" in answer) == (answer["status"] in ("ok", "extrapolated", "nearly_flat"))
+    assert 0 < len(refused) < 250
+    assert all("&" in sentence or "stripes" in sentence or "level" in sentence for sentence in refused), set(refused)
+
+
+def test_the_token_is_no_argument(root, tmp_path):
+    """The command prints an address of this computer; its token is not among the arguments that other users see."""
+    pytest.importorskip("uvicorn", reason="uvicorn is not installed")
+    command = [
+        sys.executable,
+        "-m",
+        "dondolo",
+        "serve",
+        "--no-browser",
+        "--records",
+        root / "data/records/synthetic44.csv",
+    ]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=tmp_path) as server:
+        try:
+            address = server.stdout.readline().strip()
+            found = re.fullmatch(r"http://127\.0\.0\.1:(\d+)/\?token=([\w-]{43})", address)
+            assert found, address + server.stderr.read()
+            arguments = Path(f"/proc/{server.pid}/cmdline")
+            assert not arguments.exists() or found[2] not in arguments.read_text()
+            import httpx
+
+            for _ in range(100):
+                try:
+                    with httpx.Client(base_url=f"http://127.0.0.1:{found[1]}", trust_env=False) as client:
+                        assert client.get("/").status_code == 403
+                        assert client.get("/", params={"token": found[2]}).status_code == 303
+                        assert client.get("/begin").json()["version"] == dd.__version__
+                    break
+                except httpx.ConnectError:
+                    time.sleep(0.1)
+        finally:
+            server.terminate()
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_the_redirect_is_private(tmp_path, monkeypatch):
+    """The file that takes the browser to the page is the user's alone."""
+    import webbrowser
+
+    from dondolo.serve.server import _open
+
+    opened = []
+    monkeypatch.setattr(webbrowser, "open", opened.append)
+    _open(tmp_path, f"{HOME}/?token=x")
+    assert opened == [(tmp_path / "open.html").as_uri()]
+    assert (tmp_path / "open.html").stat().st_mode & 0o777 == 0o600
+
+
+@pytest.mark.slow
+def test_documents(page):
+    """A report and a relazione of the case on the page."""
+    shown = curve(page, TIED, auto=True)
+    settings = {**TIED, "stripes": {"im": "pga", "levels": shown["levels"]}}
+    report = page.post("/document", json={"settings": settings, "kind": "report", "lang": "en"})
+    assert report.text.startswith("<!doctype html>") or "<html" in report.text[:300]
+    relazione = page.post("/document", json={"settings": settings, "kind": "relazione", "lang": "it"})
+    assert 'lang="it"' in relazione.text
+    assert page.post("/document", json={"settings": settings, "kind": "other"}).status_code == 422
+
+
+def test_starts_that_are_refused(root, tmp_path):
+    """A case or a catalogue that the page cannot show is named before anything is served."""
+    for case, records, match in [
+        (root / "data/cases/population.nml", None, "task = 'typology'|no file is read"),
+        (None, tmp_path / "nowhere.csv", "no such file"),
+        (tmp_path / "nowhere.nml", None, "no such file"),
+    ]:
+        given = [None if one is None else str(one) for one in (case, records)]
+        with pytest.raises(dd.errors.InputError, match=match):
+            beginning_of(*given, 0)
+
+
+def test_text_of_a_state_is_the_case(bench):
+    """The text of a state and the state that is opened from it are the same."""
+    there = bench[0].open(bench[0].text({**TIED, "stripes": {"im": "pga", "levels": [0.5, 1.0]}}))
+    assert there["wall"] == {**TIED["wall"]}
+    assert there["check"] == TIED["check"]
+    assert case_text(there).count("&") == 5
