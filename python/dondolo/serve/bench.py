@@ -277,6 +277,7 @@ def _checked(case: Case, fit: Fragility) -> dict[str, Any]:
         "not_applicable": [list(key) for key in check.not_applicable],
         "alpha_0": check.value("mechanism", "", "alpha_0"),
         "notes": list(check.notes),
+        "open_ties": list(check.open_ties),
     }
     if fit.has_fit and fit.im == "pga":
         answer["probability"] = float(fit(check.pga))

@@ -70,7 +70,7 @@ function refuse(error, isAside = false) {
 }
 
 function number(key, value, unit, more, kind = "") {
-  return make("div", { class: kind }, make("dt", {}, t(key)), make("dd", {}, value, unit ? make("small", {}, ` ${unit}`) : ""), more ? make("div", { class: "more" }, more) : "");
+  return make("div", { class: kind }, make("dt", {}, t(key)), make("dd", {}, value, unit ? make("small", {}, ` ${unit}`) : ""), more ? make("dd", { class: "more" }, more) : "");
 }
 function show() {
   const a = state.answer, unit = unitOf(a.im), fitted = "theta" in a;
@@ -88,7 +88,7 @@ function show() {
   if (a.check?.capacities && a.im === "pga") {
     marks.push({ x: a.check.pga, label: t("level_site", { x: num(a.check.pga, 3) }), kind: "" });
     const isFine = new Map(a.check.verified.map(([method, limit, fine]) => [method + limit, fine]));
-    for (const [method, limit, x] of a.check.capacities) if (limit === "SLV") marks.push({ x, label: t("capacity", { method: t(method), state: limit, x: num(x, 3) }), kind: isFine.get(method + limit) ? "good" : "bad" });
+    for (const [method, limit, x] of a.check.capacities) if (limit === "SLV") marks.push({ x, label: t("capacity", { method: t(method), state: limit, x: num(x, 3) }), kind: !isFine.get(method + limit) ? "bad" : a.check.open_ties.length ? "" : "good" });
   }
   at("chart").classList.remove("old");
   const b = state.bAnswer && state.bAnswer.im === a.im ? state.bAnswer : null;
@@ -117,8 +117,8 @@ function check(found) {
   if (found.refused) { at("check").replaceChildren(make("p", { class: "hint" }, found.refused)); return; }
   const capacities = new Map(found.capacities.map(([method, limit, x]) => [`${method} ${limit}`, x])), off = new Set(found.not_applicable.map((key) => key.join(" ")));
   const rows = found.verified.map(([method, limit, fine]) => {
-    const key = `${method} ${limit}`, isOff = off.has(key), word = t(isOff ? "not_applicable" : fine ? "verified" : "not_verified");
-    return make("tr", {}, make("th", { scope: "row" }, `${has(method) ? t(method) : method} ${limit}`), make("td", { class: "n" }, capacities.has(key) ? num(capacities.get(key), 3) : "–"), make("td", { class: isOff ? "" : fine ? "good" : "bad" }, `${isOff ? "" : fine ? "✓ " : "✗ "}${word}`));
+    const key = `${method} ${limit}`, isOff = off.has(key), isOpen = fine && found.open_ties.length > 0, word = t(isOff ? "not_applicable" : !fine ? "not_verified" : isOpen ? "with_anchors" : "verified");
+    return make("tr", {}, make("th", { scope: "row" }, `${has(method) ? t(method) : method} ${limit}`), make("td", { class: "n" }, capacities.has(key) ? num(capacities.get(key), 3) : "–"), make("td", { class: isOff || isOpen ? "" : fine ? "good" : "bad" }, `${isOff || isOpen ? "" : fine ? "✓ " : "✗ "}${word}`));
   });
   const failed = found.verified.some(([, , fine]) => !fine) && found.probability < 0.01;
   at("check").replaceChildren(make("div", { class: "scroll" }, make("table", {}, make("caption", {}, `${t("check_title")}, α₀ = ${num(found.alpha_0, 3)}`), make("thead", {}, make("tr", {}, make("th", { scope: "col" }, t("method")), make("th", { scope: "col", class: "n" }, t("capacity_head")), make("th", { scope: "col" }, t("outcome")))), make("tbody", {}, ...rows))), failed ? make("p", { class: "hint" }, t("check_why")) : "", ...found.notes.map((note) => make("p", { class: "hint", lang: "en" }, note)));

@@ -18,7 +18,7 @@ const WORDS = {
   interval: ["95 %: {a}–{b}", "95 %: {a}–{b}"], collapse: ["Probability of collapse", "Probabilità di crollo"], curve_title: ["Probability of collapse against {im}", "Probabilità di crollo in funzione di {im}"],
   linear: ["linear", "lineare"], nonlinear: ["nonlinear", "non lineare"], capacity: ["{method} {state} {x}", "{method} {state} {x}"],
   check_title: ["NTC 2018, local mechanism", "NTC 2018, meccanismo locale"], method: ["Check", "Verifica"], capacity_head: ["Capacity a_g S [g]", "Capacità a_g S [g]"], demand_head: ["Demand [g]", "Domanda [g]"], outcome: ["Outcome", "Esito"],
-  verified: ["satisfied", "soddisfatta"], not_verified: ["not satisfied", "non soddisfatta"], not_applicable: ["not applicable", "non applicabile"],
+  verified: ["satisfied", "soddisfatta"], with_anchors: ["satisfied, if the anchors of its ties are", "soddisfatta, se lo sono gli ancoraggi delle catene"], not_verified: ["not satisfied", "non soddisfatta"], not_applicable: ["not applicable", "non applicabile"],
   check_why: ["A check can fail although collapse is improbable: its capacity is a share of the wall’s, by the code’s factors.", "Una verifica può non essere soddisfatta anche se il crollo è improbabile: la sua capacità è una quota di quella della parete, per i coefficienti della norma."],
   pin: ["Keep as B", "Fissa come B"], unpin: ["Remove B", "Togli B"], back: ["Return to B", "Torna a B"], was: ["B", "B"],
   better: ["θ of A is {x} of B (95 %: {a}–{b}), same records", "θ di A è {x} di B (95 %: {a}–{b}), stessi accelerogrammi"], fan: ["{what} {low} and {high}: θ {x} to {y} g", "{what} {low} e {high}: θ da {x} a {y} g"], fan_button: ["Uncertainty of {what}", "Incertezza di {what}"],

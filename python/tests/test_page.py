@@ -1,0 +1,210 @@
+"""The page of ``dondolo serve`` in a browser: Chromium, if there is one here."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import statistics
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+import dondolo as dd
+
+pytest.importorskip("uvicorn", reason="uvicorn is not installed")
+playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
+CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+pytestmark = [
+    pytest.mark.slow,
+    pytest.mark.skipif(CHROMIUM is None, reason="no browser here: apt-get install chromium"),
+    pytest.mark.filterwarnings("ignore:&check"),
+]
+# Times from a key to the painted curve, in the page [ms]
+CLOCK = """
+window.times = []; let pressed = 0;
+addEventListener('input', () => { pressed = performance.now(); }, true);
+addEventListener('painted', () => { if (pressed) { const from = pressed; pressed = 0;
+  requestAnimationFrame(() => requestAnimationFrame(() => times.push(performance.now() - from))); } });
+"""
+
+
+@pytest.fixture(scope="module")
+def address(root):
+    """Where the page is served, in Italian."""
+    command = [sys.executable, "-m", "dondolo", "serve", "--no-browser", "--lang", "it"]
+    environment = {**os.environ, "OMP_WAIT_POLICY": "passive"}
+    catalogue = ["--records", root / "data/records/synthetic44.csv"]
+    with subprocess.Popen([*command, *catalogue], stdout=subprocess.PIPE, text=True, env=environment) as server:
+        yield server.stdout.readline().strip()
+        server.terminate()
+
+
+@pytest.fixture(scope="module")
+def browser():
+    """Chromium."""
+    with playwright.sync_playwright() as started:
+        yield started.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+
+
+@pytest.fixture
+def visit(address, browser):
+    """Open the page, of a width; it may ask nobody but its server, and no script of it may fail."""
+    failed, pages = [], []
+
+    def opened(width=1280, **how):
+        context = browser.new_context(viewport={"width": width, "height": 860}, **how)
+        context.route(
+            lambda url: not url.startswith(("http://127.0.0.1:", "data:", "blob:")),
+            lambda route: (failed.append(route.request.url), route.abort()),
+        )
+        page = context.new_page()
+        page.on("pageerror", lambda error: failed.append(str(error)))
+        page.on("console", lambda line: failed.append(line.text) if "Content Security" in line.text else None)
+        page.add_init_script(CLOCK)
+        page.goto(address)
+        page.wait_for_selector("#chart path.line.a")
+        pages.append(context)
+        return page
+
+    yield opened
+    for context in pages:
+        context.close()
+    assert failed == []
+
+
+def until(page, holds):
+    """Wait until an expression holds. The page's policy lets no script within it be evaluated, as Playwright's is."""
+    end = time.monotonic() + 30.0
+    while not page.evaluate(holds):
+        assert time.monotonic() < end, holds
+        page.wait_for_timeout(20)
+
+
+def settled(page):
+    """Wait until the newest state of the sliders is painted, whole."""
+    until(page, "document.querySelector('#text').textContent !== ''")
+    page.wait_for_timeout(600)
+    until(page, "document.querySelector('#numbers dd') !== null")
+
+
+def test_numbers_are_of_the_text(visit, root):
+    """After keys on sliders, the median on the page is that of the case on the page."""
+    page = visit()
+    page.focus("[data-name='wall.thickness'] input[type=range]")
+    for _ in range(5):
+        page.keyboard.press("ArrowRight")
+    settled(page)
+    text = page.text_content("#text")
+    assert "thickness = 0.55" in text
+    case = dd.case_from_text(text, dd.read_catalogue(root / "data/records/synthetic44.csv"))
+    fit = dd.multiple_stripe(
+        case.population[0], case.records, case.levels, polarity=case.polarity, progress=False
+    ).fit()
+    assert page.text_content("#numbers .main dd").replace(",", ".").startswith(f"{fit.theta:.3f}"[:5])
+    assert "synthetic44.csv" in text
+    assert "sintetici" in page.text_content("#warnings")
+
+
+def test_no_number_of_another_wall(visit):
+    """A wall that cannot stand has a sentence at its slider, and no number, curve or case of the wall before."""
+    page = visit()
+    page.click("text=Spinte")
+    page.click("text=+ spinta")
+    box = page.locator("[data-name='wall.thrust'] input[type=text]")
+    box.fill("9,5")
+    box.press("Enter")
+    page.wait_for_selector("#notice:not([hidden])")
+    assert "does not stand" in page.text_content("#notice")
+    assert "wrong" in page.get_attribute("[data-name='wall.thrust']", "class")
+    for place in ("#numbers", "#chart", "#under", "#check", "#text", "#wall"):
+        assert page.text_content(place) == ""
+    box.fill("0,1")
+    box.press("Enter")
+    page.wait_for_selector("#notice", state="hidden")
+    settled(page)
+    assert page.text_content("#numbers .main dd")
+
+
+@pytest.mark.parametrize("width", [1280, 420])
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_everything_is_named_and_fits(visit, width, scheme):
+    """Every control has a name, nothing is wider than the page, in both languages; axe finds nothing, if it is here."""
+    page = visit(width, color_scheme=scheme)
+    for kind in ("one_sided", "two_block", "free_standing"):
+        page.evaluate(f"document.querySelector('input[value={kind}]').click()")
+        page.evaluate("document.querySelectorAll('#form details').forEach((one) => { one.open = true; })")
+        settled(page)
+        nameless = page.evaluate(
+            "[...document.querySelectorAll('button, input, select')].filter((one) => "
+            "!(one.labels?.length || one.getAttribute('aria-label') || one.textContent.trim())).length"
+        )
+        assert nameless == 0
+        assert page.evaluate("document.documentElement.scrollWidth <= innerWidth")
+        axe(page)
+    page.click("text=English")
+    settled(page)
+    assert page.get_attribute("html", "lang") == "en"
+    assert "Median" in page.text_content("#numbers")
+    axe(page)
+
+
+def axe(page):
+    """What axe-core finds; it comes with axe-playwright-python, which the tests do not need."""
+    try:
+        import axe_playwright_python as found
+    except ModuleNotFoundError:
+        return
+    (script,) = Path(found.__file__).parent.glob("**/axe.min.js")
+    page.evaluate(script.read_text())
+    violations = page.evaluate("axe.run().then((found) => found.violations)")
+    assert [(one["id"], [node["html"][:120] for node in one["nodes"]]) for one in violations] == []
+
+
+def test_designs_and_motions(visit):
+    """A against B, the uncertainty of a number, a film that stops, and the peak where motion is unwelcome."""
+    page = visit(reduced_motion="reduce")
+    page.click("text=Fissa come B")
+    page.click("text=Catene")
+    page.click("text=+ catena")
+    page.wait_for_selector(".compare")
+    assert "stessi accelerogrammi" in page.text_content("#under")
+    page.click("[data-name='wall.thickness'] button")
+    page.wait_for_selector("#chart path.line.fan")
+    page.select_option("#record", index=3)
+    page.click("#play")
+    until(page, "document.querySelector('#outcome').textContent !== ''")
+    page.wait_for_selector("#trace path.trace")
+    page.click("#play")
+    assert page.text_content("#trace") == ""
+
+
+def test_cases_come_and_go(visit, root, tmp_path):
+    """A case is opened and saved; one that the page cannot show is refused, and the wall before stays."""
+    page = visit()
+    page.set_input_files("input[type=file]", root / "data/cases/facade.nml")
+    until(page, "document.querySelector('#text').textContent.includes('section_height')")
+    settled(page)
+    with page.expect_download() as saved:
+        page.click("text=Caso (.nml)")
+    saved.value.save_as(tmp_path / "saved.nml")
+    results = dd.run_case(tmp_path / "saved.nml", progress=False)
+    assert page.text_content("#numbers .main dd").replace(",", ".").startswith(f"{results.fragility.theta:.3f}")
+    page.set_input_files("input[type=file]", root / "data/cases/population.nml")
+    page.wait_for_selector("#notice:not([hidden])")
+    assert "section_height" in page.text_content("#text")
+
+
+def test_curves_follow_the_slider(visit):
+    """From a key to the painted curve: within the patience of a hand, whatever else this machine does."""
+    page = visit()
+    page.focus("[data-name='wall.height'] input[type=range]")
+    for i in range(40):
+        page.keyboard.press("ArrowRight" if i % 2 else "ArrowLeft")
+        page.wait_for_timeout(30)
+    settled(page)
+    times = page.evaluate("times")
+    assert len(times) >= 8
+    assert statistics.median(times) < 1000.0
