@@ -3,7 +3,7 @@
 Strips and facades of random sizes, loads, ties and restitution, on random buildings, with diaphragms and without, each
 under components chosen at random: of italy44.csv in the folder RECORDS if it is there, else the synthetic ones. Walls
 whose medians differ by more than 5 % are run again under all components. Writes the share within 5 % and the worst into
-docs/supports.md, and all walls into out/random_supports_*.csv, from which a run that was stopped goes on.
+docs/studies/supports.md, and all walls into out/random_supports_*.csv, from which a run that was stopped goes on.
 """
 
 import csv

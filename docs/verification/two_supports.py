@@ -1,6 +1,6 @@
 """Exact models of walls between two moving supports beside dondolo: python two_supports.py RECORDS | --quick.
 
-Prints the first swings, and medians under the records beside those of dondolo, which it writes into docs/supports.md:
+Prints the first swings, and writes medians under the records beside those of dondolo into docs/studies/supports.md:
 those under the recorded components of italy44.csv in the folder RECORDS, and those under the synthetic accelerograms.
 With --quick some walls under the synthetic ones, and no page. Fails if swings or medians are off.
 """
@@ -20,7 +20,7 @@ from yardsticks import Facade, G, House, Program, Strip, Tie
 
 import dondolo as dd
 
-PAGE = ROOT / "docs" / "supports.md"
+PAGE = ROOT / "docs" / "studies" / "supports.md"
 
 # Wall, accelerations of base and top in m/s2 at samples of 0.05 s, and start, turn and peak opening of the first swing
 SWINGS = {
@@ -211,7 +211,7 @@ def swings(program):
 
 
 def replace_between(name, lines):
-    """Replace what is between the marks of docs/supports.md that have this name."""
+    """Replace what is between the marks of docs/studies/supports.md that have this name."""
     begin, end = (f"<!-- {word}: {name}, written by docs/verification -->" for word in ("begin", "end"))
     text = PAGE.read_text(encoding="utf-8")
     body = "\n".join(lines).strip()
