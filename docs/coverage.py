@@ -285,7 +285,7 @@ def chosen() -> list[str]:
         means = np.mean([found for own, found in every if own == number], axis=0)
         rows.append(["mean", str(number), *map(in_words, means)])
     head = ["wall", "stripes", "chosen", "equally spaced to 2 θ", "equally spaced in ln", "50 stripes"]
-    return ["## Levels that tell most\n", CHOSEN, table(head, rows)]
+    return ["## Adaptive levels\n", CHOSEN, table(head, rows)]
 
 
 def widths(curve: Fragility) -> list[float]:
