@@ -3,11 +3,31 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
-from typing import Any
+from typing import Any, Literal, NamedTuple
 
-__all__ = ["DondoloError", "DondoloWarning", "InputError", "Interrupted", "MissingFileError"]
+__all__ = ["DondoloError", "DondoloWarning", "InputError", "Interrupted", "MissingFileError", "Problem"]
+
+# What is wrong, for programs; docs/files.md says what each means. The library has its own in base/text/error.f90.
+Code = Literal[
+    "unknown_name",
+    "not_given",
+    "not_together",
+    "wrong_type",
+    "wrong_length",
+    "out_of_range",
+    "not_increasing",
+    "not_a_number",
+    "not_numbers",
+    "not_an_integer",
+    "not_a_flag",
+    "not_a_text",
+    "not_a_word",
+    "not_a_probability",
+    "no_such_file",
+    "not_at_rest",
+]
 
 # Longest line of a message [characters]; the middle of a longer one is left out
 _LONGEST = 2000
@@ -38,41 +58,77 @@ class DondoloError(Exception):
         return "\n".join(map(visible, super().__str__().split("\n")))
 
 
+class Problem(NamedTuple):
+    """One thing that is wrong with what was asked for.
+
+    Attributes
+    ----------
+    message : str
+        Its sentence, with its place.
+    code : str
+        What is wrong, for programs, which should not read sentences; docs/files.md lists the codes. '' if none of them
+        says it.
+    variable : str
+        Name of the argument, property or column as the user writes it, such as ``thickness`` or ``loads[0].force``; '' if
+        it is not about one.
+    place : str
+        Where it is, such as ``walls.csv: line 12`` or ``wall.nml: &wall (line 3)``; '' if it is not in a file.
+
+    Examples
+    --------
+    >>> import dondolo as dd
+    >>> dd.errors.Problem("height = -1: must be positive", "out_of_range", "height").place
+    ''
+    """
+
+    message: str
+    code: str = ""
+    variable: str = ""
+    place: str = ""
+
+
 class InputError(DondoloError, ValueError):
     """What was asked for is wrong; the message is the sentence of the executable.
 
     Parameters
     ----------
     sentence : str
-        What `str` gives.
-    code : str
-        What is wrong with an argument, for programs, which should not read sentences: ``wrong_type``, ``not_a_number``,
-        ``not_numbers``, ``not_an_integer``, ``not_a_flag``, ``not_a_word``, ``not_a_probability``, ``not_increasing``,
-        ``not_given``; '' for anything else, and for what the library checks.
-    variable : str
-        Name of the argument; '' without a code.
+        What `str` gives: a sentence, or several, one a line.
+    errors : iterable of Problem, optional
+        What each of them is about.
 
     Examples
     --------
     >>> import dondolo as dd
     >>> try:
-    ...     dd.OneSidedWall(height=-1.0, thickness=0.25)
+    ...     dd.OneSidedWall(height=-1.0, thickness=0.0)
     ... except dd.errors.InputError as error:
     ...     print(error)
+    ...     print([(one.code, one.variable) for one in error.errors])
     height = -1: must be positive
-    >>> try:
-    ...     dd.HazardCurve.power_law("rare", 2.5)
-    ... except dd.errors.InputError as error:
-    ...     print(error.code, error.variable)
-    not_a_number k0
+    thickness = 0: must be positive
+    [('out_of_range', 'height'), ('out_of_range', 'thickness')]
     """
 
     # Of those too that OSError makes
-    code = variable = ""
+    _errors: tuple[Problem, ...] = ()
 
-    def __init__(self, *sentence: object, code: str = "", variable: str = "") -> None:
+    def __init__(self, *sentence: object, errors: Iterable[Problem] = ()) -> None:
         super().__init__(*sentence)
-        self.code, self.variable = code, variable
+        self._errors = tuple(errors)
+
+    @property
+    def errors(self) -> tuple[Problem, ...]:
+        """Each thing that is wrong; of many, those that the message has room for."""
+        return self._errors or tuple(map(Problem, str(self).split("\n")))
+
+    def placed(self, place: str) -> InputError:
+        """The same, preceded by a place."""
+        errors = [
+            one._replace(message=f"{place}: {one.message}", place=f"{place}: {one.place}" if one.place else place)
+            for one in self.errors
+        ]
+        return InputError(f"{place}: {self}", errors=errors)
 
 
 class MissingFileError(FileNotFoundError, InputError):
@@ -87,6 +143,10 @@ class MissingFileError(FileNotFoundError, InputError):
     ...     print(error)
     nowhere.csv: no such file
     """
+
+    def __init__(self, *sentence: object, errors: Iterable[Problem] = ()) -> None:
+        super().__init__(*sentence)
+        self._errors = tuple(errors) or (Problem(str(self), "no_such_file"),)
 
     # That of OSError comes first, and escapes nothing.
     __str__ = DondoloError.__str__

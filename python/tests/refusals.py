@@ -13,5 +13,5 @@ def refused(code: str, variable: str) -> Iterator[None]:
     """Expect an InputError of a code that names a variable."""
     with pytest.raises(dd.errors.InputError) as error:
         yield
-    assert (error.value.code, error.value.variable) == (code, variable)
+    assert [(one.code, one.variable) for one in error.value.errors] == [(code, variable)]
     assert str(error.value).startswith(variable)

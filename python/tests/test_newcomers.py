@@ -127,6 +127,5 @@ def test_codes(call, code, variable, sentence):
     with pytest.raises(dd.errors.InputError) as caught:
         call()
     error = pickle.loads(pickle.dumps(caught.value))
-    assert (error.code, error.variable) == (code, variable)
+    assert error.errors == (dd.errors.Problem(str(error), code, variable),)
     assert str(error).startswith(sentence)
-    assert (dd.errors.InputError("more").code, dd.errors.MissingFileError("x: no such file").variable) == ("", "")

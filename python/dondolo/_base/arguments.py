@@ -9,15 +9,15 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dondolo.errors import InputError
+from dondolo.errors import Code, InputError, Problem
 
 FloatArray = NDArray[np.float64]
 _T = TypeVar("_T")
 
 
-def _wrong(code: str, variable: str, sentence: str) -> InputError:
+def _wrong(code: Code, variable: str, sentence: str) -> InputError:
     """The error of an argument; its sentence begins with the name of the variable, and often its value."""
-    return InputError(variable + sentence, code=code, variable=variable)
+    return InputError(variable + sentence, errors=[Problem(variable + sentence, code, variable)])
 
 
 def as_number(name: str, value: Any) -> float:
@@ -68,10 +68,11 @@ def increasing(name: str, values: ArrayLike, *, from_zero: bool = False) -> Floa
     levels = as_array(name, values).copy()
     allowed = "not negative" if from_zero else "positive"
     if len(levels) < 2:
-        raise InputError(f"{name}: must be at least two, {allowed} and increasing")
+        raise _wrong("wrong_length", name, f": must be at least two, {allowed} and increasing")
     wrong = ~(((levels >= 0.0) if from_zero else (levels > 0.0)) & (levels < np.inf))
     if wrong.any():
-        raise InputError(f"{name} = {levels[wrong][0]:g}: must {'not be negative' if from_zero else 'be positive'}")
+        sentence = f" = {levels[wrong][0]:g}: must {'not be negative' if from_zero else 'be positive'}"
+        raise _wrong("out_of_range", name, sentence)
     falls = levels[1:] <= levels[:-1]
     if falls.any():
         i = int(np.argmax(falls))
@@ -104,7 +105,7 @@ def as_measures(ims: str | Iterable[str]) -> list[str]:
     if isinstance(ims, str):
         return [ims]
     if not isinstance(ims, Iterable):
-        raise InputError(f"ims = {ims!r}: must be names of intensity measures")
+        raise _wrong("wrong_type", "ims", f" = {ims!r}: must be names of intensity measures")
     return list(ims)
 
 
@@ -112,11 +113,11 @@ def as_sentences(name: str, sentences: str | Iterable[str]) -> tuple[str, ...]:
     """Turn what a user gives for sentences into a tuple of them; a text is one."""
     several = (sentences,) if isinstance(sentences, str) else sentences
     if not isinstance(several, Iterable):
-        raise InputError(f"{name} = {sentences!r}: must be sentences")
+        raise _wrong("wrong_type", name, f" = {sentences!r}: must be sentences")
     found = tuple(several)
     for one in found:
         if not isinstance(one, str):
-            raise InputError(f"{name} = {one!r}: must be a text")
+            raise _wrong("not_a_text", name, f" = {one!r}: must be a text")
     return found
 
 
@@ -125,7 +126,7 @@ def as_path(path: str | os.PathLike[str]) -> bytes:
     try:
         return os.fsencode(path).replace(os.fsencode(os.sep), b"/")
     except TypeError:
-        raise InputError(f"path = {path!r}: must be the path of a file") from None
+        raise _wrong("wrong_type", "path", f" = {path!r}: must be the path of a file") from None
 
 
 def as_generator(seed: Any) -> np.random.Generator:
@@ -144,7 +145,7 @@ def as_levels(x: ArrayLike) -> FloatArray:
     except (TypeError, ValueError, OverflowError):
         raise _wrong("not_numbers", "x", ": must be numbers") from None
     if not np.all(values >= 0.0):
-        raise InputError("x: must be levels of intensity, not negative")
+        raise _wrong("out_of_range", "x", ": must be levels of intensity, not negative")
     return values
 
 

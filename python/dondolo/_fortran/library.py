@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from dondolo._base.arguments import FloatArray
 from dondolo._fortran import _core
-from dondolo.errors import DondoloError, DondoloWarning, InputError, MissingFileError
+from dondolo.errors import DondoloError, DondoloWarning, InputError, MissingFileError, Problem
 
 _PACKAGE = str(Path(__file__).parents[1]) + os.sep
 # Each line is one object without blanks around it; json.loads would look for blanks first.
@@ -125,6 +125,10 @@ class Parcel:
         return values
 
 
+# Kinds of errors, see dondolo_base_error
+_WRONG_INPUT = {2: InputError, 3: MissingFileError}
+_NO_MEMORY = 4
+
 # What there is where nothing was sent
 _NOTHING = Parcel(np.empty(0, dtype=np.int32), np.empty(0), [], 0)
 
@@ -216,8 +220,14 @@ def check(sent: NDArray[np.int64]) -> None:
     """Raise the error that a procedure has sent in the place of a parcel, if it has."""
     kind = int(sent[-1])
     if kind > 0:
-        sentence = "\n".join(_take(sent.tolist()).lines).strip()
-        raise {2: InputError, 3: MissingFileError, 4: MemoryError}.get(kind, DondoloError)(sentence)
+        parcel = _take(sent.tolist())
+        last = len(parcel.lines) - int(parcel.integers[0])
+        sentences, about = parcel.lines[:last], parcel.lines[last:]
+        message = "\n".join(sentences).strip()
+        if kind in _WRONG_INPUT:
+            errors = [Problem(one, *line.split("\t")) for one, line in zip(sentences, about, strict=False)]
+            raise _WRONG_INPUT[kind](message, errors=errors)
+        raise (MemoryError if kind == _NO_MEMORY else DondoloError)(message)
 
 
 class Stoppable:

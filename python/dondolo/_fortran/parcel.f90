@@ -251,7 +251,8 @@ contains
       call self%put('notes', notes)
    end subroutine put_note
 
-   !> Send a parcel, or an error as one: its sentence is the text of it
+   !> Send a parcel, or an error as one: its lines are its sentences and, for each of its problems, code, variable and place
+   !> with a tab between two; its integer is the number of these
    subroutine send(parcel, error, sent)
       !> The parcel; its numbers are moved away
       type(parcel_type), intent(inout) :: parcel
@@ -271,6 +272,12 @@ contains
       allocate (content%integers(0), content%reals(0))
       if (allocated(error)) then
          call content%lines%add(error%message)
+         content%integers = [size(error%problem)]
+         do i = 1, size(error%problem)
+            associate (problem => error%problem(i))
+               call content%lines%add(trim(problem%code)//achar(9)//problem%variable//achar(9)//problem%place)
+            end associate
+         end do
          sent(5) = error%stat
       else
          if (allocated(parcel%integers)) call move_alloc(parcel%integers, content%integers)

@@ -153,7 +153,7 @@ class RunFile:
             if levels[-1] > limit:
                 raise InputError(f"edp_thresholds = {levels[-1]:g}: must be at most edp_limit = {limit:g}")
         except InputError as error:
-            raise InputError(f"{self.path}: settings: stripes: {error}") from None
+            raise error.placed(f"{self.path}: settings: stripes") from None
         return levels
 
     def to_json(self) -> str:

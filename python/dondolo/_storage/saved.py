@@ -220,7 +220,7 @@ def _unpack(data: bytes, source: Path) -> tuple[Any, str, dict[str, _Array]]:
                     arrays[name] = _array(archive.read(name))
         result, version, origin = content["result"], int(content["format_version"]), str(content["dondolo"])
     except InputError as error:
-        raise InputError(f"{source}: is damaged: {error}") from None
+        raise error.placed(f"{source}: is damaged") from None
     # Bytes that are wrong raise a dozen kinds of errors in zipfile and its decoders.
     except Exception as error:
         raise InputError(f"{source}: is damaged: not a whole archive of a result") from error

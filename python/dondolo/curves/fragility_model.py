@@ -186,7 +186,7 @@ def read_nrml(path: str | os.PathLike[str]) -> FragilityModel:
     try:
         model, notes = _model(_parsed(text))
     except InputError as error:
-        raise InputError(f"{source}: {error}") from None
+        raise error.placed(str(source)) from None
     warn(one.placed(f"{source}: ") for one in notes)
     return model
 
@@ -248,7 +248,7 @@ def _model(root: ElementTree.Element) -> tuple[FragilityModel, list[DondoloWarni
             functions[taxonomy], limits[taxonomy] = _function(function, states)
             doubt = _doubt(functions[taxonomy], limits[taxonomy])
         except InputError as error:
-            raise InputError(f"fragilityFunction '{taxonomy}': {error}") from None
+            raise error.placed(f"fragilityFunction '{taxonomy}'") from None
         if doubt is not None:
             notes.append(doubt.placed(f"fragilityFunction '{taxonomy}': "))
     if not functions:
@@ -337,7 +337,7 @@ def _function(function: ElementTree.Element, states: list[str]) -> tuple[dict[st
         try:
             curves[state] = DiscreteFragility(levels, chances, im=im)
         except InputError as error:
-            raise InputError(f"limit state '{state}': {error}") from None
+            raise error.placed(f"limit state '{state}'") from None
     return curves, limits
 
 

@@ -154,7 +154,7 @@ def write_nrml(
         try:
             imt_of(curves[states[0]].im)
         except InputError as error:
-            raise InputError(f"taxonomy '{taxonomy}': {error}") from None
+            raise error.placed(f"taxonomy '{taxonomy}'") from None
         if isinstance(curves[states[0]], Fragility):
             found = _continuous(taxonomy, curves, none, low, high)  # type: ignore[arg-type]
             if none is None and own != Limits():

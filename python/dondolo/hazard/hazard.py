@@ -237,7 +237,7 @@ class HazardCurve(Shown, Saved):
         try:
             curve = cls(levels, frequency, im=im, fractiles=fractiles, source=source, rigid_ground=is_rigid)
         except InputError as error:
-            raise InputError(f"{name}: {error}") from None
+            raise error.placed(str(name)) from None
         warn([*notes, *(one.placed(f"{name}: ") for one in warnings_of_levels(curve.im, curve.levels))])
         return curve
 
@@ -298,7 +298,7 @@ class HazardCurve(Shown, Saved):
         try:
             curve = cls(levels, mean, im=im, fractiles=fractiles, source=source)
         except InputError as error:
-            raise InputError(f"{files[0]}: {error}") from None
+            raise error.placed(str(files[0])) from None
         warn(notes)
         return curve
 

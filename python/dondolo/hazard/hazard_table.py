@@ -49,7 +49,7 @@ def read_hazard(
         raised = _level(columns)
         frequency, fractiles = _frequencies(columns)
     except InputError as error:
-        raise InputError(f"{os.fspath(path)}: {error}") from None
+        raise error.placed(os.fspath(path)) from None
     notes = [note_of(os.fspath(path), raised)] if raised else []
     if unused:
         names = ", ".join(unused)

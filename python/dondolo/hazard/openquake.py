@@ -119,7 +119,7 @@ def read_curves(
     try:
         im, unit = im_of(first.imt)
     except InputError as error:
-        raise InputError(f"{first.path}: {error}") from None
+        raise error.placed(str(first.path)) from None
     levels = np.array([over(level, unit) for level in first.levels])
     quantiles = {one.kind: one for one in files if one.kind.startswith("quantile-") and len(files) > 1}
     means = [one for one in files if one not in quantiles.values()]

@@ -390,9 +390,17 @@ def _where(of: str, place: int) -> str:
     return f"{of}[{place}]" if of in _LISTS else of
 
 
-def named_by_parts(message: str, properties: Mapping[str, Any]) -> str:
-    """A message of the library, which knows lists, with the parts that walls have in Python instead."""
-    return "\n".join(_by_parts(line, properties) for line in message.split("\n"))
+def named_by_parts(error: InputError, properties: Mapping[str, Any]) -> InputError:
+    """An error of the library, which knows lists, with the parts that walls have in Python instead."""
+    message = "\n".join(_by_parts(line, properties) for line in str(error).split("\n"))
+    errors = [one._replace(message=_by_parts(one.message, properties)) for one in error.errors]
+    return InputError(
+        message,
+        errors=[
+            one._replace(variable=_PART.match(one.message)[0]) if one.variable in PLACES else one  # type: ignore[index]
+            for one in errors
+        ],
+    )
 
 
 def _by_parts(sentence: str, properties: Mapping[str, Any]) -> str:
@@ -434,6 +442,8 @@ def _is_off(name: str, value: float | str) -> bool:
 # Words and names of the library in its sentences
 _OF_WORDS = {kind.word: of for of, kind in KINDS.items()}
 _BEGINNING = re.compile(rf"({'|'.join(sorted(PLACES, key=len, reverse=True))})\b(?= = |: |,)")
+# What a sentence about a part begins with: loads[0].force
+_PART = re.compile(r"[\w.\[\]]*")
 _NUMBERED = re.compile(rf"\b({'|'.join(_OF_WORDS)}) (\d+)(?:: its|,) (?:\1_)?(\w+)")
 _VALUE = re.compile(r"^(\S+\]\.\w+)(?: =)? ([^\s:]+) must")
 _NAMES = re.compile(rf"\b({'|'.join(name for name in PLACES if '_' in name)})\b")

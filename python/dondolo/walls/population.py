@@ -660,7 +660,7 @@ def _on_one_line(what: str, text: str, wall: Wall) -> None:
     try:
         as_text(what, text)
     except InputError as error:
-        raise InputError(f"wall {wall.name!r}: {error}") from None
+        raise error.placed(f"wall {wall.name!r}") from None
 
 
 def _shares(name: str, values: ArrayLike | None, walls: Sequence[Wall], largest: float) -> FloatArray:

@@ -377,7 +377,7 @@ def described(properties: Mapping[str, Any], gravity: float | None) -> WallData:
     try:
         return describe_wall(properties, gravity)
     except InputError as error:
-        raise InputError(named_by_parts(str(error), properties)) from None
+        raise named_by_parts(error, properties) from None
 
 
 def upload(walls: tuple[Wall, ...]) -> Handle:

@@ -1,6 +1,6 @@
 !> What a user says of a building: the rows of its properties, and the building that follows.
 module dondolo_building_input
-   use dondolo_base_error, only : problems_type
+   use dondolo_base_error, only : not_an_integer, not_given, not_together, out_of_range, problems_type, wrong_length
    use dondolo_base_kinds, only : wp
    use dondolo_base_property, only : is_integer, is_list, property_type
    use dondolo_base_settings, only : settings_type
@@ -75,7 +75,7 @@ contains
 
       building%period = input%list('period')
       if (size(building%period) == 0) then
-         call problems%note('period: must be given of a building')
+         call problems%note('period: must be given of a building', not_given, 'period')
          return
       end if
       call check_whole('storeys')
@@ -98,7 +98,7 @@ contains
 
          associate (number => input%number(name))
             if (abs(number - anint(number)) > 0.0_wp) call problems%note(name//' = '//to_text(number)// &
-               & ': must be a whole number')
+               & ': must be a whole number', not_an_integer, name)
          end associate
       end subroutine check_whole
 
@@ -121,7 +121,7 @@ contains
             building%damping = given
          else if (size(given) > 0) then
             call problems%note('damping: has '//to_text(size(given))//' values, must have '//to_text(modes)// &
-               & ' as period, or one for all')
+               & ' as period, or one for all', wrong_length, 'damping')
          end if
       end associate
    end subroutine take_damping
@@ -144,34 +144,37 @@ contains
          if (input%has('participation')) then
             building%participation = input%list('participation')
             if (size(building%participation) /= modes) call problems%note('participation: has '// &
-               & to_text(size(building%participation))//' values, must have '//to_text(modes)//' as period')
+               & to_text(size(building%participation))//' values, must have '//to_text(modes)//' as period', &
+               & wrong_length, 'participation')
             do i = 1, size(names)
                if (input%has(trim(names(i)))) call problems%note(trim(names(i))//' = '// &
                   & to_text(input%number(trim(names(i))))// &
-                  & ': give either participation or storeys, level and building_height')
+                  & ': give either participation or storeys, level and building_height', not_together, trim(names(i)))
             end do
             return
          end if
          if (input%has('participation_top')) call problems%note('participation_top: only with participation; with '// &
-            & 'storeys, level and building_height it follows from level_top')
+            & 'storeys, level and building_height it follows from level_top', not_together, 'participation_top')
          if (modes > 1) then
-            call problems%note('participation: must be given of '//to_text(modes)//' modes')
+            call problems%note('participation: must be given of '//to_text(modes)//' modes', not_given, 'participation')
             return
          end if
          given = [(input%has(trim(names(i))), i=1, size(names))]
          if (.not. any(given)) then
-            call problems%note('participation: must be given, or storeys, level and building_height in its place')
+            call problems%note('participation: must be given, or storeys, level and building_height in its place', &
+               & not_given, 'participation')
             return
          else if (.not. all(given(:3))) then
             call problems%note(trim(names(findloc(given(:3), .false., dim=1)))// &
-               & ': must be given, storeys, level and building_height belong together')
+               & ': must be given, storeys, level and building_height belong together', not_given, &
+               & trim(names(findloc(given(:3), .false., dim=1))))
             return
          end if
          storeys = input%number('storeys')
          level = input%number('level')
          height = input%number('building_height')
          if (level > height) call problems%note('level = '//to_text(level)//': must be at most building_height = '// &
-            & to_text(height))
+            & to_text(height), out_of_range, 'level')
          building%participation = [of_storeys(storeys, level, height)]
          building%level_top = level
          if (input%has('level_top')) building%level_top = input%number('level_top')
@@ -204,7 +207,7 @@ contains
          if (input%has('diaphragm_period')) then
             if (.not. input%has(trim(names(i)))) call input%set(trim(names(i)), usual(i))
          else if (input%has(trim(names(i)))) then
-            call problems%note(trim(names(i))//': only with diaphragm_period')
+            call problems%note(trim(names(i))//': only with diaphragm_period', not_together, trim(names(i)))
          end if
       end do
       diaphragm = diaphragm_type(input%number('diaphragm_period'), input%number(trim(names(1))), input%number(trim(names(2))))
@@ -230,13 +233,13 @@ contains
       if (contact == touches_base) then
          do i = 1, size(names)
             if (input%has(trim(names(i)))) call problems%note(trim(names(i))//': not of a free-standing wall, which touches '// &
-               & 'nothing of the building but what it stands on')
+               & 'nothing of the building but what it stands on', not_together, trim(names(i)))
          end do
          return
       end if
       if (contact == leans .and. input%has('diaphragm_period')) call problems%note('diaphragm_period = '// &
          & to_text(input%number('diaphragm_period'))//': only of a two_block wall; a one_sided wall leans on transverse walls, '// &
-         & 'which do not move with a diaphragm')
+         & 'which do not move with a diaphragm', not_together, 'diaphragm_period')
       building%height = wall_height
       if (.not. input%has('level')) return
       level = input%number('level')
@@ -258,13 +261,14 @@ contains
       if (input%has('participation_top')) then
          building%participation_top = input%list('participation_top')
          if (size(building%participation_top) /= size(building%period)) call problems%note('participation_top: has '// &
-            & to_text(size(building%participation_top))//' values, must have '//to_text(size(building%period))//' as period')
+            & to_text(size(building%participation_top))//' values, must have '//to_text(size(building%period))//' as period', &
+            & wrong_length, 'participation_top')
       else if (input%has('level')) then
          associate (top => building%level_top, height => input%number('building_height'))
             if (top < input%number('level')) call problems%note('level_top = '//to_text(top)//': must be at least level = '// &
-               & to_text(input%number('level')))
+               & to_text(input%number('level')), out_of_range, 'level_top')
             if (top > height) call problems%note('level_top = '//to_text(top)//': must be at most building_height = '// &
-               & to_text(height))
+               & to_text(height), out_of_range, 'level_top')
             building%participation_top = [of_storeys(input%number('storeys'), top, height)]
          end associate
       end if

@@ -5,7 +5,7 @@
 module dondolo_building_floors
    use, intrinsic :: iso_fortran_env, only : int64
    use, intrinsic :: omp_lib, only : omp_init_lock, omp_lock_kind, omp_set_lock, omp_unset_lock
-   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_error, only : error_type, out_of_range, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_limits, only : most_samples
    use dondolo_base_memory, only : check_room
@@ -88,7 +88,7 @@ contains
          all = all + samples
          if (samples <= real(most_samples, wp)) cycle
          call raise_input(error, 'period: the motion of the floor under record '''//suite%records(i)%name// &
-            & ''' has more than '//to_text(most_samples)//' samples')
+            & ''' has more than '//to_text(most_samples)//' samples', out_of_range, 'period')
          return
       end do
       call check_room((bytes_of_sample + bytes_while_made + bytes_of_swing(building))*all, error)

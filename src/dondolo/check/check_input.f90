@@ -1,6 +1,6 @@
 !> What a user says of a check by a building code: the site's hazard, and what the code leaves to the engineer.
 module dondolo_check_input
-   use dondolo_base_error, only : problems_type
+   use dondolo_base_error, only : not_given, not_increasing, out_of_range, problems_type, wrong_length
    use dondolo_base_kinds, only : wp
    use dondolo_base_property, only : blank, choices_length, is_list, is_text, most_choices, property_type
    use dondolo_base_settings, only : settings_type
@@ -93,11 +93,11 @@ contains
       if (settings%has('reference_life')) input%reference_life = settings%number('reference_life')
       input%exceedance = settings%list('exceedance')
       if (settings%has('reference_life') .neqv. settings%has('exceedance')) call problems%note('reference_life: must be '// &
-         & 'given with exceedance')
+         & 'given with exceedance', not_given, 'reference_life')
       if (all(size(input%exceedance) /= [0, 3])) call problems%note('exceedance: has '//to_text(size(input%exceedance))// &
-         & ' values, must have three: SLD, SLV, SLC')
+         & ' values, must have three: SLD, SLV, SLC', wrong_length, 'exceedance')
       if (any(input%exceedance(2:) >= input%exceedance(:size(input%exceedance) - 1))) call problems%note('exceedance: must '// &
-         & 'decrease from SLD to SLC')
+         & 'decrease from SLD to SLC', out_of_range, 'exceedance')
 
    contains
 
@@ -110,9 +110,9 @@ contains
 
          values = settings%list(name)
          if (settings%has(name) .and. all(size(values) /= [1, 3])) call problems%note(name//': has '// &
-            & to_text(size(values))//' values, must have one, or three: SLD, SLV, SLC')
+            & to_text(size(values))//' values, must have one, or three: SLD, SLV, SLC', wrong_length, name)
          if (name == 'ag' .and. any(values(2:) < values(:size(values) - 1))) call problems%note('ag: must not decrease '// &
-            & 'from SLD to SLC')
+            & 'from SLD to SLC', not_increasing, 'ag')
       end subroutine take_list
 
    end subroutine take_check

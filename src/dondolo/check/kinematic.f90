@@ -22,7 +22,7 @@
 !>
 !> The floor holds N sideways, so that its horizontal force is none of the strip's: it is in G - Q alone.
 module dondolo_check_kinematic
-   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_error, only : error_type, not_at_rest, out_of_range, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_check_calculation, only : is_given, item_type, list_items
    use dondolo_wall, only : wall_type
@@ -99,7 +99,8 @@ contains
       real(wp), parameter :: right_angle = acos(0.0_wp)
 
       if (.not. wall%mechanism%capacity < right_angle) then
-         call raise_input(error, 'spring: holds the wall up to a rotation of 90 degrees; the kinematic check ends before')
+         call raise_input(error, 'spring: holds the wall up to a rotation of 90 degrees; the kinematic check ends before', &
+            & not_at_rest, 'spring')
          return
       end if
       kinematic%mechanism = wall%mechanism
@@ -115,7 +116,7 @@ contains
             call take_two_blocks(kinematic, mechanism)
          class default
             call raise_input(error, 'mechanism = '''//wall%mechanism_name()//''': the kinematic check needs the masses and '// &
-               & 'where they are, which it does not have')
+               & 'where they are, which it does not have', out_of_range, 'mechanism')
             return
          end select
       end select
@@ -168,7 +169,7 @@ contains
          kinematic%participation = pack(participation, abs(participation) > 0.0_wp)
       end associate
       if (.not. all(kinematic%damping > 0.0_wp)) call raise_input(error, &
-         & 'damping = 0: must be positive for the spectrum of a floor of the code')
+         & 'damping = 0: must be positive for the spectrum of a floor of the code', out_of_range, 'damping')
    end subroutine take_building
 
    !> Take weights and levers of a wall that turns about its base

@@ -7,7 +7,7 @@
 !> (docs/theory.md, section 6).
 module dondolo_fragility
    use dondolo_base_bracket, only : bracket_type
-   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_error, only : error_type, not_given, out_of_range, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_lapack, only : invert_symmetric, solve_symmetric
    use dondolo_base_text, only : to_text
@@ -367,7 +367,7 @@ contains
       integer :: i
 
       if (size(levels) == 0) then
-         call raise_input(error, 'levels: must be given')
+         call raise_input(error, 'levels: must be given', not_given, 'levels')
          return
       end if
       if (size(z) /= size(levels) .or. size(n) /= size(levels)) then
@@ -377,20 +377,20 @@ contains
       end if
       do i = 1, size(levels)
          if (.not. (levels(i) > 0.0_wp .and. levels(i) <= huge(levels))) then
-            call raise_input(error, 'levels = '//to_text(levels(i))//': must be positive')
+            call raise_input(error, 'levels = '//to_text(levels(i))//': must be positive', out_of_range, 'levels')
             return
          end if
          if (.not. (n(i) >= 0.0_wp .and. n(i) <= huge(n))) then
-            call raise_input(error, 'histories = '//to_text(n(i))//': must not be negative')
+            call raise_input(error, 'histories = '//to_text(n(i))//': must not be negative', out_of_range, 'histories')
             return
          end if
          if (.not. (z(i) >= 0.0_wp .and. z(i) <= n(i))) then
             call raise_input(error, 'collapses = '//to_text(z(i))//': must lie between 0 and the histories, '// &
-               & to_text(n(i)))
+               & to_text(n(i)), out_of_range, 'collapses')
             return
          end if
       end do
-      if (.not. sum(n) > 0.0_wp) call raise_input(error, 'histories: there are none')
+      if (.not. sum(n) > 0.0_wp) call raise_input(error, 'histories: there are none', not_given, 'histories')
    end subroutine check_counts
 
    !> Is there a curve?

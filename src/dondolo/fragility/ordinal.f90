@@ -7,7 +7,7 @@
 !> all of the histories reach have no curve, as in a fit of their own; states that the same histories reach share one. A
 !> state for which reaching and not reaching do not overlap has a curve if that of another makes the slope finite.
 module dondolo_fragility_ordinal
-   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_error, only : error_type, out_of_range, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_lapack, only : invert_symmetric, solve_symmetric
    use dondolo_base_text, only : to_text
@@ -174,7 +174,7 @@ contains
       if (size(before) /= size(levels)) return
       at = findloc(reached > before, .true., dim=1)
       if (at > 0) call raise_input(error, 'reached = '//to_text(reached(at))//' at level '//to_text(levels(at))// &
-         & ': must be at most '//to_text(before(at))//', as many as reach the state before')
+         & ': must be at most '//to_text(before(at))//', as many as reach the state before', out_of_range, 'reached')
    end subroutine check_order
 
    !> Number the states that differ: those that the same histories reach share a number

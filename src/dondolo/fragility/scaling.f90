@@ -3,7 +3,7 @@
 !> Of a rigid block, the PGA over the acceleration at which rocking starts, and p PGV over it, govern rocking and
 !> overturning (Giouvanidis and Dimitrakopoulos 2018; Dimitrakopoulos and Paraskeva 2015).
 module dondolo_fragility_scaling
-   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_error, only : error_type, not_a_word, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : join, lower
    use dondolo_record_intensity, only : im_help, measure_type, new_measure, refuse_measure
@@ -63,7 +63,7 @@ contains
          call refuse_measure(typed, scaling_names, error)
       else if (scaling%measure%power() == 0) then
          call raise_input(error, 'im = '''//typed//''': a duration stays as it is when a record is scaled; '// &
-            & 'must be one of '//join(scaling_names)//im_help)
+            & 'must be one of '//join(scaling_names)//im_help, not_a_word, 'im')
       else
          scaling%name = scaling%measure%name
          if (any(wall_names == name)) scaling%name = name

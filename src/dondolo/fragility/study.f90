@@ -2,7 +2,7 @@
 !>
 !> It is the same for all walls of a population, and for one wall alone: who runs many walls makes it once.
 module dondolo_fragility_study
-   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_error, only : error_type, not_a_word, not_given, not_increasing, out_of_range, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_memory, only : check_room
    use dondolo_base_text, only : join, to_text
@@ -121,7 +121,8 @@ contains
       call check_levels(study%levels, error)
       if (allocated(error)) return
       if (.not. any(study%polarity == polarity_names)) then
-         call raise_input(error, 'polarity = '''//study%polarity//''': must be one of '//join(polarity_names))
+         call raise_input(error, 'polarity = '''//study%polarity//''': must be one of '//join(polarity_names), &
+            & not_a_word, 'polarity')
          return
       end if
       call check_solver(study%solver, error)
@@ -166,17 +167,18 @@ contains
             end if
             if (first == 0) then
                call raise_input(error, 'levels: do not include '//to_text(rows%level(i))//', the level of record '''// &
-                  & self%suite%records(rows%record(i))%name//''' in '//rows%place%line(i)%text)
+                  & self%suite%records(rows%record(i))%name//''' in '//rows%place%line(i)%text, out_of_range, 'levels')
             else if (any(abs(self%factor(rows%record(i), first:last)) > 0.0_wp)) then
                call raise_input(error, 'levels = '//to_text(self%levels(max(first, 1)))//': record '''// &
-                  & self%suite%records(rows%record(i))%name//''' runs twice at this level, see '//rows%place%line(i)%text)
+                  & self%suite%records(rows%record(i))%name//''' runs twice at this level, see '//rows%place%line(i)%text, &
+                  & out_of_range, 'levels')
             end if
             if (allocated(error)) return
             self%factor(rows%record(i), first:last) = merge(rows%factor(i), -1.0_wp, rows%factor(i) > 0.0_wp)
          end do
          do j = 1, levels
             if (any(abs(self%factor(:, j)) > 0.0_wp)) cycle
-            call raise_input(error, 'levels = '//to_text(self%levels(j))//': no record runs at this level')
+            call raise_input(error, 'levels = '//to_text(self%levels(j))//': no record runs at this level', out_of_range, 'levels')
             return
          end do
       end associate
@@ -279,7 +281,7 @@ contains
             if (.not. self%runs(i, j)) cycle
             if (.not. scales(i, j)*self%suite%peaks(i) <= largest_acceleration) then
                call raise_input(error, 'levels = '//to_text(self%levels(j))//': scales record '''// &
-                  & self%suite%records(i)%name//''' beyond '//to_text(largest_acceleration)//' m/s2')
+                  & self%suite%records(i)%name//''' beyond '//to_text(largest_acceleration)//' m/s2', out_of_range, 'levels')
                return
             end if
             ! The factors that the measure gives grow with the level.
@@ -298,18 +300,18 @@ contains
       integer :: i
 
       if (size(levels) == 0) then
-         call raise_input(error, 'levels: must be given')
+         call raise_input(error, 'levels: must be given', not_given, 'levels')
          return
       end if
       do i = 1, size(levels)
          if (.not. (levels(i) > 0.0_wp .and. levels(i) <= huge(levels))) then
-            call raise_input(error, 'levels = '//to_text(levels(i))//': must be positive')
+            call raise_input(error, 'levels = '//to_text(levels(i))//': must be positive', out_of_range, 'levels')
             return
          end if
          if (i == 1) cycle
          if (levels(i) > levels(i - 1)) cycle
          call raise_input(error, 'levels = '//to_text(levels(i - 1))//', '//to_text(levels(i))// &
-            & ': must increase strictly')
+            & ': must increase strictly', not_increasing, 'levels')
          return
       end do
    end subroutine check_levels
@@ -328,13 +330,13 @@ contains
       do i = 1, size(thresholds)
          if (.not. (thresholds(i) > 0.0_wp .and. thresholds(i) <= edp_limit)) then
             call raise_input(error, 'edp_thresholds = '//to_text(thresholds(i))//': must be positive and at most '// &
-               & 'edp_limit = '//to_text(edp_limit))
+               & 'edp_limit = '//to_text(edp_limit), out_of_range, 'edp_thresholds')
             return
          end if
          if (i == 1) cycle
          if (thresholds(i) > thresholds(i - 1)) cycle
          call raise_input(error, 'edp_thresholds = '//to_text(thresholds(i - 1))//', '//to_text(thresholds(i))// &
-            & ': must increase strictly')
+            & ': must increase strictly', not_increasing, 'edp_thresholds')
          return
       end do
    end subroutine check_thresholds

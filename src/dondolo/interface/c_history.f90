@@ -1,7 +1,7 @@
 !> Single motions of the C interface.
 module dondolo_interface_c_history
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t, c_null_ptr, c_ptr
-   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_error, only : error_type, out_of_range, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
    use dondolo_base_text, only : to_text
@@ -64,7 +64,7 @@ contains
       if (.not. allocated(problem)) call find_suite(as_handle(records), suite, problem)
       if (.not. allocated(problem)) then
          if (number < 0 .or. number >= size(suite%records)) call raise_input(problem, 'number = '//to_text(int(number))// &
-            & ': must lie between 0 and '//to_text(size(suite%records) - 1))
+            & ': must lie between 0 and '//to_text(size(suite%records) - 1), out_of_range, 'number')
       end if
       if (.not. allocated(problem)) call check_finite([scale], 'scale', problem)
       if (.not. allocated(problem)) call check_scale(suite, int(number) + 1, real(scale, wp), problem)

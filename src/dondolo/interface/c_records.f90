@@ -1,7 +1,7 @@
 !> Records of the C interface: a catalogue, a file or arrays.
 module dondolo_interface_c_records
    use, intrinsic :: iso_c_binding, only : c_associated, c_double, c_f_pointer, c_int, c_int64_t, c_null_ptr, c_ptr
-   use dondolo_base_error, only : add_place, error_type, raise_input
+   use dondolo_base_error, only : add_place, error_type, out_of_range, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_memory, only : check_room
    use dondolo_base_plain, only : shown
@@ -121,7 +121,7 @@ contains
             call c_f_pointer(lengths, length, [count])
             call check_lengths(length, problem)
          else
-            call raise_input(problem, 'lengths: must be numbers, not NULL')
+            call raise_input(problem, 'lengths: must be numbers, not NULL', out_of_range, 'lengths')
          end if
       end if
       if (.not. allocated(problem)) call take_numbers(samples, int(sum(length), c_int), 'samples', sample, problem)
@@ -160,12 +160,12 @@ contains
 
       do i = 1, size(length)
          if (length(i) >= 0) cycle
-         call raise_input(error, 'lengths = '//to_text(int(length(i)))//': must not be negative')
+         call raise_input(error, 'lengths = '//to_text(int(length(i)))//': must not be negative', out_of_range, 'lengths')
          return
       end do
       whole = sum(real(length, wp))
       if (whole > real(huge(length), wp)) call raise_input(error, 'lengths: records of '//to_text(whole)// &
-         & ' samples, must have at most '//to_text(huge(length)))
+         & ' samples, must have at most '//to_text(huge(length)), out_of_range, 'lengths')
       if (.not. allocated(error)) call check_room(bytes_of_record*size(length) + bytes_of_sample*whole, error)
    end subroutine check_lengths
 

@@ -1,7 +1,8 @@
 !> Settings of the C interface: values by the names that they have in cases.
 module dondolo_interface_c_settings
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t, c_null_ptr, c_ptr
-   use dondolo_base_error, only : error_type, problems_type, raise_input
+   use dondolo_base_error, only : error_type, not_a_flag, not_a_number, not_a_text, not_a_word, not_an_integer, out_of_range, &
+      & problems_type, raise_input, wrong_length
    use dondolo_base_kinds, only : wp
    use dondolo_base_plain, only : shown
    use dondolo_base_property, only : find_property, is_integer, is_list, is_logical, is_text, is_words, name_length, property_type
@@ -65,7 +66,7 @@ contains
       if (.not. is_ready(error, failure)) return
       call take_text(group, 'group', name, problem)
       if (.not. allocated(problem) .and. .not. any(group_names == name)) call raise_input(problem, &
-         & 'group = '''//shown(name)//''': must be one of '//join(group_names))
+         & 'group = '''//shown(name)//''': must be one of '//join(group_names), not_a_word, 'group')
       if (.not. allocated(problem)) then
          allocate (settings)
          settings%group = name
@@ -111,7 +112,7 @@ contains
       end select
       if (.not. present(group)) return
       if (settings%group /= group) call raise_input(error, 'settings: are of the group '''//settings%group// &
-         & ''', must be of '''//group//'''')
+         & ''', must be of '''//group//'''', out_of_range, 'settings')
    end subroutine find_settings
 
    !> Find the settings of a handle, and the row of a name in their table
@@ -201,7 +202,8 @@ contains
             case (is_text, is_words)
                call found%values%set(trim(found%table(row)%name), text)
             case default
-               call raise_input(problem, trim(found%table(row)%name)//' = '''//shown(text)//''': must be a number')
+               call raise_input(problem, trim(found%table(row)%name)//' = '''//shown(text)//''': must be a number', &
+                  & not_a_number, trim(found%table(row)%name))
             end select
          end if
          call failure%take(problem)
@@ -222,12 +224,12 @@ contains
       name = trim(property%name)
       select case (property%kind)
       case (is_text, is_words)
-         call raise_input(error, name//' = '//to_text(real(numbers(1), wp))//': must be a text')
+         call raise_input(error, name//' = '//to_text(real(numbers(1), wp))//': must be a text', not_a_text, name)
       case (is_list)
          call check_finite(numbers, name, error)
       case default
          if (size(numbers) > 1) then
-            call raise_input(error, name//': has '//to_text(size(numbers))//' values, must have 1')
+            call raise_input(error, name//': has '//to_text(size(numbers))//' values, must have 1', wrong_length, name)
          else
             call check_finite(numbers, name, error)
             if (.not. allocated(error)) call check_whole(numbers(1))
@@ -241,9 +243,9 @@ contains
          real(c_double), intent(in) :: number
 
          if (property%kind == is_logical .and. all(abs(number - [0.0_c_double, 1.0_c_double]) > 0.0_c_double)) then
-            call raise_input(error, name//' = '//to_text(real(number, wp))//': must be 0 or 1')
+            call raise_input(error, name//' = '//to_text(real(number, wp))//': must be 0 or 1', not_a_flag, name)
          else if (property%kind == is_integer .and. abs(number - anint(number)) > 0.0_c_double) then
-            call raise_input(error, name//' = '//to_text(real(number, wp))//': must be a whole number')
+            call raise_input(error, name//' = '//to_text(real(number, wp))//': must be a whole number', not_an_integer, name)
          end if
       end subroutine check_whole
 

@@ -1,7 +1,7 @@
 !> Stripes and fragility curves of the C interface.
 module dondolo_interface_c_stripes
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t, c_null_ptr, c_ptr
-   use dondolo_base_error, only : error_type, problems_type
+   use dondolo_base_error, only : error_type, problems_type, wrong_length
    use dondolo_base_interrupt, only : check_interrupt
    use dondolo_base_kinds, only : wp
    use dondolo_base_limits, only : most_levels
@@ -121,7 +121,7 @@ contains
          call settings%fill()
          call check_settings(settings, problems)
          if (size(settings%list('levels')) > most_levels) call problems%note('levels: has '// &
-            & to_text(size(settings%list('levels')))//' values, must have at most '//to_text(most_levels))
+            & to_text(size(settings%list('levels')))//' values, must have at most '//to_text(most_levels), wrong_length, 'levels')
          call problems%raise(error)
       end if
       if (.not. allocated(error)) call solver_of(solver, how, error)

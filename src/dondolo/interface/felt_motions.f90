@@ -1,6 +1,6 @@
 !> The motions that one wall feels, outside a study.
 module dondolo_interface_felt_motions
-   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_error, only : error_type, out_of_range, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : to_text
    use dondolo_building_floors, only : check_floor, floors_type
@@ -26,7 +26,7 @@ contains
 
       if (.not. abs(scale)*suite%peaks(number) <= largest_acceleration) call raise_input(error, 'scale = '// &
          & to_text(scale)//': makes record '''//suite%records(number)%name//''' exceed '// &
-         & to_text(largest_acceleration)//' m/s2')
+         & to_text(largest_acceleration)//' m/s2', out_of_range, 'scale')
    end subroutine check_scale
 
    !> Motions that move a wall: those of the ground, or of the floor that it stands on

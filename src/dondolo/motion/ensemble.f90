@@ -3,7 +3,7 @@
 !> Histories are independent, and each is computed by one thread from data that no thread changes: results are the same
 !> to the bit for any number of threads and any grouping.
 module dondolo_motion_ensemble
-   use dondolo_base_error, only : error_type, raise_failure, raise_input
+   use dondolo_base_error, only : error_type, not_given, not_together, raise_failure, raise_input
    use dondolo_base_interrupt, only : watch, watched
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : brief
@@ -204,7 +204,7 @@ contains
       if (present(is_shaken)) then
          if (is_shaken .and. .not. mechanism%knows_vertical()) then
             call raise_input(error, 'vertical_lever: must be given for records with vertical motion: without it the table does '// &
-               & 'not say which part of the moment is that of masses which move up')
+               & 'not say which part of the moment is that of masses which move up', not_given, 'vertical_lever')
             return
          end if
       end if
@@ -212,11 +212,12 @@ contains
       constants = new_lane_constants(mechanism, solver, is_shaken)
       if (constants%form%exists) return
       if (mechanism%has_friction()) then
-         call raise_input(error, 'engine = ''lanes'': does not know interlock_overlap; must be ''auto'' or ''rk45''')
+         call raise_input(error, 'engine = ''lanes'': does not know interlock_overlap; must be ''auto'' or ''rk45''', &
+            & not_together, 'engine')
          return
       end if
       call raise_input(error, 'engine = ''lanes'': cannot follow this wall up to its edp_limit; '// &
-         & 'must be ''auto'' or ''rk45'', or another edp_limit')
+         & 'must be ''auto'' or ''rk45'', or another edp_limit', not_together, 'engine')
    end subroutine check_engine
 
 end module dondolo_motion_ensemble

@@ -1,7 +1,7 @@
 !> The motion of a wall under an accelerogram, by the engine that runs its stripes: result and estimated error are those of the
 !> same history in a stripe, to the bit.
 module dondolo_motion_simulate
-   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_error, only : error_type, not_a_number, raise_input
    use dondolo_base_interrupt, only : check_interrupt
    use dondolo_base_kinds, only : wp
    use dondolo_base_memory, only : raise_shortage
@@ -63,7 +63,7 @@ contains
       if (.not. allocated(error)) call check_initial_state(start, mechanism, solver, error)
       if (allocated(error)) return
       if (.not. abs(scale) <= huge(scale)) then
-         call raise_input(error, 'scale = '//to_text(scale)//': must be a number')
+         call raise_input(error, 'scale = '//to_text(scale)//': must be a number', not_a_number, 'scale')
          return
       end if
       if (.not. (present(trace) .or. solver%estimate_error .or. start%moves())) then

@@ -1,6 +1,6 @@
 !> Distributions of an uncertain property, as a case says them: 'triangular(0.5, 0.6, 0.75)'.
 module dondolo_population_distribution
-   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_error, only : error_type, not_a_word, out_of_range, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_normal, only : normal_cdf, normal_quantile
    use dondolo_base_numbers, only : parse_real
@@ -71,10 +71,11 @@ contains
          ends = found%ends()
          if (ends(2) - ends(1) >= least_share) return
          call raise_input(error, property//' = '''//text//''': low and high leave '//rounded(ends(2) - ends(1))// &
-            & ' of the distribution between them, must leave '//to_text(least_share)//' at least')
+            & ' of the distribution between them, must leave '//to_text(least_share)//' at least', &
+            & out_of_range, property)
          return
       end if
-      call raise_input(error, property//' = '''//text//''': '//help)
+      call raise_input(error, property//' = '''//text//''': '//help, not_a_word, property)
       if (property == 'restitution_factor') error%message = error%message//'; or a published range: '// &
          & join(published_factors%name)
    end subroutine new_distribution

@@ -4,7 +4,7 @@
 !> A cell that is empty was not given. A list has a column for each of its values. The text of the table stays in memory.
 module dondolo_population_table
    use dondolo_base_csv_reader, only : csv_row_type, csv_table_type
-   use dondolo_base_error, only : error_type, problems_type, raise_input
+   use dondolo_base_error, only : error_type, not_given, not_together, problems_type, raise_input, unknown_name
    use dondolo_base_kinds, only : wp
    use dondolo_base_odd_character, only : odd_character
    use dondolo_base_property, only : choices_length, find_item, find_property, is_list, is_many, is_text, is_words, item_name, &
@@ -90,7 +90,7 @@ contains
             if (last < 0) last = len(column)
             call say_allowed(lower(trim(column(:last))), [shown, of_rows], '--template typology', allowed)
             if (len_trim(odd_character(column)) > 0) allowed = '; it has '//trim(odd_character(column))
-            call raise_input(error, file//': column '''//column//''': no such column'//allowed)
+            call raise_input(error, file//': column '''//column//''': no such column'//allowed, unknown_name, column, file)
          end associate
          return
       end do
@@ -125,7 +125,8 @@ contains
             if (len_trim(property%instead) > 0) then
                if (any(self%items(1, :) == find_property(wall_properties, trim(property%instead)))) cycle
             end if
-            call raise_input(error, file//': column '''//trim(property%name)//''': must be given')
+            call raise_input(error, file//': column '''//trim(property%name)//''': must be given', not_given, trim(property%name), &
+               & file)
             return
          end associate
       end do
@@ -224,7 +225,7 @@ contains
             if (len(cell) == 0) cycle
             if (item /= count + 1) then
                call problems%note(trim(item_name(trim(property%name), item))//': only behind '// &
-                  & trim(item_name(trim(property%name), count + 1)))
+                  & trim(item_name(trim(property%name), count + 1)), not_together, trim(item_name(trim(property%name), item)))
                cycle
             end if
             count = item

@@ -5,7 +5,7 @@
 !> all, for the whole population and for each of its groups (docs/theory.md, section 6). Each is the curve of a part of
 !> the population, and all its numbers are weighted means over its rows or walls.
 module dondolo_population_typology
-   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_error, only : error_type, out_of_range, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_limits, only : most_groups
    use dondolo_base_text, only : to_text
@@ -106,7 +106,7 @@ contains
             if (row%group > 0 .and. all(groups(1:last) /= row%group)) then
                if (last == most_groups) then
                   call raise_input(error, 'group = '''//population%groups%line(row%group)%text// &
-                     & ''': is one too many, at most '//to_text(most_groups)//' are allowed')
+                     & ''': is one too many, at most '//to_text(most_groups)//' are allowed', out_of_range, 'group')
                   return
                end if
                last = last + 1
@@ -122,7 +122,8 @@ contains
             end do
          end associate
       end do
-      if (.not. any(population%row%weight > 0.0_wp)) call raise_input(error, 'weight: must be positive for at least one wall')
+      if (.not. any(population%row%weight > 0.0_wp)) call raise_input(error, 'weight: must be positive for at least one wall', &
+         & out_of_range, 'weight')
       parts = [part_type ::]
       do i = 0, last
          g = groups(i)

@@ -1,6 +1,6 @@
 !> The walls and facades of a population by their names: which rows belong together, and which names stand twice.
 module dondolo_population_wall_names
-   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_error, only : error_type, not_a_word, not_together, out_of_range, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
    use dondolo_base_memory, only : raise_shortage
@@ -81,13 +81,13 @@ contains
          call raise_input(error, 'name = '''//name//''': the row before gives this wall the same mechanism')
       else if (abs(self%wall%weight - row%weight) > 0.0_wp) then
          call raise_input(error, 'weight = '//to_text(row%weight)//': must be '//to_text(self%wall%weight)// &
-            & ' as in the row before, which is of the same '//what)
+            & ' as in the row before, which is of the same '//what, out_of_range, 'weight')
       else if (self%wall%group /= row%group) then
          call raise_input(error, 'group = '''//row%group//''': must be '''//self%wall%group// &
-            & ''' as in the row before, which is of the same '//what)
+            & ''' as in the row before, which is of the same '//what, not_a_word, 'group')
       else if (self%wall%occurrence /= row%occurrence) then
          call raise_input(error, 'occurrence = '''//trim(row%occurrence)//''': must be '''//trim(self%wall%occurrence)// &
-            & ''' as in the row before, which is of the same '//what)
+            & ''' as in the row before, which is of the same '//what, not_a_word, 'occurrence')
       else if (repeats .and. is_other) then
          self%mechanisms = mechanism//' '
       else if (repeats) then
@@ -124,19 +124,20 @@ contains
 
       if (row%occurrence /= occurrence_names(exclusive)) then
          if (len(row%alternative) > 0) call raise_input(error, 'alternative = '''//row%alternative// &
-            & ''': only for occurrence = '''//trim(occurrence_names(exclusive))//'''')
+            & ''': only for occurrence = '''//trim(occurrence_names(exclusive))//'''', not_together, 'alternative')
          return
       end if
       if (is_of_last_alternative(self, row)) then
          row%number_of_alternative = self%alternative
          if (abs(self%p_occ - row%p_occ) > 0.0_wp) call raise_input(error, 'p_occ = '//to_text(row%p_occ)//': must be '// &
-            & to_text(self%p_occ)//' as in the row before, which is of the same alternative')
+            & to_text(self%p_occ)//' as in the row before, which is of the same alternative', out_of_range, 'p_occ')
          return
       end if
       do i = 1, self%alternative
          if (len(row%alternative) == 0) exit
          if (self%alternatives%line(i)%text /= row%alternative) cycle
-         call raise_input(error, 'alternative = '''//row%alternative//''': its rows must be consecutive')
+         call raise_input(error, 'alternative = '''//row%alternative//''': its rows must be consecutive', &
+            & out_of_range, 'alternative')
          return
       end do
       self%alternative = self%alternative + 1
@@ -148,7 +149,7 @@ contains
       whole = self%wall%wall%name()
       if (what == 'facade') whole = row%facade
       call raise_input(error, 'p_occ = '//to_text(row%p_occ)//': the probabilities of the exclusive alternatives of '//what// &
-         & ' '''//whole//''' add up to '//rounded(self%total)//', must be at most 1')
+         & ' '''//whole//''' add up to '//rounded(self%total)//', must be at most 1', out_of_range, 'p_occ')
    end subroutine place_alternative
 
    !> Note that a row was wrong: those behind it do not go on with the wall before it, unless it was of the same
@@ -182,10 +183,10 @@ contains
          call raise_shortage(bytes_of_name*real(line, wp), error)
       else if (earlier > 0 .and. property == 'name') then
          call raise_input(error, 'name = '''//name//''': another wall has this name (line '//to_text(earlier)// &
-            & '); mechanisms of one wall must be on consecutive rows')
+            & '); mechanisms of one wall must be on consecutive rows', out_of_range, 'name')
       else if (earlier > 0) then
          call raise_input(error, 'facade = '''//name//''': another facade has this name (line '//to_text(earlier)// &
-            & '); walls of one facade must be on consecutive rows')
+            & '); walls of one facade must be on consecutive rows', out_of_range, 'facade')
       end if
    end subroutine note_name
 

@@ -1,6 +1,6 @@
 !> From a channel of a file to a record: which channel, its time step, its units, and a look at the header's own peak.
 module dondolo_record_channel
-   use dondolo_base_error, only : add_place, error_type, raise_input
+   use dondolo_base_error, only : add_place, error_type, not_a_word, out_of_range, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_numbers, only : parse_integer, parse_real
    use dondolo_base_plain, only : shown, visible
@@ -130,7 +130,7 @@ contains
       if (ok) return
       call list_names(samples%channels, names)
       call raise_input(error, 'channel = '''//name//''': must be one of '//names//', or a number from 1 to '// &
-         & to_text(size(samples%channels)))
+         & to_text(size(samples%channels)), not_a_word, 'channel')
    end subroutine find_channel
 
    !> Take the time step from the file or from the caller
@@ -153,7 +153,7 @@ contains
          return
       end if
       if (.not. (given > 0.0_wp .and. given <= huge(given))) then
-         call raise_input(error, 'dt = '//to_text(given)//': must be positive')
+         call raise_input(error, 'dt = '//to_text(given)//': must be positive', out_of_range, 'dt')
          return
       end if
       ! Within the rounding of the times the given step is the better one

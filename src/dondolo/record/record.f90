@@ -2,7 +2,7 @@
 !>
 !> The piecewise linear function IS the input of every analysis, exactly (docs/theory.md, section 1).
 module dondolo_record
-   use dondolo_base_error, only : error_type, raise_failure, raise_input
+   use dondolo_base_error, only : error_type, not_a_number, not_a_text, out_of_range, raise_failure, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_limits, only : most_samples
    use dondolo_base_plain, only : name_problem, shown
@@ -95,7 +95,7 @@ contains
             & to_text(most_samples))
          return
       else if (len_trim(name_problem(name)) > 0) then
-         call raise_input(error, 'name = '''//shown(name)//''': '//trim(name_problem(name)))
+         call raise_input(error, 'name = '''//shown(name)//''': '//trim(name_problem(name)), not_a_text, 'name')
          return
       end if
       i = first_implausible(acceleration, 1.0_wp)
@@ -169,18 +169,19 @@ contains
       if (.not. abs(dt - self%dt) > same_step*self%dt) then
          if (size(vertical) /= size(self%acceleration)) then
             call raise_input(error, 'vertical: has '//to_text(size(vertical))//' samples, must have '// &
-               & to_text(size(self%acceleration))//' as the record')
+               & to_text(size(self%acceleration))//' as the record', out_of_range, 'vertical')
             return
          end if
       else if (.not. abs(real(size(vertical) - 1, wp)*dt - self%duration()) < (1.0_wp - same_step)*max(dt, self%dt)) then
          call raise_input(error, 'vertical: lasts '//to_text(real(size(vertical) - 1, wp)*dt)//' s, must last '// &
-            & to_text(self%duration())//' s as the record, or by less than a step longer or shorter')
+            & to_text(self%duration())//' s as the record, or by less than a step longer or shorter', out_of_range, 'vertical')
          return
       end if
       i = first_implausible(vertical, factor)
       if (i > 0) then
          call raise_input(error, 'vertical: sample '//to_text(i)//' = '//to_text(factor*vertical(i))//' m/s2: '// &
-            & 'must be a number between -'//to_text(largest_acceleration)//' and '//to_text(largest_acceleration))
+            & 'must be a number between -'//to_text(largest_acceleration)//' and '//to_text(largest_acceleration), &
+            & not_a_number, 'vertical')
          return
       end if
       if (.not. abs(dt - self%dt) > same_step*self%dt) then
@@ -207,7 +208,7 @@ contains
       call compute_parts(self%dt, dt, parts, other_parts)
       if (parts == 0) then
          call raise_input(error, 'vertical: has a time step of '//to_text(dt)//' s, which must be to '//to_text(self%dt)// &
-            & ' s of the record as two whole numbers of up to '//to_text(most_parts))
+            & ' s of the record as two whole numbers of up to '//to_text(most_parts), out_of_range, 'vertical')
          return
       else if (real(size(self%acceleration), wp)*real(parts, wp) > real(most_samples, wp)) then
          call raise_input(error, 'vertical: has a time step of '//to_text(dt)//' s, which makes more than '// &

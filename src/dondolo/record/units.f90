@@ -1,6 +1,6 @@
 !> Units of acceleration in which records are written.
 module dondolo_record_units
-   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_error, only : error_type, not_a_word, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_odd_character, only : odd_character
    use dondolo_base_text, only : join, lower, replaced
@@ -35,7 +35,7 @@ contains
       factor = 0.0_wp
       i = findloc(known == plain_spelling(units), .true., dim=1)
       if (i == 0) then
-         call raise_input(error, 'units = '''//trim(units)//''': must be one of '//join(known))
+         call raise_input(error, 'units = '''//trim(units)//''': must be one of '//join(known), not_a_word, 'units')
          if (len_trim(odd_character(units)) > 0) error%message = error%message//'; it has '//trim(odd_character(units))
          return
       end if

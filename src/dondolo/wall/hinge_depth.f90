@@ -3,7 +3,7 @@
 !> The weight N on a hinge is carried by a block of the stress beta f over 2 u, whose resultant is the hinge:
 !> u = N/(2 beta f) (equation (3) of AlShawa et al. 2023; docs/theory.md, section 2).
 module dondolo_wall_hinge_depth
-   use dondolo_base_error, only : problems_type
+   use dondolo_base_error, only : not_together, out_of_range, problems_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_property, only : hint_of, name_length, property_type
    use dondolo_base_settings, only : settings_type
@@ -37,10 +37,10 @@ contains
       block = usual_block
       if (input%has('stress_block')) block = input%number('stress_block')
       if (input%has('stress_block') .and. .not. input%has('compressive_strength')) call problems%note('stress_block: only '// &
-         & 'with compressive_strength')
+         & 'with compressive_strength', not_together, 'stress_block')
       if (.not. input%has('compressive_strength')) return
       if (depth > 0.0_wp) call problems%note('hinge_depth = '//to_text(depth)// &
-         & ': give either hinge_depth or compressive_strength')
+         & ': give either hinge_depth or compressive_strength', not_together, 'hinge_depth')
       depth = weight/(2.0_wp*block*input%number('compressive_strength'))
       name = 'compressive_strength'
    end subroutine read_hinge_depth
@@ -74,7 +74,7 @@ contains
          end if
          if (len(hint) > 0) hint = ': '//hint
          call problems%note(trim(name)//': puts the hinge at depth '//rounded(depth)//' m, must be less deep than '// &
-            & what//hint)
+            & what//hint, out_of_range, trim(name))
       else
          call problems%note(what//': must be deeper than the hinge, which is at the outer face')
       end if

@@ -3,7 +3,7 @@
 !> It is a wall like any other: sections, loads, thrusts, springs, beds and ties above the hinge, heights measured from it,
 !> depths from the outer face there, and the floor of the building at its level (docs/theory.md, section 2).
 module dondolo_wall_hinge_level
-   use dondolo_base_error, only : problems_type
+   use dondolo_base_error, only : not_together, out_of_range, problems_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_property, only : is_list, is_words, number_of_words, property_type, word_of
    use dondolo_base_text, only : rounded, to_text
@@ -49,17 +49,17 @@ contains
          levels = input%list('hinge_level')
       else
          levels = [(sum(heights(:i)), i=0, size(heights) - 1)]
-         if (input%has('hinge_level')) call problems%note('hinge_at: give either hinge_at or hinge_level')
-         if (input%word('hinge_at') /= storeys) call problems%note('hinge_at: must be '//storeys)
+         if (input%has('hinge_level')) call problems%note('hinge_at: give either hinge_at or hinge_level', not_together, 'hinge_at')
+         if (input%word('hinge_at') /= storeys) call problems%note('hinge_at: must be '//storeys, out_of_range, 'hinge_at')
          if (.not. input%has('section_height')) call problems%note('hinge_at = '''//input%word('hinge_at')// &
-            & ''': only with section_height, the heights of the storeys')
+            & ''': only with section_height, the heights of the storeys', not_together, 'hinge_at')
       end if
       do i = 1, size(levels)
          if (.not. levels(i) < tall*(1.0_wp - same)) call problems%note('hinge_level = '//to_text(levels(i))// &
-            & ': must be less than the height of the wall, '//rounded(tall)//' m')
+            & ': must be less than the height of the wall, '//rounded(tall)//' m', out_of_range, 'hinge_level')
          if (i == 1) cycle
          if (.not. levels(i) > levels(i - 1)) call problems%note('hinge_level = '//to_text(levels(i))// &
-            & ': must be more than '//to_text(levels(i - 1))//' before it')
+            & ': must be more than '//to_text(levels(i - 1))//' before it', out_of_range, 'hinge_level')
       end do
    end subroutine read_hinge_levels
 
@@ -80,10 +80,10 @@ contains
       call input%clear('hinge_at')
       if (.not. level > 0.0_wp) return
       if (input%has('mass')) call problems%note('hinge_level = '//to_text(level)// &
-         & ': not with mass, which does not say how much of it is above')
+         & ': not with mass, which does not say how much of it is above', not_together, 'hinge_level')
       if (input%gives(is_of_building)) then
          if (input%has('participation')) call problems%note('participation: not with hinge_level = '//to_text(level)// &
-            & ', give storeys, level and building_height, from which every hinge takes its own')
+            & ', give storeys, level and building_height, from which every hinge takes its own', not_together, 'participation')
          call input%set('level', input%number('level') + level)
          ! Above what the building holds a part leans on nothing
          if (input%has('level_top')) call input%set('level_top', max(input%number('level_top'), input%number('level')))

@@ -8,7 +8,7 @@
 !> eight tenths of what all courses could give. It resists only a motion to new rotations, and falls in proportion to the overlap
 !> that is left: F (1 - D/l), D the travel at h/3 (docs/theory.md, section 2).
 module dondolo_wall_interlocking
-   use dondolo_base_error, only : problems_type
+   use dondolo_base_error, only : not_given, out_of_range, problems_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_settings, only : settings_type
    use dondolo_base_text, only : to_text
@@ -49,12 +49,13 @@ contains
       if (.not. any(given)) return
       do i = 1, size(names) - 1
          if (.not. given(i)) call problems%note(trim(names(i))//': must be given with '// &
-            & trim(names(findloc(given, .true., dim=1))))
+            & trim(names(findloc(given, .true., dim=1))), not_given, trim(names(i)))
       end do
       if (.not. all(given(:size(names) - 1))) return
       tall = sum(sections%height)
       if (input%number('interlock_course') > tall*(1.0_wp + same)) call problems%note('interlock_course = '// &
-         & to_text(input%number('interlock_course'))//': must be at most '//to_text(tall)//' m, the height of the wall')
+         & to_text(input%number('interlock_course'))//': must be at most '//to_text(tall)//' m, the height of the wall', &
+         & out_of_range, 'interlock_course')
       friction = input%absent('interlock_friction')
       if (input%has('interlock_friction')) friction = input%number('interlock_friction')
       force = friction_force(tall, input%number('interlock_course'), input%number('interlock_overlap'), &

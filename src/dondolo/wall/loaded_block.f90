@@ -9,7 +9,7 @@
 !> yields nor breaks nor becomes slack, and so is friction, whose spring pushes: `set_restraints` changes those sums.
 module dondolo_wall_loaded_block
    use dondolo_base_bracket, only : bracket_type
-   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_error, only : error_type, not_at_rest, out_of_range, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : rounded, to_text
    use dondolo_wall_carried, only : actions_type, spring_type
@@ -201,7 +201,8 @@ contains
       associate (ties => mechanism%restraints)
          at = findloc(lever(ties%edge, ties%e, ties%f, mechanism%capacity) > 0.0_wp, .false., dim=1)
          if (at > 0) call raise_input(error, 'tie '//to_text(at)//': its tie_height is too low for the depth of the hinge; '// &
-            & 'the tie would become shorter before the wall has rotated by '//to_text(mechanism%capacity)//' rad, its capacity')
+            & 'the tie would become shorter before the wall has rotated by '//to_text(mechanism%capacity)//' rad, its capacity', &
+            & out_of_range, 'tie_height')
       end associate
    end subroutine add_ties
 
@@ -378,7 +379,7 @@ contains
          holds = mechanism%gravity*body%mass*mechanism%e + sum(carried%weight*(carried%depth - actions%hinge))
          call raise_input(error, 'thrust: the wall does not stand at rest'//trim(merge(' without its ties', '                 ', &
             & size(actions%restraints) > 0))//'; its weights hold it with '//rounded(holds)// &
-            & ' N m per metre, thrusts push it out with '//rounded(sum(thrusts%force*thrusts%height)))
+            & ' N m per metre, thrusts push it out with '//rounded(sum(thrusts%force*thrusts%height)), not_at_rest, 'thrust')
       end associate
    end subroutine check_rest
 
@@ -411,12 +412,12 @@ contains
       i = findloc(falls, .true., dim=1) - 1
       if (i < 0) then
          call raise_input(error, 'spring: holds the wall at every rotation up to '//to_text(end_of_all)// &
-            & ' rad, where it lies on the ground; there is no capacity')
+            & ' rad, where it lies on the ground; there is no capacity', not_at_rest, 'spring')
          return
       end if
       if (.not. all(falls(i:))) then
          call raise_input(error, 'thrust_decay, spring: the wall is held again beyond the rotation at which it falls; '// &
-            & 'two positions of rest are not covered')
+            & 'two positions of rest are not covered', not_at_rest, 'thrust_decay')
          return
       end if
       bracket = bracket_type(end_of_all*real(i - 1, wp)/real(parts, wp), end_of_all*real(i, wp)/real(parts, wp))

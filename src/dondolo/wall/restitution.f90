@@ -1,6 +1,6 @@
 !> Restitution: which model, times which factor, gives which speed ratio at an impact.
 module dondolo_wall_restitution
-   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_error, only : error_type, not_a_word, not_given, not_together, out_of_range, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_property, only : choices_length
    use dondolo_base_text, only : brief, join, to_text
@@ -89,12 +89,14 @@ contains
       model = self%model
       if (model == 'default') model = trim(models%default())
       if (allocated(self%value) .and. self%model /= 'default') then
-         call raise_input(error, 'restitution_value = '//to_text(self%value)//': give either it or restitution')
+         call raise_input(error, 'restitution_value = '//to_text(self%value)//': give either it or restitution', &
+            & not_together, 'restitution_value')
          return
       else if (allocated(self%value)) then
          coefficient = self%value
       else if (.not. (allocated(models%sorrentino) .or. allocated(models%impulse))) then
-         call raise_input(error, 'restitution_value: must be given, the mechanism has no model of its impacts')
+         call raise_input(error, 'restitution_value: must be given, the mechanism has no model of its impacts', &
+            & not_given, 'restitution_value')
          return
       end if
       if (.not. allocated(coefficient)) then
@@ -107,14 +109,15 @@ contains
       end if
       if (.not. allocated(coefficient)) then
          call raise_input(error, 'restitution = '''//self%model//''': must be one of '// &
-            & join(pack(restitution_models, [.true., allocated(models%sorrentino), allocated(models%impulse)])))
+            & join(pack(restitution_models, [.true., allocated(models%sorrentino), allocated(models%impulse)])), &
+            & not_a_word, 'restitution')
          return
       end if
       ratio = max(0.0_wp, self%factor*coefficient)
       if (.not. ratio < 1.0_wp) then
          call raise_input(error, 'restitution_factor = '//to_text(self%factor)// &
             & ': makes the speed ratio of an impact '//brief(ratio)//', must be less than 1'// &
-            & trim(unit_question('', self%factor, 0.1_wp, 1.2_wp, 0.9_wp)))
+            & trim(unit_question('', self%factor, 0.1_wp, 1.2_wp, 0.9_wp)), out_of_range, 'restitution_factor')
          ratio = 0.0_wp
       end if
    end subroutine speed_ratio

@@ -5,7 +5,7 @@
 module dondolo_wall_tabulated
    use dondolo_base_bracket, only : bracket_type
    use dondolo_base_chebyshev, only : chebyshev_integral, chebyshev_slope, chebyshev_value
-   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_error, only : error_type, not_at_rest, out_of_range, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : rounded
    use dondolo_wall_mechanism, only : mechanism_type
@@ -105,7 +105,7 @@ contains
          if (own <= largest_misfit) return
          call raise_input(error, name//': the smooth curve through its values misses them by up to '//rounded(100.0_wp*own)// &
             & ' % of the largest, must be within '//rounded(100.0_wp*largest_misfit)//' %: a table with a corner has to be '// &
-            & 'rounded off, one with few or uneven rows needs more of them')
+            & 'rounded off, one with few or uneven rows needs more of them', out_of_range, name)
       end subroutine fit
 
    end subroutine new_tabulated
@@ -127,7 +127,7 @@ contains
       largest = maxval(abs(moment))
       if (.not. moment(0) > 0.0_wp) then
          call raise_input(error, 'moment: is '//rounded(moment(0))//' N m at rotation 0, must be positive: else the wall does '// &
-            & 'not stand at rest')
+            & 'not stand at rest', not_at_rest, 'moment')
          return
       end if
       first = findloc(moment <= 0.0_wp, .true., dim=1) - 1
@@ -137,7 +137,8 @@ contains
          return
       else if (first < 0) then
          call raise_input(error, 'moment: is '//rounded(moment(places))//' N m at the last rotation, '// &
-            & rounded(mechanism%last)//' rad, must fall to 0: the table has to go on to the rotation at which the wall falls')
+            & rounded(mechanism%last)//' rad, must fall to 0: the table has to go on to the rotation at which the wall falls', &
+            & out_of_range, 'moment')
          return
       end if
       bracket = bracket_type(mechanism%last*real(first - 1, wp)/real(places, wp), mechanism%last*real(first, wp)/real(places, wp))
@@ -147,7 +148,8 @@ contains
       mechanism%capacity = bracket%middle()
       i = findloc(moment(first + 1:) > max(least_moment, misfit)*largest, .true., dim=1)
       if (i > 0) call raise_input(error, 'moment: vanishes at '//rounded(mechanism%capacity)//' rad and is positive again at '// &
-         & rounded(mechanism%last*real(first + i, wp)/real(places, wp))//' rad: the table has to end before')
+         & rounded(mechanism%last*real(first + i, wp)/real(places, wp))//' rad: the table has to end before', &
+         & out_of_range, 'moment')
    end subroutine find_capacity
 
    !> Check that inertia and lever are those of a wall
@@ -163,10 +165,10 @@ contains
       do i = 0, places
          q = mechanism%last*real(i, wp)/real(places, wp)
          if (.not. chebyshev_value(mechanism%inertia, mechanism%place(q)) > 0.0_wp) then
-            call raise_input(error, 'inertia: must be positive, is not at '//rounded(q)//' rad')
+            call raise_input(error, 'inertia: must be positive, is not at '//rounded(q)//' rad', out_of_range, 'inertia')
          else if (q <= mechanism%capacity .and. .not. chebyshev_value(mechanism%lever, mechanism%place(q)) > 0.0_wp) then
             call raise_input(error, 'lever: must be positive up to the rotation at which the moment vanishes, is not at '// &
-               & rounded(q)//' rad')
+               & rounded(q)//' rad', out_of_range, 'lever')
          end if
          if (allocated(error)) return
       end do

@@ -1,7 +1,7 @@
 !> Walls of which the terms of the equation of motion are given as a table: 'tabulated'. Its name, its properties, and how it
 !> becomes a mechanism (dondolo_wall_tabulated).
 module dondolo_wall_tabulated_model
-   use dondolo_base_error, only : error_type, problems_type
+   use dondolo_base_error, only : error_type, not_given, not_increasing, out_of_range, problems_type, wrong_length
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
    use dondolo_base_property, only : blank, choices_length, is_integer, is_list, is_text, most_choices, property_type
@@ -83,7 +83,7 @@ contains
       if (input%has('top_share') .or. input%has('top_tilt')) self%contact = spans
       do i = 1, 2
          if (self%contact == spans .and. .not. input%has(trim(names(i)))) call problems%note(trim(names(i))// &
-            & ': must be given with '//trim(names(3 - i))//': both follow from the same supports')
+            & ': must be given with '//trim(names(3 - i))//': both follow from the same supports', not_given, trim(names(i)))
       end do
    end subroutine prepare
 
@@ -100,32 +100,37 @@ contains
       integer :: i, n, rows
 
       if (.not. input%has('sides')) then
-         call problems%note('sides: must be given with mechanism = ''tabulated'': 1 (one side only) or 2 (both)')
+         call problems%note('sides: must be given with mechanism = ''tabulated'': 1 (one side only) or 2 (both)', &
+            & not_given, 'sides')
       else if (abs(input%number('sides') - anint(input%number('sides'))) > 0.0_wp) then
-         call problems%note('sides = '//to_text(input%number('sides'))//': must be 1 or 2')
+         call problems%note('sides = '//to_text(input%number('sides'))//': must be 1 or 2', out_of_range, 'sides')
       end if
       rows = size(input%list('rotation'))
       do i = 1, size(term_names)
          n = size(input%list(trim(term_names(i))))
          if (n == 0 .and. i == size(term_names)) cycle
          if (n == 0) then
-            call problems%note(trim(term_names(i))//': must be given with mechanism = ''tabulated'', or table, which has it')
+            call problems%note(trim(term_names(i))//': must be given with mechanism = ''tabulated'', or table, which has it', &
+               & not_given, trim(term_names(i)))
          else if (n /= rows .and. rows > 0) then
-            call problems%note(trim(term_names(i))//': has '//to_text(n)//' values, must have '//to_text(rows)//' as rotation')
+            call problems%note(trim(term_names(i))//': has '//to_text(n)//' values, must have '//to_text(rows)//' as rotation', &
+               & wrong_length, trim(term_names(i)))
          end if
       end do
       if (problems%count > 0) return
       associate (q => input%list('rotation'))
          if (rows < least_rows) then
-            call problems%note('rotation: has '//to_text(rows)//' values, must have '//to_text(least_rows)//' at least')
+            call problems%note('rotation: has '//to_text(rows)//' values, must have '//to_text(least_rows)//' at least', &
+               & wrong_length, 'rotation')
          else if (rows > most_rows) then
-            call problems%note('rotation: has '//to_text(rows)//' values, must have '//to_text(most_rows)//' at most')
+            call problems%note('rotation: has '//to_text(rows)//' values, must have '//to_text(most_rows)//' at most', &
+               & wrong_length, 'rotation')
          else if (q(1) > 0.0_wp) then
-            call problems%note('rotation: begins at '//to_text(q(1))//', must begin at 0')
+            call problems%note('rotation: begins at '//to_text(q(1))//', must begin at 0', out_of_range, 'rotation')
          else if (any(q(2:) <= q(:rows - 1))) then
             i = findloc(q(2:) <= q(:rows - 1), .true., dim=1)
             call problems%note('rotation: '//to_text(q(i + 1))//' follows '//to_text(q(i))//', each must be more than the '// &
-               & 'one before')
+               & 'one before', not_increasing, 'rotation')
          end if
          self%table = table_type(q, input%list('inertia'), input%list('lever'), input%list('moment'), &
             & input%list('vertical_lever'))

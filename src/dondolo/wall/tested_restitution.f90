@@ -4,7 +4,7 @@
 !> of 'impulse': the range is then rescaled by the two coefficients of the wall. A load whose mass the wall lifts has no
 !> place in equation (4), and no tests.
 module dondolo_wall_tested_restitution
-   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_error, only : error_type, out_of_range, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_property, only : choices_length
    use dondolo_base_text, only : lower, rounded, to_text
@@ -75,11 +75,12 @@ contains
       associate (tests => published_factors(i))
          if (wall%input%word('mechanism') /= tests%mechanism) then
             call raise_input(error, 'restitution_factor = '''//trim(text)//''': is of tests of mechanism = '''// &
-               & trim(tests%mechanism)//''', must be a range or distribution for '''//wall%mechanism_name()//'''')
+               & trim(tests%mechanism)//''', must be a range or distribution for '''//wall%mechanism_name()//'''', &
+               & out_of_range, 'restitution_factor')
          else if (model /= tests%model) then
             call tested_range(wall, i, low, high, is_known)
             call raise_input(error, 'restitution_factor = '''//trim(text)//''': is a ratio to restitution = '''// &
-               & trim(tests%model)//''', must be a range or distribution for '//shown)
+               & trim(tests%model)//''', must be a range or distribution for '//shown, out_of_range, 'restitution_factor')
             if (is_known) then
                error%message = error%message//'; the same speeds are uniform('//rounded(low)//', '//rounded(high)// &
                   & ') for this wall'

@@ -5,7 +5,7 @@
 !> sin(beta2) = R1 sin(beta1)/R2 with beta1 = alpha1 - q.
 module dondolo_wall_two_block
    use dondolo_base_bracket, only : bracket_type
-   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_error, only : error_type, not_at_rest, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : rounded
    use dondolo_wall_block, only : block_type
@@ -214,7 +214,7 @@ contains
       call bare%terms(0.0_wp, j, c, own, l, load)
       call mechanism%terms(0.0_wp, j, c, total, l, load)
       call raise_input(error, 'overburden: the wall does not stand at rest; its own weight holds it with '//rounded(own)// &
-         & ' N m per metre, the overburden folds it with '//rounded(own - total + load))
+         & ' N m per metre, the overburden folds it with '//rounded(own - total + load), not_at_rest, 'overburden')
    end subroutine check_rest
 
    !> Rotation at which G - Q vanishes: alpha1, or less where an overburden pushes out before

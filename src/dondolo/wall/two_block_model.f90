@@ -1,6 +1,6 @@
 !> Walls of two blocks: 'two_block'. Its name, its properties, and how it becomes a mechanism (dondolo_wall_two_block).
 module dondolo_wall_two_block_model
-   use dondolo_base_error, only : error_type, problems_type
+   use dondolo_base_error, only : error_type, not_given, not_together, out_of_range, problems_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
    use dondolo_base_property, only : blank, choices_length, is_text, most_choices, name_length, property_type
@@ -216,11 +216,11 @@ contains
 
       if (input%number('overburden') > 0.0_wp .and. .not. input%has('overburden_inertia')) call problems%note( &
          & 'overburden_inertia: must be given with overburden: 0 (a dead force, as of springs or tendons) to 1 (a mass '// &
-         & 'that the wall lifts, as of a storey above)')
+         & 'that the wall lifts, as of a storey above)', not_given, 'overburden_inertia')
       if (input%number('overburden')*input%number('overburden_inertia') > 0.0_wp &
          & .and. input%word('restitution') == 'sorrentino') call problems%note( &
          & 'restitution = ''sorrentino'': knows no mass of an overburden; with overburden_inertia = '// &
-         & to_text(input%number('overburden_inertia'))//' use ''impulse''')
+         & to_text(input%number('overburden_inertia'))//' use ''impulse''', not_together, 'restitution')
       thickness = input%number('thickness')
       half = 0.5_wp*thickness
       distance = input%number('bearing_distance')
@@ -229,20 +229,22 @@ contains
          if (half > 0.0_wp .and. .not. abs(eccentricity) <= half) call problems%note('eccentricity = '// &
             & to_text(eccentricity)//': must lie between -'//brief(half)//' and '// &
             & brief(half)// &
-            & ' (half the thickness)')
+            & ' (half the thickness)', out_of_range, 'eccentricity')
       else if (input%has('eccentricity')) then
          call problems%note('eccentricity = '//to_text(eccentricity)// &
-            & ': give either eccentricity or bearing and bearing_distance')
+            & ': give either eccentricity or bearing and bearing_distance', not_together, 'eccentricity')
       else if (.not. input%has('bearing')) then
-         call problems%note('bearing_distance = '//to_text(distance)//': only with bearing = ''inner'' or ''outer''')
+         call problems%note('bearing_distance = '//to_text(distance)//': only with bearing = ''inner'' or ''outer''', &
+            & not_together, 'bearing_distance')
       else if (input%word('bearing') == 'centre') then
          if (input%has('bearing_distance')) call problems%note('bearing_distance = '//to_text(distance)// &
-            & ': not with bearing = ''centre'', measure it from a face')
+            & ': not with bearing = ''centre'', measure it from a face', not_together, 'bearing_distance')
       else if (.not. input%has('bearing_distance')) then
-         call problems%note('bearing_distance: must be given with bearing = '''//input%word('bearing')//'''')
+         call problems%note('bearing_distance: must be given with bearing = '''//input%word('bearing')//'''', &
+            & not_given, 'bearing_distance')
       else if (thickness > 0.0_wp .and. .not. (distance >= 0.0_wp .and. distance <= thickness)) then
          call problems%note('bearing_distance = '//to_text(distance)//': must lie between 0 and '// &
-            & brief(thickness)//' (the thickness)')
+            & brief(thickness)//' (the thickness)', out_of_range, 'bearing_distance')
       end if
    end subroutine check_load
 

@@ -1,6 +1,6 @@
 !> A wall: its properties as the user gives them, and the mechanism that follows.
 module dondolo_wall
-   use dondolo_base_error, only : error_type, problems_type
+   use dondolo_base_error, only : error_type, out_of_range, problems_type, wrong_length
    use dondolo_base_kinds, only : wp
    use dondolo_base_property, only : check_number
    use dondolo_base_settings_check, only : check_settings
@@ -95,7 +95,7 @@ contains
       if (problems%count == 0 .and. has_hinge_level(input)) then
          call read_hinge_levels(wall%input, problems, levels)
          if (problems%count == 0 .and. size(levels) > 1) call problems%note('hinge_level: has '//to_text(size(levels))// &
-            & ' values, a wall has one; a facade with several is a population, task = ''typology''')
+            & ' values, a wall has one; a facade with several is a population, task = ''typology''', wrong_length, 'hinge_level')
          above = input
          if (problems%count == 0) call cut_wall(above, levels(1), problems)
          if (problems%count == 0) call understand(wall, above, problems)
@@ -152,7 +152,8 @@ contains
          call new_building(wall%building, wall%input, problems, wall%model%contact, wall%input%number('height'))
       end if
       call check_number(gravity_property, wall%gravity, allowed)
-      if (allocated(allowed)) call problems%note('gravity = '//to_text(wall%gravity)//': '//allowed)
+      if (allocated(allowed)) call problems%note('gravity = '//to_text(wall%gravity)//': '//allowed, out_of_range, &
+         & 'gravity')
       wall%model%is_bare = .not. wall%input%gives(is_beyond_bare)
       call wall%model%read(wall%input, wall%gravity, problems)
    end subroutine understand

@@ -1,6 +1,6 @@
 !> What a user says of a wall of one block, as sections, a rigid body and what acts on it.
 module dondolo_wall_body
-   use dondolo_base_error, only : problems_type
+   use dondolo_base_error, only : not_an_integer, not_given, not_together, out_of_range, problems_type, wrong_length
    use dondolo_base_kinds, only : wp
    use dondolo_base_property, only : name_length, number_of_words, word_of
    use dondolo_base_settings, only : settings_type
@@ -63,7 +63,7 @@ contains
             call input%set(name, value)
          else if (abs(input%number(name) - value) > same*abs(value)) then
             call problems%note(name//' = '//to_text(input%number(name))//': must be '//to_text(value)//', '//from// &
-               & '; leave it out')
+               & '; leave it out', out_of_range, name)
          end if
       end subroutine follow
 
@@ -134,9 +134,9 @@ contains
       sections%base_width = base
       sections%top_width = top
       if (any(.not. base + top > 0.0_wp)) call problems%note('section_top_width: must be positive where '// &
-         & 'section_base_width is 0')
+         & 'section_base_width is 0', out_of_range, 'section_top_width')
       if (abs(offset(1)) > 0.0_wp) call problems%note('section_offset = '//to_text(offset(1))// &
-         & ': must be 0 for the lowest section, from whose outer face depths are measured')
+         & ': must be 0 for the lowest section, from whose outer face depths are measured', out_of_range, 'section_offset')
    end subroutine read_sections
 
    !> Number of leaves; equal ones rock with nearly the same rotation, so that one of them is as good as all
@@ -162,11 +162,12 @@ contains
 
       leaves = leaves_of(input)
       if (abs(leaves - anint(leaves)) > 0.0_wp) call problems%note('leaves = '//to_text(leaves)// &
-         & ': must be a whole number')
+         & ': must be a whole number', not_an_integer, 'leaves')
       if (.not. leaves > 1.0_wp) return
       do i = 1, size(names)
          if (input%has(trim(names(i)))) call problems%note(trim(names(i))//': not with leaves = '//to_text(leaves)// &
-            & ', it acts on one leaf; describe each leaf as a wall of its own thickness, both in one facade')
+            & ', it acts on one leaf; describe each leaf as a wall of its own thickness, both in one facade', &
+            & not_together, trim(names(i)))
       end do
    end subroutine check_leaves
 
@@ -188,9 +189,10 @@ contains
       if (.not. any(given)) return
       do i = 1, 4
          if (.not. given(i)) call problems%note(trim(names(i))//': must be given with '// &
-            & trim(names(findloc(given, .true., dim=1))))
+            & trim(names(findloc(given, .true., dim=1))), not_given, trim(names(i)))
       end do
-      if (input%has('section_height')) call problems%note('mass: not with section_height, from which it follows')
+      if (input%has('section_height')) call problems%note('mass: not with section_height, from which it follows', &
+         & not_together, 'mass')
       body = rigid_body_type(input%number('mass'), input%number('centroid_depth'), input%number('centroid_height'))
    end subroutine read_mass
 
@@ -209,7 +211,7 @@ contains
          least = body%mass*((body%depth - wall%actions%hinge)**2 + body%height**2)
          body%inertia = input%number('hinge_inertia') - least
          if (body%inertia < 0.0_wp) call problems%note('hinge_inertia = '//to_text(input%number('hinge_inertia'))// &
-            & ': must be at least '//to_text(least)//', which the mass has at its centroid')
+            & ': must be at least '//to_text(least)//', which the mass has at its centroid', out_of_range, 'hinge_inertia')
       end associate
    end subroutine take_inertia
 
@@ -241,15 +243,17 @@ contains
       if (by_parts) then
          call take(input, problems, 'load_lifted', 'load', lifted)
          call take(input, problems, 'load_pushed', 'load', pushed)
-         if (words > 0) call problems%note('load_inertia: give either load_inertia or load_lifted and load_pushed')
+         if (words > 0) call problems%note('load_inertia: give either load_inertia or load_lifted and load_pushed', &
+            & not_together, 'load_inertia')
       else if (size(load) > 0 .and. words == 0) then
          call problems%note('load_inertia: must be given with load: ''none'' (a dead force), ''vertical'' (a mass that '// &
-            & 'other walls hold sideways) or ''both'' (a mass that the wall pushes too); or load_lifted and load_pushed')
+            & 'other walls hold sideways) or ''both'' (a mass that the wall pushes too); or load_lifted and load_pushed', &
+            & not_given, 'load_inertia')
       else if (size(load) == 0 .and. words > 0) then
-         call problems%note('load_inertia: only with load')
+         call problems%note('load_inertia: only with load', not_together, 'load_inertia')
       else if (words > 1 .and. words /= size(load)) then
          call problems%note('load_inertia: has '//to_text(words)//' values, must have '//to_text(size(load))// &
-            & ' as load, or one for all')
+            & ' as load, or one for all', wrong_length, 'load_inertia')
       end if
       allocate (carried(size(load) + size(mass)))
       do i = 1, size(load)
@@ -321,7 +325,7 @@ contains
       call take(input, problems, 'bed_depth', 'bed', bed_depth)
       call take(input, problems, 'bed_bottom', 'bed', bottom)
       call take(input, problems, 'bed_top', 'bed', top)
-      if (any(.not. top > bottom)) call problems%note('bed_top: must be above bed_bottom')
+      if (any(.not. top > bottom)) call problems%note('bed_top: must be above bed_bottom', out_of_range, 'bed_top')
       allocate (springs(size(depth) + size(bed_depth)))
       springs%depth = [depth, bed_depth]
       springs%bottom = [height, bottom]
@@ -348,7 +352,7 @@ contains
       edge = input%number('edge_radius')
       if (edge > 0.0_wp) then
          if (hinge > 0.0_wp) call problems%note('edge_radius = '//to_text(edge)//': not with '//trim(name)// &
-            & ', the hinge is where the edge begins')
+            & ', the hinge is where the edge begins', not_together, 'edge_radius')
          hinge = edge
          name = 'edge_radius'
       end if
@@ -356,7 +360,7 @@ contains
       wall%actions%edge = edge
       call check_hinge(input, problems, name, hinge, wall%body%depth, 'the centroid of the wall, '//rounded(wall%body%depth)//' m')
       if (.not. edge < wall%body%height) call problems%note('edge_radius = '//to_text(edge)// &
-         & ': must be less than the height of the centroid, '//rounded(wall%body%height)//' m')
+         & ': must be less than the height of the centroid, '//rounded(wall%body%height)//' m', out_of_range, 'edge_radius')
       do i = 1, size(wall%actions%carried)
          depth = wall%actions%carried(i)%depth
          if (.not. wall%actions%carried(i)%weight > 0.0_wp .or. depth < 0.0_wp) cycle
@@ -411,11 +415,12 @@ contains
          faces = faces_at(wall%sections, height)
          if (faces(1) > faces(2)) then
             call problems%note(what//' '//to_text(number)//': its height '//to_text(height)//' must lie between 0 and '// &
-               & rounded(tall)//' m, the wall'//trim(unit_question('m', height, 0.0_wp, tall, 0.5_wp*tall)))
+               & rounded(tall)//' m, the wall'//trim(unit_question('m', height, 0.0_wp, tall, 0.5_wp*tall)), out_of_range, &
+               & what//trim(merge('_top   ', '_height', what == 'bed')))
          else if (depth < faces(1) - same*tall .or. depth > faces(2) + same*tall) then
             call problems%note(what//' '//to_text(number)//': its depth '//to_text(depth)//' must lie between '// &
                & rounded(faces(1))//' and '//rounded(faces(2))//' m, the faces of the wall at its height'// &
-               & trim(unit_question('m', depth, faces(1), faces(2), 0.5_wp*sum(faces))))
+               & trim(unit_question('m', depth, faces(1), faces(2), 0.5_wp*sum(faces))), out_of_range, what//'_depth')
          end if
       end subroutine inside
 
@@ -440,7 +445,7 @@ contains
          if (any(is_off(actions%springs%depth))) call refuse(trim(merge('spring_depth', 'bed_depth   ', &
             & input%has('spring'))), 'springs')
          if (size(actions%thrusts) > 0) call problems%note('thrust: not for mechanism = ''free_standing'', which rocks to '// &
-            & 'both sides')
+            & 'both sides', not_together, 'thrust')
       end associate
 
    contains
@@ -459,7 +464,7 @@ contains
          character(len=*), intent(in) :: name, what
 
          call problems%note(name//': a wall of mechanism = ''free_standing'' has '//what//' at half its thickness, '// &
-            & to_text(centre)//', since it rocks to both sides')
+            & to_text(centre)//', since it rocks to both sides', not_together, name)
       end subroutine refuse
 
    end subroutine check_symmetry

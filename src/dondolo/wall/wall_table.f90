@@ -4,7 +4,7 @@
 !> 'power': its rows are then the coefficients of polynomials in the rotation, in rad, and the wall says how far they go.
 module dondolo_wall_table
    use dondolo_base_csv_row, only : cell_type
-   use dondolo_base_error, only : add_place, error_type, raise_input
+   use dondolo_base_error, only : add_place, error_type, not_given, not_together, out_of_range, raise_input, unknown_name
    use dondolo_base_kinds, only : pi, wp
    use dondolo_base_number_table, only : read_number_table
    use dondolo_base_paths, only : beside
@@ -59,7 +59,7 @@ contains
       path = beside(input%word('table'), file)
       do i = 2, size(term_names)
          if (.not. input%has(trim(term_names(i)))) cycle
-         call raise_input(error, trim(term_names(i))//': give either it or table')
+         call raise_input(error, trim(term_names(i))//': give either it or table', not_together, trim(term_names(i)))
          return
       end do
       call read_number_table(path, columns, values, note, error)
@@ -96,7 +96,7 @@ contains
             term = findloc(term_names == name, .true., dim=1)
             if (term == 0 .and. name /= power_name) then
                call raise_input(error, 'column '''//head//''': must be one of '//join([term_names, [character(len=14) :: &
-                  & power_name]]))
+                  & power_name]]), unknown_name, head)
                return
             end if
             if (at(term) > 0) then
@@ -117,7 +117,8 @@ contains
       if (at(0) > 0 .and. at(1) > 0) call raise_input(error, 'columns rotation and power: the table must have one of them')
       do i = 1, size(term_names) - 1
          if (at(i) > 0 .or. (i == 1 .and. at(0) > 0) .or. allocated(error)) cycle
-         call raise_input(error, 'column '''//trim(term_names(i))//' ['//trim(shown_unit(i, 1))//']'': must be given')
+         call raise_input(error, 'column '''//trim(term_names(i))//' ['//trim(shown_unit(i, 1))//']'': must be given', &
+            & not_given, trim(term_names(i)))
       end do
    end subroutine find_columns
 
@@ -169,7 +170,7 @@ contains
 
       if (at(0) == 0) then
          if (input%has('rotation')) then
-            call raise_input(error, 'rotation: give either it or the column of the table')
+            call raise_input(error, 'rotation: give either it or the column of the table', not_together, 'rotation')
             return
          end if
          do i = 1, size(term_names)
@@ -178,12 +179,13 @@ contains
          return
       end if
       if (size(input%list('rotation')) /= 1) then
-         call raise_input(error, 'rotation: must be given with a table of powers, the last rotation that they hold for')
+         call raise_input(error, 'rotation: must be given with a table of powers, the last rotation that they hold for', &
+            & not_given, 'rotation')
          return
       end if
       q = input%list('rotation')
       if (.not. q(1) > 0.0_wp) then
-         call raise_input(error, 'rotation = '//to_text(q(1))//': must be positive')
+         call raise_input(error, 'rotation = '//to_text(q(1))//': must be positive', out_of_range, 'rotation')
          return
       else if (any(values(at(0), :) < 0.0_wp .or. abs(values(at(0), :) - anint(values(at(0), :))) > 0.0_wp &
          & .or. values(at(0), :) > 100.0_wp)) then

@@ -1,6 +1,6 @@
 !> The ties of a wall as a user describes them.
 module dondolo_wall_ties
-   use dondolo_base_error, only : problems_type
+   use dondolo_base_error, only : not_given, not_together, out_of_range, problems_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_settings, only : settings_type
    use dondolo_base_text, only : rounded, to_text
@@ -97,7 +97,7 @@ contains
       anchors%leaf = table(:, 8)
       anchors%compression = table(:, 9)
       if (.not. all(anchors%area + anchors%bar + anchors%spacing > 0.0_wp)) call problems%note( &
-         & 'tie_area: must be given with tie_height, or tie_bar and tie_spacing')
+         & 'tie_area: must be given with tie_height, or tie_bar and tie_spacing', not_given, 'tie_area')
       do i = 1, size(anchors)
          call check_bar('tie '//to_text(i), anchors(i), problems)
          call check_plate('tie '//to_text(i), anchors(i), problems)
@@ -115,10 +115,12 @@ contains
       type(problems_type), intent(inout) :: problems
 
       if (anchor%area > 0.0_wp .and. anchor%bar > 0.0_wp) then
-         call problems%note('tie_area: '//name//' has a tie_bar, give either tie_area or tie_bar and tie_spacing')
+         call problems%note('tie_area: '//name//' has a tie_bar, give either tie_area or tie_bar and tie_spacing', &
+            & not_together, 'tie_area')
       else if (anchor%bar > 0.0_wp .neqv. anchor%spacing > 0.0_wp) then
          call problems%note(trim(merge('tie_spacing', 'tie_bar    ', anchor%bar > 0.0_wp))//': must be given for '//name// &
-            & ' with '//trim(merge('tie_bar    ', 'tie_spacing', anchor%bar > 0.0_wp)))
+            & ' with '//trim(merge('tie_bar    ', 'tie_spacing', anchor%bar > 0.0_wp)), &
+            & not_given, trim(merge('tie_spacing', 'tie_bar    ', anchor%bar > 0.0_wp)))
       end if
    end subroutine check_bar
 
@@ -134,24 +136,28 @@ contains
 
       if (anchor%width > 0.0_wp .neqv. anchor%height > 0.0_wp) call problems%note(trim(merge('tie_plate_height', &
          & 'tie_plate_width ', anchor%width > 0.0_wp))//': must be given for '//name//' with '// &
-         & trim(merge('tie_plate_width ', 'tie_plate_height', anchor%width > 0.0_wp)))
+         & trim(merge('tie_plate_width ', 'tie_plate_height', anchor%width > 0.0_wp)), &
+         & not_given, trim(merge('tie_plate_height',  'tie_plate_width ', anchor%width > 0.0_wp)))
       if (anchor%width > 0.0_wp .and. anchor%diameter > 0.0_wp) call problems%note('tie_plate_diameter: '//name// &
-         & ' has a tie_plate_width, give either a width and a height or a diameter')
+         & ' has a tie_plate_width, give either a width and a height or a diameter', not_together, 'tie_plate_diameter')
       if (anchor%has_plate() .neqv. anchor%thickness > 0.0_wp) call problems%note(trim(merge('tie_plate_thickness', &
-         & 'tie_plate_width    ', anchor%has_plate()))//': must be given for '//name//' with its plate')
+         & 'tie_plate_width    ', anchor%has_plate()))//': must be given for '//name//' with its plate', &
+         & not_given, trim(merge('tie_plate_thickness',  'tie_plate_width    ', anchor%has_plate())))
       if (.not. anchor%has_plate()) then
-         if (anchor%leaf > 0.0_wp) call problems%note('tie_leaf: only with a plate, which '//name//' does not have')
+         if (anchor%leaf > 0.0_wp) call problems%note('tie_leaf: only with a plate, which '//name//' does not have', &
+            & not_together, 'tie_leaf')
          if (anchor%compression > 0.0_wp) call problems%note('tie_compression: only with a plate, which '//name// &
-            & ' does not have')
+            & ' does not have', not_together, 'tie_compression')
          return
       end if
-      if (.not. anchor%bar > 0.0_wp) call problems%note('tie_bar: must be given for '//name//' with its plate, and tie_spacing')
+      if (.not. anchor%bar > 0.0_wp) call problems%note('tie_bar: must be given for '//name//' with its plate, and tie_spacing', &
+         & not_given, 'tie_bar')
       size = merge(anchor%diameter, min(anchor%width, anchor%height), anchor%diameter > 0.0_wp)
       if (.not. anchor%bar < size .and. size > 0.0_wp) call problems%note('tie_bar = '//to_text(anchor%bar)// &
-         & ': must be less than the plate of '//name//', '//to_text(size)//' m')
+         & ': must be less than the plate of '//name//', '//to_text(size)//' m', out_of_range, 'tie_bar')
       if (anchor%spacing > 0.0_wp .and. .not. max(anchor%width, anchor%diameter) < anchor%spacing) call problems%note( &
          & 'tie_spacing = '//to_text(anchor%spacing)//': must be more than the plate of '//name//' is wide, '// &
-         & to_text(max(anchor%width, anchor%diameter))//' m')
+         & to_text(max(anchor%width, anchor%diameter))//' m', out_of_range, 'tie_spacing')
    end subroutine check_plate
 
    !> Compute the strength of anchors from their plates and the masonry
@@ -178,7 +184,8 @@ contains
                cycle
             end if
             if (tie%anchor_force < huge(1.0_wp)) call problems%note('tie_anchor_force: tie '//to_text(i)// &
-               & ' has a plate, give either tie_anchor_force or tie_plate_width and the others of its plate')
+               & ' has a plate, give either tie_anchor_force or tie_plate_width and the others of its plate', &
+               & not_together, 'tie_anchor_force')
             call place_plate('tie '//to_text(i), sections, tie%height, problems, anchor)
             if (problems%count > before) cycle
             anchor%masonry = masonry
@@ -207,7 +214,8 @@ contains
       slack = same*sum(sections%height)
       anchor%edge = sum(sections%height) - height - half
       if (anchor%edge < -slack .or. height - half < -slack) call problems%note(name//': its tie_height = '//to_text(height)// &
-         & ' must be at least '//rounded(half)//' m, half its plate, from the base and from the top of the wall')
+         & ' must be at least '//rounded(half)//' m, half its plate, from the base and from the top of the wall', &
+         & out_of_range, 'tie_height')
       ! Where sections of different thickness meet behind the plate the thinner one is all that it surely finds
       thickness = huge(1.0_wp)
       bottom = 0.0_wp
@@ -218,7 +226,7 @@ contains
       end do
       if (.not. anchor%leaf > 0.0_wp) anchor%leaf = thickness
       if (anchor%leaf > thickness*(1.0_wp + same)) call problems%note(name//': its tie_leaf = '//to_text(anchor%leaf)// &
-         & ' must be at most '//rounded(thickness)//' m, the thickness of the wall there')
+         & ' must be at most '//rounded(thickness)//' m, the thickness of the wall there', out_of_range, 'tie_leaf')
    end subroutine place_plate
 
    !> Strengths of the masonry at anchors
@@ -237,18 +245,20 @@ contains
 
       do i = 1, size(names)
          if (input%has(trim(names(i))) .and. .not. has_plates) call problems%note(trim(names(i))// &
-            & ': only with the plates of ties, tie_plate_width and the others')
+            & ': only with the plates of ties, tie_plate_width and the others', not_together, trim(names(i)))
       end do
       if (.not. has_plates) return
       do i = 1, 2
-         if (.not. input%has(trim(names(i)))) call problems%note(trim(names(i))//': must be given with the plates of ties')
+         if (.not. input%has(trim(names(i)))) call problems%note(trim(names(i))//': must be given with the plates of ties', &
+            & not_given, trim(names(i)))
       end do
       if (input%has('masonry_compression')) then
          masonry%compression = input%number('masonry_compression')
       else if (input%has('compressive_strength')) then
          masonry%compression = input%number('compressive_strength')
       else
-         call problems%note('masonry_compression: must be given with the plates of ties, or compressive_strength')
+         call problems%note('masonry_compression: must be given with the plates of ties, or compressive_strength', &
+            & not_given, 'masonry_compression')
       end if
       masonry%shear = input%number('masonry_shear')
       masonry%tension = input%number('masonry_tension')
@@ -256,7 +266,8 @@ contains
       if (input%has('masonry_knowledge_factor')) masonry%knowledge_factor = input%number('masonry_knowledge_factor')
       if (input%has('bearing_factor')) masonry%bearing_factor = input%number('bearing_factor')
       if (any(input%list('tie_compression') > 0.0_wp) .neqv. masonry%friction > 0.0_wp) call problems%note( &
-         & 'masonry_friction: goes with tie_compression, the stress that presses the masonry there')
+         & 'masonry_friction: goes with tie_compression, the stress that presses the masonry there', &
+         & not_together, 'masonry_friction')
    end subroutine read_masonry
 
    !> Check one tie
@@ -278,21 +289,23 @@ contains
       if (.not. tie%height > edge + same*tall .or. faces(1) > faces(2)) then
          call problems%note(name//': its tie_height = '//to_text(tie%height)//' must be above the hinge, '//to_text(edge)// &
             & ' m, and at most '//rounded(tall)//' m, the top of the wall'//trim(unit_question('m', tie%height, edge, tall, &
-            & tall)))
+            & tall)), out_of_range, 'tie_height')
       else if (tie%depth < faces(1) - outside - same*tall .or. tie%depth > faces(2) + same*tall) then
          call problems%note(name//': its tie_depth = '//to_text(tie%depth)//' must lie between '// &
             & rounded(faces(1) - outside)//' and '//rounded(faces(2))//' m, the faces of the wall at its height and 0.1 m '// &
-            & 'outside for a plate'//trim(unit_question('m', tie%depth, 0.0_wp, faces(2), 0.5_wp*faces(2))))
+            & 'outside for a plate'//trim(unit_question('m', tie%depth, 0.0_wp, faces(2), 0.5_wp*faces(2))), &
+            & out_of_range, 'tie_depth')
       end if
       if (.not. tie%preload < tie%strength) then
          call problems%note(name//': its tie_preload = '//to_text(tie%preload)//' must be less than its tie_strength = '// &
-            & to_text(tie%strength)//' Pa, at which it yields')
+            & to_text(tie%strength)//' Pa, at which it yields', out_of_range, 'tie_preload')
       else if (.not. tie%preload*tie%area < tie%anchor_force) then
          call problems%note(name//': its tie_preload = '//to_text(tie%preload)//' must be less than '// &
-            & rounded(tie%anchor_force/tie%area)//' Pa, at which its anchor gives way')
+            & rounded(tie%anchor_force/tie%area)//' Pa, at which its anchor gives way', out_of_range, 'tie_preload')
       end if
       if (.not. tie%strain > tie%strength/tie%modulus) call problems%note(name//': its tie_strain = '// &
-         & to_text(tie%strain)//' must be more than '//rounded(tie%strength/tie%modulus)//', at which it yields')
+         & to_text(tie%strain)//' must be more than '//rounded(tie%strength/tie%modulus)//', at which it yields', &
+         & out_of_range, 'tie_strain')
    end subroutine check_tie
 
 end module dondolo_wall_ties

@@ -1,6 +1,6 @@
 !> The check of settings against their table, and the values as its messages show them.
 module dondolo_base_settings_check
-   use dondolo_base_error, only : problems_type
+   use dondolo_base_error, only : not_a_text, not_a_word, not_given, not_together, out_of_range, problems_type, unknown_name
    use dondolo_base_kinds, only : wp
    use dondolo_base_plain, only : name_problem, shown
    use dondolo_base_property, only : check_number, check_word, has_owner, is_integer, is_list, is_real, is_text, is_words, &
@@ -31,7 +31,7 @@ contains
 
       type(property_type), pointer :: table(:)
       character(len=name_length), allocatable :: names(:)
-      character(len=:), allocatable :: allowed, unknown, word
+      character(len=:), allocatable :: allowed, code, unknown, word
       real(wp), allocatable :: list(:)
       logical, allocatable :: given(:)
       integer :: i, k
@@ -43,14 +43,15 @@ contains
       if (allocated(unknown)) then
          names = table%name
          call say_allowed(unknown, names, '--template', allowed)
-         call problems%note(unknown//': no such variable'//allowed)
+         call problems%note(unknown//': no such variable'//allowed, unknown_name, unknown)
       end if
       do i = 1, size(table)
          associate (property => table(i))
             if (present(owner)) then
                if (.not. has_owner(property, owner)) then
                   if (len(owner) > 0 .and. given(i)) call problems%note(trim(property%name)//' = '// &
-                     & value_text(settings, trim(property%name))//': only for '//label//' = '//one_of(property%owners))
+                     & value_text(settings, trim(property%name))//': only for '//label//' = '//one_of(property%owners), &
+                     & not_together, trim(property%name))
                   cycle
                end if
             end if
@@ -60,15 +61,20 @@ contains
                if (len_trim(property%names) > 0) allowed = allowed//', '//trim(property%names)
                if (len_trim(property%choices(1)) > 0) allowed = allowed//', one of '// &
                   & join(property%choices(:number_of_choices(property%choices)))
-               call problems%note(trim(property%name)//': '//allowed)
+               call problems%note(trim(property%name)//': '//allowed, not_given, trim(property%name))
                cycle
             end if
             k = 0
+            code = out_of_range
             select case (property%kind)
             case (is_text, is_words)
                word = settings%word(trim(property%name))
+               code = not_a_word
                call check_word(property, word, allowed)
-               if (len_trim(name_problem(word)) > 0) allowed = trim(name_problem(word))
+               if (len_trim(name_problem(word)) > 0) then
+                  code = not_a_text
+                  allowed = trim(name_problem(word))
+               end if
             case (is_real, is_integer)
                call check_number(property, settings%number(trim(property%name)), allowed)
             case (is_list)
@@ -84,9 +90,10 @@ contains
             if (.not. allocated(allowed)) cycle
             if (property%kind == is_list .and. k > most_shown) then
                call problems%note(trim(property%name)//' = '//value_text(settings, trim(property%name))//' (value '// &
-                  & to_text(k)//' = '//to_text(list(k))//'): '//allowed)
+                  & to_text(k)//' = '//to_text(list(k))//'): '//allowed, code, trim(property%name))
             else
-               call problems%note(trim(property%name)//' = '//value_text(settings, trim(property%name))//': '//allowed)
+               call problems%note(trim(property%name)//' = '//value_text(settings, trim(property%name))//': '//allowed, &
+                  & code, trim(property%name))
             end if
          end associate
       end do

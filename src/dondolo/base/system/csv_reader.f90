@@ -13,7 +13,7 @@ module dondolo_base_csv_reader
    use dondolo_base_csv_row, only : cell_type, is_title, separator_of, split_row
    use dondolo_base_decimal_mark, only : decimal_mark_type
    use dondolo_base_encoding, only : byte_order_mark, encoding_problem, is_ascii, is_utf8
-   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_error, only : error_type, not_a_number, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_limits, only : longest_line, longest_table
    use dondolo_base_name_index, only : name_index_type
@@ -499,7 +499,8 @@ contains
 
       associate (cell => row%cells(column)%text)
          call self%mark%parse(cell, value, ok)
-         if (.not. ok) call raise_input(error, self%columns(column)%text//' = '''//cell//''': '//trim(self%mark%problem(cell)))
+         if (.not. ok) call raise_input(error, self%columns(column)%text//' = '''//cell//''': '// &
+            & trim(self%mark%problem(cell)), not_a_number, self%columns(column)%text)
       end associate
    end subroutine get_real
 

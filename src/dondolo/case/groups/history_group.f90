@@ -1,6 +1,6 @@
 !> The group &history: which record, and how strong, for one time history.
 module dondolo_case_history_group
-   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_error, only : error_type, not_together, out_of_range, raise_input, unknown_name
    use dondolo_base_kinds, only : wp
    use dondolo_base_property, only : is_number_or_name, property_type
    use dondolo_base_settings, only : group_settings_type, new_settings
@@ -67,8 +67,8 @@ contains
       end if
       history%initial = initial_state_type(settings%number('initial_rotation'), settings%number('initial_velocity'))
       if (group%has('scale') .and. group%has('im_level')) then
-         call raise_input(error, group%place()//': im_level: give either scale or im_level'// &
-            & group%in_line('im_level'))
+         call raise_input(error, 'im_level: give either scale or im_level', not_together, 'im_level')
+         call group%locate(error)
       else if (group%has('im_level')) then
          history%im_level = settings%number('im_level')
       else
@@ -96,10 +96,10 @@ contains
             if (records(i)%name == history%record_name) return
          end do
          call list_names(records, known)
-         call group%refuse('record', 'no such record; there are '//known, error)
+         call group%refuse('record', 'no such record; there are '//known, unknown_name, error)
       else if (history%record < 1 .or. history%record > size(records)) then
          call group%refuse('record', 'must lie between 1 and '//to_text(size(records))// &
-            & ', the number of records in the catalogue', error)
+            & ', the number of records in the catalogue', out_of_range, error)
       end if
    end subroutine find_record
 

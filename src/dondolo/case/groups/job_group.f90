@@ -1,6 +1,6 @@
 !> The group &job: what is to be done and where the results go.
 module dondolo_case_job_group
-   use dondolo_base_error, only : error_type
+   use dondolo_base_error, only : error_type, not_given, out_of_range
    use dondolo_base_kinds, only : wp
    use dondolo_base_property, only : blank, choices_length, is_integer, is_logical, is_text, most_choices, property_type
    use dondolo_base_settings, only : group_settings_type, new_settings
@@ -79,19 +79,19 @@ contains
       job%spreadsheet_safe = settings%holds('spreadsheet_safe')
       job%threads = nint(settings%number('threads'))
       if (len_trim(job%output) == 0) then
-         call group%refuse('output', 'must not be empty: the names of all result files begin with it', error)
+         call group%refuse('output', 'must not be empty: the names of all result files begin with it', not_given, error)
       else if (job%output(len(job%output):) == '/') then
          call group%refuse('output', 'must end in the beginning of a file''s name, such as '''//job%output//'wall''', &
-            & error)
+            & out_of_range, error)
       else if (any(job%output(index(job%output, '/', back=.true.) + 1:) == ['. ', '..'])) then
          call group%refuse('output', 'must end in the beginning of a file''s name, such as '''//job%output//'/wall''', &
-            & error)
+            & out_of_range, error)
       else if (index(job%output, '\') > 0) then
-         call group%refuse('output', 'must have / between folders, not \', error)
+         call group%refuse('output', 'must have / between folders, not \', out_of_range, error)
       else if (scan(job%output(1:1), '~$') > 0) then
          ! A folder ~ would be made; who removes it as shells understand it removes the home folder
          call group%refuse('output', 'must be a path from the current folder or from /: '// &
-            & job%output(1:1)//' is not replaced as a shell does', error)
+            & job%output(1:1)//' is not replaced as a shell does', out_of_range, error)
       end if
       job%output_line = group%in_line('output')
    end subroutine read_job

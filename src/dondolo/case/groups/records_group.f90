@@ -1,6 +1,6 @@
 !> The group &records: the accelerograms and their polarity.
 module dondolo_case_records_group
-   use dondolo_base_error, only : error_type
+   use dondolo_base_error, only : error_type, not_together
    use dondolo_base_kinds, only : wp
    use dondolo_base_property, only : blank, choices_length, is_text, most_choices, property_type
    use dondolo_base_settings, only : group_settings_type, new_settings
@@ -70,7 +70,7 @@ contains
          records%vertical_factor = 1.0_wp
          if (settings%has('vertical_factor')) records%vertical_factor = settings%number('vertical_factor')
       else if (group%has('vertical_factor') .and. .not. allocated(error)) then
-         call group%refuse('vertical_factor', 'only with vertical = ''recorded''', error)
+         call group%refuse('vertical_factor', 'only with vertical = ''recorded''', not_together, error)
       end if
    end subroutine read_records_group
 

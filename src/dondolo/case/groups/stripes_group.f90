@@ -1,6 +1,6 @@
 !> The group &stripes: the intensity measure and its levels.
 module dondolo_case_stripes_group
-   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_error, only : error_type, not_given, not_together, out_of_range, raise_input, wrong_length
    use dondolo_base_kinds, only : wp
    use dondolo_base_limits, only : most_levels, most_thresholds
    use dondolo_base_property, only : blank, choices_length, is_integer, is_list, is_text, most_choices, property_type
@@ -80,20 +80,20 @@ contains
       if (allocated(error)) return
       if (settings%has('levels')) then
          if (allocated(stripes%levels)) then
-            call raise_input(error, group%place()//': levels: give either levels or first, last and count'// &
-               & group%in_line('levels'))
+            call raise_input(error, 'levels: give either levels or first, last and count', not_together, 'levels')
+            call group%locate(error)
             return
          end if
          stripes%levels = settings%list('levels')
          if (size(stripes%levels) > most_levels) then
-            call group%refuse('levels', 'must be at most '//to_text(most_levels)//' values', error)
+            call group%refuse('levels', 'must be at most '//to_text(most_levels)//' values', wrong_length, error)
             return
          end if
       end if
       stripes%states = settings%word('states')
       stripes%thresholds = settings%list('edp_thresholds')
       if (size(stripes%thresholds) > most_thresholds) then
-         call group%refuse('edp_thresholds', 'must be at most '//to_text(most_thresholds)//' values', error)
+         call group%refuse('edp_thresholds', 'must be at most '//to_text(most_thresholds)//' values', wrong_length, error)
          return
       end if
       if (.not. allocated(stripes%levels)) return
@@ -132,15 +132,16 @@ contains
       if (.not. any([settings%has('first'), settings%has('last'), settings%has('count')])) return
       do i = 1, size(grid_variables)
          if (settings%has(trim(grid_variables(i)))) cycle
-         call raise_input(error, group%place()//': '//trim(grid_variables(i))// &
-            & ': must be given: first, last and count belong together'//group%in_line(''))
+         call raise_input(error, trim(grid_variables(i))//': must be given: first, last and count belong together', not_given, &
+            & trim(grid_variables(i)))
+         call group%locate(error)
          return
       end do
       first = settings%number('first')
       last = settings%number('last')
       count = nint(settings%number('count'))
       if (.not. last > first) then
-         call group%refuse('last', 'must be greater than first = '//to_text(first), error)
+         call group%refuse('last', 'must be greater than first = '//to_text(first), out_of_range, error)
          return
       end if
       stripes%levels = even_levels(first, last, count)

@@ -1,6 +1,6 @@
 !> The group &uncertainty: what is not known for certain of the one wall of a case.
 module dondolo_case_uncertainty_group
-   use dondolo_base_error, only : error_type, problems_type, raise_input
+   use dondolo_base_error, only : error_type, not_given, out_of_range, problems_type, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_property, only : is_integer, is_text, name_length, property_type
    use dondolo_base_settings, only : group_settings_type, new_settings
@@ -86,11 +86,11 @@ contains
       end do
       call problems%raise(error)
       if (.not. allocated(error) .and. size(sources) == 0) call raise_input(error, 'a property must have a distribution, '// &
-         & 'such as hinge = ''triangular(0.5, 0.6, 0.75)''')
+         & 'such as hinge = ''triangular(0.5, 0.6, 0.75)''', not_given)
       associate (samples => nint(settings%number('samples')))
          if (.not. allocated(error) .and. samples < smallest_sample(size(sources))) call raise_input(error, 'samples = '// &
             & to_text(samples)//': must be at least '//to_text(smallest_sample(size(sources)))//' for the indices of '// &
-            & to_text(size(sources))//' properties')
+            & to_text(size(sources))//' properties', out_of_range, 'samples')
          if (.not. allocated(error)) call sample_variants(wall, sources, distributions, samples, nint(settings%number('seed')))
       end associate
       if (.not. allocated(error) .and. settings%has('restitution_factor')) then

@@ -1,6 +1,6 @@
 !> Reading a case: its namelist file and all that it names, checked before anything is computed.
 module dondolo_case_read_case
-   use dondolo_base_error, only : error_type, raise_input, status_missing
+   use dondolo_base_error, only : error_type, no_such_file, not_given, not_together, out_of_range, raise_input, status_missing
    use dondolo_base_kinds, only : wp
    use dondolo_base_memory, only : check_room
    use dondolo_base_paths, only : beside
@@ -163,7 +163,8 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       if (case%job%task == history_task .and. case%records_input%polarity == 'both') call group%refuse('polarity', &
-         & 'must be ''as_recorded'' or ''reversed'' for task = ''history''', error)
+         & 'must be ''as_recorded'' or ''reversed'' for task = ''history''', not_together, &
+            & error)
    end subroutine check_polarity
 
    !> Read the table of the terms of the wall
@@ -373,17 +374,19 @@ contains
 
       if (case%job%task /= stripes_task .and. case%solver%solver%certify) then
          group = namelist%group('solver')
-         call group%refuse('certify', 'only for task = ''stripes'': populations and single histories are not certified', error)
+         call group%refuse('certify', 'only for task = ''stripes'': populations and single histories are not certified', &
+            & not_together, error)
          return
       end if
       if (case%job%task == typology_task .and. case%solver%solver%estimate_error) then
          group = namelist%group('solver')
-         call group%refuse('estimate_error', 'only for task = ''stripes'' and ''history'', which keep every EDP', error)
+         call group%refuse('estimate_error', 'only for task = ''stripes'' and ''history'', which keep every EDP', not_together, &
+            & error)
          return
       end if
       group = namelist%group('stripes')
       if (case%job%task == typology_task .and. case%stripes%states == 'ordinal') then
-         call group%refuse('states', 'must be ''separate'' for task = ''typology''', error)
+         call group%refuse('states', 'must be ''separate'' for task = ''typology''', not_together, error)
          return
       end if
       call check_states(case%stripes, case%solver%solver%edp_limit, error)
@@ -391,12 +394,14 @@ contains
       if (allocated(error)) return
       if (case%job%histories .and. case%job%task /= typology_task) then
          group = namelist%group('job')
-         call group%refuse('histories', 'only for task = ''typology''; ''stripes'' writes all histories anyway', error)
+         call group%refuse('histories', 'only for task = ''typology''; ''stripes'' writes all histories anyway', not_together, &
+            & error)
          return
       end if
       if (case%job%task == history_task .or. allocated(case%stripes%levels)) return
-      call raise_input(error, group%place()//': levels: must be given, such as levels = 0.1, 0.2, 0.3; or '// &
-         & 'first, last and count'//group%in_line(''))
+      call raise_input(error, 'levels: must be given, such as levels = 0.1, 0.2, 0.3; or first, last and count', not_given, &
+         & 'levels')
+      call group%locate(error)
    end subroutine check_combinations
 
    !> Read the accelerograms
@@ -445,11 +450,11 @@ contains
       file = beside(path, group%file)
       inquire (file=file, exist=exists)
       if (is_folder(file)) then
-         call group%refuse(name, file//' is a folder, must be a file', error)
+         call group%refuse(name, file//' is a folder, must be a file', no_such_file, error)
       else if (.not. exists) then
          hint = ''
          if (index(path, '\') > 0) hint = '; folders must be separated by /, not \'
-         call group%refuse(name, 'there is no file '//file//' (paths are relative to the case)'//hint, error)
+         call group%refuse(name, 'there is no file '//file//' (paths are relative to the case)'//hint, no_such_file, error)
          error%stat = status_missing
       end if
    end subroutine check_file
@@ -510,7 +515,7 @@ contains
          associate (record => case%suite%records(case%history%record))
             if (allocated(case%history%im_level)) call check_motion(record, problem)
             if (allocated(problem)) then
-               call group%refuse('im_level', problem%message, error)
+               call group%refuse('im_level', problem%message, out_of_range, error)
                return
             end if
             scale = abs(case%history_scale())

@@ -3,7 +3,8 @@
 !> What is refused is refused with its place and its value as it was typed:
 !> `walls.nml: &wall: thickness = 'thin': must be a number, such as 0.25 (line 12)`.
 module dondolo_case_namelist_group
-   use dondolo_base_error, only : add_place, error_type, raise_input
+   use dondolo_base_error, only : add_place, error_type, not_a_flag, not_a_number, not_a_text, not_an_integer, raise_input, &
+      & unknown_name, wrong_length
    use dondolo_base_kinds, only : wp
    use dondolo_base_numbers, only : parse_integer, parse_real
    use dondolo_base_plain, only : name_problem, shown
@@ -137,7 +138,7 @@ contains
       type(error_type), allocatable, intent(inout) :: error
 
       character(len=:), allocatable :: message, sentence
-      integer :: first, length
+      integer :: first, length, i
 
       if (.not. allocated(error)) return
       message = ''
@@ -151,6 +152,9 @@ contains
       end do
       error%message = message
       call add_place(error, self%place())
+      do i = 1, size(error%problem)
+         error%problem(i)%place = error%problem(i)%place//self%in_line(error%problem(i)%variable)
+      end do
    end subroutine locate
 
    !> Number of a variable in the group
@@ -210,18 +214,21 @@ contains
          if (any(self%variables(i)%name == names)) cycle
          call say_allowed(self%variables(i)%name, names, '--template', allowed)
          call raise_input(error, self%place()//': '//self%variables(i)%name//' (line '// &
-            & to_text(self%variables(i)%line)//'): no such variable'//allowed)
+            & to_text(self%variables(i)%line)//'): no such variable'//allowed, unknown_name, self%variables(i)%name, &
+            & self%place()//self%in_line(self%variables(i)%name))
          return
       end do
    end subroutine check_names
 
    !> Refuse the value of a variable: 'file: &group: name = value: what is allowed (line 7)'
-   subroutine refuse(self, name, allowed, error)
+   subroutine refuse(self, name, allowed, code, error)
       class(group_type), intent(in) :: self
       !> Name of a variable that was given
       character(len=*), intent(in) :: name
       !> What is allowed
       character(len=*), intent(in) :: allowed
+      !> What is wrong, one of error_codes
+      character(len=*), intent(in) :: code
       !> The error
       type(error_type), allocatable, intent(out) :: error
 
@@ -234,7 +241,8 @@ contains
          typed = typed//', '//shown(self%variables(i)%values(j)%typed)
       end do
       if (size(self%variables(i)%values) > 6) typed = typed//', ...'
-      call raise_input(error, self%place()//': '//name//' = '//typed//': '//allowed//self%in_line(name))
+      call raise_input(error, name//' = '//typed//': '//allowed, code, name)
+      call self%locate(error)
    end subroutine refuse
 
    !> Find the one value of a variable that takes one
@@ -258,14 +266,14 @@ contains
          if (size(values) == 1) return
          if (size(values) == 2 .and. split_number(values(1), values(2))) then
             call self%refuse(name, 'must be one number; a decimal point is needed: '// &
-               & values(1)%text//'.'//values(2)%text, error)
+               & values(1)%text//'.'//values(2)%text, not_a_number, error)
          else if (size(values) == 2 .and. is_unit(values(1), values(2))) then
-            call self%refuse(name, 'must be a number without a unit', error)
+            call self%refuse(name, 'must be a number without a unit', not_a_number, error)
          else if (values(2)%line > values(1)%line) then
             call self%refuse(name, 'must be one value, not '//to_text(size(values))//'; is an = missing in line '// &
-               & to_text(values(2)%line)//'?', error)
+               & to_text(values(2)%line)//'?', wrong_length, error)
          else
-            call self%refuse(name, 'must be one value, not '//to_text(size(values)), error)
+            call self%refuse(name, 'must be one value, not '//to_text(size(values)), wrong_length, error)
          end if
       end associate
    end subroutine single
@@ -309,9 +317,9 @@ contains
       call single(self, name, given, found, error)
       if (allocated(error) .or. .not. given) return
       if (.not. found%quoted) then
-         call self%refuse(name, 'must be text in quotes, such as '''//found%text//'''', error)
+         call self%refuse(name, 'must be text in quotes, such as '''//found%text//'''', not_a_text, error)
       else if (len_trim(name_problem(found%text)) > 0) then
-         call self%refuse(name, trim(name_problem(found%text)), error)
+         call self%refuse(name, trim(name_problem(found%text)), not_a_text, error)
       else
          value = found%text
       end if
@@ -335,7 +343,7 @@ contains
       associate (given => self%variables(i)%values)
          do j = 1, size(given)
             if (.not. given(j)%quoted) then
-               call self%refuse(name, 'must be text in quotes, such as '''//given(j)%text//'''', error)
+               call self%refuse(name, 'must be text in quotes, such as '''//given(j)%text//'''', not_a_text, error)
                return
             end if
             value = value//trim(merge(',', ' ', j > 1))//given(j)%text
@@ -363,7 +371,7 @@ contains
       if (ok) then
          value = number
       else
-         call self%refuse(name, trim(not_a_number(found)), error)
+         call self%refuse(name, trim(number_problem(found)), not_a_number, error)
       end if
    end subroutine get_real
 
@@ -387,11 +395,11 @@ contains
       if (ok .and. .not. found%quoted) then
          value = number
       else if (ok) then
-         call self%refuse(name, 'must be an integer without quotes', error)
+         call self%refuse(name, 'must be an integer without quotes', not_an_integer, error)
       else if (verify(found%text, figures//'+-') == 0) then
-         call self%refuse(name, 'must be an integer of at most '//to_text(huge(number)), error)
+         call self%refuse(name, 'must be an integer of at most '//to_text(huge(number)), not_an_integer, error)
       else
-         call self%refuse(name, 'must be an integer', error)
+         call self%refuse(name, 'must be an integer', not_an_integer, error)
       end if
    end subroutine get_integer
 
@@ -417,12 +425,13 @@ contains
             call to_real(given(j), numbers(j), ok)
             if (.not. ok) then
                call raise_input(error, self%place()//': '//name//': value '//to_text(j)//' = '//given(j)%typed// &
-                  & ': '//trim(not_a_number(given(j)))//' (line '//to_text(given(j)%line)//')')
+                  & ': '//trim(number_problem(given(j)))//' (line '//to_text(given(j)%line)//')', not_a_number, name, &
+                  & self%place()//' (line '//to_text(given(j)%line)//')')
                return
             end if
             if (j == 1) cycle
             if (given(j - 1)%text == '0' .and. split_number(given(j - 1), given(j))) then
-               call self%refuse(name, 'a decimal point is needed, such as 0.'//given(j)%text, error)
+               call self%refuse(name, 'a decimal point is needed, such as 0.'//given(j)%text, not_a_number, error)
                return
             end if
          end do
@@ -448,7 +457,7 @@ contains
       call single(self, name, given, found, error)
       if (allocated(error) .or. .not. given) return
       if (found%quoted .or. .not. any(lower(found%text) == [yes, no])) then
-         call self%refuse(name, 'must be .true. or .false.', error)
+         call self%refuse(name, 'must be .true. or .false.', not_a_flag, error)
       else
          value = any(lower(found%text) == yes)
       end if
@@ -467,7 +476,7 @@ contains
    end subroutine to_real
 
    !> What to say of a value that should be a number
-   pure function not_a_number(value) result(allowed)
+   pure function number_problem(value) result(allowed)
       type(value_type), intent(in) :: value
       !> What is allowed, filled up with blanks
       character(len=80) :: allowed
@@ -495,6 +504,6 @@ contains
          & .and. scan(value%text, 'eEdD') > 0) then
          allowed = 'must be a number that the computer can hold, such as 1.5e3'
       end if
-   end function not_a_number
+   end function number_problem
 
 end module dondolo_case_namelist_group

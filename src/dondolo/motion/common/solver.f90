@@ -1,6 +1,6 @@
 !> How a motion is to be computed: engine, tolerances, and the rotation that counts as collapse.
 module dondolo_motion_solver
-   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_error, only : error_type, not_a_word, out_of_range, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_property, only : blank, check_number, check_word, choices_length, is_logical, is_text, most_choices, &
       & property_type
@@ -103,13 +103,15 @@ contains
       !> `variable = value: what is allowed`
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: allowed
+      character(len=:), allocatable :: allowed, code
       integer :: i
 
       do i = 1, size(solver_properties)
          associate (property => solver_properties(i))
+            code = out_of_range
             select case (property%name)
             case ('engine')
+               code = not_a_word
                call check_word(property, trim(solver%engine), allowed)
                if (allocated(allowed)) allowed = ''''//trim(solver%engine)//''': '//allowed
             case ('rtol')
@@ -120,7 +122,7 @@ contains
                call check_range(property, solver%edp_limit, allowed)
             end select
             if (.not. allocated(allowed)) cycle
-            call raise_input(error, trim(property%name)//' = '//allowed)
+            call raise_input(error, trim(property%name)//' = '//allowed, code, trim(property%name))
             return
          end associate
       end do
@@ -165,7 +167,7 @@ contains
 
       if (solver%edp_limit*mechanism%capacity < mechanism%geometric_end()) return
       call raise_input(error, 'edp_limit = '//to_text(solver%edp_limit)//': must be less than '// &
-         & brief(mechanism%geometric_end()/mechanism%capacity)//', where the geometry of this wall ends')
+         & brief(mechanism%geometric_end()/mechanism%capacity)//', where the geometry of this wall ends', out_of_range, 'edp_limit')
    end subroutine check_limit
 
 end module dondolo_motion_solver

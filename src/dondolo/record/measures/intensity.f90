@@ -4,7 +4,7 @@
 !> stands in the size of a level and not in the value: the value of 'arias' is pi/2 times the integral of a**2, and a
 !> level of 1 m/s is g of it.
 module dondolo_record_intensity
-   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_error, only : error_type, not_a_word, raise_input
    use dondolo_base_kinds, only : pi, wp
    use dondolo_base_numbers, only : parse_real
    use dondolo_base_odd_character, only : odd_character
@@ -129,7 +129,7 @@ contains
       !> What is wrong with it
       type(error_type), allocatable, intent(out) :: error
 
-      call raise_input(error, 'im = '''//typed//''': must be one of '//join(names)//im_help)
+      call raise_input(error, 'im = '''//typed//''': must be one of '//join(names)//im_help, not_a_word, 'im')
       if (len_trim(odd_character(typed)) > 0) error%message = error%message//'; it has '//trim(odd_character(typed))
       if (index(typed, '(') > 0 .and. index(typed, ',') > 0) error%message = error%message//'; it must have a decimal point: '''// &
          & replaced(lower(typed), ',', '.')//''''

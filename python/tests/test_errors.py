@@ -1,0 +1,140 @@
+"""Errors for programs: what is wrong, of which variable, and where."""
+
+import pickle
+import re
+import typing
+
+import pytest
+
+import dondolo as dd
+
+CODES = typing.get_args(dd.errors.Code)
+CASE = """&job task = 'stripes', output = 'out' /
+&wall mechanism = 'one_sided', height = 1.5, thickness = 0.25 /
+&records catalogue = 'records.csv' /
+&stripes im = 'pga', levels = 0.5, 0.9 /
+"""
+
+
+def raised(call):
+    """What is wrong, and the message, after a way through a pickle."""
+    with pytest.raises(dd.errors.InputError) as caught:
+        call()
+    error = pickle.loads(pickle.dumps(caught.value))
+    assert type(error) is type(caught.value)
+    assert str(error) == str(caught.value)
+    assert error.errors == caught.value.errors
+    return error
+
+
+def wall(**properties):
+    return dd.OneSidedWall(**{"height": 1.5, "thickness": 0.25} | properties)
+
+
+OF_WALLS = [
+    (lambda: wall(height=-1.0), "out_of_range", "height"),
+    (lambda: wall(height=None), "not_given", "height"),
+    (lambda: wall(restitution="bouncy"), "not_a_word", "restitution"),
+    (lambda: wall(name="a\nb"), "not_a_text", "name"),
+    (lambda: wall(mass=100.0, centroid_height=None), "not_given", "centroid_depth"),
+    (lambda: wall(hinge_depth=0.01, compressive_strength=1e6), "not_together", "hinge_depth"),
+    (lambda: wall(thrusts=[dd.Thrust(1e6, height=1.0)]), "not_at_rest", "thrusts"),
+    (lambda: wall(loads=[dd.Load(-5.0, depth=0.1, height=1.0, inertia="both")]), "out_of_range", "loads[0].force"),
+    (lambda: wall(gravity=-1.0), "out_of_range", "gravity"),
+]
+
+# Changes of the case: what takes the place of what, code, variable and line
+OF_CASES = [
+    ("height", "hight", "unknown_name", "hight", 2),
+    ("thickness = 0.25", "thickness = 'thin'", "not_a_number", "thickness", 2),
+    ("height = 1.5", "height = 1.5, 2.0", "wrong_length", "height", 2),
+    (", thickness = 0.25", "", "not_given", "thickness", 2),
+    ("'pga'", "pga", "not_a_text", "im", 4),
+    ("0.5, 0.9", "0.9, 0.5", "not_increasing", "levels", 4),
+    ("'out' ", "'out', histories = maybe ", "not_a_flag", "histories", 1),
+    ("'out' ", "'out', threads = 1.5 ", "not_an_integer", "threads", 1),
+    ("'out' ", "'out', histories = .true. ", "not_together", "histories", 1),
+    ("'records.csv'", "'nowhere.csv'", "no_such_file", "catalogue", 3),
+    ("levels = 0.5, 0.9", "", "not_given", "levels", 4),
+    ("0.9", "0.9, first = 0.1, last = 0.05, count = 3", "out_of_range", "last", 4),
+]
+
+
+@pytest.mark.parametrize(("call", "code", "variable"), OF_WALLS)
+def test_walls(call, code, variable):
+    error = raised(call)
+    assert (error.errors[0].code, error.errors[0].variable, error.errors[0].place) == (code, variable, "")
+    assert [one.message for one in error.errors] == str(error).split("\n")
+
+
+@pytest.mark.parametrize(("old", "new", "code", "variable", "line"), OF_CASES)
+def test_cases(tmp_path, catalogue, old, new, code, variable, line):
+    text = CASE.replace("records.csv", str(catalogue))
+    assert old in CASE
+    old = old.replace("records.csv", str(catalogue))
+    path = tmp_path / "case.nml"
+    path.write_text(text.replace(old, new))
+    (one,) = raised(lambda: dd.read_case(path)).errors
+    group = ("job", "wall", "records", "stripes")[line - 1]
+    assert (one.code, one.variable, one.place) == (code, variable, f"{path}: &{group} (line {line})")
+    assert one.message.startswith(f"{path}: &{group}: {variable}")
+
+
+@pytest.fixture
+def catalogue(few, tmp_path):
+    path = tmp_path / "records.csv"
+    dd.RecordSet(few).to_catalogue(path)
+    return path
+
+
+def test_tables(tmp_path):
+    """Each wrong cell with its row and column."""
+    path = tmp_path / "walls.csv"
+    path.write_text("mechanism,height,thickness\none_sided,1.5,0.25\none_sided,tall,0.25\n")
+    (one,) = raised(lambda: dd.Population.from_csv(path)).errors
+    assert one[1:] == ("not_a_number", "height", f"{path}: line 3")
+    path.write_text("mechanism,height,thickness\none_sided,-1,0\n")
+    error = raised(lambda: dd.Population.from_csv(path))
+    assert [one[1:] for one in error.errors] == [
+        ("out_of_range", "height", f"{path}: line 2"),
+        ("out_of_range", "thickness", f"{path}: line 2"),
+    ]
+    path.write_text("mechanism,height,width\none_sided,1.5,0.25\n")
+    (one,) = raised(lambda: dd.Population.from_csv(path)).errors
+    assert one[1:] == ("unknown_name", "width", str(path))
+    (one,) = raised(lambda: dd.Population.from_csv(tmp_path / "none.csv")).errors
+    assert one.code == "no_such_file"
+
+
+def test_what_has_no_room():
+    """A message ends by how many more there are; what is counted is not listed."""
+    levels = [float(i % 7) for i in range(2000)]
+    error = raised(lambda: wall(hinge_level=levels, height=10.0))
+    assert str(error).endswith("more")
+    assert len(error.errors) == len(str(error).split("\n")) - 1
+    assert {(one.code, one.variable) for one in error.errors} == {("out_of_range", "hinge_level")}
+
+
+def test_places_are_added(tmp_path):
+    """By Python too, to the sentence and to its place."""
+    error = dd.errors.InputError("x = 1: must be 2", errors=[dd.errors.Problem("x = 1: must be 2", "out_of_range", "x")])
+    again = error.placed("row 2").placed("a.csv")
+    assert str(again) == "a.csv: row 2: x = 1: must be 2"
+    assert again.errors == (dd.errors.Problem(str(again), "out_of_range", "x", "a.csv: row 2"),)
+    assert dd.errors.InputError("no").errors == (dd.errors.Problem("no"),)
+    assert dd.errors.MissingFileError("x: none").errors == (dd.errors.Problem("x: none", "no_such_file"),)
+
+
+def test_list_of_codes(root):
+    """The library's, Python's and those of the documentation are the same; each is raised by a test."""
+    source = (root / "src/dondolo/base/text/error.f90").read_text()
+    library = re.findall(r"(\w+) = '\1'", source)
+    (listed,) = re.findall(r"error_codes\(\*\) = \[character\(len=\d+\) :: ([^]]*)\]", source)
+    assert re.findall(r"\w+", listed) == library
+    of_python = {"wrong_type", "not_numbers", "not_a_probability"}
+    assert set(library) == set(CODES) - of_python
+    page = (root / "docs/files.md").read_text().partition("### Errors")[2].partition("### Warnings")[0]
+    rows = [line.split("|")[1] for line in page.split("\n") if line.startswith("| `")]
+    assert sorted(re.findall(r"`(\w+)`", " ".join(rows))) == sorted(CODES)
+    tested = {row[1] for row in OF_WALLS} | {row[2] for row in OF_CASES}
+    assert set(library) == tested
