@@ -34,10 +34,14 @@ const char *dondolo_get_version(void);
 /* Free what any handle stands for. NULL and handles that were freed before do nothing. */
 void dondolo_free(void *handle);
 
-/* Errors: a handle; the code in it, 0 for none; its text, which stays until the next error, clearing or freeing; clearing */
+/* Errors: a handle; the code in it, 0 for none; its text, which stays until the next error, clearing or freeing; of the
+ * sentence in line number (from 0) of the text, by name, the "code" of what is wrong, the "variable" and the "place", empty if
+ * not known (docs/files.md lists the codes); clearing. dondolo_get_problem returns as dondolo_get_text does, and -1 where there
+ * is no such sentence or name. */
 dondolo_error *dondolo_new_error(void);
 int dondolo_status(const dondolo_error *error);
 const char *dondolo_message(const dondolo_error *error);
+int dondolo_get_problem(const dondolo_error *error, int number, const char *name, char *text, int size);
 void dondolo_clear_error(dondolo_error *error);
 
 /* Settings of a group, "wall", "stripes" or "solver", by the names that the variables have in cases. "wall" has those of

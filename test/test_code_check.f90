@@ -303,6 +303,7 @@ contains
       type(group_settings_type) :: settings
       type(check_input_type) :: input
       type(problems_type) :: problems
+      type(error_type), allocatable :: error
 
       call new_settings(settings, check_properties)
       call settings%set('ag', ag)
@@ -312,7 +313,8 @@ contains
       call settings%set('knowledge_factor', factor)
       call take_check(input, settings, problems)
       call check(problems%count == 1, 'one thing is wrong')
-      if (problems%count > 0) call check_text(problems%text, message, 'message')
+      call problems%raise(error)
+      if (allocated(error)) call check_text(error%message, message, 'message')
    end subroutine refuse
 
    !> The site

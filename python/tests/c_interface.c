@@ -36,6 +36,30 @@ static dondolo_wall *wall_of(const char *mechanism, double height, double thickn
    return wall;
 }
 
+/* What is wrong with a wall, sentence by sentence; lines, numbers and names that there are not have nothing */
+static void problems(void)
+{
+   char text[100];
+   const char *wrong[] = {"height", "thickness"};
+
+   dondolo_free(wall_of("one_sided", -1.0, 0.0));
+   for (int i = 0; i < 2; i++) {
+      int length = dondolo_get_problem(error, i, "code", text, sizeof text);
+      int same = length == 12 && strcmp(text, "out_of_range") == 0;
+      length = dondolo_get_problem(error, i, "variable", text, sizeof text);
+      same = same && length == (int)strlen(wrong[i]) && strcmp(text, wrong[i]) == 0;
+      if (!same || dondolo_get_problem(error, i, "place", text, sizeof text) != 0)
+         printf("problem %d: %s\n", i, text), others++;
+   }
+   if (dondolo_get_problem(error, 2, "code", text, sizeof text) != -1 || dondolo_get_problem(error, -1, "code", NULL, 0) != -1 ||
+       dondolo_get_problem(error, 0, "cod", text, 1) != -1 || dondolo_get_problem(error, 0, NULL, text, -1) != -1 ||
+       dondolo_get_problem(NULL, 0, "code", text, sizeof text) != -1 || dondolo_get_problem(error, 0, "code", NULL, 9) != 12)
+      printf("problems that there are not\n"), others++;
+   fails(DONDOLO_INPUT, "two things wrong");
+   if (dondolo_get_problem(error, 0, "code", text, sizeof text) != -1)
+      printf("a problem after clearing\n"), others++;
+}
+
 static void settings(void)
 {
    const char *wrong[] = {"", "heigth", "a name that is far too long for any variable of a case or of a table of walls", "\n"};
@@ -140,6 +164,7 @@ int main(int argc, char **argv)
    error = dondolo_new_error();
    holds(dondolo_get_version()[0] != '\0', "version");
    settings();
+   problems();
    records(argv[1]);
    runs(argv[1]);
    dondolo_listen();

@@ -117,7 +117,9 @@ def test_what_has_no_room():
 
 def test_places_are_added(tmp_path):
     """By Python too, to the sentence and to its place."""
-    error = dd.errors.InputError("x = 1: must be 2", errors=[dd.errors.Problem("x = 1: must be 2", "out_of_range", "x")])
+    error = dd.errors.InputError(
+        "x = 1: must be 2", errors=[dd.errors.Problem("x = 1: must be 2", "out_of_range", "x")]
+    )
     again = error.placed("row 2").placed("a.csv")
     assert str(again) == "a.csv: row 2: x = 1: must be 2"
     assert again.errors == (dd.errors.Problem(str(again), "out_of_range", "x", "a.csv: row 2"),)

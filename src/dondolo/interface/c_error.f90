@@ -3,7 +3,7 @@
 module dondolo_interface_c_error
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_int64_t, c_loc, c_null_char, c_ptr
    use dondolo_base_error, only : error_type, status_input
-   use dondolo_interface_c_text, only : as_handle, as_pointer
+   use dondolo_interface_c_text, only : as_handle, as_pointer, give_text, take_text
    use dondolo_interface_handles, only : content_of, hold, release
    implicit none
    private
@@ -118,6 +118,44 @@ contains
       text = c_loc(without_handle)
       if (associated(failure)) text = c_loc(failure%text)
    end function get_message
+
+   !> Code, variable or place of a problem of the error in a handle; its length, -1 if there is no such problem or name
+   integer(c_int) function get_problem(error, number, name, text, size) result(length) bind(c, name='dondolo_get_problem')
+      type(c_ptr), intent(in), value :: error
+      !> Number of the problem, from 0
+      integer(c_int), intent(in), value :: number
+      !> 'code', 'variable' or 'place'
+      type(c_ptr), intent(in), value :: name
+      !> Room for it, NULL: none, and its bytes
+      type(c_ptr), intent(in), value :: text
+      integer(c_int), intent(in), value :: size
+
+      type(failure_type), pointer :: failure
+      type(error_type), allocatable :: no_name
+      character(len=:), allocatable :: what, found
+
+      length = -1
+      call give_text('', text, size)
+      call find_failure(error, failure)
+      call take_text(name, 'name', what, no_name)
+      if (allocated(no_name) .or. .not. associated(failure)) return
+      if (.not. allocated(failure%error)) return
+      if (number < 0 .or. number >= ubound(failure%error%problem, 1)) return
+      associate (problem => failure%error%problem(number + 1))
+         select case (what)
+         case ('code')
+            found = trim(problem%code)
+         case ('variable')
+            found = problem%variable
+         case ('place')
+            found = problem%place
+         case default
+            return
+         end select
+      end associate
+      length = len(found)
+      call give_text(found, text, size)
+   end function get_problem
 
    !> Take the error out of a handle
    subroutine clear_error(error) bind(c, name='dondolo_clear_error')
