@@ -69,8 +69,8 @@ class Problem(NamedTuple):
         What is wrong, for programs, which should not read sentences; docs/files.md lists the codes. '' if none of them
         says it.
     variable : str
-        Name of the argument, property or column as the user writes it, such as ``thickness`` or ``loads[0].force``; '' if
-        it is not about one.
+        Name of the argument, property or column as the user writes it, such as ``thickness`` or ``loads[0].force``; ''
+        if it is not about one.
     place : str
         Where it is, such as ``walls.csv: line 12`` or ``wall.nml: &wall (line 3)``; '' if it is not in a file.
 

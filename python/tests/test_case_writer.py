@@ -62,9 +62,9 @@ def test_texts_that_are_refused(records, sine):
             dd.case_from_text(text, records)
     with pytest.raises(dd.errors.InputError, match="levels of their own"):
         dd.case_from_text(wall + given + end, dd.RecordSet([sine], level=[0.5]))
-    with pytest.raises(dd.errors.InputError, match="text must be a string") as error:
+    with pytest.raises(dd.errors.InputError, match="text: must be a string") as error:
         dd.case_from_text(b"", records)
-    assert (error.value.code, error.value.variable) == ("wrong_type", "text")
+    assert error.value.errors[0][1:] == ("wrong_type", "text", "")
 
 
 def _random_wall(rng: np.random.Generator) -> dd.Wall:

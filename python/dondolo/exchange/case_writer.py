@@ -14,7 +14,7 @@ from dondolo._fortran.files import whole_file
 from dondolo._fortran.library import properties
 from dondolo.analysis.stripe_runs import Study
 from dondolo.checks.ntc import CodeCheck
-from dondolo.errors import InputError, silent
+from dondolo.errors import InputError, Problem, silent
 from dondolo.exchange.case_text import case_text
 from dondolo.exchange.cases import Case, read_case
 from dondolo.walls.wall import Wall
@@ -89,7 +89,8 @@ def write_case(
             with silent():
                 written = read_case(part)
         except InputError as error:
-            raise InputError(str(error).replace(str(part), str(target))) from None
+            named = (Problem(*(word.replace(str(part), str(target)) for word in one)) for one in error.errors)
+            raise InputError(str(error).replace(str(part), str(target)), errors=named) from None
         _compare(written, wall, study)
 
 

@@ -8,7 +8,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from dondolo._base.arguments import FloatArray, as_path
+from dondolo._base.arguments import FloatArray, as_path, wrong_type
 from dondolo._base.shown import Shown
 from dondolo._fortran import _core
 from dondolo._fortran.library import Parcel, as_text, receive, warn_of_notes
@@ -179,7 +179,7 @@ def case_from_text(text: str, records: Iterable[Record], *, name: str = "case.nm
     1800
     """
     if not isinstance(text, str):
-        raise InputError(f"text must be a string, not {type(text).__name__}", code="wrong_type", variable="text")
+        raise wrong_type("text", text, "a string")
     if isinstance(records, RecordSet) and records.level is not None:
         raise InputError("records: run at levels of their own, which a case takes from its catalogue alone")
     several = tuple(as_records(records))

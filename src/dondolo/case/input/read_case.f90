@@ -127,7 +127,7 @@ contains
       do i = 1, size(groups)
          group = namelist%group(trim(groups(i)))
          if (group%has(trim(names(i))) .and. .not. allocated(error)) call group%refuse(trim(names(i)), &
-            & 'no file is read for a case whose accelerograms are given', error)
+            & 'no file is read for a case whose accelerograms are given', not_together, error)
       end do
    end subroutine refuse_files
 
@@ -163,8 +163,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       if (case%job%task == history_task .and. case%records_input%polarity == 'both') call group%refuse('polarity', &
-         & 'must be ''as_recorded'' or ''reversed'' for task = ''history''', not_together, &
-            & error)
+         & 'must be ''as_recorded'' or ''reversed'' for task = ''history''', not_together, error)
    end subroutine check_polarity
 
    !> Read the table of the terms of the wall

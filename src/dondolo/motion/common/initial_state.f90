@@ -1,6 +1,6 @@
 !> Rotation and velocity at the start of a history. A study begins at rest; tests of free rocking and restarts do not.
 module dondolo_motion_initial_state
-   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_error, only : error_type, not_a_number, not_together, out_of_range, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : brief, to_text
    use dondolo_motion_solver, only : solver_type
@@ -63,23 +63,26 @@ contains
       real(wp) :: limit
 
       if (.not. abs(initial%rotation) <= huge(1.0_wp)) then
-         call raise_input(error, 'initial_rotation = '//to_text(initial%rotation)//': must be a number')
+         call raise_input(error, 'initial_rotation = '//to_text(initial%rotation)//': must be a number', &
+            & not_a_number, 'initial_rotation')
       else if (.not. abs(initial%velocity) <= huge(1.0_wp)) then
-         call raise_input(error, 'initial_velocity = '//to_text(initial%velocity)//': must be a number')
+         call raise_input(error, 'initial_velocity = '//to_text(initial%velocity)//': must be a number', &
+            & not_a_number, 'initial_velocity')
       end if
       if (allocated(error) .or. .not. initial%moves()) return
       limit = min(solver%edp_limit*mechanism%capacity, mechanism%unseating)
       if (.not. mechanism%two_sided .and. initial%rotation < 0.0_wp) then
-         call raise_input(error, 'initial_rotation = '//to_text(initial%rotation)//': must not be negative, the wall is one-sided')
+         call raise_input(error, 'initial_rotation = '//to_text(initial%rotation)// &
+            & ': must not be negative, the wall is one-sided', out_of_range, 'initial_rotation')
       else if (.not. abs(initial%rotation) < limit) then
          call raise_input(error, 'initial_rotation = '//to_text(initial%rotation)//': must lie within '//brief(limit)// &
-            & ' rad, which counts as collapse')
+            & ' rad, which counts as collapse', out_of_range, 'initial_rotation')
       else if (.not. mechanism%two_sided .and. initial%side() < 0.0_wp) then
          call raise_input(error, 'initial_velocity = '//to_text(initial%velocity)// &
-            & ': must not be negative without a rotation, the wall is one-sided')
+            & ': must not be negative without a rotation, the wall is one-sided', out_of_range, 'initial_velocity')
       else if (solver%engine == 'lanes') then
          call raise_input(error, 'engine = ''lanes'': begins every history at rest; must be ''auto'' or ''rk45'' '// &
-            & 'with initial_rotation or initial_velocity')
+            & 'with initial_rotation or initial_velocity', not_together, 'engine')
       end if
    end subroutine check_initial_state
 
