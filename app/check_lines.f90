@@ -7,6 +7,7 @@ module dondolo_check_lines
    use dondolo_case_check_rows, only : check_methods, check_states, verdicts_type
    use dondolo_check_input, only : check_input_type, state_names
    use dondolo_check_notes, only : make_check_notes
+   use dondolo_check_safety, only : new_safety, shown_years
    use dondolo_check_sheet, only : sheet_type
    implicit none
    private
@@ -35,6 +36,9 @@ contains
             & trim(merge('  not applicable', '                ', .not. sheet%is_all_one(check_methods(i), 'applicable', &
             & check_states(i))))
       end do
+      if (sheet%value('nonlinear', 'SLV', 'return_period_capacity') > 0.0_wp) write (output_unit, '(a)') 'return period of '// &
+         & 'the capacity, nonlinear SLV: '//trim(shown_years(new_safety(sheet)))//', of the hazard '// &
+         & rounded(sheet%value('site', 'SLV', 'return_period_demand'))//' years'
       call print_ties(sheet)
       do k = 2, size(state_names)
          if (sheet%value('dynamic', state_names(k), 'histories') > 0.0_wp) then
@@ -106,15 +110,22 @@ contains
       end do
    end subroutine print_ties
 
-   !> A probability; of tails of a fitted curve no more is known than that they are small
+   !> A probability with four decimals, as reports have it; of tails of a fitted curve no more is known than that they are small
    pure function chance(value) result(text)
       !> Probability
       real(wp), intent(in) :: value
       !> Text, filled up with blanks
       character(len=24) :: text
 
-      text = '< 0.001'
-      if (value >= 1.0e-3_wp) text = rounded(value)
+      if (value > 0.0_wp .and. value < 5.0e-5_wp) then
+         text = '< 0.0001'
+      else if (value < 1.0_wp .and. value >= 0.99995_wp) then
+         text = '> 0.9999'
+      else if (value > 0.0_wp .and. value < 1.0_wp) then
+         write (text, '(f6.4)') value
+      else
+         text = rounded(value)
+      end if
    end function chance
 
    !> Print the checks of a population at a glance; those of each row are in their table

@@ -6,7 +6,7 @@ module dondolo_summary
    use dondolo_base_plain, only : visible
    use dondolo_base_text, only : counted, left, right, rounded, to_text
    use dondolo_case, only : case_type
-   use dondolo_case_design_rows, only : make_design_sentence
+   use dondolo_case_design_rows, only : make_design_sentence, make_safety_sentence
    use dondolo_case_job_group, only : history_task, stripes_task, typology_task
    use dondolo_case_results, only : results_type, row_counts_type, shown_rows
    use dondolo_case_source_rows, only : make_model_sentence, make_source_sentence
@@ -378,6 +378,12 @@ contains
          write (output_unit, '(a)') '   '//line
       end do
       if (size(designs) > shown_rows) write (output_unit, '(a)') '   ... and '//to_text(size(designs) - shown_rows)//' more'
+      if (.not. any(designs%safety%is_known)) return
+      write (output_unit, '(a)') 'checks of the designs by NTC 2018, zeta_E of SLV, with differences to '''//designs(1)%name//''':'
+      do i = 1, min(size(designs), shown_rows)
+         call make_safety_sentence(designs(i), designs(1), line)
+         write (output_unit, '(a)') '   '//line
+      end do
    end subroutine print_designs
 
 end module dondolo_summary

@@ -4,6 +4,7 @@ Numbers are worked by hand (docs/ties.md); near the top of a wall points of a gr
 """
 
 import csv
+import dataclasses
 import re
 import subprocess
 
@@ -297,7 +298,8 @@ LIFE = dd.Site(
 def computed(text):
     """A formula with numbers, computed without dondolo."""
     return eval(
-        text.replace("^", "**").replace("ln(", "log("), {"pi": np.pi, "sqrt": np.sqrt, "log": np.log, "max": max}
+        text.replace("^", "**").replace("ln(", "log("),
+        {"pi": np.pi, "sqrt": np.sqrt, "log": np.log, "max": max, "min": min},
     )
 
 
@@ -332,12 +334,19 @@ def test_return_periods():
     assert bare.value("nonlinear", "SLV", "ratio") == pytest.approx(0.275290807164503, rel=1e-12)
     assert bare.value("nonlinear", "SLV", "zeta_e") == bare.value("nonlinear", "SLV", "ratio")
     assert bare.value("nonlinear", "SLC", "zeta_e") == pytest.approx(0.316164261537535, rel=1e-12)
-    assert bare.value("nonlinear", "SLV", "return_period_capacity") == pytest.approx(20.4031023757149, rel=1e-11)
-    flags = [bare.value("nonlinear", "SLV", name) for name in ("return_period_range", "extrapolated")]
-    assert flags == [-1.0, 1.0]
+    # Below 30 years only a bound is given, in every route; a longer reference life shows what lies behind it.
+    assert (bare._row("nonlinear", "SLV", "return_period_capacity")[4], bare._safety()[-2:]) == (30.0, (30.0, -1.0))
+    assert bare._row("nonlinear", "SLV", "return_period_capacity").bound == "<"
+    longer = dd.check_ntc(bare.wall, dataclasses.replace(LIFE, reference_life=100.0))
+    assert longer.value("nonlinear", "SLV", "return_period_capacity") == pytest.approx(2 * 20.4031023757149, rel=1e-11)
+    assert longer._row("nonlinear", "SLV", "return_period_capacity").bound == ""
+    longest = dd.check_ntc(tied.wall, dataclasses.replace(LIFE, reference_life=250.0))
+    assert longest.value("nonlinear", "SLV", "return_period_capacity") == 2475.0
+    assert longest._row("nonlinear", "SLV", "return_period_capacity").bound == ">"
+    assert bare.value("nonlinear", "SLV", "extrapolated") == 1.0
     assert tied.value("nonlinear", "SLV", "return_period_capacity") == pytest.approx(705.503287278482, rel=1e-9)
-    flags = [tied.value("nonlinear", "SLV", name) for name in ("return_period_range", "extrapolated")]
-    assert flags == [0.0, 0.0]
+    assert tied._row("nonlinear", "SLV", "return_period_capacity").bound == ""
+    assert tied.value("nonlinear", "SLV", "extrapolated") == 0.0
     one = dd.check_ntc(
         of_facade(), dd.Site(0.261, 2.364, 0.347, soil="B", reference_life=75.0, exceedance=(0.63, 0.1, 0.05))
     )

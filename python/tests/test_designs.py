@@ -173,6 +173,16 @@ def test_the_executable_compares(root, run, tmp_path):
     np.testing.assert_allclose(stored.gain_per_kg, found.gain_per_kg, rtol=1e-8)
     with (tmp_path / "out_checks.csv").open() as file:
         checked = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    # The checks of the designs, each beside the first: those that Python makes of the same walls.
+    for place, (row, check) in enumerate(zip(rows, stored.checks, strict=True)):
+        numbers = check._safety()
+        for name, value in zip(("a_0_m_s2", "alpha_0", "zeta_e_linear", "zeta_e"), numbers, strict=False):
+            assert row[name] == "" if np.isnan(value) else float(row[name]) == value, (place, name)
+        first = stored.checks[0].value("nonlinear", "SLV", "zeta_e")
+        assert float(row["zeta_e_change"]) == numbers[3] - first
+    assert [row["zeta_e_linear"] == "" for row in rows] == [bool(check.not_applicable) for check in stored.checks]
+    assert [row["return_period_capacity"] for row in rows] == [""] * len(rows)
+    assert f"zeta_E {float(rows[2]['zeta_e']):.4g} (+{float(rows[2]['zeta_e_change']):.4g}), linear" in summary.stdout
     for kind in ("linear", "nonlinear"):
         stood = [float(row[f"{kind}_slv_g"]) for row in checked]
         assert stored.to_frame()[f"{kind}_slv"].tolist() == pytest.approx(stood, rel=1e-9)

@@ -285,6 +285,31 @@ def test_look_ups_of_settings(root):
     assert {name: file for name, file in found.items() if name not in known} == {}
 
 
+def quantities_of(text):
+    """Names of quantities that a Fortran source puts into sheets of checks, or asks them for."""
+    text = re.sub(r"&\s*\n\s*&?", " ", re.sub(r"(?m)^\s*!.*\n", "", text))
+    three = re.findall(r"%(?:add|value|bound)\(\s*(?:'\w*'|[\w()]+),\s*(?:'\w*'|[\w()]+),\s*'(\w+)'", text)
+    two = re.findall(r"%is_all_one\(\s*(?:'\w*'|[\w()]+),\s*'(\w+)'", text)
+    own = re.findall(r"(?:call put|put_pulled|of_tie)\(\s*'(\w+)'", text) if "dondolo_check_sheet" in text else []
+    named = re.findall(r"quantity%name [=/]= '(\w+)'", text)
+    return {*three, *two, *own, *named}
+
+
+def test_quantities_of_sheets(root):
+    """A name that no quantity of a check has would be found nowhere, in silence."""
+    example = "x = sheet%value('nonlinear', 'SLV', 'zeta')\ncall sheet%add(method, &\n & state, 'alfa_0', x)\n"
+    assert quantities_of(example) == {"zeta", "alfa_0"}
+    known = set(re.findall(r"quantity_type\('(\w+)'", (root / "src/dondolo/check/check_sheet.F90").read_text()))
+    files = [
+        *root.glob("src/dondolo/check/*.[fF]90"),
+        *root.glob("app/*.f90"),
+        *root.glob("src/dondolo/case/*/check*.f90"),
+    ]
+    found = {name: file.name for file in files for name in quantities_of(file.read_text())}
+    assert len(found) > 60
+    assert {name: file for name, file in found.items() if name not in known} == {}
+
+
 def deferred_results(text):
     """Names of the functions of a Fortran source whose results are characters of deferred length."""
     text = re.sub(r"&\s*\n\s*&?", "", re.sub(r"(?m)^\s*!.*\n", "", text))

@@ -357,6 +357,86 @@ def test_an_anchor_that_is_given_is_not_in_doubt(executable, root, tmp_path):
     assert "anchors of ties NOT checked" not in of_page(tmp_path / "a.html")
 
 
+PLATE = TIE.replace("tie_area = 1e-4", "tie_bar = 0.024, tie_spacing = 2.5") + (
+    ",\ntie_plate_width = 0.35, tie_plate_height = 0.35, tie_plate_thickness = 0.012, masonry_compression = 2e6,"
+    " masonry_shear = 4e4, masonry_tension = 5e4"
+)
+LIFE = CHECK.replace(" /", ", reference_life = 50, exceedance = 0.63, 0.10, 0.05 /")
+
+
+@pytest.fixture(scope="module")
+def brittle(tmp_path_factory, executable, root):
+    """A facade as it stands, and with a tie whose plate is too small and too thin, with return periods."""
+    place = tmp_path_factory.mktemp("brittle")
+    walls = {"fatto": WALL.format(name="facciata", tie=""), "progetto": WALL.format(name="catena", tie=PLATE)}
+    return place, [run_in(place, executable, root, name, wall, LIFE) for name, wall in walls.items()]
+
+
+def test_a_brittle_anchor_and_return_periods(brittle):
+    """The check that is not applicable has not failed, what is open of a tie is said, and bounds are bounds."""
+    place, results = brittle
+    pages = {}
+    for lang in ("en", "it"):
+        dd.calculation_report(results, place / "a.html", lang=lang)
+        pages[lang] = of_page(place / "a.html")
+    page = " ".join(pages["en"].split())
+    assert "5 of 5 checks NOT satisfied" not in page
+    assert "anchors of ties weaker than the bars; plates of ties too thin; linear SLV not applicable." in page
+    assert "Hierarchy of strengths not respected: design (catena), tie 1." in page
+    assert "Plate too thin: design (catena), tie 1." in page
+    check = results[1].check
+    for force in ("bearing_force", "shear_force", "cone_force", "anchor_force_per_m"):
+        value = check.value("tie", "", force, item="tie 1")
+        assert f"{1e-3 * value:.5g}" in page, force
+    assert re.search(r"T_?R,C \[years\] ?< 30", page)
+    assert ">linear SLV, outcome<" not in page
+    outcomes = pages["it"].partition("Sintesi delle verifiche")[2].partition("lineare SLV, esito")[2].split("\n")
+    assert [line for line in outcomes if line.strip()][:2] == ["NON soddisfatta", "non applicabile"]
+    words = set(re.findall(r"(?<![\w./-])[a-z]+(?![\w./-])", re.sub(r"\S*[_/]\S*", " ", pages["it"].lower())))
+    assert words & set(ENGLISH.split()) == set()
+    assert "anni" in words
+    # What follows from the storeys is not listed with them: 3.8 + 3.4 is 7.199999999999999.
+    assert (place / "a.html").read_text().count("section_height = 3.8, 3.4") == 2
+    assert "7.19999" not in (place / "a.html").read_text()
+
+
+def test_states_beside_each_other(brittle):
+    """Differences to the state as it stands are those of the two checks."""
+    place, results = brittle
+    dd.calculation_report(results, place / "b.html", lang="en")
+    page = of_page(place / "b.html").partition("Summary of the checks")[2]
+    first, second = (one.check for one in results)
+    for key in (("mechanism", "", "alpha_0"), ("mechanism", "", "a_0"), ("nonlinear", "SLV", "zeta_e")):
+        assert f"{second.value(*key) - first.value(*key):.4g}" in page, key
+    assert f"{second.value('nonlinear', 'SLV', 'return_period_capacity'):.5g}" in page
+
+
+@pytest.mark.parametrize(
+    ("line", "words"),
+    [
+        ("nominal_life = 50\nuse_coefficient = 1.5", "their product is 75 years, but the reference_life"),
+        ('knowledge_level = "LC2"', None),
+        ('knowledge_level = "LC1"', None),
+    ],
+)
+def test_a_project_that_disagrees_with_the_check(line, words, brittle, tmp_path):
+    (tmp_path / "project.toml").write_text(f"[project]\n{line}\n")
+    if words is None:
+        dd.calculation_report(brittle[1], tmp_path / "a.html", project=tmp_path / "project.toml")
+        return
+    with pytest.raises(dd.errors.InputError, match=words):
+        dd.calculation_report(brittle[1], tmp_path / "a.html", project=tmp_path / "project.toml")
+
+
+def test_a_level_of_knowledge_without_its_factor(tmp_path, executable, root):
+    results = run_in(
+        tmp_path, executable, root, "a", WALL.format(name="a", tie=""), CHECK.replace("/", ", knowledge_factor = 1.2 /")
+    )
+    (tmp_path / "project.toml").write_text('[project]\nknowledge_level = "LC1"\n')
+    with pytest.raises(dd.errors.InputError, match=r"asks for a confidence factor of 1.35, but wall 'a'"):
+        dd.calculation_report(results, tmp_path / "a.html", project=tmp_path / "project.toml")
+
+
 # --- The command, and files that are out of date
 
 
@@ -394,7 +474,7 @@ def test_every_sentence_is_translated(root):
 
 
 def test_tables_have_every_key(root):
-    sheet = (root / "src/dondolo/check/check_sheet.f90").read_text()
+    sheet = (root / "src/dondolo/check/check_sheet.F90").read_text()
     assert set(terms.MEANINGS) == set(re.findall(r"quantity_type\('(\w+)'", sheet))
     assert set(terms.FITS) == set(STATUSES)
     page = (root / "docs/files.md").read_text().partition("### Warnings")[2].partition("These are of Python alone")[0]

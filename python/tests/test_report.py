@@ -441,7 +441,7 @@ def test_numbers_are_shown_as_people_write_them():
     assert plain(numerals.number(None, unit=" s")) == "\N{EN DASH} s"
     assert plain(numerals.percent(1e-5)) == "<0.1 %"
     assert plain(numerals.parameter(0.373)) == "0.3730"
-    assert chances([0.0, 1e-9, 0.5, 1.0 - 1e-9, 1.0]) == ["0", "<0.0001", "0.5000", ">0.9999", "1"]
+    assert chances([0.0, 1e-9, 0.5, 1.0 - 1e-9, 1.0]) == ["0", "< 0.0001", "0.5000", "> 0.9999", "1"]
     # The templates set the power of ten, and say that there is none.
     module = environment(Language("en")).get_template("macros.html.j2").module
     assert str(module.piece(numerals.number(4.5e-7))) == "4.5 \N{MULTIPLICATION SIGN} 10<sup>\N{MINUS SIGN}7</sup>"

@@ -273,7 +273,7 @@ contains
    end subroutine check_notes
 
    !> A sheet as lines, with a tab between method, limit state, name, symbol, unit, formula, meaning, item,
-   !> expression and numbers; reals: its values
+   !> expression, numbers and bound; reals: its values
    subroutine pack_sheet(sheet, parcel)
       type(sheet_type), intent(in) :: sheet
       type(parcel_type), intent(inout) :: parcel
@@ -287,7 +287,7 @@ contains
             call parcel%lines%add(trim(row%method)//tab//trim(row%state)//tab//trim(row%quantity%name)//tab// &
                & trim(row%quantity%symbol)//tab//trim(row%quantity%unit)//tab//trim(row%formula)//tab// &
                & trim(row%quantity%meaning)//tab//trim(row%item)//tab// &
-               & trim(row%working%expression)//tab//trim(row%working%numbers))
+               & trim(row%working%expression)//tab//trim(row%working%numbers)//tab//trim(row%bound))
          end associate
       end do
    end subroutine pack_sheet

@@ -43,6 +43,8 @@ class SheetRow(NamedTuple):
         The formula in symbols; '' where the number is given or has none.
     numbers : str
         The same with numbers in place of the symbols, of eight digits.
+    bound : str
+        '<' or '>' where the value is only a bound, '' where it is not.
     """
 
     method: str
@@ -56,6 +58,7 @@ class SheetRow(NamedTuple):
     item: str = ""
     expression: str = ""
     numbers: str = ""
+    bound: str = ""
 
 
 class CalculationItem(NamedTuple):

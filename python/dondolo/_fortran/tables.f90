@@ -13,6 +13,7 @@ module tables
       & put_union, put_wall
    use dondolo_case_source_rows, only : put_source
    use dondolo_case_tie_rows, only : put_tally
+   use dondolo_check_safety, only : safety_type
    use dondolo_fragility_tie_tallies, only : tie_tally_type
    use dondolo_interface_handles, only : find_walls
    use dondolo_motion_certificate, only : certified_type
@@ -271,11 +272,12 @@ contains
    end subroutine tie_table
 
    !> k designs beside the first: of each as lines its name and its kind of errors; steel, alpha_0, ratio of the medians, its
-   !> bounds and its probability, a ratio of 0 for none
+   !> bounds and its probability, a ratio of 0 for none; of its check a_0, multiplier, safety indices of both checks and return
+   !> period, 0 for none, and its bound, -1: '<', 1: '>'
    subroutine design_table(texts, im, curves, codes, numbers, k, sent)
       character(len=*), intent(in) :: texts, im
       integer(c_int), intent(in) :: k, codes(3, k)
-      real(c_double), intent(in) :: curves(14, k), numbers(6, k)
+      real(c_double), intent(in) :: curves(14, k), numbers(12, k)
       integer(c_int64_t), intent(out) :: sent(5)
       type(design_type) :: designs(k)
       type(lines_type) :: words
@@ -295,6 +297,10 @@ contains
             design%low = numbers(4, i)
             design%high = numbers(5, i)
             design%p_value = numbers(6, i)
+            design%safety = safety_type(numbers(7, i) > 0.0_c_double, numbers(8, i), numbers(7, i), merge(numbers(9, i), &
+               & -1.0_c_double, numbers(9, i) > 0.0_c_double), numbers(10, i), merge(numbers(11, i), -1.0_c_double, &
+               & numbers(11, i) > 0.0_c_double), merge('<', merge('>', ' ', numbers(12, i) > 0.0_c_double), &
+               & numbers(12, i) < 0.0_c_double))
          end associate
          call put_design(table, designs(i), designs(1), im)
          call table%end_row()

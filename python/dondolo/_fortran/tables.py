@@ -161,7 +161,7 @@ def tie_columns(
 def design_columns(
     names: Iterable[str], im: str, curves: Sequence[FlatCurve], numbers: Sequence[FloatArray]
 ) -> TableColumns:
-    """Columns of ``_designs.csv``: steel, alpha_0, ratio with its bounds and its probability, NaN for none."""
+    """Columns of ``_designs.csv``; numbers as tables.f90 lists them, NaN for none."""
     words = (word for name, curve in zip(names, curves, strict=True) for word in (name, curve.errors))
     return _receive(_core.tables.design_table(_lines(words), im.encode(), *_flat(curves), np.nan_to_num(numbers)))
 

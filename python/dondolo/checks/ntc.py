@@ -96,11 +96,34 @@ class CodeCheck(Shown, Saved):
         InputError
             The sheet has no such number.
         """
+        row = self._row(method, limit_state, quantity, item)
+        if row is not None:
+            return row.value
+        raise InputError(f"quantity = {quantity!r}: the check has none for method {method!r}, state {limit_state!r}")
+
+    def _row(self, method: str, limit_state: str, quantity: str, item: str | None = None) -> SheetRow | None:
+        """The first such row, or None."""
         for row in self.rows:
             same = (row.quantity, row.method) == (quantity, method) and row.limit_state in ("", limit_state)
             if same and item in (None, row.item):
-                return row.value
-        raise InputError(f"quantity = {quantity!r}: the check has none for method {method!r}, state {limit_state!r}")
+                return row
+        return None
+
+    def _has(self, method: str, limit_state: str, quantity: str, *, item: str | None = None) -> bool:
+        """Whether the sheet has a number, for the arguments of `value`."""
+        return self._row(method, limit_state, quantity, item) is not None
+
+    def _safety(self) -> tuple[float, ...]:
+        """a_0*, alpha_0, linear and nonlinear safety index of SLV, T_R,C, and the sign of its bound; NaN for none."""
+        rows = [
+            self._row("mechanism", "", "a_0"),
+            self._row("mechanism", "", "alpha_0"),
+            self._row("linear", "SLV", "zeta_e"),
+            self._row("nonlinear", "SLV", "zeta_e"),
+            years := self._row("nonlinear", "SLV", "return_period_capacity"),
+        ]
+        bound = {"<": -1.0, ">": 1.0}.get(years.bound, 0.0) if years is not None else 0.0
+        return (*(np.nan if row is None else row.value for row in rows), bound)
 
     @property
     def items(self) -> tuple[CalculationItem, ...]:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from dondolo._base.shown import shown_probability
 from dondolo.curves.fragility import Fragility
 from dondolo.figures import curves, style
 from dondolo.figures.options import Options
+from dondolo.figures.themes import theme
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -32,8 +35,49 @@ def draw_check(check: CodeCheck, curve: Fragility, ax: Axes | None, given: dict[
                 "linestyle": style.LINES[i % len(style.LINES)],
             }
         )
-        ax.axvline(level, label=f"{name} {level:.3g} g, P = {chance:.2g}", zorder=1, **look)
+        ax.axvline(level, label=f"{name} {level:.3g} g, P = {shown_probability(chance)}", zorder=1, **look)
         ax.plot(level, chance, marker="x", markersize=6, color=look["color"], zorder=4)
     ax.set_xlim(0.0, right)
     style.legend(ax, options)
     return ax
+
+
+def draw_safety(
+    ax: Axes,
+    names: Sequence[str],
+    checks: Sequence[CodeCheck],
+    words: Mapping[tuple[str, str], str],
+    decimal: Callable[[str], str],
+    colours: Sequence[str],
+) -> None:
+    """Draw the safety indices of walls as bars, those of a wall beside each other; 1 is a line.
+
+    Parameters
+    ----------
+    ax : Axes
+        Where to draw.
+    names, checks : sequence
+        Of the walls, the first on top.
+    words : mapping
+        (method, limit state): what it is called.
+    decimal : callable
+        Sets the decimal mark of the language.
+    colours : sequence of str
+        Of the checks.
+    """
+    thick = 0.8 / len(words)
+    for place, ((key, word), colour) in enumerate(zip(words.items(), colours, strict=True)):
+        # A check that is not for the wall has no index, and no bar.
+        found = [(row, one.value) for row, check in enumerate(checks) if (one := check._row(*key, "zeta_e"))]
+        at = [row - 0.4 + (place + 0.5) * thick for row, _index in found]
+        ax.barh(
+            at, [index for _row, index in found], thick, color=colour, edgecolor=style.BLACK, linewidth=0.6, label=word
+        )
+        for height, (_row, index) in zip(at, found, strict=True):
+            ax.annotate(decimal(f"{index:.3g}"), (index, height), (3, 0), textcoords="offset points", va="center",
+                        fontsize=theme().note)  # fmt: skip
+    ax.axvline(1.0, color=style.BLACK, linewidth=1.0, linestyle="--")
+    ax.set_yticks(range(len(names)), [style.in_lines(style.label(name), ax, 0.4) for name in names], parse_math=False)
+    ax.invert_yaxis()
+    ax.set_xlim(0.0, 1.12 * max(1.0, *ax.get_xlim()))
+    ax.set_xlabel("ζ_E")

@@ -10,6 +10,13 @@ from dondolo._fortran.library import Property, properties
 #: Groups of a case: names and values of their variables
 Settings = Mapping[str, Mapping[str, Any]]
 
+# What follows from another variable that is given, and is left out beside it: sums of decimals are not as short as these
+_FOLLOWS = {
+    "height": "section_height",
+    "thickness": "section_thickness",
+    "density": "mass",
+    "restitution": "restitution_value",
+}
 # Longest line of a commented case
 _WIDTH = 118
 
@@ -19,7 +26,8 @@ def case_text(settings: Settings, *, commented: bool = False) -> str:
     lines = []
     for group, variables in settings.items():
         # A list without values is one that was not given
-        given = {name: value for name, value in variables.items() if not isinstance(value, (list, tuple)) or len(value)}
+        known = {name: value for name, value in variables.items() if not isinstance(value, (list, tuple)) or len(value)}
+        given = {name: value for name, value in known.items() if _FOLLOWS.get(name) not in known}
         parts = [f"{name} = {_value(value)}" for name, value in given.items()]
         if not commented:
             lines += [f"&{group} {parts[0] if parts else ''}", *(f"   {part}" for part in parts[1:])]

@@ -19,9 +19,6 @@ from dondolo.exchange.case_text import case_text
 from dondolo.exchange.cases import Case, read_case
 from dondolo.walls.wall import Wall
 
-# What follows from a property that is given, and may not be given beside it
-_INSTEAD = {"section_height": "height", "section_thickness": "thickness", "restitution_value": "restitution"}
-
 
 def write_case(
     path: str | os.PathLike[str],
@@ -97,9 +94,6 @@ def write_case(
 def wall_settings(wall: Wall) -> dict[str, dict[str, Any]]:
     """The groups &wall and &building of a wall."""
     known = {name: value for name, value in wall._properties().items() if value is not None}
-    for given, follows in _INSTEAD.items():
-        if given in known:
-            known.pop(follows, None)
     own = {row.name for row in properties("wall")}
     values = {name: _plain(value) for name, value in known.items() if name in own}
     groups = {"wall": {"name": wall.name, "mechanism": wall.mechanism} | values}

@@ -11,7 +11,12 @@ from dondolo.reporting.content import Piece, Symbol, Table
 from dondolo.reporting.numerals import Numeral
 
 # Letters of symbols by their names in the sheet of a check
-_LETTERS = {"alpha": "\N{GREEK SMALL LETTER ALPHA}", "xi": "ξ"}
+_LETTERS = {
+    "alpha": "\N{GREEK SMALL LETTER ALPHA}", "gamma": "\N{GREEK SMALL LETTER GAMMA}", "eta": "η", "mu": "μ", "pi": "π",
+    "sigma": "\N{GREEK SMALL LETTER SIGMA}", "xi": "ξ", "zeta": "ζ",
+}  # fmt: skip
+# Words in formulas, which are upright
+_UPRIGHT = ("FC", "ln", "max", "min", "sqrt")
 _TOKEN = re.compile(r"([^\W\d_]+)(?:_([A-Za-z0-9,]+))?(\*?)|([\W\d_]+)")
 
 
@@ -147,7 +152,7 @@ def symbol_of(text: str) -> Piece:
     for word, index, star, other in _TOKEN.findall(text):
         if other:
             pieces.append(other)
-        elif word == "FC":
+        elif word in _UPRIGHT:
             pieces.append(word)
         else:
             pieces.append(Symbol(_LETTERS.get(word, word), index, star))

@@ -231,7 +231,10 @@ def _sheet(rows: tuple[SheetRow, ...]) -> Table:
         "quantity": [row.meaning for row in shown],
         "check": [f"{row.item or row.method} {row.limit_state}".strip() for row in shown],
         "symbol": [row.symbol or NONE for row in shown],
-        "value": [whole(row.value) if row.quantity in counts else number(row.value, 6) for row in shown],
+        "value": [
+            whole(row.value) if row.quantity in counts else (f"{row.bound} " * bool(row.bound), number(row.value, 6))
+            for row in shown
+        ],
         "unit": [row.unit or NONE for row in shown],
         "formula": [row.formula or NONE for row in shown],
     }

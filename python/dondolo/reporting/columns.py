@@ -100,6 +100,17 @@ _COLUMNS: dict[str, _Shown] = {
     "gain_per_kg": _Shown("gain per kg/m", percent),
     "alpha_0_g": _Shown((Symbol("α", "0"), " [g]"), number),  # noqa: RUF001
     "static_ratio": _Shown("its ratio", _three),
+    # Their checks
+    "alpha_0": _Shown(Symbol("α", "0"), number),  # noqa: RUF001
+    "a_0_m_s2": _Shown((Symbol("a", "0", "*"), " [m/s²]"), number),
+    "zeta_e_linear": _Shown((Symbol("ζ", "E"), ", linear SLV"), _three),
+    "zeta_e": _Shown((Symbol("ζ", "E"), ", nonlinear SLV"), _three),
+    "return_period": _Shown((Symbol("T", "R,C"), " [years]"), tuple),
+    "alpha_0_change": _Shown(("Δ", Symbol("α", "0")), number),  # noqa: RUF001
+    "a_0_change_m_s2": _Shown(("Δ", Symbol("a", "0", "*"), " [m/s²]"), number),
+    "zeta_e_linear_change": _Shown(("Δ", Symbol("ζ", "E"), ", linear SLV"), _three),
+    "zeta_e_change": _Shown(("Δ", Symbol("ζ", "E"), ", nonlinear SLV"), _three),
+    "return_period_change": _Shown(("Δ", Symbol("T", "R,C"), " [years]"), _three),
     # Sources of uncertainty
     "source": _Shown("source", str, True),
     "distribution": _Shown("distribution", str, True),

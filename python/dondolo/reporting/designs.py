@@ -7,7 +7,10 @@ from typing import Any
 
 import numpy as np
 
+from dondolo.checks.plots import draw_safety
 from dondolo.curves.fragility import Fragility
+from dondolo.figures import style
+from dondolo.figures.options import Options
 from dondolo.populations.typology import Typology
 from dondolo.reporting.columns import chosen, shown
 from dondolo.reporting.content import (
@@ -27,6 +30,8 @@ _COMPARED = (
     "design", "theta", "beta", "ratio", "ratio_low", "ratio_high", "p_value", "steel_kg_m", "gain_per_kg", "alpha_0_g",
     "static_ratio",
 )  # fmt: skip
+_CHECKED = ("design", "alpha_0", "a_0_m_s2", "zeta_e_linear", "zeta_e")
+_CHANGED = ("alpha_0_change", "a_0_change_m_s2", "zeta_e_linear_change", "zeta_e_change")
 # Designs of a table of levels: what fits across a page
 _ACROSS = 6
 
@@ -58,7 +63,35 @@ def designs(found: DesignComparison) -> dict[str, Any]:
         "figure": figure(found.plot, alt),
         "table": shown(chosen(found._table(), *_COMPARED), found.im),
         "has_checks": bool(found.checks) and found.im == "pga",
+        "checks": _checks(found) if found.checks else None,
+        "indices": figure(lambda: _indices(found), "Safety indices of the designs, those of the table.")
+        if found.checks
+        else None,
     }
+
+
+def _checks(found: DesignComparison) -> Table:
+    """The checks of all designs beside each other, with their differences to the first."""
+    table = found._table()
+    columns = chosen(table, *_CHECKED)
+    periods, bounds = table["return_period_capacity"], table["return_period_bound"]
+    if np.isfinite(np.asarray(periods, float)).any():
+        columns["return_period"] = [
+            (f"{bound} " if bound else "", number(years)) for bound, years in zip(bounds, periods, strict=True)
+        ]
+    columns |= chosen(table, *_CHANGED)
+    if "return_period" in columns:
+        columns["return_period_change"] = table["return_period_change"]
+    return shown(columns)
+
+
+def _indices(found: DesignComparison) -> Any:
+    """Draw the safety indices of the designs."""
+    ax = style.new_axes(1, (7.0, 0.9 + 0.6 * len(found.names)))
+    words = {key: " ".join(key) for key in (("linear", "SLV"), ("nonlinear", "SLV"), ("nonlinear", "SLC"))}
+    draw_safety(ax, found.names, found.checks, words, str, (style.GREY, style.RED, style.BLACK))
+    style.legend(ax, Options({}))
+    return ax
 
 
 def numbers(people: Typology) -> dict[str, Any]:

@@ -9,6 +9,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from dondolo._base.shown import shown_probability
+
 # Typography, by name: they look like others
 _DASH, _MINUS, _THIN_BLANK = "\N{EN DASH}", "\N{MINUS SIGN}", "\N{NARROW NO-BREAK SPACE}"
 
@@ -65,14 +67,8 @@ def whole(value: float, unit: str = "") -> Numeral:
 
 
 def probability(value: float) -> Numeral:
-    """A probability with four decimals; what is not quite 0 or 1 is told from it."""
-    if np.isnan(value):
-        return NONE
-    if 0.0 < value < 5e-5:
-        return Numeral("<0.0001")
-    if 0.99995 <= value < 1.0:
-        return Numeral(">0.9999")
-    return Numeral(f"{value:.4f}" if 0.0 < value < 1.0 else f"{value:.0f}")
+    """A probability."""
+    return NONE if np.isnan(value) else Numeral(shown_probability(value))
 
 
 def percent(share: float) -> Numeral:

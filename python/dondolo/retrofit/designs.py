@@ -168,7 +168,10 @@ class DesignComparison(tables.Tabular, Saved):
     def _columns(self) -> TableColumns:
         """Columns of ``_designs.csv``."""
         p_value = np.array([np.nan if one is None else one.p_value for one in self.comparisons])
-        numbers = [self.steel, self.alpha_0, self.ratio, *self.ratio_interval.T, p_value]
+        safety = np.full((6, len(self.names)), np.nan)
+        for place, check in enumerate(self.checks):
+            safety[:, place] = check._safety()
+        numbers = [self.steel, self.alpha_0, self.ratio, *self.ratio_interval.T, p_value, *safety]
         return design_columns(self.names, self.im, [flat(curve) for curve in self.curves], numbers)
 
     def _table(self) -> tables.Table:

@@ -28,7 +28,7 @@ module dondolo_check_ntc_check
    real(wp), parameter :: period_factors(2:3) = [1.68_wp, 1.56_wp], dampings(2:3) = [0.08_wp, 0.10_wp]
    !> Displacements that it allows / d_0*
    real(wp), parameter :: shares(2:3) = [0.4_wp, 0.6_wp]
-   !> Return periods between which one is a number, not only less or more [years]
+   !> Return periods beyond which only a bound is given [years]: assumed, no text of the code was read that has them
    real(wp), parameter :: first_year = 30.0_wp, last_year = 2475.0_wp
 
 contains
@@ -330,9 +330,9 @@ contains
          & working=working_type('a_gC S/(a_g S)', trim(shown(factor*spectrum%ground%pga))//'/'//shown(spectrum%ground%pga)))
       years = input%return_period_of(ag)
       if (is_applicable .and. years > 0.0_wp) then
-         call sheet%add(method, state, 'return_period_capacity', years, working=working_type('ln T_R linear in ln a_g'))
-         call sheet%add(method, state, 'return_period_range', merge(-1.0_wp, merge(1.0_wp, 0.0_wp, years > last_year), &
-            & years < first_year))
+         call sheet%add(method, state, 'return_period_capacity', min(max(years, first_year), last_year), &
+            & working=working_type('ln T_R linear in ln a_g'))
+         call sheet%make_bound(merge('<', merge('>', ' ', years > last_year), years < first_year))
          call sheet%add(method, state, 'extrapolated', merge(1.0_wp, 0.0_wp, ag < input%ag(1) .or. ag > input%ag(3)))
       end if
       call sheet%add(method, state, 'verified', merge(1.0_wp, 0.0_wp, is_applicable .and. factor >= 1.0_wp))

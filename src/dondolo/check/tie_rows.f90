@@ -2,7 +2,7 @@
 module dondolo_check_tie_rows
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : to_text
-   use dondolo_check_sheet, only : sheet_type
+   use dondolo_check_sheet, only : sheet_type, shown, working_type
    use dondolo_wall_anchor, only : anchor_type
    implicit none
    private
@@ -27,11 +27,17 @@ contains
          item = 'tie '//to_text(i)
          associate (anchor => anchors(i))
             if (anchor%has_plate()) call put_plate(sheet, anchor, item)
-            call put('bar_force_per_m', anchor%bar_force_per_metre())
+            call put('bar_force_per_m', anchor%bar_force_per_metre(), working_type('A f_yd', trim(shown(anchor%area))//' * '// &
+               & trim(shown(anchor%strength))))
             ! A greater confidence factor in the check would make the anchor weaker than it is in the curve
             is_checked = anchor%force_per_metre < huge(1.0_wp)
             if (anchor%has_plate()) is_checked = anchor%masonry%knowledge_factor >= knowledge_factor
-            if (anchor%force_per_metre < huge(1.0_wp)) call put('anchor_force_per_m', anchor%force_per_metre)
+            if (anchor%has_plate()) then
+               call put('anchor_force_per_m', anchor%force_per_metre, working_type('T_anchor/s', trim(shown(anchor%force))//'/'// &
+                  & trim(shown(anchor%spacing))))
+            else if (anchor%force_per_metre < huge(1.0_wp)) then
+               call put('anchor_force_per_m', anchor%force_per_metre)
+            end if
             call put('tie_force_per_m', min(anchor%bar_force_per_metre(), anchor%force_per_metre))
             if (anchor%force_per_metre < huge(1.0_wp)) call put('hierarchy', merge(0.0_wp, 1.0_wp, anchor%is_brittle()))
             call put('anchor_checked', merge(1.0_wp, 0.0_wp, is_checked))
@@ -41,13 +47,15 @@ contains
    contains
 
       !> Put a number of the tie
-      subroutine put(name, value)
+      subroutine put(name, value, working)
          !> Name of the quantity
          character(len=*), intent(in) :: name
          !> Value, in its unit
          real(wp), intent(in) :: value
+         !> Its formula; absent: it has none
+         type(working_type), intent(in), optional :: working
 
-         call sheet%add('tie', '', name, value, item=item)
+         call sheet%add('tie', '', name, value, item=item, working=working)
       end subroutine put
 
    end subroutine put_ties
@@ -80,16 +88,7 @@ contains
          call put('tensile_strength', masonry%design_strength(masonry%tension), factor)
          if (masonry%friction*anchor%compression > 0.0_wp) call put('friction_stress', masonry%friction*anchor%compression)
       end associate
-      call put('bar_force', anchor%bar_force)
-      call put('bearing_force', anchor%bearing_force)
-      call put('shear_force', anchor%shear_force)
-      call put('cone_force', anchor%cone_force)
-      ! Plates that are far from each other do not pull out a band
-      if (anchor%band_force <= anchor%force) call put('band_force', anchor%band_force)
-      call put('anchor_force', anchor%force)
-      call put('plate_needed', anchor%needed_thickness)
-      call put('plate_thickness', anchor%thickness)
-      call put('plate_verified', merge(1.0_wp, 0.0_wp, anchor%thickness >= anchor%needed_thickness))
+      call put_forces(sheet, anchor, item)
 
    contains
 
@@ -106,5 +105,101 @@ contains
       end subroutine put
 
    end subroutine put_plate
+
+   !> Put the forces of bar and masonry, and the thickness that the plate needs, each with its formula
+   subroutine put_forces(sheet, anchor, item)
+      type(sheet_type), intent(inout) :: sheet
+      type(anchor_type), intent(in) :: anchor
+      !> Name of the tie
+      character(len=*), intent(in) :: item
+
+      character(len=:), allocatable :: plate, plate_numbers, least, least_numbers, size_numbers
+      real(wp) :: bearing
+
+      associate (masonry => anchor%masonry)
+         bearing = masonry%bearing_factor*masonry%design_strength(masonry%compression)
+      end associate
+      plate = merge('pi D^2/4', 'a b     ', anchor%diameter > 0.0_wp)
+      if (anchor%diameter > 0.0_wp) then
+         plate_numbers = 'pi * '//trim(shown(anchor%diameter))//'^2/4'
+         size_numbers = trim(shown(anchor%diameter))
+      else
+         plate_numbers = trim(shown(anchor%width))//' * '//trim(shown(anchor%height))
+         size_numbers = trim(shown(min(anchor%width, anchor%height)))
+      end if
+      call put('bar_force', anchor%bar_force, 'pi D_bar^2/4 f_yd', 'pi * '//trim(shown(anchor%bar))//'^2/4 * '// &
+         & trim(shown(anchor%strength)))
+      call put('bearing_force', anchor%bearing_force, 'k f_d '//trim(plate), trim(shown(bearing))//' * '//plate_numbers)
+      call put_pulled('shear_force', anchor%shear_force, 'f_v0d', anchor%masonry%shear, .true.)
+      call put_pulled('cone_force', anchor%cone_force, 'f_td', anchor%masonry%tension, .false.)
+      least = 'T_bearing, T_shear, T_cone'
+      least_numbers = trim(shown(anchor%bearing_force))//', '//trim(shown(anchor%shear_force))//', '// &
+         & trim(shown(anchor%cone_force))
+      ! Plates that are far from each other do not pull out a band
+      if (anchor%band_force <= anchor%force) then
+         call put('band_force', anchor%band_force, '', '')
+         least = least//', T_band'
+         least_numbers = least_numbers//', '//trim(shown(anchor%band_force))
+      end if
+      call put('anchor_force', anchor%force, 'min('//least//')', 'min('//least_numbers//')')
+      call put('plate_needed', anchor%needed_thickness, '('//trim(merge('D        ', 'min(a, b)', anchor%diameter > 0.0_wp))// &
+         & ' - D_bar)/2 sqrt[3 min(T_bar, T_bearing)/('//trim(plate)//' f_yd)]', '('//size_numbers//' - '// &
+         & trim(shown(anchor%bar))//')/2 * sqrt(3 * '//trim(shown(min(anchor%bar_force, anchor%bearing_force)))//'/('// &
+         & plate_numbers//' * '//trim(shown(anchor%strength))//'))')
+      call put('plate_thickness', anchor%thickness, '', '')
+      call put('plate_verified', merge(1.0_wp, 0.0_wp, anchor%thickness >= anchor%needed_thickness), '', '')
+
+   contains
+
+      !> Put a number of the tie with its formula
+      subroutine put(name, value, expression, numbers)
+         !> Name of the quantity
+         character(len=*), intent(in) :: name
+         !> Value, in its unit
+         real(wp), intent(in) :: value
+         !> Formula in symbols and in numbers
+         character(len=*), intent(in) :: expression, numbers
+
+         call sheet%add('tie', '', name, value, item=item, working=working_type(expression, numbers))
+      end subroutine put
+
+      !> Put a force at which masonry comes out; near the top of the wall its surface has no simple formula
+      subroutine put_pulled(name, value, symbol, strength, has_shear_surface)
+         !> Name of the quantity
+         character(len=*), intent(in) :: name
+         !> Force [N]
+         real(wp), intent(in) :: value
+         !> Symbol of the strength, and its mean value [Pa]
+         character(len=*), intent(in) :: symbol
+         real(wp), intent(in) :: strength
+         !> Is it the surface at t/2 round the plate, on which friction holds too? Else the frustum, which reaches t
+         logical, intent(in) :: has_shear_surface
+
+         character(len=:), allocatable :: expression, numbers, t
+         real(wp) :: friction
+
+         expression = ''
+         numbers = ''
+         if (.not. anchor%edge < merge(0.5_wp, 1.0_wp, has_shear_surface)*anchor%leaf) then
+            t = trim(shown(anchor%leaf))
+            if (anchor%diameter > 0.0_wp) then
+               expression = 'pi t (t + D) '//symbol
+               numbers = 'pi * '//t//' * ('//t//' + '//trim(shown(anchor%diameter))//')'
+            else
+               expression = '2 t (a + b + 2 t) '//symbol
+               numbers = '2 * '//t//' * ('//trim(shown(anchor%width))//' + '//trim(shown(anchor%height))//' + 2 * '//t//')'
+            end if
+            numbers = numbers//' * '//trim(shown(anchor%masonry%design_strength(strength)))
+            friction = anchor%masonry%friction*anchor%compression
+            if (has_shear_surface .and. friction > 0.0_wp) then
+               expression = expression//' + 2 t ('//trim(merge('D', 'a', anchor%diameter > 0.0_wp))//' + t) mu sigma_0'
+               numbers = numbers//' + 2 * '//t//' * ('//trim(shown(max(anchor%width, anchor%diameter)))//' + '//t//') * '// &
+                  & trim(shown(friction))
+            end if
+         end if
+         call put(name, value, expression, numbers)
+      end subroutine put_pulled
+
+   end subroutine put_forces
 
 end module dondolo_check_tie_rows

@@ -6,6 +6,7 @@
 !> less than there are clusters.
 module dondolo_population_designs
    use dondolo_base_kinds, only : wp
+   use dondolo_check_safety, only : safety_type
    use dondolo_fragility, only : fragility_type
    use dondolo_fragility_clustered, only : confidence
    use dondolo_fragility_ratio, only : compare_parameters
@@ -32,6 +33,8 @@ module dondolo_population_designs
       real(wp) :: steel = 0.0_wp
       !> Acceleration that it withstands statically with its ties at yield / gravity
       real(wp) :: alpha_0 = 0.0_wp
+      !> Its check by a building code
+      type(safety_type) :: safety
       !> Are the following known? The curves of this design and of the first have clustered standard errors
       logical :: is_compared = .false.
       !> Median / that of the first, its interval, and probability of a ratio as far from 1 if the medians were equal

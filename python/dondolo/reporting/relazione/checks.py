@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from dondolo._fortran.checks import CalculationItem, SheetRow, ntc_parameters
+from dondolo.checks.ntc import CodeCheck
 from dondolo.reporting.blocks import (
     Block,
     CaptionedTable,
@@ -18,7 +19,6 @@ from dondolo.reporting.blocks import (
     Root,
     symbol_of,
 )
-from dondolo.reporting.code_check import unchecked_anchors
 from dondolo.reporting.content import Piece, Table
 from dondolo.reporting.numerals import NONE, Numeral, number, whole
 from dondolo.reporting.relazione.document import Document, _
@@ -31,10 +31,13 @@ from dondolo.walls.parts import parts_of
 # Figures of what is to be calculated again by hand
 _FIGURES = 6
 # Displacements of the sheet, which are small
-_LENGTHS = ("d_0", "tie_fracture", "displacement", "demand", "mean_displacement")
-_COUNTS = ("records", "histories", "beyond", "applicable")
-# What is in words elsewhere: whether a return period is printed as a number
-_RANGES = ("return_period_range", "extrapolated")
+_LENGTHS = (
+    "d_0", "tie_fracture", "displacement", "demand", "mean_displacement", "bar", "plate_width", "plate_height",
+    "plate_diameter", "plate_thickness", "plate_needed", "masonry_thickness", "edge_distance",
+)  # fmt: skip
+_COUNTS = ("records", "histories", "beyond")
+# What is 1 or 0
+_FLAGS = ("extrapolated", "hierarchy", "plate_verified", "anchor_checked")
 # Factors of the period, and damping [%], of the nonlinear checks
 _PERIODS = {"SLV": (1.68, 8.0), "SLC": (1.56, 10.0)}
 
@@ -322,7 +325,7 @@ def _sheet(document: Document) -> CaptionedTable:
     rows: dict[tuple[str, str, str], SheetRow] = {}
     for one in document.subjects.several:
         for row in one.check.rows:
-            if row.method in ("mechanism", "linear", "nonlinear") and row.quantity not in ("probability", *_RANGES):
+            if row.method in ("mechanism", "linear", "nonlinear") and row.quantity != "probability":
                 rows.setdefault((row.method, row.limit_state, row.quantity), row)
     # What the first wall has not comes after it
     rows = dict(sorted(rows.items(), key=lambda item: ("mechanism", "linear", "nonlinear").index(item[0][0])))
@@ -333,8 +336,8 @@ def _sheet(document: Document) -> CaptionedTable:
     }
     for name, one in document.each():
         known = {(row.method, row.limit_state, row.quantity): row for row in one.check.rows}
-        columns[name] = [_value(document, known.get(key)) for key in rows]
-    columns[document.text(_("unit"))] = [_unit(row).name for row in rows.values()]
+        columns[name] = [value_of(document, one.check, known.get(key)) for key in rows]
+    columns[document.text(_("unit"))] = [document.unit(_unit(row).name) for row in rows.values()]
     columns[document.text(_("place"))] = [row.formula for row in rows.values()]
     words = [document.text(word) for word in (_("check"), _("symbol"), _("unit"), _("place"))]
     caption = document.text(_("Numbers of the checks, with their places in NTC 2018 and in the Circolare (C)."))
@@ -362,26 +365,31 @@ def _unit(row: SheetRow) -> Unit:
     return CENTIMETRES if row.quantity in _LENGTHS else UNITS[row.unit]
 
 
-def _value(document: Document, row: SheetRow | None) -> Piece:
-    """A number of the sheet."""
+def value_of(document: Document, check: CodeCheck, row: SheetRow | None) -> Piece:
+    """A number of the sheet, or in words what is one or the other."""
     if row is None:
         return NONE
     if row.quantity == "verified":
-        return outcome(document, row.value == 1.0)
-    if row.quantity == "return_period_capacity" and not 30.0 <= row.value <= 2475.0:
-        return "< 30" if row.value < 30.0 else "> 2475"
+        return outcome(document, check, (row.method, row.limit_state))
+    if row.quantity == "applicable":
+        return document.text(_("not applicable"))
+    if row.quantity in _FLAGS:
+        return document.text(_("yes")) if row.value == 1.0 else document.text(_("no"))
+    if row.bound:
+        return (f"{row.bound} ", cell(row.value, _unit(row), 5))
     return whole(row.value) if row.quantity in _COUNTS else cell(row.value, _unit(row), 5)
 
 
-def outcome(document: Document, holds: bool) -> str:
-    """A verdict in words."""
-    return document.text(_("satisfied")) if holds else document.text(_("NOT satisfied"))
+def outcome(document: Document, check: CodeCheck, key: tuple[str, str]) -> str:
+    """The verdict of a check in words; one that is not for the wall has none."""
+    if key in check.not_applicable:
+        return document.text(_("not applicable"))
+    return document.text(_("satisfied")) if check.verified[key] else document.text(_("NOT satisfied"))
 
 
 def ties(document: Document) -> list[Block]:
     """Chapter 12."""
     blocks: list[Block] = [Heading(document.text(_("Ties and their anchors")))]
-    walls = [one.wall for one in document.subjects.several]
     rows = [
         (name, number_of, tie, item)
         for name, one in document.each()
@@ -412,14 +420,72 @@ def ties(document: Document) -> list[Block]:
         ],
     }
     blocks.append(CaptionedTable(Table.of(columns), document.text(_("Ties, per metre of wall."))))
-    if loose := unchecked_anchors(walls):
-        words = _(
-            "Anchors not checked: {walls}. The force of these ties is that of the bar alone. Bearing and"
-            " punching of the"
-            " masonry under the plate, and the plate, must be checked; an anchor that is weaker than the bar is"
-            " brittle,"
-            " and the behaviour factor of the linear check does not apply."
-        )
-        blocks.append(Note("doubt", document.say(words, walls=", ".join(wall.name for wall in loose)).pieces))
+    blocks += [table for name, one in document.each() if (table := _anchors(document, name, one.check)) is not None]
+    for quantity, words in _OPEN_TIES.items():
+        several = [
+            f"{name}, {document.item(item)}" if len(document.names) > 1 else document.item(item)
+            for name, one in document.each()
+            for item, found in open_ties_of(one.check).items()
+            if quantity in found
+        ]
+        if several:
+            blocks.append(Note("doubt", document.say(words, ties="; ".join(several)).pieces))
     blocks += document.written("anchors", _("check of the anchors: bar, plate, bearing and punching of the masonry"))
     return blocks
+
+
+def open_ties_of(check: CodeCheck) -> dict[str, tuple[str, ...]]:
+    """What is open of each tie; an anchor whose plate has masonry of another confidence factor is a case of its own."""
+    return {
+        item: tuple(
+            "anchor_knowledge"
+            if name == "anchor_checked" and check._has("tie", "", "anchor_force", item=item)
+            else name
+            for name in names
+        )
+        for item, names in check.open_ties.items()
+    }
+
+
+# What is open of ties, in sentences
+_OPEN_TIES = {
+    "hierarchy": _(
+        "Hierarchy of strengths not respected: {ties}. The anchor gives way before the bar yields, and at once:"
+        " the linear check of SLV with the behaviour factor is not applicable."
+    ),
+    "plate_verified": _(
+        "Plate too thin: {ties}. The strength of the anchor is that of a plate that presses on the masonry evenly,"
+        " as a plate that bends does not."
+    ),
+    "anchor_knowledge": _(
+        "Strengths of the masonry at the plate with a smaller confidence factor than that of the check: {ties}."
+    ),
+    "anchor_checked": _(
+        "Anchors not checked: {ties}. The force of these ties is that of the bar alone. Bearing and punching of the"
+        " masonry under the plate, and the plate, must be checked; an anchor that is weaker than the bar is brittle,"
+        " and the behaviour factor of the linear check does not apply."
+    ),
+}
+
+
+def _anchors(document: Document, name: str, check: CodeCheck) -> CaptionedTable | None:
+    """Bar, plate, masonry and hierarchy of the ties of a wall, a column for each tie."""
+    found = [row for row in check.rows if row.method == "tie"]
+    items = list(dict.fromkeys(row.item for row in found))
+    rows = {row.quantity: row for row in found}
+    if not items:
+        return None
+    known = {(row.item, row.quantity): row for row in found}
+    columns: dict[Piece, Sequence[Piece]] = {
+        document.text(_("quantity")): [document.meaning(row) for row in rows.values()],
+        document.text(_("symbol")): [symbol_of(row.symbol) if row.symbol else NONE for row in rows.values()],
+        document.text(_("formula")): [
+            symbol_of(row.expression.replace("^2", "²")) if row.expression else NONE for row in rows.values()
+        ],
+    }
+    for item in items:
+        columns[document.item(item)] = [value_of(document, check, known.get((item, each))) for each in rows]
+    columns[document.text(_("unit"))] = [_unit(row).name for row in rows.values()]
+    words = [document.text(word) for word in (_("symbol"), _("formula"), _("unit"))]
+    caption = document.titled(document.text(_("Bar, masonry at the plate, plate and hierarchy of strengths")), name)
+    return CaptionedTable(Table.of(columns, words), caption)

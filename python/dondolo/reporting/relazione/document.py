@@ -87,8 +87,13 @@ class Document:
         """A quantity of the sheet in words."""
         if self.language.code == "en":
             # What the numbers of a verdict mean is of no use where there are words.
-            return self.text(_("outcome")) if row.quantity == "verified" else row.meaning.partition(";")[0]
-        return MEANINGS.get(row.quantity, row.quantity)
+            words = row.meaning.partition(";")[0].removeprefix("1: ").removeprefix("0: ")
+            return self.text(_("outcome")) if row.quantity == "verified" else words.partition(", 0: ")[0]
+        return MEANINGS.get(row.quantity, row.quantity).partition(":")[0]
+
+    def unit(self, name: str) -> str:
+        """A unit in the language of the document."""
+        return self.text(_("years")) if name == "years" else name
 
     def item(self, name: str) -> str:
         """An item of the calculation, such as 'load 1', in words."""

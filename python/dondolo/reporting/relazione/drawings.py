@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dondolo._fortran.checks import capacity_curve
+from dondolo.checks.plots import draw_safety
 from dondolo.figures import style
 from dondolo.figures.options import Options
 from dondolo.records.building import Building
@@ -235,5 +236,21 @@ def draw_fragility(document: Document) -> Any:
     ax.set_ylim(0.0, 1.0)
     ax.set_xlabel("PGA [g]")
     ax.set_ylabel(document.text(_("probability of collapse")))
+    style.legend(ax, Options({}))
+    return ax
+
+
+def draw_indices(document: Document) -> Any:
+    """Safety indices of the states."""
+    several = document.each()
+    ax = _axes(document, (6.0, 0.9 + 0.75 * len(several)))
+    words = {
+        (method, state): f"{document.text(name)} {state}"
+        for method, state, name in (
+            ("linear", "SLV", _("linear")), ("nonlinear", "SLV", _("nonlinear")), ("nonlinear", "SLC", _("nonlinear")),
+        )
+    }  # fmt: skip
+    draw_safety(ax, [name for name, _one in several], [one.check for _name, one in several], words,
+                document.language.decimal, (_DARK, _MIDDLE, _PALE))  # fmt: skip
     style.legend(ax, Options({}))
     return ax

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from typing import Any, Literal
 
@@ -9,12 +10,13 @@ import numpy as np
 
 from dondolo._fortran.checks import ntc_parameters
 from dondolo._fortran.library import constants
+from dondolo.errors import InputError
 from dondolo.figures.style import mechanism_name
 from dondolo.records.codes import LimitState
 from dondolo.reporting.blocks import Block, CaptionedTable, Facts, Heading, Note, Picture, symbol_of
-from dondolo.reporting.code_check import unchecked_anchors
 from dondolo.reporting.content import Piece, Table
 from dondolo.reporting.numerals import NONE, number, whole
+from dondolo.reporting.relazione.checks import method_name, open_ties_of
 from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.drawings import draw_spectra
 from dondolo.reporting.relazione.subjects import Subject
@@ -58,25 +60,29 @@ def _whole(document: Document) -> list[Block]:
 
 
 def _verdict(document: Document, name: str, one: Subject) -> Note:
-    """What the checks of a wall come to; never 'fine' where anchors are not checked."""
-    verdicts = list(one.check.verified.values())
-    loose = bool(unchecked_anchors((one.wall,)))
+    """What the checks of a wall come to; never 'fine' where something of a tie is open."""
+    check = one.check
+    verdicts = [holds for key, holds in check.verified.items() if key not in check.not_applicable]
     values = {"wall": name, "many": whole(len(verdicts)), "zeta": symbol_of("ζ_E"), "index": number(one.index)}
+    found = {name for names in open_ties_of(check).values() for name in names}
+    reasons = [document.text(words) for name, words in _OPEN.items() if name in found]
+    for method, state in check.not_applicable:
+        reasons.append(f"{method_name(document, method)} {state} {document.text(_('not applicable'))}")
+    more: tuple[Any, ...] = ("; " + "; ".join(reasons) + ".",) if reasons else (".",)
     if not all(verdicts):
-        sentence = _("{wall}: {failed} of {many} checks NOT satisfied; {zeta} = {index} (nonlinear SLV).")
-        return Note("failed", document.say(sentence, failed=whole(verdicts.count(False)), **values).pieces)
-    if loose:
-        sentence = _(
-            "{wall}: {many} of {many} checks satisfied but anchors of ties NOT checked; {zeta} = {index}"
-            " (nonlinear SLV)."
-        )
-        return Note("doubt", document.say(sentence, **values).pieces)
-    return Note(
-        "fine",
-        document.say(
-            _("{wall}: {many} of {many} checks satisfied; {zeta} = {index} (nonlinear SLV)."), **values
-        ).pieces,
-    )
+        sentence = _("{wall}: {failed} of {many} checks NOT satisfied; {zeta} = {index} (nonlinear SLV)")
+        return Note("failed", (*document.say(sentence, failed=whole(verdicts.count(False)), **values).pieces, *more))
+    sentence = _("{wall}: {many} of {many} checks satisfied; {zeta} = {index} (nonlinear SLV)")
+    return Note("doubt" if found else "fine", (*document.say(sentence, **values).pieces, *more))
+
+
+# What is open of ties, at a glance
+_OPEN = {
+    "hierarchy": _("anchors of ties weaker than the bars"),
+    "plate_verified": _("plates of ties too thin"),
+    "anchor_knowledge": _("anchors of ties checked with a smaller confidence factor"),
+    "anchor_checked": _("anchors of ties NOT checked"),
+}
 
 
 def description(document: Document) -> list[Block]:
@@ -137,10 +143,20 @@ def site(document: Document) -> list[Block]:
             given("use_coefficient", _("coefficient of use")),
         ),
     ]
+    life = check.site.reference_life
     if {"nominal_life", "use_coefficient"} <= numbers.keys():
-        life = numbers["nominal_life"] * numbers["use_coefficient"]
+        stated = numbers["nominal_life"] * numbers["use_coefficient"]
+        if life is not None and not math.isclose(life, stated, rel_tol=1e-9):
+            raise InputError(
+                f"nominal_life, use_coefficient: their product is {stated:g} years, but the reference_life of the check"
+                f" is {life:g} years"
+            )
+        life = stated
         sides = (symbol_of("C_U"), " ", symbol_of("V_N"), " = ", number(life, 8, _years(document)), " (NTC, [3.2.0])")
         pairs.append(((document.text(_("Reference life")), " ", symbol_of("V_R")), sides))
+    elif life is not None:
+        given_life = (number(life, 8, _years(document)), f" ({assumed})")
+        pairs.append(((document.text(_("Reference life")), " ", symbol_of("V_R")), given_life))
     ground = document.text(
         _("soil {soil}, topography {topography}"), soil=check.site.soil, topography=check.site.topography
     )
@@ -163,10 +179,16 @@ def site(document: Document) -> list[Block]:
         document.text(_("limit state")): [one if len(states) > 1 else document.text(_("all")) for one in states]
     }
     rows = []
+    exceedance = check.site.exceedance
+    has_periods = exceedance is not None and len(states) > 1
     for state in states:
         pga, _amplified, tb, tc, td = ntc_parameters(check.site._input(), state).tolist()
         names = ("ag", "f0", "tc_star", "soil_factor")
         rows.append([*(check.value("site", state, name) for name in names), tb, tc, td, pga])
+        if exceedance is not None and has_periods:
+            rows[-1] += [exceedance[len(rows) - 1], check.value("site", state, "return_period_demand")]
+    if has_periods:
+        heads += [("P_VR", ""), ("T_R,D", document.text(_("years")))]
     for place, (symbol, unit) in enumerate(heads):
         columns[(symbol_of(symbol), f" [{unit}]" if unit else "")] = [number(row[place], 4) for row in rows]
     blocks: list[Block] = [
@@ -179,6 +201,13 @@ def site(document: Document) -> list[Block]:
             document.text(_("Elastic spectra of acceleration against period.")),
         ),
     ]
+    if has_periods:
+        words = _(
+            "Return periods are those of reference life and probabilities of exceedance, both assumed by the designer:"
+            " {symbol} = -{life}/ln(1 - {chance}) (NTC 3.2.1)."
+        )
+        symbols = {"symbol": symbol_of("T_R"), "life": symbol_of("V_R"), "chance": symbol_of("P_VR")}
+        blocks.append(document.say(words, **symbols))
     if len(states) == 1:
         words = _("One hazard is given for all limit states: that of the code is lower for SLD and higher for SLC.")
         blocks.append(Note("doubt", document.say(words).pieces))
@@ -208,6 +237,8 @@ def materials(document: Document) -> list[Block]:
             [number(one.check.value("mechanism", "SLV", "knowledge_factor")) for one in document.subjects.several],
         ),
     ]
+    for one in document.subjects.several:
+        _check_level(document.project.words.get("knowledge_level", ""), one)
     level = document.word("knowledge_level", _("level of knowledge: LC1, LC2 or LC3"))
     return [
         Heading(document.text(_("Materials and level of knowledge"))),
@@ -216,6 +247,21 @@ def materials(document: Document) -> list[Block]:
         document.say(_("The confidence factor divides the capacity (Circolare, C8.7.1.2.1.3).")),
         *document.written("tests", _("tests and inspections, and the strengths that follow from them")),
     ]
+
+
+# Least confidence factors of the levels of knowledge
+_FACTORS = {"LC1": 1.35, "LC2": 1.2, "LC3": 1.0}
+
+
+def _check_level(level: str, one: Subject) -> None:
+    """Refuse a level of knowledge that asks for a greater confidence factor than that of a check."""
+    least = next((factor for name, factor in _FACTORS.items() if name in level.upper()), 0.0)
+    factor = one.check.value("mechanism", "SLV", "knowledge_factor")
+    if factor < least:
+        raise InputError(
+            f"knowledge_level = {level!r}: asks for a confidence factor of {least:g}, but wall '{one.wall.name}' is"
+            f" checked with {factor:g}"
+        )
 
 
 def modelling(document: Document) -> list[Block]:

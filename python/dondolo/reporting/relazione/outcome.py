@@ -24,9 +24,9 @@ from dondolo.reporting.blocks import (
 )
 from dondolo.reporting.content import BETA, THETA, Piece, Table
 from dondolo.reporting.numerals import NONE, Numeral, number, probability, whole
-from dondolo.reporting.relazione.checks import method_name, outcome, sums_of
+from dondolo.reporting.relazione.checks import method_name, outcome, sums_of, value_of
 from dondolo.reporting.relazione.document import Document, _
-from dondolo.reporting.relazione.drawings import draw_fragility
+from dondolo.reporting.relazione.drawings import draw_fragility, draw_indices
 from dondolo.reporting.relazione.subjects import Subject
 from dondolo.reporting.relazione.terms import status, warning
 from dondolo.reporting.units import CENTIMETRES, UNITS, cell
@@ -61,7 +61,7 @@ def histories(document: Document) -> list[Block]:
         values = [one.check.value(*key, quantity) for _name, one, key in made]
         lengths = "displacement" in quantity
         columns[head] = [cell(x, CENTIMETRES) if lengths else whole(x) for x in values]
-    columns[document.text(_("outcome"))] = [outcome(document, one.check.verified[key]) for _name, one, key in made]
+    columns[document.text(_("outcome"))] = [outcome(document, one.check, key) for _name, one, key in made]
     text = document.text(_("outcome"))
     return [
         *blocks,
@@ -145,14 +145,21 @@ def summary(document: Document) -> list[Block]:
         rows.append(
             (
                 f"{name}, {document.text(_('outcome'))}",
-                [outcome(document, one.check.verified[method, state]) for one in several],
+                [outcome(document, one.check, (method, state)) for one in several],
             )
         )
+    periods = [("nonlinear", state, "return_period_capacity") for state in ("SLV", "SLC")]
+    has_periods = any(one.check._has(*periods[0]) for one in several)
+    for method, state, quantity in periods if has_periods else []:
+        head_of = (f"{method_name(document, method)} {state}, ", symbol_of("T_R,C"), f" [{document.unit('years')}]")
+        found = [value_of(document, one.check, one.check._row(method, state, quantity)) for one in several]
+        rows.append((head_of, found))
     for method, state in _DYNAMIC:
         if document.subjects.has_histories:
             name = f"{method_name(document, method)} {state}, {document.text(_('outcome'))}"
-            holds = [one.check.verified.get((method, state)) for one in several]
-            rows.append((name, [NONE if one is None else outcome(document, one) for one in holds]))
+            key = (method, state)
+            found = [outcome(document, one.check, key) if key in one.check.verified else NONE for one in several]
+            rows.append((name, found))
     blocks: list[Block] = [
         Heading(document.text(_("Summary of the checks"))),
         document.beside(document.text(_("quantity")), rows, document.text(_("Checks of all walls."))),
@@ -162,10 +169,14 @@ def summary(document: Document) -> list[Block]:
         index = _("The least safety index of the facade is {index}, of the mechanism {name}.")
         blocks.append(document.say(index, index=number(least.index, 4), name=least.wall.name))
     elif len(several) > 1:
-        for name, one in document.each()[1:]:
-            sentence = _("{name}: {difference} with respect to the state as it stands.")
-            change = ("Δ", symbol_of("ζ_E"), " = ", number(one.index - several[0].index, 4))
-            blocks.append(document.say(sentence, name=name, difference=change))
+        blocks += _differences(document)
+    if has_periods:
+        words = _(
+            "A return period of the capacity outside the range in which it is meaningful, which is assumed and not read"
+            " in a norm, is given as a bound. It follows straight lines in the logarithms of {ag} and {period} through"
+            " the hazards of the limit states, prolonged where the sheet says that the capacity is outside of them."
+        )
+        blocks.append(document.say(words, ag=symbol_of("a_g"), period=symbol_of("T_R")))
     blocks += [
         document.say(
             _(
@@ -198,6 +209,39 @@ def summary(document: Document) -> list[Block]:
         ),
     ]
     return blocks
+
+
+def _differences(document: Document) -> list[Block]:
+    """What designs change with respect to the first state, and a drawing of the safety indices."""
+    (_name, first), *others = document.each()
+    heads: dict[tuple[str, str, str], Piece] = {
+        ("mechanism", "", "alpha_0"): ("Δ", symbol_of("alpha_0")),
+        ("mechanism", "", "a_0"): ("Δ", symbol_of("a_0*"), " [m/s²]"),
+    }
+    for method, state in _CHECKS[1:]:
+        heads[method, state, "zeta_e"] = ("Δ", symbol_of("ζ_E"), f", {method_name(document, method)} {state}")
+    if first.check._has("nonlinear", "SLV", "return_period_capacity"):
+        years = f" [{document.unit('years')}]"
+        heads["nonlinear", "SLV", "return_period_capacity"] = ("Δ", symbol_of("T_R,C"), ", SLV", years)
+    columns: dict[Piece, Sequence[Piece]] = {
+        document.text(_("difference to the state as it stands")): [*heads.values()]
+    }
+    for name, one in others:
+        cells: list[Piece] = []
+        for key in heads:
+            row, base = one.check._row(*key), first.check._row(*key)
+            # A difference of bounds is none.
+            known = row is not None and base is not None and not row.bound and not base.bound
+            cells.append(number(row.value - base.value) if row and base and known else NONE)
+        columns[name] = cells
+    return [
+        CaptionedTable(Table.of(columns), document.text(_("The design beside the state as it stands."))),
+        Picture(
+            lambda: draw_indices(document),
+            document.text(_("Safety indices of the states; from 1 on the check is satisfied.")),
+            document.text(_("Safety index of each state by the linear and the nonlinear check.")),
+        ),
+    ]
 
 
 def run(document: Document) -> list[Block]:

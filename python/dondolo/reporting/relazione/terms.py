@@ -25,7 +25,6 @@ MEANINGS = {
     "reference_life": "periodo di riferimento",
     "return_period_demand": "periodo di ritorno della domanda",
     "return_period_capacity": "periodo di ritorno della capacità, lungo le pericolosità degli stati limite",
-    "return_period_range": "periodo di ritorno tra 30 e 2475 anni: 0 sì, -1 minore, 1 maggiore",
     "extrapolated": "capacità fuori dalle pericolosità degli stati limite: 1 sì, 0 no",
     "zeta_e": "indice di sicurezza sismica del meccanismo locale",
     "bar": "diametro della barra",

@@ -183,6 +183,7 @@ contains
          call table%put('item', trim(row%item))
          call table%put('expression', trim(row%working%expression), is_quoted=.true.)
          call table%put('numbers', trim(row%working%numbers), is_quoted=.true.)
+         call table%put('bound', trim(row%bound))
       end associate
    end subroutine put_sheet_row
 

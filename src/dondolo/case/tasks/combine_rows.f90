@@ -3,17 +3,21 @@ module dondolo_case_combine_rows
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
    use dondolo_case, only : case_type
+   use dondolo_case_check_rows, only : check_wall
    use dondolo_case_motion_warnings, only : warn_of_events, warn_of_records
    use dondolo_case_result_warnings, only : fit_warnings_type, warn_of_union
    use dondolo_case_results, only : results_type, shown_rows
+   use dondolo_check_safety, only : new_safety
+   use dondolo_check_sheet, only : sheet_type
    use dondolo_fragility_study, only : runs_of, study_type
    use dondolo_population_curves, only : population_curves_type
-   use dondolo_population_designs, only : compare_designs
+   use dondolo_population_designs, only : compare_designs, design_type
    use dondolo_population_reader, only : population_reader_type
    use dondolo_population_row_result, only : row_result_type
    use dondolo_population_sensitivity, only : new_sensitivity
    use dondolo_population_store, only : read_result
    use dondolo_population_wall_row, only : wall_row_type
+   use dondolo_wall, only : wall_type
    implicit none
    private
 
@@ -143,6 +147,7 @@ contains
             call fits%look(curve, row%wall%name())
             if (case%designs) then
                call results%designs(i)%take_wall(row%wall)
+               if (allocated(case%check)) call take_check(case, row%wall, results%designs(i))
                results%designs(i)%curve = curve
                results%designs(i)%change = change(1, :)
             end if
@@ -158,5 +163,20 @@ contains
       call move_alloc(curves%typologies, results%typologies)
       results%unions = curves%unions
    end subroutine look_at_rows
+
+   !> Take what the check of a design comes to; the table of checks has why there is none
+   subroutine take_check(case, wall, design)
+      !> The case, with a check
+      type(case_type), intent(in) :: case
+      type(wall_type), intent(in) :: wall
+      !> The design
+      type(design_type), intent(inout) :: design
+
+      type(sheet_type) :: sheet
+      type(error_type), allocatable :: error
+
+      call check_wall(wall, case%check, case%stripes%scaling%name, sheet, error)
+      if (.not. allocated(error)) design%safety = new_safety(sheet)
+   end subroutine take_check
 
 end module dondolo_case_combine_rows

@@ -38,7 +38,6 @@ module dondolo_check_sheet
       & quantity_type('reference_life', 'V_R', 'year', 'reference period'), &
       & quantity_type('return_period_demand', 'T_R,D', 'year', 'return period of the hazard'), &
       & quantity_type('return_period_capacity', 'T_R,C', 'year', 'return period of a_gC, along the hazards of the limit states'), &
-      & quantity_type('return_period_range', '', '', '0: T_R,C lies in 30 to 2475 years, -1: less, 1: more, not to be printed'), &
       & quantity_type('extrapolated', '', '', '1: a_gC is below a_g of SLD or above that of SLC'), &
       & quantity_type('zeta_e', 'zeta_E', '', 'safety index of the mechanism in a_g S, with the shape of the spectrum kept'), &
       & quantity_type('tc', 'T_C', 's', 'period at which the constant velocity begins at the site'), &
@@ -116,6 +115,8 @@ module dondolo_check_sheet
       type(quantity_type) :: quantity
       !> Value, in its unit
       real(wp) :: value = 0.0_wp
+      !> '<' or '>' where only a bound is known; blank: the value is
+      character(len=1) :: bound = ''
       !> Where the code has the formula
       character(len=name_length) :: formula = ''
       !> What of the wall it is of, such as 'tie 1'; empty: the wall
@@ -132,8 +133,13 @@ module dondolo_check_sheet
       !> Add a line
       procedure :: add
       procedure :: append
+      !> Make the value of the last line a bound
+      procedure :: make_bound
       !> The value of a line
       procedure :: value
+      !> Whether it is only a bound
+      procedure :: bound
+      procedure, private :: find
       !> Is a quantity 1 in all lines that have it?
       procedure :: is_all_one
    end type sheet_type
@@ -148,6 +154,10 @@ contains
       do at = size(quantities), 1, -1
          if (quantities(at)%name == name) exit
       end do
+#ifdef DONDOLO_CHECKED
+      ! A look-up of a name that no quantity has would find nothing in silence, so that tests end here.
+      if (at == 0) error stop 'dondolo: no quantity of a check is named '''//trim(name)//''''
+#endif
    end function find_quantity
 
    !> Add a line
@@ -165,10 +175,13 @@ contains
       type(working_type), intent(in), optional :: working
 
       type(sheet_row_type) :: row
+      integer :: at
 
       row%method = method
       row%state = state
-      row%quantity = quantities(find_quantity(name))
+      row%quantity%name = name
+      at = find_quantity(name)
+      if (at > 0) row%quantity = quantities(at)
       row%value = value
       if (present(formula)) row%formula = formula
       if (present(item)) row%item = item
@@ -185,6 +198,15 @@ contains
       self%rows = [self%rows, row]
    end subroutine append
 
+   !> Make the value of the last line a bound
+   pure subroutine make_bound(self, bound)
+      class(sheet_type), intent(inout) :: self
+      !> '<' or '>'; blank: it is none
+      character(len=1), intent(in) :: bound
+
+      self%rows(size(self%rows))%bound = bound
+   end subroutine make_bound
+
    !> A number in a formula, to be computed with by hand
    pure function shown(value) result(text)
       real(wp), intent(in) :: value
@@ -194,6 +216,29 @@ contains
       text = brief(value)
    end function shown
 
+   !> Place of a line, of the first of its name; 0 where there is none
+   pure integer function find(self, method, state, name, item) result(at)
+      class(sheet_type), intent(in) :: self
+      !> Part of the check, limit state, and name of the quantity; for the lines of all states any state
+      character(len=*), intent(in) :: method, state, name
+      !> What of the wall it is of; absent: the first
+      character(len=*), intent(in), optional :: item
+
+      at = 0
+      if (.not. allocated(self%rows) .or. find_quantity(name) == 0) return
+      do at = 1, size(self%rows)
+         associate (row => self%rows(at))
+            if (row%method /= method .or. row%quantity%name /= name) cycle
+            if (row%state /= state .and. row%state /= '') cycle
+            if (present(item)) then
+               if (row%item /= item) cycle
+            end if
+            return
+         end associate
+      end do
+      at = 0
+   end function find
+
    !> The value of a line, of the first of its name; -1 where there is none
    pure real(wp) function value(self, method, state, name, item)
       class(sheet_type), intent(in) :: self
@@ -202,22 +247,25 @@ contains
       !> What of the wall it is of; absent: the first
       character(len=*), intent(in), optional :: item
 
-      integer :: i
+      integer :: at
 
       value = -1.0_wp
-      if (.not. allocated(self%rows)) return
-      do i = 1, size(self%rows)
-         associate (row => self%rows(i))
-            if (row%method /= method .or. row%quantity%name /= name) cycle
-            if (row%state /= state .and. row%state /= '') cycle
-            if (present(item)) then
-               if (row%item /= item) cycle
-            end if
-            value = row%value
-            return
-         end associate
-      end do
+      at = self%find(method, state, name, item)
+      if (at > 0) value = self%rows(at)%value
    end function value
+
+   !> '<' or '>' where the value of a line is only a bound; blank where it is none, and where there is no such line
+   pure character(len=1) function bound(self, method, state, name)
+      class(sheet_type), intent(in) :: self
+      !> Part of the check, limit state, and name of the quantity
+      character(len=*), intent(in) :: method, state, name
+
+      integer :: at
+
+      bound = ''
+      at = self%find(method, state, name)
+      if (at > 0) bound = self%rows(at)%bound
+   end function bound
 
    !> Is a quantity, 1 or 0, 1 in all lines of a method that have it?
    pure logical function is_all_one(self, method, name, state)
@@ -230,7 +278,7 @@ contains
       integer :: i
 
       is_all_one = .true.
-      if (.not. allocated(self%rows)) return
+      if (.not. allocated(self%rows) .or. find_quantity(name) == 0) return
       do i = 1, size(self%rows)
          associate (row => self%rows(i))
             if (row%method /= method .or. row%quantity%name /= name) cycle
