@@ -10,7 +10,7 @@ from dondolo._fortran.library import Property, properties
 #: Groups of a case: names and values of their variables
 Settings = Mapping[str, Mapping[str, Any]]
 
-# What follows from another variable that is given, and is left out beside it: sums of decimals are not as short as these
+# What follows from another variable, and is left out beside it: sums of decimals are not as short as these
 _FOLLOWS = {
     "height": "section_height",
     "thickness": "section_thickness",
