@@ -9,6 +9,7 @@ from __future__ import annotations
 import hmac
 import json
 import os
+import re
 import secrets
 import socket
 import sys
@@ -245,14 +246,11 @@ def _beginning(bench: Bench, start: Mapping[str, Any], lang: str) -> dict[str, A
 
 def _refusal(error: DondoloError) -> dict[str, Any]:
     """An error as data: its sentence, and which variables of which groups it names."""
-    several = getattr(error, "errors", ())
-    return {
-        "error": str(error),
-        "errors": [
-            {name: getattr(one, name, None) for name in ("sentence", "code", "variable", "group", "line")}
-            for one in several
-        ],
-    }
+    errors = []
+    for one in error.errors if isinstance(error, InputError) else ():
+        group = re.search(r"&(\w+)", one.place)
+        errors.append({"code": one.code, "variable": one.variable, "group": group[1] if group else ""})
+    return {"error": str(error), "errors": errors}
 
 
 def serve(case: str | None, records: str | None, port: int, is_opened: bool, threads: int, lang: str) -> None:

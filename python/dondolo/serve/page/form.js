@@ -213,8 +213,8 @@ function others(shown) {
 // Mark the row that an error names
 export function markWrong(errors, sentence) {
   for (const element of document.querySelectorAll(".row.wrong")) { element.classList.remove("wrong"); element.querySelector(".why")?.remove(); }
-  const named = errors.filter((one) => one.variable).map((one) => [one.group, one.variable, one.sentence]);
+  const named = errors.filter((one) => one.variable).map((one) => [one.group, one.variable]);
   const found = /&(\w+): (\w+)/.exec(sentence);
-  if (!named.length && found) named.push([found[1], found[2], null]);
+  if (!named.length && found) named.push([found[1], found[2]]);
   for (const [of, name] of named) document.querySelector(of ? `[data-name="${of}.${name}"]` : `[data-name$=".${name}"]`)?.classList.add("wrong");
 }
