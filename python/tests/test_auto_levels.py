@@ -6,29 +6,36 @@ from math import erfc
 import numpy as np
 import pytest
 from dondolo._fortran import _core
-from dondolo.analysis.auto_levels import _determinant, next_level
+from dondolo.analysis.auto_levels import _determinants, next_level
 from refusals import refused
 from scipy.optimize import minimize
 
 import dondolo as dd
 
 
+def determinant(cuts):
+    """That of the information in classes, each of whose bounds is as good as any for the last."""
+    several = [_determinants(np.delete(cuts, i), cuts[i : i + 1])[0] for i in {0, len(cuts) // 2, len(cuts) - 1}]
+    assert several == pytest.approx([several[0]] * len(several), rel=1e-12, abs=1e-15)
+    return several[0]
+
+
 def test_information_of_grouped_data():
     """Two cuts in closed form, and never more than the value itself tells."""
     # The determinant is largest, symmetric about the mean, where both parameters are told equally well.
-    best = minimize(lambda x: -_determinant(np.sort(x)), [-1.0, 0.5], method="Nelder-Mead", options={"xatol": 1e-8})
+    best = minimize(lambda x: -determinant(np.sort(x)), [-1.0, 0.5], method="Nelder-Mead", options={"xatol": 1e-8})
     assert best.x[0] == pytest.approx(-best.x[1], abs=1e-6)
     # Classes beyond c on both sides, and one between: sums of squared slopes over probabilities
     c = best.x[1]
     phi, tail = np.exp(-0.5 * c**2) / np.sqrt(2.0 * np.pi), 0.5 * erfc(c / np.sqrt(2.0))
     expected = (2.0 * phi**2 / tail) * (2.0 * (c * phi) ** 2 / tail + (2.0 * c * phi) ** 2 / (1.0 - 2.0 * tail))
-    assert _determinant(np.array([-c, c])) == pytest.approx(expected, rel=1e-12)
-    many = _determinant(np.linspace(-6.0, 6.0, 2001))
+    assert determinant(np.array([-c, c])) == pytest.approx(expected, rel=1e-12)
+    many = determinant(np.linspace(-6.0, 6.0, 2001))
     assert expected < many < 2.0
     assert many == pytest.approx(2.0, rel=1e-3)
     # The same level again tells nothing; nor do cuts that no value reaches.
-    assert _determinant(np.array([-c, c, c])) == pytest.approx(expected, rel=1e-12)
-    assert _determinant(np.array([-60.0, -c, c, 60.0])) == pytest.approx(expected, rel=1e-12)
+    assert determinant(np.array([-c, c, c])) == pytest.approx(expected, rel=1e-12)
+    assert determinant(np.array([-60.0, -c, c, 60.0])) == pytest.approx(expected, rel=1e-12)
 
 
 @pytest.mark.parametrize(

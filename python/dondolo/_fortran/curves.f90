@@ -3,6 +3,7 @@ module curves
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_base_error, only : error_type
    use dondolo_base_student, only : quantile => student_quantile
+   use dondolo_base_threads, only : team_of
    use dondolo_boundary, only : check_room
    use dondolo_case_result_warnings, only : warn_of_fit, warn_of_the_union => warn_of_union
    use dondolo_case_warning, only : warnings_type
@@ -22,6 +23,9 @@ module curves
    public :: fit_curves, cluster_changes, fit_logit, fit_ordinal, probability, wall_probability, wall_slopes, warn_of_curve
    public :: compare_parameters, student_quantile, warn_of_union
 
+   !> Fits that take a thread longer, by a few times, than it takes a team to begin and to end: some milliseconds
+   integer, parameter :: fits_of_thread = 200
+
 contains
 
    !> Fit k curves, each to m levels. A status of 0 is a fit that failed; the failure is that of the first that went wrong
@@ -34,7 +38,7 @@ contains
       integer(c_int64_t), intent(out) :: failure(5)
       type(fragility_type) :: curve
       type(error_type), allocatable :: error, first
-      integer :: i, worst
+      integer :: i, worst, team
 
       curves = 0
       statuses = 0
@@ -42,7 +46,8 @@ contains
       call report(error, failure)
       if (allocated(error)) return
       worst = k + 1
-      !$omp parallel do if(k > 1) default(none) private(curve, error) &
+      team = team_of(0, k/fits_of_thread)
+      !$omp parallel do num_threads(team) default(none) private(curve, error) &
       !$omp & shared(k, levels, collapses, histories, curves, statuses, worst, first)
       do i = 1, k
          call fit_fragility(curve, levels, collapses(:, i), histories(:, i), error)

@@ -57,9 +57,9 @@ def next_level(levels: FloatArray, collapses: FloatArray, histories: FloatArray)
     if not len(places):
         return None
     cuts = np.log(levels / theta) / beta
-    gains = [_determinant(np.sort(np.append(cuts, np.log(level / theta) / beta))) for level in places]
+    gains = _determinants(cuts, np.log(places / theta) / beta)
     # The first of those that are best but for rounding, so that no rounding decides
-    return float(places[np.argmax(np.array(gains) >= max(gains) * (1.0 - 1e-9))])
+    return float(places[np.argmax(gains >= gains.max() * (1.0 - 1e-9))])
 
 
 def rounded(level: float) -> float:
@@ -81,21 +81,43 @@ def _guess(levels: FloatArray, collapses: FloatArray, histories: FloatArray) -> 
     return float(np.exp(np.log(levels).mean() - _BETA * ndtri(share))), _BETA
 
 
-def _determinant(cuts: FloatArray) -> float:
+def _determinants(cuts: FloatArray, added: FloatArray) -> FloatArray:
     """Determinant of the information on the mean and ln of the standard deviation of a normal in classes, of one value.
 
     Parameters
     ----------
     cuts : ndarray, shape (cuts,)
         Bounds of the classes, increasing, in standard deviations from the mean.
+    added : ndarray, shape (n,)
+        One more bound, for each determinant.
+
+    Returns
+    -------
+    ndarray, shape (n,)
     """
+    bounds = np.concatenate([[-np.inf], cuts, [np.inf]])
+    classes = _information(bounds[:-1], bounds[1:])
+    # Only the class that is divided changes.
+    divided = np.searchsorted(cuts, added)
+    parts = _information(bounds[divided], added) + _information(added, bounds[divided + 1])
+    mean, both, spread = classes.sum(axis=1)[:, None] - classes[:, divided] + parts
+    determinants: FloatArray = mean * spread - both**2
+    return determinants
+
+
+def _information(low: FloatArray, high: FloatArray) -> FloatArray:
+    """What classes from low to high tell of the mean, of both and of ln of the standard deviation, shape (3, classes)."""
     from scipy.special import ndtr
 
-    height = np.exp(-0.5 * cuts**2) / np.sqrt(2.0 * np.pi)
     # Classes in the upper tail are differences of small numbers, taken from the side that keeps the digits.
-    below, above = np.concatenate([[0.0], ndtr(cuts), [1.0]]), np.concatenate([[1.0], ndtr(-cuts), [0.0]])
-    share = np.where(below[:-1] < 0.5, np.diff(below), -np.diff(above))
-    slopes = -np.diff(np.array([[0.0, *height, 0.0], [0.0, *(cuts * height), 0.0]]), axis=1)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        information = np.einsum("ak,bk->ab", slopes, np.where(share > 0.0, slopes / share, 0.0))
-    return float(np.linalg.det(information))
+    share = np.where(low < 0.0, ndtr(high) - ndtr(low), ndtr(-low) - ndtr(-high))
+    of_mean, of_spread = (np.subtract(*pair) for pair in zip(_slopes(high), _slopes(low), strict=True))
+    # A class that no value reaches tells nothing.
+    ratios = [np.divide(slope, share, out=np.zeros_like(share), where=share > 0.0) for slope in (of_mean, of_spread)]
+    return np.stack([of_mean * ratios[0], of_mean * ratios[1], of_spread * ratios[1]])
+
+
+def _slopes(bound: FloatArray) -> tuple[FloatArray, FloatArray]:
+    """Derivatives of the probability below a bound with respect to the bound and to its logarithm, signs aside."""
+    height = np.exp(-0.5 * bound**2) / np.sqrt(2.0 * np.pi)
+    return height, np.where(np.isinf(bound), 0.0, bound) * height

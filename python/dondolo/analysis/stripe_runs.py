@@ -370,9 +370,8 @@ def _adaptive(request: Request, budget: int, progress: bool, interrupts: Interru
                     parts.append(_stripes(here, plan, outcome, 1))
                 if is_stopped:
                     break
-                so_far = stack(parts)
-                counts = so_far.collapses.astype(np.float64), so_far.histories.astype(np.float64)
-                level = next_level(so_far.levels, *counts)
+                so_far = sorted((*part.levels, *part.collapses, *part.histories) for part in parts)
+                level = next_level(*np.array(so_far, dtype=np.float64).T)
     except KeyboardInterrupt:
         # Of a handler of the user's, at any moment
         is_stopped = True

@@ -26,6 +26,9 @@ module dondolo_motion_ensemble
 
    public :: ensemble_type, run_ensemble, check_engine, name_engines, raise_given_up
 
+   !> Histories that take a thread of the engine lanes longer, by many times, than it takes a team to begin and to end
+   integer, parameter :: histories_of_thread = 32
+
    !> Histories of one wall
    type :: ensemble_type
       !> Record of each history
@@ -109,7 +112,7 @@ contains
       type(rest_type) :: rest
       type(work_type) :: own
       character(len=16) :: variant
-      integer :: number, since
+      integer :: number, since, team
       logical :: stays
 
       variant = build_variant()
@@ -117,7 +120,8 @@ contains
       ! Lanes begin at rest.
       if (solver%engine /= 'rk45' .and. .not. initial%moves()) constants = new_lane_constants(mechanism, solver, suite%has_vertical)
       if (.not. constants%form%exists) rest = new_rest(mechanism)
-      !$omp parallel num_threads(team_of(threads, size(queue%record))) default(none) &
+      team = team_of(threads, size(queue%record)/merge(histories_of_thread, 1, constants%form%exists))
+      !$omp parallel num_threads(team) default(none) &
       !$omp & private(own, number, stays) &
       !$omp & shared(variant, constants, rest, mechanism, suite, solver, initial, queue, work, since)
       call watch(since)
@@ -211,11 +215,6 @@ contains
       if (solver%engine /= 'lanes') return
       constants = new_lane_constants(mechanism, solver, is_shaken)
       if (constants%form%exists) return
-      if (mechanism%has_friction()) then
-         call raise_input(error, 'engine = ''lanes'': does not know interlock_overlap; must be ''auto'' or ''rk45''', &
-            & not_together, 'engine')
-         return
-      end if
       call raise_input(error, 'engine = ''lanes'': cannot follow this wall up to its edp_limit; '// &
          & 'must be ''auto'' or ''rk45'', or another edp_limit', not_together, 'engine')
    end subroutine check_engine
