@@ -1,11 +1,10 @@
-!> Walls with ties in the engine lanes: against independently computed values, and against the engine rk45 at tight tolerances.
+!> Walls with ties and friction in the engine lanes: against independently computed values, and the engine rk45 at tight tolerances.
 program test_lane_ties
-   use checks, only : check, check_close, check_error, check_ok, finish, suite
+   use checks, only : check, check_close, check_ok, finish, suite
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : to_text
-   use dondolo_motion_ensemble, only : check_engine
-   use dondolo_motion_response, only : response_type
+   use dondolo_motion_response, only : response_type, trace_type
    use dondolo_motion_rk45, only : simulate_rk45
    use dondolo_motion_solver, only : solver_type
    use dondolo_record, only : record_type
@@ -202,24 +201,53 @@ contains
       call check(any(forwards%edp > 0.0_wp), 'some rock')
    end subroutine test_places
 
-   !> Friction can hold a wall out, which lanes do not know
+   !> Random walls with friction, which holds some of them out, with and without ties
    subroutine test_friction()
-      type(wall_input_type) :: input
-      type(wall_type) :: wall
-      type(solver_type) :: solver
-      type(error_type), allocatable :: error
+      integer, parameter :: histories = 4000
+      type(history_type) :: history
+      type(solver_type) :: solver, fine
+      type(response_type) :: lane, other
+      type(trace_type) :: trace
+      integer :: i, run, left, off, flags, held
 
       call suite('friction')
-      input = tied()
-      call input%set('interlock_overlap', 0.12_wp)
-      call input%set('interlock_course', 0.1_wp)
-      call input%set('interlock_thickness', 0.25_wp)
-      call input%set('interlock_spacing', 5.0_wp)
-      wall = made(input)
-      call check(.not. runs_in_lanes(wall%mechanism, solver), 'runs in rk45')
-      solver%engine = 'lanes'
-      call check_engine(solver, wall%mechanism, error)
-      call check_error(error, 'engine = ''lanes'': does not know interlock_overlap; must be ''auto'' or ''rk45''', 'lanes')
+      run = 0
+      left = 0
+      off = 0
+      flags = 0
+      held = 0
+      fine%rtol = 1.0e-12_wp
+      fine%atol = 1.0e-14_wp
+      do i = 1, histories
+         history = new_tied_history(60000 + i)
+         if (.not. history%wall%mechanism%has_friction()) cycle
+         solver%edp_limit = history%solver%edp_limit
+         fine%edp_limit = solver%edp_limit
+         if (.not. runs_in_lanes(history%wall%mechanism, solver)) then
+            left = left + 1
+            cycle
+         end if
+         run = run + 1
+         call run_alone(history%wall%mechanism, history%record, history%scale, solver, lane)
+         trace = trace_type()
+         call simulate_rk45(history%wall%mechanism, history%record, history%scale, fine, other, trace)
+         if (is_held(trace)) held = held + 1
+         if (abs(lane%edp - other%edp) > 1.0e-6_wp) off = off + 1
+         if (lane%collapsed .neqv. other%collapsed) flags = flags + 1
+      end do
+      call check(run > 1000 .and. left < run/10, 'nearly all run in lanes: '//to_text(run)//', not '//to_text(left))
+      call check(held > 3, 'friction holds some: '//to_text(held))
+      call check(100*off <= 2*run, 'EDPs that differ: '//to_text(off)//' of '//to_text(run))
+      call check(1000*flags <= 2*run, 'flags that differ: '//to_text(flags)//' of '//to_text(run))
    end subroutine test_friction
+
+   !> Is a wall at the same rotation, not at rest, in two rows of its motion that follow each other?
+   pure logical function is_held(trace)
+      type(trace_type), intent(in) :: trace
+
+      associate (q => trace%rotation, v => trace%velocity)
+         is_held = any(q(2:) > 0.0_wp .and. v(2:) == 0.0_wp .and. v(:size(v) - 1) == 0.0_wp .and. q(2:) == q(:size(q) - 1))
+      end associate
+   end function is_held
 
 end program test_lane_ties

@@ -235,12 +235,32 @@ def test_with_ties(records):
 
 def test_tolerances(records):
     held = wall()
-    usual = dd.multiple_stripe(held, records, [0.15, 0.25, 0.35], polarity="both", progress=False)
+    usual = dd.multiple_stripe(
+        held, records, [0.15, 0.25, 0.35], polarity="both", progress=False, solver=dd.Solver(engine="lanes")
+    )
     tight = dd.multiple_stripe(
         held, records, [0.15, 0.25, 0.35], polarity="both", progress=False, solver=dd.Solver(rtol=1e-13, atol=1e-15)
     )
     assert np.array_equal(usual.collapsed, tight.collapsed)
     assert np.abs(usual.edp - tight.edp).max() < 1e-6
+
+
+def test_a_motion_that_friction_holds_in_both_engines(records):
+    """The rows of a time history at the samples, and where it is held the same rotation in all of them."""
+    held = 0
+    for record in records:
+        motions = [
+            dd.simulate(wall(), record, 1.5, solver=dd.Solver(rtol=1e-12, atol=1e-14, engine=engine))
+            for engine in ("lanes", "rk45")
+        ]
+        assert motions[0].edp == pytest.approx(motions[1].edp, abs=1e-9)
+        times = record.dt * np.arange(len(record.acceleration))
+        times = times[times < min(motion.time[-1] for motion in motions)]
+        lanes, rk45 = (motion.rotation[np.abs(motion.time[:, None] - times).argmin(axis=0)] for motion in motions)
+        assert lanes == pytest.approx(rk45, abs=1e-8)
+        stays = (np.diff(motions[0].rotation) == 0.0) & (motions[0].rotation[1:] > 0.0)
+        held += stays.any()
+    assert held
 
 
 def test_hinge_level():
@@ -283,11 +303,9 @@ def test_refusals(change, sentence):
         wall(**change)
 
 
-def test_other_mechanisms_and_engines(records):
+def test_other_mechanisms():
     with pytest.raises((dd.errors.InputError, TypeError)):
         dd.FreeStandingWall(3.0, 0.25, interlock=OVERLAP)
-    with pytest.raises(dd.errors.InputError, match="does not know interlock_overlap"):
-        dd.multiple_stripe(wall(), records, [0.2], solver=dd.Solver(engine="lanes"), progress=False)
 
 
 def test_drawing():

@@ -106,7 +106,7 @@ def _determinants(cuts: FloatArray, added: FloatArray) -> FloatArray:
 
 
 def _information(low: FloatArray, high: FloatArray) -> FloatArray:
-    """What classes from low to high tell of the mean, of both and of ln of the standard deviation, shape (3, classes)."""
+    """What classes from low to high tell of the mean, of both and of ln of the spread, shape (3, classes)."""
     from scipy.special import ndtr
 
     # Classes in the upper tail are differences of small numbers, taken from the side that keeps the digits.

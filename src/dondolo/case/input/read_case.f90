@@ -98,7 +98,6 @@ contains
       if (.not. allocated(error)) call choose_records(namelist, case, runs, error)
       if (allocated(error)) return
       if (case%job%task == stripes_task) then
-         if (case%wall%mechanism%has_friction()) call note_friction(case, 'wall '''//case%wall%name()//''' has interlock_overlap')
          if (allocated(case%check) .and. case%records_input%polarity /= 'both' .and. .not. case%wall%mechanism%two_sided) then
             call case%notes%add('&check: the criterion for time histories takes each record in one direction only; the wall '// &
                & 'feels their sign, and polarity = ''both'' in &records takes both')
@@ -199,8 +198,6 @@ contains
       if (.not. allocated(error)) call survey_population(case%survey, case%table, study, range, error)
       if (allocated(error)) return
       if (len(case%survey%note) > 0) call case%notes%add(case%survey%note)
-      if (case%survey%with_friction > 0) call note_friction(case, to_text(case%survey%with_friction)//' of '// &
-         & to_text(case%survey%rows)//' rows have interlock_overlap, wall '''//case%survey%first_with_friction//''' the first')
       if (case%designs .and. (case%survey%rows < 2 .or. case%survey%walls < case%survey%rows)) then
          call raise_input(error, case%population_path()//': has '//to_text(case%survey%walls)//' walls in '// &
             & to_text(case%survey%rows)//' rows: designs = .true. needs two designs at least, each a wall of one row')
@@ -216,16 +213,6 @@ contains
          call case%notes%add(note)
       end if
    end subroutine survey
-
-   !> Note which walls the engine lanes leaves to rk45
-   subroutine note_friction(case, which)
-      type(case_type), intent(inout) :: case
-      !> The walls
-      character(len=*), intent(in) :: which
-
-      if (case%solver%solver%engine == 'auto') call case%notes%add(which//': the engine rk45 computes their histories, '// &
-         & 'lanes does not know it')
-   end subroutine note_friction
 
    !> Check that the groups suit the task
    subroutine check_task(namelist, task, error)

@@ -57,9 +57,6 @@ module dondolo_case_survey
       integer, allocatable :: lengths(:)
       !> What moves the walls
       type(supports_type) :: supports
-      !> Rows of walls with friction, and the name of the first
-      integer :: with_friction = 0
-      character(len=:), allocatable :: first_with_friction
       !> What its walls use of the methods of others, in the words of dondolo_base_references, each once
       type(lines_type) :: used
       !> How the table was read, where there is something to say of it, else empty
@@ -106,10 +103,6 @@ contains
             call survey%supports%look(row%wall)
             call add_wall_words(survey%used, row%wall)
             call add_wall(survey%walls_fingerprint, row%wall)
-            if (row%wall%mechanism%has_friction()) then
-               if (survey%with_friction == 0) survey%first_with_friction = row%wall%name()
-               survey%with_friction = survey%with_friction + 1
-            end if
             if (survey%population%groups%count > most_groups) call refuse_group(survey%population%groups, error)
             if (.not. allocated(error)) call check_limit(study%solver, row%wall%mechanism, error)
             if (.not. allocated(error)) call check_engine(study%solver, row%wall%mechanism, error)

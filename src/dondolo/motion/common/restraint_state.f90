@@ -39,6 +39,8 @@ module dondolo_motion_restraint_state
       procedure :: turn
       !> The wall strikes its base
       procedure :: strike
+      !> Would friction resist a motion outwards that goes on?
+      procedure :: rubs_beyond
       !> What the history did to the ties
       procedure :: responses
       procedure, private :: update
@@ -141,6 +143,14 @@ contains
       self%changed = .false.
       call self%update(wall)
    end subroutine strike
+
+   !> Would a motion outwards, which has ended at the largest rotation so far, wake friction if it went on?
+   pure logical function rubs_beyond(self, wall)
+      class(restraint_state_type), intent(in) :: self
+      class(mechanism_type), intent(in) :: wall
+
+      rubs_beyond = any(self%mode == slack .and. wall%restraints%is_friction)
+   end function rubs_beyond
 
    !> What a history that is over did to the ties
    pure subroutine responses(self, wall, peak, response)

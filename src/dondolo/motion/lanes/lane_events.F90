@@ -53,7 +53,11 @@ contains
          found%d(n, 0) = lanes%y(i)
          found%d(n, 1) = lanes%v(i)*lanes%step(i)
          found%d(n, 2:) = lanes%series(i, :)*lanes%step(i)
-         if (lanes%y(i) == 0.0_wp .and. lanes%v(i) == 0.0_wp) found%d(n, 2) = max(0.0_wp, found%d(n, 2))
+         ! Where a motion begins its acceleration is zero, whatever rounding gives.
+         if (lanes%v(i) == 0.0_wp) then
+            if (lanes%y(i) == 0.0_wp .or. lanes%released(i) > 0.0_wp) found%d(n, 2) = max(0.0_wp, found%d(n, 2))
+            if (lanes%released(i) < 0.0_wp) found%d(n, 2) = min(0.0_wp, found%d(n, 2))
+         end if
          found%peak(n) = lanes%peak(i)
          found%last(n) = 1.0_wp
          if (lanes%flag(i) == step_too_long) then

@@ -10,7 +10,7 @@ module dondolo_motion_lane_history
    use dondolo_motion_history, only : history_type
    use dondolo_motion_lane_constants, only : lane_constants_type
    use dondolo_motion_lane_events, only : find_event, found_type
-   use dondolo_motion_lane_restraints, only : lane_restraints_type
+   use dondolo_motion_lane_restraints, only : lane_restraints_type, power_series
    use dondolo_motion_lane_ground, only : aim, limit_span, next_sample, stop_between
    use dondolo_motion_lane_state, only : event_possible, lane_width, lanes_type
    use dondolo_motion_normal_form, only : y_limit
@@ -86,6 +86,7 @@ contains
          lanes%v(i) = 0.0_wp
          lanes%last(i) = set%offset(history%record) + set%length(history%record)
          lanes%fifth_a(i) = constants%form%fifth_a
+         lanes%released(i) = 0.0_wp
          if (allocated(batch%restraints)) call batch%restraints(i)%begin(batch%mechanism, constants, lanes, i)
          if (associated(batch%trace)) call batch%trace%add(0.0_wp, &
             & history%scale*batch%records(history%record)%acceleration(1), 0.0_wp, 0.0_wp, history%side)
@@ -125,8 +126,10 @@ contains
 
       real(wp) :: part, h
       integer :: i, event
+      logical :: may_hold
 
       i = batch%found%lane(n)
+      may_hold = .false.
       associate (lanes => batch%lanes, history => batch%history(i), constants => batch%constants)
          if (lanes%flag(i) >= event_possible) then
             call history%count_step(constants, interval_of(batch, i), lanes%dt(i))
@@ -139,16 +142,18 @@ contains
                call stop_between(lanes, i, batch%set, h)
                if (event /= no_event) call limit_span(lanes, i, constants%solver%steps_per_sample)
             end if
+            if (event /= no_event) lanes%released(i) = 0.0_wp
             select case (event)
             case (impact)
                call bounce(batch, i)
             case (level_above, level_below)
-               call batch%restraints(i)%cross(constants, lanes, i, event, time_of(batch, i), h > shortest_motion*lanes%dt(i))
+               call batch%restraints(i)%cross(constants, lanes, i, event, time_of(batch, i), &
+                  & h > shortest_motion*lanes%dt(i), may_hold)
             case (turning)
                lanes%v(i) = 0.0_wp
                ! Between two impacts it may turn below the peak.
                if (lanes%y(i) > lanes%peak(i)) call set_peak(batch, i)
-               if (allocated(batch%restraints)) call batch%restraints(i)%turn(constants, lanes, i)
+               if (allocated(batch%restraints)) call batch%restraints(i)%turn(constants, lanes, i, may_hold)
                history%collapsed = .not. lanes%y(i) < y_limit
                history%over = history%collapsed
             case (limit_reached)
@@ -157,12 +162,64 @@ contains
                history%collapsed = .true.
                history%over = .true.
             end select
+            if (may_hold .and. .not. history%over) call hold(batch, i)
             if (history%collapsed .and. associated(batch%trace)) call add_row(batch, i)
          end if
          history%over = history%over .or. history%given_up .or. lanes%next(i) > lanes%last(i)
          if (history%over) call finish(batch, i)
       end associate
    end subroutine resolve
+
+   !> A motion outwards has ended: friction holds the wall there until the ground releases it, or the record is over
+   pure subroutine hold(batch, i)
+      !> The lanes, and the one
+      type(lane_batch_type), intent(inout) :: batch
+      integer, intent(in) :: i
+
+      real(wp) :: back, on, b, d, now, next, going_back, going_on
+
+      associate (lanes => batch%lanes, constants => batch%constants, form => batch%constants%form)
+         call batch%restraints(i)%held_between(constants, lanes, i, back, on)
+         b = power_series(form%b, lanes%y(i) - 1.0_wp)
+         d = power_series(form%d, lanes%y(i) - 1.0_wp)
+         now = b*lanes%u(i) + d*lanes%heavier(i)
+         ! Without friction it falls back at once.
+         if (.not. now > back) return
+         lanes%v(i) = 0.0_wp
+         do
+            next = b*lanes%u_next(i) + d*lanes%heavier_next(i)
+            going_back = part_to_zero(back - now, back - next)
+            going_on = part_to_zero(now - on, next - on)
+            if (min(going_back, going_on) < 1.0_wp) exit
+            call next_sample(lanes, i, batch%set)
+            if (associated(batch%trace)) call add_row(batch, i)
+            if (lanes%next(i) > lanes%last(i)) return
+            now = next
+         end do
+         call stop_between(lanes, i, batch%set, min(going_back, going_on)*(lanes%dt(i) - lanes%time(i)))
+         call limit_span(lanes, i, constants%solver%steps_per_sample)
+         lanes%released(i) = -1.0_wp
+         if (going_back < going_on) return
+         lanes%released(i) = 1.0_wp
+         call batch%restraints(i)%go_on(constants, lanes, i, time_of(batch, i))
+      end associate
+
+   contains
+
+      !> Part of the time at which a linear function becomes positive; huge: it does not
+      pure real(wp) function part_to_zero(first, last) result(part)
+         !> Its values at the beginning and at the end
+         real(wp), intent(in) :: first, last
+
+         part = huge(part)
+         if (first > 0.0_wp) then
+            part = 0.0_wp
+         else if (last > 0.0_wp) then
+            part = first/(first - last)
+         end if
+      end function part_to_zero
+
+   end subroutine hold
 
    !> An impact: the wall turns back, or rocks on to the other side, or comes to rest
    pure subroutine bounce(batch, i)

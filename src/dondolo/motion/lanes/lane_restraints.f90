@@ -17,9 +17,9 @@ module dondolo_motion_lane_restraints
    implicit none
    private
 
-   public :: lane_restraints_type
+   public :: lane_restraints_type, power_series
 
-   !> The ties of a wall in one lane
+   !> The ties and the friction of a wall in one lane
    type :: lane_restraints_type
       !> The wall, with the forces that its ties have at present
       class(mechanism_type), allocatable, private :: wall
@@ -36,6 +36,10 @@ module dondolo_motion_lane_restraints
       procedure :: cross
       !> A motion outwards ends
       procedure :: turn
+      !> Where friction holds a wall: the pushes of the ground between which it does
+      procedure :: held_between
+      !> A motion outwards that friction has held goes on
+      procedure :: go_on
       !> The wall strikes its base
       procedure :: strike
       !> The motion after the record
@@ -78,7 +82,7 @@ contains
    end subroutine looks_for_levels
 
    !> Cross a level
-   pure subroutine cross(self, constants, lanes, i, event, time, took_time)
+   pure subroutine cross(self, constants, lanes, i, event, time, took_time, may_hold)
       class(lane_restraints_type), intent(inout) :: self
       type(lane_constants_type), intent(in) :: constants
       !> The lanes, and the one
@@ -90,13 +94,17 @@ contains
       real(wp), intent(in) :: time
       !> Has any time passed since the last level?
       logical, intent(in) :: took_time
+      !> Has a motion outwards ended, where friction may hold the wall?
+      logical, intent(out) :: may_hold
 
       self%stalled = merge(0, self%stalled + 1, took_time)
+      may_hold = .false.
       if (event == level_above) then
          lanes%y(i) = lanes%above(i)
          call self%state%cross(self%wall, self%state%above, .true., time)
       else if (self%state%flows) then
          call self%state%turn(self%wall, constants%form%rotation(lanes%y(i)))
+         may_hold = self%state%rubs_beyond(self%wall)
       else
          lanes%y(i) = lanes%below(i)
          call self%state%cross(self%wall, self%state%below, .false., time)
@@ -105,18 +113,57 @@ contains
    end subroutine cross
 
    !> End a motion outwards
-   pure subroutine turn(self, constants, lanes, i)
+   pure subroutine turn(self, constants, lanes, i, may_hold)
       class(lane_restraints_type), intent(inout) :: self
       type(lane_constants_type), intent(in) :: constants
       !> The lanes, and the one
       type(lanes_type), intent(inout) :: lanes
       integer, intent(in) :: i
+      !> May friction hold the wall there?
+      logical, intent(out) :: may_hold
 
       self%stalled = 0
+      may_hold = .false.
       if (.not. self%state%flows) return
       call self%state%turn(self%wall, constants%form%rotation(lanes%y(i)))
+      may_hold = self%state%rubs_beyond(self%wall)
       call self%update(constants, lanes, i)
    end subroutine turn
+
+   !> Where a motion outwards has ended: the pushes of the ground between which friction holds the wall
+   pure subroutine held_between(self, constants, lanes, i, back, on)
+      class(lane_restraints_type), intent(inout) :: self
+      type(lane_constants_type), intent(in) :: constants
+      !> The lanes, and the one
+      type(lanes_type), intent(in) :: lanes
+      integer, intent(in) :: i
+      !> Outward acceleration of y by the ground below which the wall falls back, and above which it goes on [1/s2]
+      real(wp), intent(out) :: back, on
+
+      real(wp) :: a(0:highest_restrained), fifth, largest
+
+      back = -power_series(lanes%a(i, :), lanes%y(i) - 1.0_wp)
+      ! With the friction that a further motion wakes
+      largest = self%state%above
+      call self%state%cross(self%wall, largest, .true., 0.0_wp)
+      call constants%form%restrained(self%state%force, self%state%stiffness, a, fifth)
+      call self%state%turn(self%wall, largest)
+      on = -power_series(a, lanes%y(i) - 1.0_wp)
+   end subroutine held_between
+
+   !> Go on outwards, against friction
+   pure subroutine go_on(self, constants, lanes, i, time)
+      class(lane_restraints_type), intent(inout) :: self
+      type(lane_constants_type), intent(in) :: constants
+      !> The lanes, and the one
+      type(lanes_type), intent(inout) :: lanes
+      integer, intent(in) :: i
+      !> Time [s]
+      real(wp), intent(in) :: time
+
+      call self%state%cross(self%wall, self%state%above, .true., time)
+      call self%update(constants, lanes, i)
+   end subroutine go_on
 
    !> Strike the base
    pure subroutine strike(self, constants, lanes, i, rest)
@@ -131,6 +178,8 @@ contains
       logical :: changed
 
       self%stalled = 0
+      ! Rounding may end a motion outwards unseen.
+      if (self%state%flows) call self%state%turn(self%wall, constants%form%rotation(lanes%peak(i)))
       changed = self%state%changed
       call self%state%strike(self%wall)
       if (changed) rest = new_rest(self%wall)
@@ -183,5 +232,20 @@ contains
       ! A tie flows outwards only; rounding may end such a motion unseen.
       if (self%state%flows) lanes%below(i) = max(lanes%below(i), lanes%y(i))
    end subroutine update
+
+   !> Value of a polynomial
+   pure real(wp) function power_series(c, z) result(value)
+      !> Coefficients of 1, z, z^2, ...
+      real(wp), intent(in) :: c(0:)
+      !> Argument
+      real(wp), intent(in) :: z
+
+      integer :: k
+
+      value = c(ubound(c, 1))
+      do k = ubound(c, 1) - 1, 0, -1
+         value = value*z + c(k)
+      end do
+   end function power_series
 
 end module dondolo_motion_lane_restraints

@@ -59,6 +59,9 @@ module dondolo_motion_lane_state
       !> and the nearest y above and below at which these forces change
       real(wp) :: a(lane_width, 0:highest_restrained) = 0.0_wp, fifth_a(lane_width) = 0.0_wp
       real(wp) :: above(lane_width) = huge(1.0_wp), below(lane_width) = 0.0_wp
+      !> Of walls that friction has held and the ground releases: 1 if they go on outwards, -1 if they fall back; 0 after their
+      !> next event
+      real(wp) :: released(lane_width) = 0.0_wp
    end type lanes_type
 
 contains

@@ -11,8 +11,8 @@
 !> A, B and D are smooth: polynomials in z, which runs from -1 at rest to 1 at the limit rotation, hold them to rounding,
 !> and one branch-free loop serves every mechanism. Lengths are in halves of x at the limit, y = z + 1.
 !>
-!> Ties add -(force + stiffness D) D'/sqrt(J J(0)) to A, with constants that change in the course of a history: two more
-!> polynomials for each of them, from which `restrained` makes the A of the moment.
+!> Ties and friction add -(force + stiffness D) D'/sqrt(J J(0)) to A, with constants that change in the course of a history: two
+!> more polynomials for each of them, from which `restrained` makes the A of the moment.
 !>
 !> Those of one rigid body that turns about a fixed point are harmonic: e cos(w z) + f sin(w z), with w the rotation at
 !> z = 1 less that at z = 0. Two short polynomials in z^2 then serve all of them and all their derivatives.
@@ -116,8 +116,7 @@ contains
       real(wp) :: series(0:nodes - 1), inertia, target
       integer :: i, iteration, needed, kept
 
-      ! Friction can stop a wall at a rotation, which the engine lanes does not model.
-      if (limit < least_limit*mechanism%capacity .or. mechanism%has_friction()) return
+      if (limit < least_limit*mechanism%capacity) return
       allocate (wall, source=mechanism)
       form%is_restrained = allocated(wall%restraints)
       if (form%is_restrained) call wall%set_restraints(spread(0.0_wp, 1, size(wall%restraints)), &
