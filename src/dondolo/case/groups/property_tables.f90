@@ -1,5 +1,7 @@
 !> All tables of properties, by the name of their group in a namelist.
 module dondolo_case_property_tables
+   ! First: gfortran 12 fails where these stand last.
+   use dondolo_wall_properties, only : own_properties, wall_properties
    use dondolo_base_property, only : property_type
    use dondolo_building_input, only : building_properties
    use dondolo_case_history_group, only : history_properties
@@ -11,7 +13,6 @@ module dondolo_case_property_tables
    use dondolo_check_input, only : check_properties
    use dondolo_motion_solver, only : solver_properties
    use dondolo_population_wall_row, only : row_properties
-   use dondolo_wall_properties, only : own_properties, wall_properties
    implicit none
    private
 
