@@ -373,7 +373,7 @@ def test_import_is_quick():
         for _ in range(5)
     ]
     assert all(len(words) == 2 for words in runs), runs
-    assert min(float(own) for own, _ in runs) < 1.4
+    assert min(float(own) for own, _ in runs) < 1.3
     # Every public name, with all that it needs
     assert min(float(whole) for _, whole in runs) < 2.5
 
