@@ -61,7 +61,7 @@ contains
             call check(find_property(table, what) == i, what//': once')
             call check(len_trim(property%meaning) > 5, what//': has a meaning')
             call check(any(property%unit == [character(len=8) :: '', 'm', 's', 'g', 'kg/m3', 'N/m', 'N/m2', 'm/s2', 'N/m3', &
-               & 'kg/m', 'kg m2/m', 'Pa', 'm2/m', 'rad', 'kg m/m', 'N m/m', '1/s2', 'year']), what//': its unit')
+               & 'kg/m', 'kg m2/m', 'Pa', 'm2/m', 'rad', 'rad/s', 'kg m/m', 'N m/m', '1/s2', 'year']), what//': its unit')
             call check(.not. (property%required .and. property%optional), what//': required or optional')
             if (property%required .or. property%optional) then
                call check(len_trim(property%example) > 0 .or. name == 'wall', what//': an example for the template')
