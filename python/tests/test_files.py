@@ -176,7 +176,7 @@ def damaged(executable, root, tmp_path_factory):
             "settings: job: task = 'dance': must be one of",
         ),
         ("parapet", "run.json", r'"warnings": \[', '"warnings": [1, ', "warnings: 1: must be of type dict"),
-        ("history", "history", "rotation_rad", "rotation", "no column 'rotation_rad'"),
+        ("history", "history", ",rotation_rad,", ",rotation,", "no column 'rotation_rad'"),
         ("history", "history", r"^0\.0*E\+00,", "nan,", r"line \d+: time_s = 'nan': must be a number"),
         ("parapet", "run.json", r'"steps": ', '"leaps": ', "work: .*unexpected keyword argument 'leaps'"),
         ("parapet", "histories", r"^parapet,.*\n", "", r"\d+ rows: are not the \d+ histories of the run"),
