@@ -13,6 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import arithmetic
+import beside
 import page
 import runs
 from problem import ROOT, SINGLE_BLOCKS, problem, write_case
@@ -43,7 +44,8 @@ def compare(executable, records, quick, progress):
                 turns = Rounds(executable, each, own, path, case)
             turns.group(count)
             progress.finish("rounds")
-        rows = measure(executable, 1 if quick else sum(ROUNDS))
+        repeats = 1 if quick else sum(ROUNDS)
+        rows = measure(executable, repeats) + beside.measure(repeats)
         progress.finish("scaling")
         turns.group(last)
         progress.finish("rounds")
@@ -67,7 +69,7 @@ def plan(progress, problems, quick):
                 progress.plan(f"{each.wall}, {peer.name}, {method}", factor * peer.expected * len(values))
     for count in QUICK_ROUNDS if quick else ROUNDS:
         progress.plan("rounds", 38.0 * count)
-    progress.plan("scaling", 20.0 if quick else 130.0)
+    progress.plan("scaling", 30.0 if quick else 180.0)
 
 
 def settings(each, folder, whole, progress):

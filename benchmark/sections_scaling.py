@@ -1,6 +1,7 @@
 """Scaling with threads and sizes, and memory."""
 
 import cost_model
+from beside import FACADES, FIXED
 from markdown import paragraph, table
 from scaling import VARIANTS, spread_of
 
@@ -36,12 +37,36 @@ def scaling(rows):
     body = [[VARIANTS[int(r["size"])], per_history(r), gain] for r, gain in zip(own, gains, strict=True)]
     lines += table(["build variant", "ms per history", "speed-up"], body)
     body = [[f"{r['histories']:g}", f"{r['median']:.1f}"] for r in rows if r["kind"] == "memory" and r["median"] > 0.0]
-    return lines + table(["histories", "peak memory, MiB"], body)
+    lines += table(["histories", "peak memory, MiB"], body)
+    return lines + facades(rows) + fixed(rows)
 
 
 def per_history(row):
     """Spread of the milliseconds per history."""
     return spread_of(row).times(1e3 / row["histories"]).stated()
+
+
+def facades(rows):
+    """Ties, friction and moving supports beside the bare wall."""
+    lines = paragraph(
+        "A facade of 9 m by 0.5 m, bare, with ties at 8.5, 5.5 and 2.5 m, with the friction of transverse walls, and "
+        "on the ground in front of a building (period 0.3 s), in turns on one thread; ratios are to the bare facade in "
+        "the same turn."
+    )
+    names = list(FACADES)
+    gains = [spread_of(row).stated() for row in rows if row["kind"] == "facade ratio"]
+    own = [row for row in rows if row["kind"] == "facade"]
+    body = [[names[int(r["size"])], per_history(r), gain] for r, gain in zip(own, gains, strict=True)]
+    return lines + table(["facade", "ms per history", "ratio"], body)
+
+
+def fixed(rows):
+    """What costs the same for few histories and many."""
+    lines = paragraph("What no history takes, each in a process that has done it before, but for the imports:")
+    names = list(FIXED)
+    own = [(names[int(row["size"])], row) for row in rows if row["kind"] == "fixed"]
+    body = [[name, FIXED[name], spread_of(row).times(1e3).stated()] for name, row in own]
+    return lines + table(["work", "what", "ms"], body)
 
 
 def model(rows):

@@ -2,6 +2,8 @@
 
 import os
 import runpy
+import statistics
+import time
 from dataclasses import replace
 from pathlib import Path
 
@@ -48,6 +50,33 @@ for name, ties in cases.items():
             broken = stripes.broken_ties[np.searchsorted(levels, 0.3 - 1e-9)]
             shares = ", ".join(f"{100.0 * share:.0f} %" for share in broken)
     print(f"| {name} | {' | '.join(cells)} | {shares} |")
+
+print("milliseconds of processor time for a history on one thread, in turns, ratio to the bare facade")
+facades = [(height, thickness) for height in (6.0, 7.0, 8.0, 9.0, 10.0) for thickness in (0.4, 0.5)]
+interlock = dd.Interlock(overlap=0.12, course=0.1, thickness=0.5, spacing=5.0)
+parts = {name: [0.9, 0.6, 0.3][:number] for number, name in enumerate(("none", "one", "two", "three"))}
+few = np.linspace(0.1, 1.0, 10)
+for engine, measured in (("lanes", facades), ("rk45", facades[1:8:6])):
+    seconds: dict[str, list[float]] = {}
+    for height, thickness in measured:
+        walls = {
+            name: dd.OneSidedWall(height, thickness, ties=[replace(tie, height=part * height) for part in own])
+            for name, own in parts.items()
+        }
+        walls["friction"] = dd.OneSidedWall(height, thickness, interlock=interlock)
+        solver = dd.Solver(engine=engine)
+        for name, wall in walls.items():
+            # The first call, which is not timed, uploads the records.
+            taken = []
+            for _ in range(3 if engine == "lanes" else 2):
+                start = time.process_time()
+                dd.multiple_stripe(wall, records, few, polarity="both", solver=solver, threads=1, progress=False)
+                taken.append(time.process_time() - start)
+            seconds.setdefault(name, []).append(1e3 * min(taken[1:]) / (2 * len(records) * len(few)))
+    for name, several in seconds.items():
+        ratios = [mine / bare for mine, bare in zip(several, seconds["none"], strict=True)]
+        spread = f"{statistics.median(ratios):.1f} ({min(ratios):.1f} to {max(ratios):.1f})"
+        print(f"{engine}: | {name} | {statistics.median(several):.3f} | {spread} |")
 
 docs = Path(__file__).parent
 found = runpy.run_path(str(docs / "examples/which_tie.py"))["found"]

@@ -11,6 +11,7 @@ import pytest
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "benchmark"))
 
 import arithmetic
+import beside
 import cores
 import cost_model
 import page
@@ -275,6 +276,10 @@ def made_up_rows(call=2e-3, record=3e-4, history=4e-5, serial=0.1):
     for kind, power in {"walls": 1.0, "shocks": 0.9, "samples": 0.7}.items():
         rows += [row(kind, n, 880, [0.02 * n**power]) for n in (1, 2, 4)]
     rows += [row("variant", 0, 880, [0.5]), row("variant speed-up", 0, 880, [1.0])]
+    for place in range(len(beside.FACADES)):
+        # Each with a third more than the one before
+        rows += [row("facade", place, 880, [0.03 * (3 + place)]), row("facade ratio", place, 880, [1.0 + place / 3.0])]
+    rows += [row("fixed", place, 0, [1e-3 * (1 + place)]) for place in range(len(beside.FIXED))]
     return [*rows, row("memory", 1, 880, [11.5])]
 
 
@@ -389,6 +394,8 @@ def test_page(tables, site):
     assert "turns that count it did 8, 5 to 10 (5 to 10) independent additions in the time of a multiplication" in words
     assert "its histories take 18 ms of it" in words
     assert "A call takes 2 ms + 0.3 ms for each record + 0.04 ms for each history" in words
+    assert "| three ties | 0.205 | 2 |" in text
+    assert "| catalogue | 44 records read | 3 |" in text
     assert "There is no earlier run." in words
     for name in ("README.md", "docs/performance.md"):
         short = (site / name).read_text()
@@ -404,6 +411,7 @@ def test_page_compares_with_an_earlier_run(tables, site):
     assert "Boost.odeint / lanes" in names
     assert "share of the arithmetic limit, one_sided" in names
     assert "additions / multiplication" in names
+    assert "facade with friction / bare" in names
     assert not any("Octave" in name for name in names)
     other = [Figure(each.name, each.spread.times(2.5)) for each in found[:2]]
     runs.append(site / "runs.csv", BEFORE, other + found[2:])

@@ -7,6 +7,7 @@ value of `tie_height` is `ties[1].height`. Names, units, ranges and meanings com
 from __future__ import annotations
 
 import dataclasses
+import functools
 import inspect
 import re
 from collections.abc import Iterable, Mapping, Sequence
@@ -47,6 +48,7 @@ class Part:
                 object.__setattr__(self, name, as_number(name, value))
 
     @classmethod
+    @functools.cache
     def _rows(cls) -> dict[str, Any]:
         """Rows of the table, by the names of its fields; the number that a kind is named after has no second word."""
         names = [field.name for field in dataclasses.fields(cls)]
