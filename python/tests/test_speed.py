@@ -7,6 +7,8 @@ import subprocess
 import sys
 import time
 
+import matplotlib
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 from costs import growth
@@ -15,6 +17,8 @@ from dondolo._fortran import _core
 import dondolo as dd
 
 pytestmark = pytest.mark.slow
+
+matplotlib.use("agg")
 
 LEVELS = np.linspace(0.1, 1.2, 12)
 
@@ -116,6 +120,25 @@ def test_a_call_without_motion_costs_little(wall, records):
                 several.append(time.thread_time() - start)
             assert stripes.edp.any() == (factor == 1.0)
     assert min(seconds[1e-3]) < 0.05 * min(seconds[1.0])
+
+
+def test_a_report_costs_little_more_than_its_figures(stripes, tmp_path):
+    """Four to five times the CPU time of one figure, of which it has four; half as much again is allowed."""
+    curve = stripes.fit()
+
+    def figure():
+        ax = curve.plot()
+        ax.figure.savefig(tmp_path / "curve.svg")
+        plt.close(ax.figure)
+
+    seconds = {figure: [], lambda: dd.report(stripes, tmp_path / "report.html"): []}
+    for _ in range(5):
+        for work, several in seconds.items():
+            start = time.process_time()
+            work()
+            several.append(time.process_time() - start)
+    alone, report = map(min, seconds.values())
+    assert report < 7.0 * alone, seconds
 
 
 def test_a_call_costs_the_same_for_many_records(wall, records):

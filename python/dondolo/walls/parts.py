@@ -364,8 +364,8 @@ def parts_from(properties: Mapping[str, Any]) -> dict[str, Any]:
     """Parts out of the lists of a wall, by the names that walls have for them."""
     found: dict[str, Any] = {}
     for of, kind in KINDS.items():
-        given = {name: properties.get(row.name) for name, row in kind._rows().items()}
-        own: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
+        rows = kind._rows().items()
+        own: dict[str, Any] = {name: value for name, row in rows if (value := properties.get(row.name)) is not None}
         if of not in _LISTS:
             found[of] = kind(**own) if own else None
             continue

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import dataclasses
+import functools
 from collections.abc import Iterable, Mapping
 from dataclasses import KW_ONLY, dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
@@ -127,7 +128,7 @@ class Wall:
 
     def _fill(self, data: WallData) -> None:
         """Take over what Fortran has understood."""
-        own = {field.name for field in dataclasses.fields(self)}
+        own = _fields(type(self))
         filled: dict[str, Any] = {what: value for what, value in data.properties.items() if what in own}
         filled |= {"gravity": data.gravity, "_statics": data.statics, "_two_sided": data.two_sided}
         lists = {what: value for what, value in data.properties.items() if what in PLACES and value is not None}
@@ -365,6 +366,12 @@ class MasonryWall(Wall):
     thickness: float = DEFAULT
     _: KW_ONLY
     density: float = DEFAULT
+
+
+@functools.cache
+def _fields(kind: type[Wall]) -> frozenset[str]:
+    """Names of the fields of a kind of walls."""
+    return frozenset(field.name for field in dataclasses.fields(kind))
 
 
 def _in_words(value: Any) -> str:
