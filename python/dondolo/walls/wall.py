@@ -126,9 +126,15 @@ class Wall:
         """Its properties by their names, None where one does not apply."""
         return {row.name: property_of(self, row.name) for row in WALL_PROPERTIES}
 
+    @classmethod
+    @functools.cache
+    def _fields(cls) -> frozenset[str]:
+        """Names of its fields."""
+        return frozenset(field.name for field in dataclasses.fields(cls))
+
     def _fill(self, data: WallData) -> None:
         """Take over what Fortran has understood."""
-        own = _fields(type(self))
+        own = self._fields()
         filled: dict[str, Any] = {what: value for what, value in data.properties.items() if what in own}
         filled |= {"gravity": data.gravity, "_statics": data.statics, "_two_sided": data.two_sided}
         lists = {what: value for what, value in data.properties.items() if what in PLACES and value is not None}
@@ -366,12 +372,6 @@ class MasonryWall(Wall):
     thickness: float = DEFAULT
     _: KW_ONLY
     density: float = DEFAULT
-
-
-@functools.cache
-def _fields(kind: type[Wall]) -> frozenset[str]:
-    """Names of the fields of a kind of walls."""
-    return frozenset(field.name for field in dataclasses.fields(kind))
 
 
 def _in_words(value: Any) -> str:
