@@ -135,13 +135,16 @@ contains
       !> Results, of each history and wall
       type(response_type), intent(inout) :: response(:, :)
 
-      type(ensemble_type) :: ensemble
+      type(ensemble_type), allocatable :: ensemble
       ! A history that is given up counts as a collapse, as the comparison of both finds
       type(error_type), allocatable :: error
       integer :: i
 
       !$omp parallel do schedule(dynamic) default(none) shared(self, response) private(ensemble, error)
       do i = 1, size(self%wall)
+         ! Allocated anew: what OpenMP makes private has no default values.
+         if (allocated(ensemble)) deallocate (ensemble)
+         allocate (ensemble)
          ensemble%record = self%record
          ensemble%scale = self%scale
          call run_ensemble(ensemble, self%wall(i)%mechanism, self%suite, self%solver, 1, error)

@@ -136,7 +136,7 @@ def interrupt_at(monkeypatch):
 
 
 @pytest.mark.parametrize("after", [False, True])
-@pytest.mark.parametrize("name", ["next_level", "stack", "_stripes"])
+@pytest.mark.parametrize("name", ["next_level", "_stripes"])
 def test_between_levels_that_are_chosen(name, after, wall, few, interrupt_at):
     """Three stripes are complete, and come out whole."""
     interrupt_at(stripe_runs, name, 3, after)
@@ -155,20 +155,20 @@ def test_while_the_first_level_is_chosen(wall, few, interrupt_at):
     assert caught.value.partial is None
 
 
-@pytest.mark.parametrize("name", ["next_level", "stack"])
-def test_a_handler_of_the_users_may_raise_anywhere(name, wall, few, interrupt_at):
+@pytest.mark.parametrize(("name", "complete"), [("next_level", 3), ("_stripes", 2)])
+def test_a_handler_of_the_users_may_raise_anywhere(name, complete, wall, few, interrupt_at):
     def mine(number, frame):
         raise KeyboardInterrupt
 
     before = signal.signal(signal.SIGINT, mine)
     try:
         interrupt_at(stripe_runs, name, 3)
-        with pytest.raises(dd.errors.Interrupted, match=r"interrupted: 3 of 6 stripes") as caught:
+        with pytest.raises(dd.errors.Interrupted, match=rf"interrupted: {complete} of 6 stripes") as caught:
             dd.adaptive_stripes(wall, few, budget=6 * len(few), progress=False)
         assert signal.getsignal(signal.SIGINT) is mine
     finally:
         signal.signal(signal.SIGINT, before)
-    assert len(caught.value.partial.levels) == 3
+    assert len(caught.value.partial.levels) == complete
 
 
 @pytest.mark.parametrize(("run", "how"), [(dd.multiple_stripe, [0.3, 0.6, 0.9]), (dd.adaptive_stripes, 24)])
@@ -178,6 +178,14 @@ def test_when_all_stripes_are_complete(name, run, how, wall, few, interrupt_at):
     with pytest.raises(dd.errors.Interrupted, match=r"interrupted: 3 of 3 stripes are complete") as caught:
         run(wall, few, how, progress=False)
     assert len(caught.value.partial.levels) == 3
+
+
+@pytest.mark.parametrize("after", [False, True])
+def test_while_all_stripes_are_joined(after, wall, few, interrupt_at):
+    interrupt_at(stripe_runs, "stack", 1, after)
+    with pytest.raises(dd.errors.Interrupted, match=r"interrupted: 6 of 6 stripes are complete") as caught:
+        dd.adaptive_stripes(wall, few, budget=6 * len(few), progress=False)
+    assert len(caught.value.partial.levels) == 6
 
 
 def test_when_all_walls_are_complete(few, interrupt_at):

@@ -7,6 +7,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+from dondolo._fortran.files import whole_file
 from dondolo.errors import DondoloError, InputError
 
 #: Kinds of documents and their media types
@@ -47,7 +48,8 @@ def make_document(text: str, kind: str, lang: str) -> bytes:
             Path(folder) / "case.nml",
             Path(folder) / f"{kind}.{'docx' if kind == 'relazione_word' else 'html'}",
         )
-        case.write_text(text, encoding="utf-8")
+        with whole_file(case) as part:
+            part.write_text(text, encoding="utf-8")
         command = [sys.executable, "-W", "ignore", "-m", "dondolo.serve.documents", str(case), str(made), lang]
         try:
             done = subprocess.run(command, capture_output=True, text=True, timeout=_LONGEST, check=False)
