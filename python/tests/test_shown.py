@@ -93,8 +93,8 @@ def test_every_result_is_a_table(things):
     """Of what analyses and readers return; values that are plain numbers, tuples or options have none."""
     plain = {
         "Bed", "Boundary", "Certified", "Choice", "Curve", "Group", "Interlock", "Load", "Logistic", "Lognormal",
-        "Normal", "Problem", "PushedMass", "Regression", "RotD", "Section", "Solver", "Spring", "State", "Terms", "Thrust",
-        "Tie", "Triangular", "Uniform", "Wall", "Window", "Work",
+        "Normal", "Problem", "PushedMass", "Regression", "RotD", "Section", "Solver", "Spring", "State", "Terms",
+        "Thrust", "Tie", "Triangular", "Uniform", "Wall", "Window", "Work",
     }  # fmt: skip
     kinds = {
         name for name, one in public_things().items() if inspect.isclass(one) and not issubclass(one, BaseException)
