@@ -22,6 +22,7 @@ from dondolo._storage.saved import Saved
 from dondolo.curves.bootstrap import Bootstrap, draw_records, resample
 from dondolo.curves.clusters import Clusters
 from dondolo.curves.curve import Curve
+from dondolo.curves.delta_method import half_width, positive_levels
 from dondolo.curves.sample import Sample, given_labels
 from dondolo.errors import DondoloError, InputError
 from dondolo.walls.wall import Wall
@@ -233,13 +234,11 @@ class Fragility(Curve, Shown, Saved):
             Levels that are not positive, a confidence beyond 0 and 1.
         """
         quantile = self._quantile(confidence)
-        values = as_levels(x)
-        if not np.all(values > 0.0):
-            raise InputError(f"x = {values.min():g}: must be positive")
+        values = positive_levels(x)
         probit = np.log(values.ravel() / self.theta) / self.beta
         # Gradient of the probit with respect to (ln theta, beta)
         gradient = np.stack([np.full_like(probit, -1.0 / self.beta), -probit / self.beta])
-        half = quantile * np.sqrt(np.einsum("ik,ij,jk->k", gradient, self.covariance, gradient))
+        half = half_width(gradient, self.covariance, quantile)
         from scipy.special import ndtr
 
         low, high = self.saturation * ndtr(probit - half), self.saturation * ndtr(probit + half)

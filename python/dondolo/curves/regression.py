@@ -20,7 +20,8 @@ from dondolo._base.arguments import FloatArray, as_levels, as_probabilities, sha
 from dondolo._fortran.curves import fit_logit, normal_or_student
 from dondolo._storage.saved import part_of_results
 from dondolo.curves.curve import Curve
-from dondolo.errors import DondoloError, InputError
+from dondolo.curves.delta_method import half_width, positive_levels
+from dondolo.errors import DondoloError
 
 BoolArray = np.ndarray[Any, np.dtype[np.bool_]]
 
@@ -154,12 +155,10 @@ class Logistic(Curve):
         if self.errors == "given":
             raise DondoloError("no standard errors: the parameters were given")
         quantile = normal_or_student(tails(confidence)[1], self.degrees_of_freedom)
-        values = as_levels(x)
-        if not np.all(values > 0.0):
-            raise InputError(f"x = {values.min():g}: must be positive")
+        values = positive_levels(x)
         design = np.stack([np.ones(values.size), np.log(values.ravel())])
         logit = np.array([self.b0, self.b1]) @ design
-        half = quantile * np.sqrt(np.einsum("ik,ij,jk->k", design, self.covariance, design))
+        half = half_width(design, self.covariance, quantile)
         return shaped(expit(logit - half), values), shaped(expit(logit + half), values)
 
     def __call__(self, x: ArrayLike) -> Any:
