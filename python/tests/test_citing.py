@@ -100,6 +100,34 @@ def test_the_commit_is_one_everywhere(tmp_path, executable):
     assert dd.read_results(tmp_path / "stripes").run.commit == commit
 
 
+@pytest.mark.parametrize("task", ["stripes", "typology"])
+def test_files_of_python_name_the_same_sources(task, tmp_path, monkeypatch):
+    """`write_results` of objects, and the case of the same walls, records and levels."""
+    monkeypatch.chdir(tmp_path)
+    records = dd.example_records()[:6]
+    dd.RecordSet(records).to_catalogue("records.csv")
+    walls = dd.Population([dd.TwoBlockWall(3.0, 0.25, hinge=0.6, name="strip")])
+    walls.to_csv("walls.csv")
+    group = "&wall mechanism = 'two_block', height = 3.0, thickness = 0.25, hinge = 0.6 /\n"
+    if task == "typology":
+        group = "&population file = 'walls.csv' /\n"
+    (tmp_path / "case.nml").write_text(
+        f"&job task = '{task}' /\n{group}&records catalogue = 'records.csv' /\n"
+        "&stripes im = 'hi', levels = 0.5, 1.0, 1.5 /\n"
+    )
+    case = dd.run_case("case.nml", progress=False)
+    options = {"im": "hi", "progress": False}
+    if task == "typology":
+        dd.typology(walls, records, [0.5, 1.0, 1.5], **options).write_results("ours")
+    else:
+        dd.multiple_stripe(walls.walls[0], records, [0.5, 1.0, 1.5], **options).write_results("ours")
+    ours = json.loads((tmp_path / "ours_run.json").read_text())["references"]
+    assert {"baker2015", "liang1986", "sorrentino2008", "housner1952"} <= set(ours)
+    # Objects of Python keep names of records, and not that they are synthetic
+    assert ours == [key for key in case.run.references if key != "sabetta1996"]
+    assert list(dd.read_results("ours").run.references) == ours
+
+
 def test_results_name_what_they_used():
     """Of walls, records, curves and analyses, each once."""
     records = dd.synthetic_records(6.5, 10.0, "shallow", n_records=4)

@@ -1,5 +1,9 @@
 """Walls whose terms are a table: against the walls of dondolo, and against an arch that dondolo does not have."""
 
+import json
+import subprocess
+import sys
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -170,6 +174,44 @@ def test_files(tmp_path, motions, monkeypatch):
     # The identity of a study is that of the content of the file
     (tmp_path / "tables/two.csv").write_text((tmp_path / "tables/two.csv").read_text().replace("0.0,", "0,", 1))
     assert dd.Population.from_csv("walls.csv").walls[0] == population.walls[0]
+
+
+def test_the_file_is_an_input_of_the_run(tmp_path, monkeypatch):
+    """By its role and checksum; results do not overwrite it. A population notes the largest misfit."""
+    monkeypatch.chdir(tmp_path)
+    wall = as_table(WALLS["two_block"], name="a")
+    write_table(tmp_path / "out_walls.csv", wall)
+    dd.RecordSet(dd.synthetic_records(6.5, 10.0, "shallow", n_records=3)).to_catalogue("records.csv")
+    own = f"tabulated,3.0,out_walls.csv,2,{wall.restitution_coefficient!r}"
+    Path("walls.csv").write_text(f"name,mechanism,height,table,sides,restitution_value\na,{own}\nb,{own}\n")
+    described = "mechanism = 'tabulated', height = 3.0, table = 'out_walls.csv', sides = 2, restitution_value = {}"
+    common = "&records catalogue = 'records.csv' /\n&stripes levels = 0.5, 1.0 /\n"
+    walls = {
+        "stripes": f"&wall {described.format(wall.restitution_coefficient)} /\n",
+        "typology": "&population file = 'walls.csv' /\n",
+    }
+    executable = Path(sys.executable).with_name("dondolo")
+    for task, group in walls.items():
+        Path("case.nml").write_text(f"&job task = '{task}', output = 'results/{task}' /\n{group}{common}")
+        ran = subprocess.run([executable, "case.nml"], check=True, capture_output=True, text=True)
+        run = json.loads(Path(f"results/{task}_run.json").read_text())
+        (found,) = (one for one in run["inputs"] if one["role"] == "table")
+        content = Path("out_walls.csv").read_bytes()
+        assert (found["bytes"], found["crc32"]) == (len(content), f"{zlib.crc32(content):08x}")
+        assert Path(found["path"]).samefile("out_walls.csv")
+        checked = subprocess.run([executable, "--check", "case.nml"], check=True, capture_output=True, text=True)
+        assert "polynomials miss" in checked.stdout + checked.stderr
+        for noted in (checked.stderr, ran.stderr):
+            assert ("2 of 2 rows are tabulated: polynomials miss" in noted) == (task == "typology")
+        assert any("2 of 2 rows are tabulated" in note for note in run["notes"]) == (task == "typology")
+        # Changed in a comment or in a digit, the run is known to be of another file
+        Path("out_walls.csv").write_bytes(content + b"\n")
+        assert f"{zlib.crc32(Path('out_walls.csv').read_bytes()):08x}" != found["crc32"]
+        Path("out_walls.csv").write_bytes(content)
+        Path("case.nml").write_text(f"&job task = '{task}', output = 'out' /\n{group}{common}")
+        refused = subprocess.run([executable, "case.nml"], check=False, capture_output=True, text=True)
+        assert refused.returncode != 0
+        assert Path("out_walls.csv").read_bytes() == content
 
 
 def test_powers(tmp_path):

@@ -14,7 +14,7 @@ module library
    use dondolo_base_lines, only : lines_type
    use dondolo_base_plain, only : name_problem, shown
    use dondolo_base_property, only : describe_property, property_type
-   use dondolo_base_references, only : list_bibtex
+   use dondolo_base_references, only : list_bibtex, list_keys
    use dondolo_base_text, only : join
    use dondolo_base_threads, only : threads_here => available_threads
    use dondolo_base_version, only : build_commit, dondolo_version_text
@@ -32,8 +32,8 @@ module library
    implicit none
    private
 
-   public :: cite, constants, properties, check_text, variant, available_threads, listen, end_listening, work_alone, take_parcel, &
-      & take_series, free
+   public :: cite, cite_keys, constants, properties, check_text, variant, available_threads, listen, end_listening, work_alone, &
+      & take_parcel, take_series, free
 
 contains
 
@@ -94,6 +94,29 @@ contains
       type(lines_type) :: used
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
+
+      call split_words(words, used)
+      call list_bibtex(used, parcel%lines)
+      call send(parcel, error, sent)
+   end subroutine cite
+
+   !> Keys of these sources
+   subroutine cite_keys(words, sent)
+      character(len=*), intent(in) :: words
+      integer(c_int64_t), intent(out) :: sent(5)
+      type(lines_type) :: used
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+
+      call split_words(words, used)
+      call list_keys(used, parcel%lines)
+      call send(parcel, error, sent)
+   end subroutine cite_keys
+
+   !> Words that commas separate
+   subroutine split_words(words, used)
+      character(len=*), intent(in) :: words
+      type(lines_type), intent(out) :: used
       integer :: first, last
 
       first = 1
@@ -102,9 +125,7 @@ contains
          call used%add(words(first:last))
          first = last + 2
       end do
-      call list_bibtex(used, parcel%lines)
-      call send(parcel, error, sent)
-   end subroutine cite
+   end subroutine split_words
 
    !> Check a name, a title or another word of the user's
    subroutine check_text(what, text, failure)

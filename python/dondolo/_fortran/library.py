@@ -204,6 +204,11 @@ def bibtex(used: Iterable[str]) -> list[str]:
     return receive(_core.library.cite(",".join(used).encode())).lines
 
 
+def source_keys(used: Iterable[str]) -> tuple[str, ...]:
+    """Keys of these sources."""
+    return tuple(receive(_core.library.cite_keys(",".join(used).encode())).lines)
+
+
 def build_variant() -> str:
     """Name of the build variant: see `Solver.variant`."""
     name, failure = _core.library.variant()

@@ -6,15 +6,15 @@ import json
 import math
 import os
 import zlib
-from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, fields, replace
 from datetime import datetime
 from typing import Any
 
 from dondolo._base.arguments import increasing
 from dondolo._base.files import RUN_NAME, read_text
 from dondolo._fortran.files import Written
-from dondolo._fortran.library import constants, unpack_warning
+from dondolo._fortran.library import constants, source_keys, unpack_warning
 from dondolo.errors import DondoloWarning, InputError
 
 FORMAT = "dondolo run 2"
@@ -134,6 +134,10 @@ class RunFile:
     references: tuple[str, ...] = ()
     content: Mapping[str, Any] = field(default_factory=dict, repr=False)
 
+    def citing(self, *used: str) -> RunFile:
+        """The same, with the keys of the sources of what was used, in the words of dondolo_base_references."""
+        return replace(self, references=source_keys(dict.fromkeys(used)))
+
     def setting(self, group: str, name: str, default: Any) -> Any:
         """A variable of a group; `default`, which has the type it must have, if it is not there."""
         try:
@@ -163,6 +167,7 @@ class RunFile:
             return _text_of({**self.content, "run": self.run, "files": files})
         content: dict[str, Any] = {"format": FORMAT, "run": self.run, "version": self.version}
         content["commit"] = constants().commit
+        content["references"] = self.references
         content |= {name: getattr(self, name) for name in ("compiler", "engine") if getattr(self, name)}
         content |= {"settings": self.settings, "inputs": self.inputs, "shape": self.shape, "records": self.records}
         content["files"] = [file._asdict() for file in self.files]
@@ -172,6 +177,16 @@ class RunFile:
             content["standard_errors"] = {"confidence": self.confidence}
         content |= {"notes": self.notes, "warnings": [one.as_data() for one in self.warnings]}
         return _text_of(content)
+
+
+def sources_of_measure(im: str) -> tuple[str, str]:
+    """Words of an intensity measure among those of dondolo_base_references."""
+    return im, im.partition("(")[0]
+
+
+def sources_of_fits(im: str, walls: Iterable[Any]) -> set[str]:
+    """Words of curves that were fitted to the counts of walls at levels of a measure."""
+    return {"fit", "clustered", *sources_of_measure(im)}.union(*(wall._sources() for wall in walls))
 
 
 def _text_of(content: Mapping[str, Any]) -> str:

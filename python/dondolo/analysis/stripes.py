@@ -20,7 +20,7 @@ from dondolo._fortran.tables import TableColumns, plain, stripe_columns
 from dondolo._fortran.uncertainty import restitution_sentence
 from dondolo._storage import tables
 from dondolo._storage.result_set import write_set
-from dondolo._storage.run_file import RunFile
+from dondolo._storage.run_file import RunFile, sources_of_fits
 from dondolo._storage.saved import Saved
 from dondolo.analysis.histories import cut, join
 from dondolo.analysis.stripe_tables import histories_table
@@ -730,7 +730,8 @@ class Stripes(Shown, Saved):
             work=self.work._asdict(),
             shape={"walls": 1, "levels": len(self.levels), "states": len(levels), "records": self.n_records},
         )
-        write_set(prefix, found, run, spreadsheet_safe=spreadsheet_safe)
+        used = sources_of_fits(self.im, (self.wall,)) | {self.engine, states}
+        write_set(prefix, found, run.citing(*used), spreadsheet_safe=spreadsheet_safe)
 
     def _facts(self) -> list[tuple[str, str]]:
         facts = [

@@ -7,7 +7,7 @@ from dataclasses import fields, is_dataclass
 from typing import Any
 
 from dondolo._fortran.library import bibtex
-from dondolo._storage.run_file import RunFile
+from dondolo._storage.run_file import RunFile, sources_of_measure
 from dondolo.analysis.cloud import Cloud
 from dondolo.analysis.incremental import Incremental
 from dondolo.analysis.overturning import OverturningSpectrum
@@ -100,9 +100,7 @@ def _words(thing: Any, seen: set[int]) -> Iterator[str]:
         yield thing.metadata.get("format", "")
         return
     if isinstance(thing, Wall):
-        yield from (thing.mechanism, f"{thing.mechanism}/{thing.restitution}")
-        if thing.building is not None:
-            yield "building"
+        yield from thing._sources()
         return
     if isinstance(thing, Fragility) and thing.has_fit and thing.errors != "given":
         yield "fit"
@@ -112,7 +110,7 @@ def _words(thing: Any, seen: set[int]) -> Iterator[str]:
     if is_dataclass(thing):
         measure = getattr(thing, "im", None)
         if isinstance(measure, str):
-            yield from (measure, measure.partition("(")[0])
+            yield from sources_of_measure(measure)
         for field in fields(thing):
             yield from _words(getattr(thing, field.name), seen)
     elif isinstance(thing, Mapping):

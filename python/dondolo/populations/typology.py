@@ -20,7 +20,7 @@ from dondolo._fortran.records import levels_in_words, unit_of
 from dondolo._fortran.tables import TableColumns, plain, stripe_columns, typology_columns
 from dondolo._storage import tables
 from dondolo._storage.result_set import write_set
-from dondolo._storage.run_file import RunFile
+from dondolo._storage.run_file import RunFile, sources_of_fits
 from dondolo._storage.saved import Saved
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import Fragility
@@ -627,7 +627,8 @@ class Typology(Shown, Saved):
         found = {f"_{name}.csv": table() for name, table in self._tables().items()} | dict(more or {})
         run = self._run_file(pulls.pop())
         run = dataclasses.replace(run, settings={**run.settings, **(settings or {})}, confidence=confidence)
-        write_set(prefix, found, run, spreadsheet_safe=spreadsheet_safe)
+        used = sources_of_fits(self.im, self.walls) | ({"check", "uncertainty"} & run.settings.keys())
+        write_set(prefix, found, run.citing(*used), spreadsheet_safe=spreadsheet_safe)
 
     def _shape(self) -> dict[str, int]:
         return {"walls": len(self.walls), "levels": len(self.levels), "states": len(self.edp_thresholds)}

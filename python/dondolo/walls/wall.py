@@ -102,6 +102,11 @@ class Wall:
     def __post_init__(self) -> None:
         self._understand()
 
+    def _sources(self) -> tuple[str, ...]:
+        """What it uses of the methods of others, in the words of dondolo_base_references."""
+        building = () if self.building is None else ("building",)
+        return self.mechanism, f"{self.mechanism}/{self.restitution}", *building
+
     def _understand(self, **more: Any) -> None:
         """Let Fortran check what is said of the wall, and what is given besides its fields."""
         if not self.mechanism:

@@ -103,6 +103,8 @@ module dondolo_wall_properties
 
    !> What a user says of a wall
    type, extends(settings_type) :: wall_input_type
+      !> File that the terms of a tabulated wall were read from; not allocated: they are lists
+      character(len=:), allocatable :: table_file
    contains
       procedure :: get_table
       procedure :: find

@@ -43,7 +43,7 @@ contains
 
    !> Take the terms of a wall out of the file that it names
    subroutine take_table(input, file, error)
-      !> What is said of the wall; out: the terms are lists, and the file is not named any more
+      !> What is said of the wall; out: the terms are lists in place of the file, whose path is kept
       class(wall_input_type), intent(inout) :: input
       !> The file whose folder the path is relative to; empty: the current folder
       character(len=*), intent(in) :: file
@@ -69,7 +69,9 @@ contains
          call add_place(error, path)
       end if
       call add_place(error, 'table')
-      if (.not. allocated(error)) call input%clear('table')
+      if (allocated(error)) return
+      call input%clear('table')
+      input%table_file = path
    end subroutine take_table
 
    !> Find the columns, and turn their units into those of the program

@@ -7,7 +7,7 @@ module dondolo_case
    use dondolo_building_input, only : building_properties
    use dondolo_case_echo, only : echo_type
    use dondolo_case_history_group, only : history_input_type
-   use dondolo_case_job_group, only : history_task, job_type, stripes_task, task_names
+   use dondolo_case_job_group, only : history_task, job_type, stripes_task, task_names, typology_task
    use dondolo_case_population_group, only : put_population
    use dondolo_case_records_group, only : records_input_type
    use dondolo_case_settings_group, only : echo_settings
@@ -72,6 +72,8 @@ module dondolo_case
       procedure :: echo
       !> Paths of the files it is made of
       procedure :: inputs
+      !> Paths of the files of tabulated walls
+      procedure :: tables
    end type case_type
 
 contains
@@ -186,12 +188,32 @@ contains
    !> Paths of the files it is made of
    subroutine inputs(self, paths)
       class(case_type), intent(in) :: self
-      !> The namelist file, the catalogue, the population
+      !> The namelist file, the catalogue, the population, the tables of walls
       type(lines_type), intent(out) :: paths
+
+      type(lines_type) :: tables
+      integer :: i
 
       call paths%add(self%file)
       call paths%add(beside(self%records_input%catalogue, self%file))
       if (allocated(self%population_file)) call paths%add(self%population_path())
+      call self%tables(tables)
+      do i = 1, tables%count
+         call paths%add(tables%line(i)%text)
+      end do
    end subroutine inputs
+
+   !> Paths of the files that tabulated walls have their terms from
+   subroutine tables(self, paths)
+      class(case_type), intent(in) :: self
+      !> Each once
+      type(lines_type), intent(out) :: paths
+
+      if (self%job%task == typology_task) then
+         paths = self%survey%tables
+      else if (allocated(self%wall%input%table_file)) then
+         call paths%add(self%wall%input%table_file)
+      end if
+   end subroutine tables
 
 end module dondolo_case

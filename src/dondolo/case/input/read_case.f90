@@ -5,7 +5,7 @@ module dondolo_case_read_case
    use dondolo_base_memory, only : check_room
    use dondolo_base_paths, only : beside
    use dondolo_base_system, only : is_folder
-   use dondolo_base_text, only : brief, to_text
+   use dondolo_base_text, only : brief, rounded, to_text
    use dondolo_case, only : case_type
    use dondolo_case_building_group, only : read_building_group
    use dondolo_case_check_group, only : read_check_group
@@ -198,6 +198,9 @@ contains
       if (.not. allocated(error)) call survey_population(case%survey, case%table, study, range, error)
       if (allocated(error)) return
       if (len(case%survey%note) > 0) call case%notes%add(case%survey%note)
+      if (case%survey%tabulated > 0) call case%notes%add(to_text(case%survey%tabulated)//' of '//to_text(case%survey%rows)// &
+         & ' rows are tabulated: polynomials miss the values of their tables by '//rounded(100.0_wp*case%survey%misfit)// &
+         & ' % of the largest at most (wall '''//case%survey%worst_fitted//''')')
       if (case%designs .and. (case%survey%rows < 2 .or. case%survey%walls < case%survey%rows)) then
          call raise_input(error, case%population_path()//': has '//to_text(case%survey%walls)//' walls in '// &
             & to_text(case%survey%rows)//' rows: designs = .true. needs two designs at least, each a wall of one row')

@@ -4,6 +4,7 @@ module dondolo_case_survey
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_base_error, only : add_place, error_type, problems_type, raise_input
    use dondolo_base_fingerprint, only : fingerprint_type
+   use dondolo_base_kinds, only : wp
    use dondolo_base_limits, only : most_groups
    use dondolo_base_lines, only : lines_type
    use dondolo_base_text, only : to_text
@@ -22,6 +23,7 @@ module dondolo_case_survey
    use dondolo_wall, only : wall_type
    use dondolo_wall_properties, only : wall_properties
    use dondolo_wall_support_notes, only : supports_type
+   use dondolo_wall_tabulated_model, only : tabulated_name
    implicit none
    private
 
@@ -57,6 +59,12 @@ module dondolo_case_survey
       integer, allocatable :: lengths(:)
       !> What moves the walls
       type(supports_type) :: supports
+      !> Files that tabulated walls have their terms from, each once
+      type(lines_type) :: tables
+      !> Rows of tabulated walls; largest misfit of their polynomials / largest value, and the wall that has it
+      integer :: tabulated = 0
+      real(wp) :: misfit = -1.0_wp
+      character(len=:), allocatable :: worst_fitted
       !> What its walls use of the methods of others, in the words of dondolo_base_references, each once
       type(lines_type) :: used
       !> How the table was read, where there is something to say of it, else empty
@@ -102,6 +110,7 @@ contains
             survey%lengths = max(survey%lengths, row%wall%input%lengths())
             call survey%supports%look(row%wall)
             call add_wall_words(survey%used, row%wall)
+            if (row%wall%mechanism_name() == tabulated_name) call look_at_table(survey, row%wall)
             call add_wall(survey%walls_fingerprint, row%wall)
             if (survey%population%groups%count > most_groups) call refuse_group(survey%population%groups, error)
             if (.not. allocated(error)) call check_limit(study%solver, row%wall%mechanism, error)
@@ -133,25 +142,35 @@ contains
       type(lines_type), intent(inout) :: used
       type(wall_type), intent(in) :: wall
 
-      call add_once(wall%mechanism_name())
-      call add_once(wall%mechanism_name()//'/'//wall%input%word('restitution'))
-      if (allocated(wall%building)) call add_once('building')
-
-   contains
-
-      !> Add a word that is not listed
-      subroutine add_once(word)
-         character(len=*), intent(in) :: word
-
-         integer :: i
-
-         do i = 1, used%count
-            if (used%line(i)%text == word) return
-         end do
-         call used%add(word)
-      end subroutine add_once
-
+      call add_once(used, wall%mechanism_name())
+      call add_once(used, wall%mechanism_name()//'/'//wall%input%word('restitution'))
+      if (allocated(wall%building)) call add_once(used, 'building')
    end subroutine add_wall_words
+
+   !> Note the file of a tabulated wall, and how far its polynomials miss its table
+   subroutine look_at_table(survey, wall)
+      type(survey_type), intent(inout) :: survey
+      type(wall_type), intent(in) :: wall
+
+      survey%tabulated = survey%tabulated + 1
+      if (allocated(wall%input%table_file)) call add_once(survey%tables, wall%input%table_file)
+      if (.not. wall%model%misfit > survey%misfit) return
+      survey%misfit = wall%model%misfit
+      survey%worst_fitted = wall%name()
+   end subroutine look_at_table
+
+   !> Add a line that is not listed
+   subroutine add_once(lines, line)
+      type(lines_type), intent(inout) :: lines
+      character(len=*), intent(in) :: line
+
+      integer :: i
+
+      do i = 1, lines%count
+         if (lines%line(i)%text == line) return
+      end do
+      call lines%add(line)
+   end subroutine add_once
 
    !> Refuse a group that is one too many
    subroutine refuse_group(groups, error)

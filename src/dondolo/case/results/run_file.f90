@@ -103,6 +103,7 @@ contains
       type(case_type), intent(in) :: case
       type(json_type), intent(inout) :: json
 
+      type(lines_type) :: tables
       integer :: i
 
       call json%open_array('inputs')
@@ -116,6 +117,10 @@ contains
       ! As it was read, whatever has become of it
       if (allocated(case%population_file)) call put_input('population', case%population_path(), .true., case%table%csv%bytes, &
          & case%table%csv%checksum)
+      call case%tables(tables)
+      do i = 1, tables%count
+         call put_file('table', tables%line(i)%text)
+      end do
       call json%close_array()
 
    contains
