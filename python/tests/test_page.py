@@ -85,9 +85,10 @@ def until(page, holds):
 
 def settled(page):
     """Wait until the newest state of the sliders is painted, whole."""
-    until(page, "document.querySelector('#text').textContent !== ''")
+    whole = "!document.body.matches('.stale') && document.querySelector('#numbers dd') !== null"
+    until(page, whole)
     page.wait_for_timeout(600)
-    until(page, "document.querySelector('#numbers dd') !== null")
+    until(page, whole)
 
 
 def test_numbers_are_of_the_text(visit, root):
@@ -126,6 +127,37 @@ def test_no_number_of_another_wall(visit):
     page.wait_for_selector("#notice", state="hidden")
     settled(page)
     assert page.text_content("#numbers .main dd")
+
+
+# Numbers that are visible, at each event of a slider and at each painted answer that is not of the newest one
+SEEN = """
+window.seen = []; window.inputs = 0; window.late = 0;
+const places = ['#numbers dd', '#under', '#warnings', '#check td', '#text', '#wall text', '#chart .halo'];
+const visible = () => places.filter((place) => [...document.querySelectorAll(place)]
+  .some((one) => one.textContent && getComputedStyle(one).visibility !== 'hidden'));
+window.visible = visible;
+addEventListener('input', () => { inputs += 1; seen.push(...visible()); });
+addEventListener('painted', () => { if (document.body.matches('.stale')) { late += 1; seen.push(...visible()); } });
+"""
+
+
+def test_numbers_before_are_hidden_at_once(visit):
+    """No number is visible from the event of a slider to the answer to it, however late; then all of them are."""
+    page = visit()
+    settled(page)
+    page.evaluate(SEEN)
+    # Answers take 0.4 s: several events pass before each.
+    page.context.route("**/curve", lambda route: (page.wait_for_timeout(400), route.continue_()))
+    page.focus("[data-name='wall.thickness'] input[type=range]")
+    for _ in range(6):
+        page.keyboard.press("ArrowRight")
+        page.wait_for_timeout(60)
+    settled(page)
+    assert page.evaluate("inputs") == 6
+    assert page.evaluate("late") >= 1
+    assert page.evaluate("seen") == []
+    assert "#numbers dd" in page.evaluate("visible()")
+    assert "thickness = 0.56" in page.text_content("#text")
 
 
 @pytest.mark.parametrize("width", [1280, 420])

@@ -27,7 +27,7 @@ function words() {
   at("wall-title").textContent = t("motion"); at("case-title").textContent = t("case_file");
   const file = make("input", { type: "file", accept: ".nml,text/plain", onchange: () => { if (file.files[0]) file.files[0].text().then(open); file.value = ""; } });
   const document_ = (kind, name, key) => make("button", { type: "button", "data-kind": kind, onclick: () => makeDocument(kind, name) }, t(key));
-  at("actions").replaceChildren(make("label", { class: "file" }, t("open"), file), make("button", { type: "button", onclick: () => state.answer && save(state.answer.text, `${slug()}.nml`) }, t("save")), document_("report", "report.html", "report"), document_("relazione", "relazione.html", "relazione"), document_("relazione_word", "relazione.docx", "relazione"), make("button", { type: "button", onclick: saveFigure }, t("figure")), make("button", { type: "button", lang: language() === "it" ? "en" : "it", onclick: () => { speak(language() === "it" ? "en" : "it"); words(); draw(); changed(); } }, t("other_language")));
+  at("actions").replaceChildren(make("label", { class: "file" }, t("open"), file), make("button", { type: "button", onclick: () => isWhole() && save(state.answer.text, `${slug()}.nml`) }, t("save")), document_("report", "report.html", "report"), document_("relazione", "relazione.html", "relazione"), document_("relazione_word", "relazione.docx", "relazione"), make("button", { type: "button", onclick: saveFigure }, t("figure")), make("button", { type: "button", lang: language() === "it" ? "en" : "it", onclick: () => { speak(language() === "it" ? "en" : "it"); words(); draw(); changed(); } }, t("other_language")));
   at("actions").querySelector("[data-kind=relazione_word]").textContent = "Word";
   at("actions").querySelector("[data-kind=relazione_word]").setAttribute("aria-label", `${t("relazione")}, Word`);
   at("footer").replaceChildren(`dondolo ${begun.version} · ${t("records", { n: begun.records.length, name: begun.catalogue })} · ${t("local")}`);
@@ -48,14 +48,14 @@ async function open(text) {
   } catch (error) { refuse(error, true); }
 }
 async function makeDocument(kind, name) {
-  if (making || !state.answer) return;
+  if (making || !isWhole()) return;
   const button = at("actions").querySelector(`[data-kind=${kind}]`), before = button.textContent;
   making = kind; button.disabled = true; button.textContent = t("making");
   const settings = { ...state.settings, stripes: { ...state.settings.stripes, levels: state.answer.levels } };
   try { save(await post("document", { kind, settings, lang: language() }), `${slug()}_${name}`); } catch (error) { refuse(error, true); }
   making = null; button.disabled = false; button.textContent = before;
 }
-function saveFigure() { const svg = at("chart").querySelector("svg"); if (svg && state.answer) save(new Blob([standalone(svg.outerHTML)], { type: "image/svg+xml" }), `${slug()}.svg`); }
+function saveFigure() { const svg = at("chart").querySelector("svg"); if (svg && isWhole()) save(new Blob([standalone(svg.outerHTML)], { type: "image/svg+xml" }), `${slug()}.svg`); }
 const say = (text) => { at("said").textContent = text; };
 
 function refuse(error, isAside = false) {
@@ -98,7 +98,7 @@ function show() {
   check(a.check);
   if (film === null) at("wall").innerHTML = drawing(a.wall);
   at("text").textContent = a.text;
-  if (!a.draft) say(fitted ? t("said", { x: sig(a.theta), unit }) : t("no_curve"));
+  if (!a.draft && state.isNewest) say(fitted ? t("said", { x: sig(a.theta), unit }) : t("no_curve"));
 }
 function under(a, unit) {
   const rows = [make("button", { type: "button", class: "small", onclick: () => { state.b = structuredClone({ ...state.settings, stripes: { ...state.settings.stripes, levels: a.levels } }); state.bAnswer = a; state.bAuto = state.auto; changed(); } }, t("pin"))];
@@ -137,7 +137,7 @@ function filmForm() {
 const show_ = () => { if (state.answer) at("wall").innerHTML = drawing(state.answer.wall); };
 function stopFilm() { if (film) cancelAnimationFrame(film.frame); film = null; if (at("play")) { at("play").textContent = t("play"); at("outcome").textContent = ""; at("trace").replaceChildren(); } }
 async function play() {
-  if (!state.answer) return;
+  if (!state.answer || !state.isNewest) return;
   const version = state.version, settings = { ...state.settings, stripes: { ...state.settings.stripes, levels: state.answer.levels } };
   try {
     const motion = await post("motion", { settings, record: state.record, pga: state.pga, lang: language() });
@@ -157,16 +157,20 @@ async function play() {
   } catch (error) { refuse(error, true); }
 }
 
+// Whether the page has the whole answer to what its sliders say: what is saved must be of them.
+const isWhole = () => state.answer !== null && state.isNewest && !state.answer.draft;
+
 let fade = 0;
 whenTold((what, error) => {
   if (what === "waiting") {
     if (film) { stopFilm(); }
-    clearTimeout(fade);
-    // An answer that is late: numbers of the wall before are taken away.
-    fade = setTimeout(() => { at("numbers").replaceChildren(); at("check").replaceChildren(); at("under").replaceChildren(); at("warnings").replaceChildren(); at("chart").classList.add("old"); at("wall").classList.add("old"); at("text").textContent = ""; }, 250);
+    // Numbers of the wall before are hidden at once; its curve fades if the answer is late.
+    document.body.classList.add("stale");
+    fade ||= setTimeout(() => { at("chart").classList.add("old"); at("wall").classList.add("old"); }, 250);
     return;
   }
-  clearTimeout(fade);
+  clearTimeout(fade); fade = 0;
+  document.body.classList.toggle("stale", what === "answer" && !state.isNewest);
   if (what === "refused") refuse(error);
   else { at("wall").classList.remove("old"); show(); }
   window.dispatchEvent(new CustomEvent("painted"));

@@ -22,6 +22,7 @@ export async function post(path, body) {
 // Something has changed: ask for the curve of the newest state; one question at a time, the newest one waits.
 export function changed(moving = false) {
   state.version = (state.version || 0) + 1;
+  state.isNewest = false;
   dragging = moving && slow > SLOW;
   clearTimeout(later);
   if (moving) later = setTimeout(() => { dragging = false; if (state.answer === null || state.answer.draft) ask(); }, PAUSE);
@@ -41,8 +42,12 @@ async function ask() {
     try {
       const answer = await post("curve", body);
       if (!draft) slow = answer.ms;
-      if (version === state.version || !("error" in answer)) { state.answer = answer; state.isNewest = version === state.version; told("answer"); }
+      state.answer = answer;
+      state.isNewest = version === state.version;
+      told("answer");
     } catch (error) {
+      // The refusal of a state that has passed is nothing to read: the answer to the newest one follows.
+      if (version !== state.version) continue;
       state.answer = null;
       told("refused", error);
     }
