@@ -31,10 +31,13 @@ contains
          & rounded(sheet%value('mechanism', '', 'd_0'))//' m'
       write (output_unit, '(a, 5a14)') 'kinematic    ', 'limit state', 'a_g S, g', 'stands, g', 'ratio', 'P(collapse)'
       do i = 1, size(check_states)
-         write (output_unit, '(a, 5a14, a)') check_methods(i)//'    ', check_states(i), cell('site', 'pga'), &
-            & cell(check_methods(i), 'capacity_pga'), cell(check_methods(i), 'ratio'), cell(check_methods(i), 'probability'), &
-            & trim(merge('  not applicable', '                ', .not. sheet%is_all_one(check_methods(i), 'applicable', &
-            & check_states(i))))
+         write (output_unit, '(a, 2a14)', advance='no') check_methods(i)//'    ', check_states(i), cell('site', 'pga')
+         if (sheet%is_all_one(check_methods(i), 'applicable', check_states(i))) then
+            write (output_unit, '(3a14)') cell(check_methods(i), 'capacity_pga'), cell(check_methods(i), 'ratio'), &
+               & cell(check_methods(i), 'probability')
+         else
+            write (output_unit, '(a)') '  not applicable: an anchor gives way before its bar yields'
+         end if
       end do
       if (sheet%value('nonlinear', 'SLV', 'return_period_capacity') > 0.0_wp) write (output_unit, '(a)') 'return period of '// &
          & 'the capacity, nonlinear SLV: '//trim(shown_years(new_safety(sheet)))//', of the hazard '// &

@@ -411,6 +411,22 @@ def test_states_beside_each_other(brittle):
     assert f"{second.value('nonlinear', 'SLV', 'return_period_capacity'):.5g}" in page
 
 
+def test_a_check_that_is_not_applicable_has_no_number(brittle):
+    """Neither in the report nor in the calculation report; nor is its line in the figure."""
+    place, results = brittle
+    check = results[1].check
+    assert check.not_applicable == (("linear", "SLV"),)
+    void = {quantity: check.value("linear", "SLV", quantity) for quantity in ("ratio", "capacity_pga")}
+    dd.calculation_report(results, place / "void.html", lang="en")
+    dd.report(results[1], place / "page.html")
+    for name in ("void", "page"):
+        page = of_page(place / f"{name}.html")
+        assert "not applicable" in page, name
+        for value in void.values():
+            assert not any(f"{value:.{figures}g}" in page for figures in (3, 4, 5, 6)), (name, value)
+    assert f"up to {void['capacity_pga']:.4g}" not in str(check)
+
+
 @pytest.mark.parametrize(
     ("line", "words"),
     [

@@ -48,6 +48,9 @@ _OPEN = {
     "anchor_checked": "anchor not checked",
 }
 
+# What a check comes to in numbers
+_OUTCOMES = ("ratio", "zeta_e", "capacity_pga", "return_period_capacity", "probability")
+
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class CodeCheck(Shown, Saved):
@@ -112,6 +115,15 @@ class CodeCheck(Shown, Saved):
     def _has(self, method: str, limit_state: str, quantity: str, *, item: str | None = None) -> bool:
         """Whether the sheet has a number, for the arguments of `value`."""
         return self._row(method, limit_state, quantity, item) is not None
+
+    def _is_void(self, row: SheetRow) -> bool:
+        """Whether a number is what a check comes to that is not applicable, and would be read as if it held."""
+        return row.quantity in _OUTCOMES and (row.method, row.limit_state) in self.not_applicable
+
+    def _outcome(self, key: tuple[str, str], quantity: str) -> float:
+        """What a check (method, limit state) comes to; NaN if it is not applicable."""
+        row = self._row(*key, quantity)
+        return np.nan if row is None or self._is_void(row) else row.value
 
     def _safety(self) -> tuple[float, ...]:
         """a_0*, alpha_0, linear and nonlinear safety index of SLV, T_R,C, and the sign of its bound; NaN for none."""
@@ -317,7 +329,7 @@ class CodeCheck(Shown, Saved):
             text = "verified" if holds else "not verified"
             if (method, state) in self.not_applicable:
                 text = "not applicable"
-            if (method, state) in self.capacities:
+            elif (method, state) in self.capacities:
                 text += f", a_g S up to {self.capacities[method, state]:.4g} g"
             else:
                 count = [self.value(method, state, name) for name in ("beyond", "histories", "records")]

@@ -20,9 +20,12 @@ if TYPE_CHECKING:
 def draw_check(check: CodeCheck, curve: Fragility, ax: Axes | None, given: dict[str, Any]) -> Axes:
     """Draw a curve, the peak acceleration of the site, and what the wall withstands by each formula."""
     options = Options(given, "band", "bars", "points")
-    chances = check.probabilities(curve)
+    chances = {key: value for key, value in check.probabilities(curve).items() if key not in check.not_applicable}
     ax = curve.plot(curves.axes(ax), **given | {"legend": False})
-    right = max(ax.get_xlim()[1], 1.05 * max(check.pga, *check.capacities.values()))
+    right = max(
+        ax.get_xlim()[1],
+        1.05 * max(check.pga, *(check.value(*key, "capacity_pga") for key in chances if key[0] != "site")),
+    )
     for i, ((method, state), chance) in enumerate(chances.items()):
         level = check.value(method, state, "pga" if method == "site" else "capacity_pga")
         name = f"a_g S of the site {state}".strip() + ":" if method == "site" else f"{method} {state} withstands"

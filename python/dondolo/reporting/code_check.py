@@ -7,7 +7,6 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from dondolo._fortran.checks import SheetRow
 from dondolo.checks.ntc import CodeCheck
 from dondolo.curves.fragility import Fragility
 from dondolo.reporting.content import Piece, Symbol, Table, figure
@@ -22,7 +21,11 @@ def code_check(check: CodeCheck, curve: Fragility | None) -> dict[str, Any]:
     chances: dict[tuple[str, str], float] = {}
     if curve is not None and curve.has_fit and curve.im == "pga":
         chances = check.probabilities(curve)
-        words = "; ".join(f"{' '.join(key).strip()} {probability(value).text}" for key, value in chances.items())
+        words = "; ".join(
+            f"{' '.join(key).strip()} {probability(value).text}"
+            for key, value in chances.items()
+            if key not in check.not_applicable
+        )
         drawn = figure(
             lambda: check.plot(curve=curve), f"Lines of the checks on the fragility curve. Probabilities: {words}."
         )
@@ -31,15 +34,17 @@ def code_check(check: CodeCheck, curve: Fragility | None) -> dict[str, Any]:
     columns: dict[Piece, Sequence[Piece]] = {
         "check": [f"{method}, {state}" for method, state in kinematic],
         (Symbol("a", "g"), Symbol("S"), " of the site [g]"): [number(_site(check, state)) for _, state in kinematic],
-        "withstands [g]": [number(level) for level in check.capacities.values()],
-        "capacity / demand": [number(check.value(*key, "ratio"), 3) for key in kinematic],
+        "withstands [g]": [number(check._outcome(key, "capacity_pga")) for key in kinematic],
+        "capacity / demand": [number(check._outcome(key, "ratio"), 3) for key in kinematic],
         "verdict": [_verdict(check, key) for key in kinematic],
     }
     if chances:
         columns["P(collapse) at the site"] = [
             probability(chances.get(("site", state), chances.get(("site", ""), np.nan))) for _, state in kinematic
         ]
-        columns["at what it withstands"] = [probability(chances[key]) for key in kinematic]
+        columns["at what it withstands"] = [
+            probability(np.nan if key in check.not_applicable else chances[key]) for key in kinematic
+        ]
     histories: dict[Piece, Sequence[Piece]] = {"limit state": [state for _, state in dynamic]}
     for name, head in _DYNAMIC.items():
         histories[head] = [number(check.value(*key, name)) for key in dynamic]
@@ -49,7 +54,7 @@ def code_check(check: CodeCheck, curve: Fragility | None) -> dict[str, Any]:
         "histories": Table.of(histories, ("verdict",)) if dynamic else None,
         "figure": drawn,
         "site": ", ".join(f"{name} {text}" for name, text in check.site._facts()),
-        "sheet": _sheet(check.rows),
+        "sheet": _sheet(check),
         "notes": check.notes,
         "one_hazard": _site(check, "SLD") >= _site(check, "SLC"),
     }
@@ -88,8 +93,8 @@ def code_checks(
     made = [(check, curve) for check, curve in zip(checks, curves, strict=True) if check is not None]
     columns: dict[Piece, Sequence[Piece]] = {"wall": [check.wall.name for check, _ in made]}
     for key in _KINEMATIC:
-        columns[f"{' '.join(key)} [g]"] = [number(check.capacities[key], 3) for check, _ in made]
-        columns[f"{' '.join(key)}, ratio"] = [number(check.value(*key, "ratio"), 3) for check, _ in made]
+        columns[f"{' '.join(key)} [g]"] = [number(check._outcome(key, "capacity_pga"), 3) for check, _ in made]
+        columns[f"{' '.join(key)}, ratio"] = [number(check._outcome(key, "ratio"), 3) for check, _ in made]
     if curves[0].im == "pga":
         columns["P(collapse) at the site"] = [
             probability(float(curve(check.pga)) if curve.has_fit else np.nan) for check, curve in made
@@ -107,7 +112,7 @@ def code_checks(
         "site": site,
         "left_out": len(checks) - len(made),
         "together": together,
-        "sheets": [(check.wall.name, _sheet(check.rows)) for check, _ in made] if with_sheets else [],
+        "sheets": [(check.wall.name, _sheet(check)) for check, _ in made] if with_sheets else [],
     }
 
 
@@ -223,16 +228,20 @@ def _verdict(check: CodeCheck, key: tuple[str, str]) -> str:
     return "verified" if check.verified[key] else "not verified"
 
 
-def _sheet(rows: tuple[SheetRow, ...]) -> Table:
+def _sheet(check: CodeCheck) -> Table:
     """All numbers, in the order of the calculation."""
     counts = ("records", "histories", "beyond", "verified", *_YES_OR_NO)
-    shown = [row for row in rows if row.quantity != "probability"]
+    shown = [row for row in check.rows if row.quantity != "probability"]
     columns: dict[Piece, Sequence[Piece]] = {
         "quantity": [row.meaning for row in shown],
         "check": [f"{row.item or row.method} {row.limit_state}".strip() for row in shown],
         "symbol": [row.symbol or NONE for row in shown],
         "value": [
-            whole(row.value) if row.quantity in counts else (f"{row.bound} " * bool(row.bound), number(row.value, 6))
+            NONE
+            if check._is_void(row)
+            else whole(row.value)
+            if row.quantity in counts
+            else (f"{row.bound} " * bool(row.bound), number(row.value, 6))
             for row in shown
         ],
         "unit": [row.unit or NONE for row in shown],

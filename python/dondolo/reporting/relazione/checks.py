@@ -367,7 +367,7 @@ def _unit(row: SheetRow) -> Unit:
 
 def value_of(document: Document, check: CodeCheck, row: SheetRow | None) -> Piece:
     """A number of the sheet, or in words what is one or the other."""
-    if row is None:
+    if row is None or check._is_void(row):
         return NONE
     if row.quantity == "verified":
         return outcome(document, check, (row.method, row.limit_state))

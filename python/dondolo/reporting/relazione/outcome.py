@@ -138,7 +138,7 @@ def summary(document: Document) -> list[Block]:
         rows.append((head, [cell(one.check.value("mechanism", "SLV", name), unit, 5) for one in several]))
     for method, state in _CHECKS:
         name = f"{method_name(document, method)} {state}"
-        ratios = [one.check.value(method, state, "ratio") for one in several]
+        ratios = [one.check._outcome((method, state), "ratio") for one in several]
         words = ", ".join((name, document.text(_("capacity / demand"))))
         head_of: Piece = (f"{name}, ", symbol_of("ζ_E")) if state == "SLV" else words
         rows.append((head_of, [number(ratio, 4) for ratio in ratios]))
