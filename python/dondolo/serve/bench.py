@@ -272,9 +272,7 @@ def _checked(case: Case, fit: Fragility) -> dict[str, Any]:
             return {"refused": str(error)}
     answer: dict[str, Any] = {
         "pga": check.pga,
-        "capacities": [
-            [*key, value] for key, value in check.capacities.items() if key not in check.not_applicable
-        ],
+        "capacities": [[*key, value] for key, value in check.capacities.items() if key not in check.not_applicable],
         "verified": [[*key, value] for key, value in check.verified.items()],
         "not_applicable": [list(key) for key in check.not_applicable],
         "alpha_0": check.value("mechanism", "", "alpha_0"),
