@@ -10,7 +10,7 @@ const WORDS = {
   section: ["Storey {n}", "Piano {n}"], load: ["Load {n}", "Carico {n}"], thrust: ["Thrust {n}", "Spinta {n}"], tie: ["Tie {n}", "Catena {n}"],
   add_sections: ["split into storeys", "dividi in piani"], more_sections: ["+ storey", "+ piano"], add_loads: ["+ load", "+ carico"], add_thrusts: ["+ thrust", "+ spinta"], add_ties: ["+ tie", "+ catena"],
   add_plates: ["+ plates", "+ capochiave"], add_building: ["put it on a building", "colloca su un edificio"], add_site: ["check by NTC 2018", "verifica NTC 2018"], remove: ["remove", "togli"],
-  add_property: ["Add a property…", "Aggiungi una proprietà…"], building_hint: ["A wall on the ground, in front of nothing, needs none.", "Non serve per una parete a terra, isolata."],
+  add_property: ["Add a property…", "Aggiungi una proprietà…"], building_hint: ["Only a wall on the ground with nothing behind it needs none: without a building, one that leans on a floor or roof is unconservative.", "Non serve solo per una parete a terra senza nulla alle spalle: senza edificio, una parete appoggiata a un solaio o a un tetto è a sfavore di sicurezza."],
   auto: ["Levels chosen for the wall", "Livelli scelti per la parete"], levels: ["Levels", "Livelli"], polarity: ["Direction", "Verso"], im: ["Intensity measure", "Misura d’intensità"],
   both: ["both ways", "nei due versi"], as_recorded: ["as recorded", "come registrato"], reversed: ["reversed", "invertito"],
   all: ["moved and lifted", "spinta e sollevata"], load_inertia: ["Mass of the loads", "Massa dei carichi"], none: ["stays with the building", "resta all’edificio"], vertical: ["is lifted", "è sollevata"],
