@@ -196,7 +196,9 @@ class DesignComparison(tables.Tabular, Saved):
                 text += f", steel {steel:.3g} kg/m"
             facts.append((name, text))
         for name, check in zip(self.names, self.checks, strict=False):
-            stood = ", ".join(f"{' '.join(key)} {check.capacities[key]:.4g} g" for key in _CHECKS)
+            words = {key: f"{level:.4g} g" for key, level in check.capacities.items()}
+            words |= dict.fromkeys(check.not_applicable, "not applicable")
+            stood = ", ".join(f"{' '.join(key)} {words[key]}" for key in _CHECKS)
             facts.append((f"{name}, check", f"withstands a_g S of {stood}"))
         return facts
 
