@@ -1,4 +1,4 @@
-"""Pages of the site that follow from the program: its command line, the Python interface, and the examples, run.
+"""Pages of the site that follow from the program: command line, variables, Python interface, and the examples, run.
 
 They are written into docs/generated when the site is built, and only if they changed, so that a second build is quick.
 """
@@ -13,6 +13,8 @@ import subprocess
 import sys
 import tempfile
 from pathlib import Path
+
+import variables
 
 import dondolo as dd
 
@@ -39,6 +41,7 @@ def write_pages(source: Path) -> None:
     folder = source / "generated"
     folder.mkdir(exist_ok=True)
     _write(folder / "command_line.md", _command_line())
+    _write(folder / "variables.md", variables.page())
     _write(folder / "api.md", _api())
     _write_examples(source / "examples", folder / "examples")
 

@@ -1,7 +1,6 @@
-"""Write docs/variables.md, the variables of a case, from the tables of the library: python docs/variables.py."""
+"""Page of the site on the variables of a case, from the tables of the library."""
 
 import re
-from pathlib import Path
 
 from dondolo._fortran.library import Property, properties
 
@@ -39,7 +38,6 @@ The names of `&wall` and `&building` are also the columns of a population and th
 begin with `interlock`.
 
 A variable without a default has no value if left out. An empty `only for` means all mechanisms and tasks.
-`docs/variables.py` writes this page from the tables of properties in the sources.
 """
 
 
@@ -85,7 +83,3 @@ def table(group: str) -> list[str]:
 def page() -> str:
     """The page."""
     return HEAD + "\n" + "\n".join(line for group in TITLES for line in table(group))
-
-
-if __name__ == "__main__":
-    (Path(__file__).parent / "variables.md").write_text(page(), encoding="utf-8")
