@@ -3,31 +3,41 @@
 # Prints one line for each that has ended: what became of it, its minutes and those of processors, and for one that failed its
 # last line. Fails if any fails, or if the sources are not as they were. Two verbs run at once, but those that build by fpm,
 # which share its folder, run one after the other. What they print and write is in out/verbs and out/quick. With DONDOLO_UNTIL,
-# a time in seconds since 1970, none is begun after it; this is said, and is no failure.
+# a time in seconds since 1970, none is begun that would take longer; this is said, and is no failure. Which goes first changes
+# from commit to commit, so that each has its turn.
 set -uo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.." || exit 1
 
-# Verbs and their smallest forms
-by_fpm=(
-   'stress 100'
-   'attack 5'
-   'reference --quick'
-   'coverage wall'
-   'verification --quick'
-   'synthetic44 out/quick/records'
+# Verbs in their smallest forms, and the minutes that each takes beside another on two cores
+declare -A minutes=(
+   ['stress 100']=12
+   ['attack 5']=7
+   ['reference --quick']=3
+   ['coverage wall']=3
+   ['verification --quick']=6
+   ['synthetic44 out/quick/records']=1
+   ['oldest --quick']=9
+   ['wheel python3']=5
+   ['windows --quick']=10
+   ['mutations --quick']=3
+   ['docs']=5
+   ['city --quick']=2
+   ['figures out/quick/figures']=1
+   ['intervals --quick']=2
+   ['build gpu']=1
+   ['benchmark --quick']=5
 )
-others=(
-   'oldest --quick'
-   'wheel python3'
-   'windows --quick'
-   'mutations --quick'
-   'docs'
-   'city --quick'
-   'figures out/quick/figures'
-   'intervals --quick'
-   'build gpu'
-   'benchmark --quick'
-)
+by_fpm=('stress 100' 'attack 5' 'reference --quick' 'coverage wall' 'verification --quick' 'synthetic44 out/quick/records')
+others=('oldest --quick' 'wheel python3' 'windows --quick' 'mutations --quick' 'docs' 'city --quick' 'figures out/quick/figures'
+   'intervals --quick' 'build gpu' 'benchmark --quick')
+commits=$(git rev-list --count HEAD 2>/dev/null || echo 0)
+rotate() { # rotate LIST: its elements, begun at one that changes with the commits
+   local -n list=$1
+   local first=$((commits % ${#list[@]}))
+   list=("${list[@]:first}" "${list[@]:0:first}")
+}
+rotate by_fpm
+rotate others
 wanted=("$@")
 logs=out/verbs
 line='%-32s %-8s %7s %7s  %s\n'
@@ -63,7 +73,7 @@ try() {
    is_wanted "$form" || return 0
    log=$logs/$(name_of "$form").log
    why=$(obstacle "$form")
-   [ "$(date +%s)" -lt "${DONDOLO_UNTIL:-9999999999}" ] || why='no time left'
+   [ $(($(date +%s) + 60 * minutes["$form"])) -lt "${DONDOLO_UNTIL:-9999999999}" ] || why='no time left'
    if [ -n "$why" ]; then
       # shellcheck disable=SC2059
       printf "$line" "$form" skipped - - "$why"
