@@ -39,7 +39,6 @@ class Peer:
     part: int = 1  # part of the histories: 1, all; 16, every 16th of 880
     repeats: int = 3
     expected: float = 3.0  # seconds of one setting, start and compilation included, on a quiet machine
-    holds: str = "the integration of all histories, compiled before"  # what its times are of
     takes_case: bool = False  # a case of dondolo in place of the problem
     waits: bool = True  # takes turns: runs once for each line of its standard input with 0 repeats
 
@@ -59,7 +58,6 @@ DONDOLO = Peer(
     "the installed package",
     repeats=5,
     expected=2.0,
-    holds="a call of `multiple_stripe` from Python, after one that is not timed",
     takes_case=True,
 )
 
@@ -89,7 +87,6 @@ PEERS = [
         "heyoka from PyPI, for this processor and Python",
         repeats=2,
         expected=8.0,
-        holds="its loop in Python and the steps of its library, compiled before; *own* the steps alone",
     ),
     Peer(
         "numbalsoda",
@@ -113,7 +110,6 @@ PEERS = [
         part=16,
         repeats=1,
         expected=14.0,
-        holds="its loop in Python; the right-hand side is compiled before",
     ),
     Peer(
         "GNU Octave",
@@ -123,7 +119,6 @@ PEERS = [
         part=80,
         repeats=1,
         expected=28.0,
-        holds="its interpreted loop and right-hand side",
         waits=False,
     ),
 ]

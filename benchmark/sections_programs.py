@@ -2,7 +2,6 @@
 
 from cores import TRIES, WAIT
 from markdown import bullets, many, paragraph, small, table
-from programs import DONDOLO, PEERS
 from rounds import (
     COLD,
     LIMIT,
@@ -26,11 +25,9 @@ METHODS = [
     "step.",
     "*Boost.odeint*: Dormand-Prince stepper, with controlled steps that end at every sample, or with free steps and "
     "dense output. *SUNDIALS*: ARKODE's Dormand-Prince pair and CVODE's Adams method with their own root finding, "
-    "stopped at every sample, or free. Its library is Debian's build.",
-    "*heyoka*: Taylor's method with its own events, called from Python, one history after the other or in lanes: its "
-    "wheel has the library without the headers of its C++ interface, so that no program in C++ is built with it here; "
-    "of the lanes the time within the library's own steps is given as well. "
-    "*numbalsoda*: the whole program compiled by Numba, sample by sample.",
+    "stopped at every sample, or free.",
+    "*heyoka*: Taylor's method with its own events, called from Python, one history after the other or in lanes; *own* "
+    "is the time within the library's steps. *numbalsoda*: the whole program compiled by Numba, sample by sample.",
     "*SciPy*: `solve_ivp` with events, from sample to sample or over the whole record; the right-hand side is "
     "compiled. *GNU Octave*: `ode45` with events over the whole record, or with steps no longer than a sample.",
 ]
@@ -62,36 +59,29 @@ def programs(results, turns, machine):
         "## 1. Other programs",
         "",
         *paragraph(
-            "Every program computes the same motion (theory.md, sections 1 to 4): accelerograms linear between their "
-            "samples, rocking from the exact crossing of the trigger, impacts, the rule that ends a chain of bounces, "
-            "the peak at q' = 0, and the motion after the record by its energy. Programs in the same language share "
-            "all source except the integration. Those in C++ are compiled for the processor at hand, as those of "
-            "heyoka and Numba are; dondolo's are portable binaries, of which the engine `lanes` chooses the variant "
-            "that fits. All run on one core, in a warm process: reading and compilation "
-            "are over before the clock starts. Times are medians of several repeats where a program is not too slow "
-            "for them; how much they vary is stated for the best settings below."
+            "Every program computes the same motion (theory.md, sections 1 to 4). Programs in the same language share "
+            "all source except the integration. Those in C++, heyoka and Numba are compiled for the processor at hand; "
+            "dondolo's are portable binaries, of which the engine `lanes` chooses the variant that fits. All run on "
+            "one core, in a warm process: reading and compilation are over before the clock starts. Times hold the "
+            "integration of all histories: of dondolo a call of `multiple_stripe` from Python, of heyoka and SciPy "
+            "with their loop in Python, of GNU Octave with an interpreted right-hand side as well."
         ),
         *bullets(METHODS),
-        *table(
-            ["program", "its time holds"], {peer.name: [peer.name, peer.holds] for peer in (DONDOLO, *PEERS)}.values()
-        ),
         *paragraph(
             f"Versions: {'; '.join(versions)}. {'; '.join(machine)}. Absolute tolerances are one hundredth of the "
             "relative ones, in units of the capacity."
         ),
         *paragraph(
             f"Slow programs run only a part of the histories: {parts(first)}. Their times are divided by the ratio of "
-            "the mean numbers of evaluations per history that rk45 needs for that part and for all histories."
-        ),
-        *paragraph(
-            "A front in the figure joins the settings that no other of dondolo, or of the other programs, beats in "
-            "both time and error."
+            "the mean numbers of evaluations per history that rk45 needs for that part and for all histories. The "
+            f"figure has every setting of `{wall}`; a front joins the settings that no other of dondolo, or of the "
+            "other programs, beats in both time and error."
         ),
         "![error against time per history](../figures/performance_work.png)",
         "",
     ]
     head = ["program", "setting", "histories", "ms per history", "wrong flags", "> 1e-6", "worst", "median"]
-    for name in dict.fromkeys(each.wall for each in results):
+    for name in dict.fromkeys(each.wall for each in results if each.wall != wall):
         own = [each for each in results if each.wall == name]
         lines += [*paragraph(f"`{name}`, {own[0].accelerograms} accelerograms"), *table(head, settings(own))]
     return lines + ratios(first, turns) + limits(first, turns)
@@ -129,19 +119,14 @@ def ratios(results, turns):
     heads = [f"times `{engine}`" for engine in engines]
     return [
         *paragraph(
-            f"For each program the cheapest setting with at most {100 * SHARE:g} % of the EDPs with an error above "
-            f"1e-6 and at most {many(WRONG, 'wrong flag')}, or, if there is none, its most accurate setting; and *as "
-            "accurate* the cheapest with no more wrong flags, no larger share of errors above 1e-6 and at most "
-            f"{WORST:g} times the largest error of `lanes` at its defaults, which rounding changes as much, where that "
-            "is another one. Cheapest is the loosest setting of each "
-            "method, and of these the fastest. "
-            f"These settings ran in {many(rounds, 'round')}, in which every program has its turn, each in a new "
-            "process that is warm after a call that is not timed. Some of the rounds ran before the second wall and "
-            "the measurements of section 2, some between them and some after both. A turn is as many calls as fit in "
-            f"{TURN:g} s, at least one, and counts by their median. A program that takes more than {SLOWEST:g} s has "
-            "no turns, nor has Octave, and its time of the table above is compared with all rounds of dondolo. The "
-            "last columns are the times relative to those of dondolo's engines in the same round, at their defaults "
-            "and at a tight tolerance. Times and ratios are given as median, lower to upper quartile, and in brackets "
+            f"Of `{results[0].wall}`, for each program the cheapest setting with at most {100 * SHARE:g} % of the EDPs "
+            f"with an error above 1e-6 and at most {many(WRONG, 'wrong flag')}, or, if there is none, its most accurate setting. *As "
+            "accurate* is the cheapest with no more wrong flags, no larger share of errors above 1e-6 and at most "
+            f"{WORST:g} times the largest error of `lanes` at its defaults, where that is another one. These settings "
+            f"ran in {many(rounds, 'round')}, in which every program has its turn, in a new process. A turn is as many "
+            f"calls as fit in {TURN:g} s, and counts by their median; a program that takes more than {SLOWEST:g} s has "
+            "none. The last columns are the times relative to those of dondolo's engines in the same round, at their "
+            "defaults and at a tight tolerance. Times and ratios are median, lower to upper quartile, and in brackets "
             "the least and the largest of the rounds."
         ),
         *table(["program", "setting", "ms for all histories", "errors", "rounds", *heads], rows),
@@ -159,33 +144,31 @@ def limits(results, turns):
     lines = paragraph(
         f"The {histories} histories take the engine `lanes` {warm} ms in a call from Python that is warm, of which the "
         f"histories themselves are {ratio(turns, lanes, lanes, 'own').times(100.0).stated()} %. Calls of as many "
-        f"histories that never move, one right after the other, take {still.stated()} ms each, "
-        f"{ratio(turns, (STILL, 1e-8), lanes).times(100.0).stated()} % of it; they find code and data in the caches. "
-        f"The whole command `dondolo CASE.nml` takes {whole} ms, from the start of the process to its end, with the "
-        f"reading of the records and the writing of the results; its histories take {cold} ms of it."
+        f"histories that never move take {still.stated()} ms each, "
+        f"{ratio(turns, (STILL, 1e-8), lanes).times(100.0).stated()} % of it. "
+        f"The whole command `dondolo CASE.nml` takes {whole} ms, with reading and writing; its histories take {cold} "
+        "ms of it."
     )
     if core_of(turns):
         lines += paragraph(
             f"Each turn ran on the core that other programs left most of just before, and waited up to {WAIT:g} s for "
             f"one that they left alone; if that core was shared at its end it was taken again, {TRIES} times at most. "
-            f"Before and after the turns that count it did {core_of(turns).stated()} independent additions in the "
-            "time of a multiplication that waits for the one before. A core that runs a thread of another program as "
-            "well, which may be of another machine on the same host, multiplies as fast and does as few as half of the "
-            "additions; programs take longer then, each by another factor. The threads below waited for as many cores."
+            "A core that also runs a thread of another program does as few as half of the independent additions in the "
+            f"time of a multiplication that waits for the one before; here they were {core_of(turns).stated()}."
         )
     loop = times_of(turns, LIMIT, 0.0).values()
     if not loop:
         return lines
     lines += paragraph(
         f"In the same rounds a loop of 3.24e6 times 90 fused multiplications and additions in the widest vectors of "
-        f"the processor, which computes nothing else, takes {Spread.of(loop).stated()} ms. The call from Python takes "
+        f"the processor takes {Spread.of(loop).stated()} ms; the call from Python takes "
         f"{ratio(turns, lanes, (LIMIT, 0.0)).stated()} times as long. The loop measures the processor, so that "
-        "machines can be compared; it is not a count of the operations of the histories."
+        "machines can be compared."
     )
     lines += paragraph(
         "`dondolo --benchmark` counts the multiplications and additions of the engine's steps, a fused one as two, and "
-        "ran on one thread in the same rounds, with the embedded synthetic accelerograms. Impacts, the starts of "
-        "rocking and all else that is no step take time and are not counted."
+        "ran on one thread in the same rounds, with the embedded synthetic accelerograms. Impacts, starts and all else "
+        "that is no step are not counted."
     )
     lines += table(
         ["mechanism", "% of the operations per second of the loop"],

@@ -44,10 +44,8 @@ def comparison(runs, run, others):
     closely = sum(each.agrees_closely(stated[each.name]) for each in found)
     by_chance, closely_by_chance = chances(len(others))
     lines = paragraph(
-        "The spread of earlier runs is that of all their rounds: the median of their medians, the least lower and the "
-        "largest upper quartile that one of them has, and the least and the largest value. A ratio agrees if each "
-        "median, of this run and of the earlier ones, lies between the least and the largest value of the other, "
-        "closely if it lies between the quartiles. Of runs that differ by chance alone "
+        "A ratio agrees if the median of this run and that of the earlier ones lie within the range of the other, "
+        "closely if they lie within the quartiles. Of runs that differ by chance alone "
         f"{by_chance} % of the ratios would agree and {closely_by_chance} % closely (simulated, {sum(ROUNDS)} normal "
         "errors a run)."
     )

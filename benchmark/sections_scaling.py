@@ -14,8 +14,7 @@ def scaling(rows):
         *paragraph(
             "The default engine is run with the embedded synthetic accelerograms, at 20 levels unless stated "
             "otherwise. Strong scaling has a fixed population of walls, weak scaling one that grows with the threads. "
-            "The numbers of threads ran in turns, and an efficiency is relative to one thread in the same turn. "
-            "All are given as median, lower to upper quartile, and in brackets the least and the largest value. Lines "
+            "The numbers of threads ran in turns, and an efficiency is relative to one thread in the same turn. Lines "
             "are the fitted growth, stated below."
         ),
         "![threads, sizes, memory](../figures/performance_scaling.png)",

@@ -4,7 +4,7 @@ import figures
 import numpy as np
 from cases import ROOT
 from histories import Errors
-from markdown import bullets, paragraph, small, table
+from markdown import bullets, paragraph, table
 from sections_accuracy import LARGE, SHARE, demand
 from sections_flags import shifts, signed
 from study import DEFAULT
@@ -179,8 +179,6 @@ def shortcuts(study):
                     errors.flags(),
                     errors.above(1e-6),
                     errors.above(1e-3),
-                    small(errors.worst()),
-                    small(errors.quantile(0.5)),
                     f"{fit.theta:.4f} ({signed(by_theta)})",
                     f"{fit.beta:.4f} ({signed(by_beta)})",
                 ]
@@ -188,7 +186,7 @@ def shortcuts(study):
         lines += paragraph(
             f"`{wall}`, {len(errors.edp)} histories, 0.05 to 1 g; in brackets the shift in standard errors"
         )
-        lines += table(["shortcut", "wrong flags", "> 1e-6", "> 1e-3", "worst", "median", "θ, g", "β"], rows)
+        lines += table(["shortcut", "wrong flags", "> 1e-6", "> 1e-3", "θ, g", "β"], rows)
     return lines + closing(study, found)
 
 
