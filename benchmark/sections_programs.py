@@ -120,14 +120,14 @@ def ratios(results, turns):
     return [
         *paragraph(
             f"Of `{results[0].wall}`, for each program the cheapest setting with at most {100 * SHARE:g} % of the EDPs "
-            f"with an error above 1e-6 and at most {many(WRONG, 'wrong flag')}, or, if there is none, its most accurate setting. *As "
-            "accurate* is the cheapest with no more wrong flags, no larger share of errors above 1e-6 and at most "
-            f"{WORST:g} times the largest error of `lanes` at its defaults, where that is another one. These settings "
-            f"ran in {many(rounds, 'round')}, in which every program has its turn, in a new process. A turn is as many "
-            f"calls as fit in {TURN:g} s, and counts by their median; a program that takes more than {SLOWEST:g} s has "
-            "none. The last columns are the times relative to those of dondolo's engines in the same round, at their "
-            "defaults and at a tight tolerance. Times and ratios are median, lower to upper quartile, and in brackets "
-            "the least and the largest of the rounds."
+            f"with an error above 1e-6 and at most {many(WRONG, 'wrong flag')}, or, if there is none, its most "
+            "accurate setting. *As accurate* is the cheapest with no more wrong flags, no larger share of errors above "
+            f"1e-6 and at most {WORST:g} times the largest error of `lanes` at its defaults, where that is another "
+            f"one. These settings ran in {many(rounds, 'round')}, in which every program has its turn, in a new "
+            f"process. A turn is as many calls as fit in {TURN:g} s, and counts by their median; a program that takes "
+            f"more than {SLOWEST:g} s has none. The last columns are the times relative to those of dondolo's engines "
+            "in the same round, at their defaults and at a tight tolerance. Times and ratios are median, lower to "
+            "upper quartile, and in brackets the least and the largest of the rounds."
         ),
         *table(["program", "setting", "ms for all histories", "errors", "rounds", *heads], rows),
     ]
