@@ -96,6 +96,16 @@ def test_levels_in_another_unit_are_warned_of(tmp_path):
         dd.HazardCurve.from_csv(table)
 
 
+def test_example(root):
+    """The table of docs/city.md, within what its curves need and without a warning."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        example = dd.HazardCurve.from_csv(root / "data/hazard/illustrative.csv")
+    assert example.im == "pga"
+    power_law = 2e-5 * example.levels**-2.5
+    np.testing.assert_allclose(example.annual_frequency, power_law, rtol=1e-5)
+
+
 def test_source(hazard, tmp_path):
     """A curve tells its file, how that was read, and what was done to it."""
     table = tmp_path / "hazard.csv"
