@@ -150,6 +150,15 @@ def pages(people, stripes, wall, records, hazard, tmp_path_factory):
 KINDS = ("typology", "stripes", "history")
 
 
+def test_median_of_a_population_is_of_the_walls_that_can_collapse(people, pages):
+    """Its card has the level at which half of all walls collapse, which is above it."""
+    fit = people["all"].fit
+    assert 0.5 < fit.saturation < 1.0
+    half = numerals.number(float(fit.ppf(0.5)), 3).text
+    assert float(fit.ppf(0.5)) > fit.theta
+    assert f"of the population that can collapse; half of all at {half}" in read(pages / "typology.html").text
+
+
 @pytest.mark.parametrize("kind", KINDS)
 def test_page_is_well_formed_and_needs_nothing_else(kind, pages):
     page = read(pages / f"{kind}.html")

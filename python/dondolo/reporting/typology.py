@@ -64,9 +64,13 @@ def summary(people: Typology) -> dict[str, Any]:
     curve = people["all"]
     cards: list[tuple[Piece, Piece, Piece]] = []
     if curve.fit.has_fit:
-        whose = "of collapse, whole population"
+        whose: Piece = "of collapse, whole population"
         if curve.saturation < 1.0:
-            whose = f"of collapse, the {100.0 * curve.saturation:.3g} % of the population that can collapse"
+            # Theta of the walls that can collapse is below the level at which half of all do.
+            half = float(curve.fit.ppf(0.5))
+            of_all = ("half of all at ", level(half, people.im)) if np.isfinite(half) else ("half of all at no level",)
+            share = f"{100.0 * curve.saturation:.3g} %"
+            whose = (f"of collapse, the {share} of the population that can collapse; ", *of_all)
         cards.append((("median ", THETA), level(curve.fit.theta, people.im), whose))
         cards.append((("dispersion ", BETA), number(curve.fit.beta, 3), "of the lognormal fitted to the mean"))
     else:
