@@ -4,6 +4,7 @@ module dondolo_check_lines
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
    use dondolo_base_text, only : counted, right, rounded, to_text
+   use dondolo_base_warning, only : warnings_type
    use dondolo_case_check_rows, only : check_methods, check_states, verdicts_type
    use dondolo_check_input, only : check_input_type, state_names
    use dondolo_check_notes, only : make_check_notes
@@ -22,7 +23,8 @@ contains
       !> Have histories been run?
       logical, intent(in) :: was_run
 
-      type(lines_type) :: notes
+      type(warnings_type) :: notes
+      type(lines_type) :: sentences
       integer :: i, k
 
       write (output_unit, '(a)') 'check by NTC 2018 and Circolare 7/2019, C8.7.1.2.1: alpha_0 '// &
@@ -63,8 +65,9 @@ contains
             & 'is lower for SLD, and higher for SLC'
       end if
       call make_check_notes(sheet, notes)
-      do i = 1, notes%count
-         write (output_unit, '(a)') 'note: '//notes%line(i)%text
+      call notes%put_sentences(sentences)
+      do i = 1, sentences%count
+         write (output_unit, '(a)') 'note: '//sentences%line(i)%text
       end do
       write (output_unit, '(a)') ''
 

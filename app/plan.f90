@@ -6,6 +6,7 @@ module dondolo_plan
    use dondolo_base_lines, only : lines_type
    use dondolo_base_plain, only : visible
    use dondolo_base_text, only : counted, rounded, to_text
+   use dondolo_base_warning, only : warnings_type
    use dondolo_case, only : case_type
    use dondolo_case_check_rows, only : check_wall
    use dondolo_case_job_group, only : history_task, task_names, typology_task
@@ -15,7 +16,6 @@ module dondolo_plan
    use dondolo_case_results, only : shown_rows
    use dondolo_case_run_case, only : plan_case
    use dondolo_case_wall_warnings, only : wall_warnings_type
-   use dondolo_case_warning, only : warnings_type
    use dondolo_check_lines, only : print_check
    use dondolo_check_sheet, only : sheet_type
    use dondolo_fit_lines, only : name_width

@@ -6,8 +6,8 @@ program test_fragility
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
    use dondolo_base_student, only : student_cdf, student_quantile
+   use dondolo_base_warning, only : warnings_type
    use dondolo_case_result_warnings, only : warn_of_fit
-   use dondolo_case_warning, only : warnings_type
    use dondolo_fragility, only : fit_fragility, fit_status_names, fragility_type, normal_cdf
    use dondolo_fragility_clustered, only : cluster_errors, parameter_intervals
    use dondolo_fragility_even_levels, only : even_levels, settle_levels

@@ -7,8 +7,8 @@ program test_occurrence
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
    use dondolo_base_text, only : to_text
+   use dondolo_base_warning, only : warnings_type
    use dondolo_case_occurrence_warnings, only : occurrence_warnings_type
-   use dondolo_case_warning, only : warnings_type
    use dondolo_population_occurrence, only : occurrence_of, wall_probability, wall_slopes
    use dondolo_population_reader, only : read_population
    use dondolo_population_row_result, only : row_result_type

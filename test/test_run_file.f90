@@ -7,8 +7,8 @@ program test_run_file
    use dondolo_base_json, only : json_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
+   use dondolo_base_warning, only : warning_type, warnings_type
    use dondolo_case_echo, only : echo_type
-   use dondolo_case_warning, only : warning_type, warnings_type
    implicit none
 
    character(len=*), parameter :: lf = new_line('a'), scratch = 'build/test_run_file'

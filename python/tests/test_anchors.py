@@ -137,28 +137,36 @@ def test_the_design_of_the_facade():
     assert not anchored.verified["linear", "SLV"]
     assert anchored.not_applicable == (("linear", "SLV"),)
     assert anchored.open_ties == {"tie 1": ("hierarchy",)}
-    assert any("hierarchy of strengths not respected" in note for note in anchored.notes)
+    (note,) = anchored.notes
+    assert (note.code, note.subject) == ("anchor_before_bar", {"item": "tie 1"})
+    assert note.numbers["anchor_force_per_m"] == 11733.3333333333 < note.numbers["bar_force_per_m"]
+    assert "hierarchy of strengths not respected" in str(note)
     assert "not applicable" in str(anchored)
     elastic = dd.check_ntc(anchored.wall, SITE, behaviour=1.0)
     assert elastic.not_applicable == ()
     # Without data of the anchor the sheet says that it is not checked
     assert bar.not_applicable == ()
     assert bar.open_ties == {"tie 1": ("anchor_checked",)}
-    assert any("the anchor of tie 1 is not checked" in note for note in bar.notes)
+    assert [(note.code, note.subject) for note in bar.notes] == [("anchor_not_checked", {"item": "tie 1"})]
+    assert "the anchor of tie 1 is not checked" in str(bar.notes[0])
 
 
 def test_confidence_factor_of_the_check():
     """The curve knows that of the wall; a greater one in the check leaves the anchor unchecked."""
     low = wall(masonry_knowledge_factor=1.2)
     assert values(low)["bearing_force"] == pytest.approx(2e6 / 2.4 * 0.35**2, rel=1e-12)
-    assert "anchor_checked" in dd.check_ntc(low, SITE).open_ties["tie 1"]
+    check = dd.check_ntc(low, SITE)
+    assert "anchor_checked" in check.open_ties["tie 1"]
+    assert {note.code: note.numbers for note in check.notes}["anchor_factor_differs"] == {"anchor_knowledge": 1.2}
     assert "anchor_checked" not in dd.check_ntc(low, SITE, knowledge_factor=1.2).open_ties["tie 1"]
 
 
 def test_a_thin_plate():
     check = dd.check_ntc(wall(tie(plate_thickness=0.012)), SITE)
     assert "plate_verified" in check.open_ties["tie 1"]
-    assert any("the plate of tie 1 is too thin" in note for note in check.notes)
+    (note,) = (note for note in check.notes if note.code == "plate_too_thin")
+    assert "the plate of tie 1 is too thin" in str(note)
+    assert note.numbers["plate_thickness"] == 0.012 < note.numbers["plate_needed"]
 
 
 @pytest.mark.parametrize(

@@ -410,7 +410,7 @@ def test_notes():
     """What the numbers of a sheet do not say is a note: a diaphragm, a hinge that is not the weakest, a long period."""
 
     def notes(wall):
-        return " ".join(dd.check_ntc(wall, SITE).notes)
+        return " ".join(map(str, dd.check_ntc(wall, SITE).notes))
 
     house = {"period": 0.3, "damping": 0.05, "storeys": 3, "level": 3.0, "level_top": 6.0, "building_height": 9.0}
     loaded = {"hinge": 0.63, "overburden": 20e3, "overburden_inertia": 0, "eccentricity": 0.02}

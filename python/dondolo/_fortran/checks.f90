@@ -5,12 +5,12 @@ module checks
    use dondolo_base_error, only : error_type, problems_type
    use dondolo_base_lines, only : lines_type
    use dondolo_base_settings, only : group_settings_type, new_settings
+   use dondolo_base_warning, only : warnings_type
    use dondolo_boundary, only : as_curve, next_line, split_lines
    use dondolo_case_check_rows, only : check_wall, put_check
    use dondolo_case_columns, only : columns_type
    use dondolo_case_report_rows, only : put_names
    use dondolo_case_wall_warnings, only : wall_warnings_type
-   use dondolo_case_warning, only : warnings_type
    use dondolo_check_calculation, only : is_given, item_type, list_items
    use dondolo_check_code_spectrum, only : elastic_spectrum_type
    use dondolo_check_floor_spectrum, only : floor_spectrum_type, new_floor_spectrum
@@ -236,7 +236,7 @@ contains
       call report(error, failure)
    end subroutine capacity_curve
 
-   !> Notes on a sheet, whose lines have a tab between method, limit state, name and item: lines, their sentences
+   !> Notes on a sheet, whose lines have a tab between method, limit state, name and item: lines, JSON objects
    subroutine check_notes(texts, values, n, sent)
       character(len=*), intent(in) :: texts
       integer(c_int), intent(in) :: n
@@ -244,7 +244,7 @@ contains
       integer(c_int64_t), intent(out) :: sent(5)
       character(len=*), parameter :: tab = achar(9)
       type(sheet_type) :: sheet
-      type(lines_type) :: notes
+      type(warnings_type) :: notes
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
       character(len=:), allocatable :: line
@@ -266,9 +266,7 @@ contains
          end associate
       end do
       call make_check_notes(sheet, notes)
-      do i = 1, notes%count
-         call parcel%lines%add(notes%line(i)%text)
-      end do
+      call notes%put_objects(parcel%lines)
       call send(parcel, error, sent)
    end subroutine check_notes
 

@@ -11,6 +11,7 @@ from dondolo._base.arguments import FloatArray
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
 from dondolo._fortran.library import Parcel, check, receive, unpack_warnings, warn
+from dondolo.errors import DondoloWarning
 
 #: Limit states: damage, life safety, collapse
 STATES = ("SLD", "SLV", "SLC")
@@ -132,11 +133,11 @@ def dynamic_sheet(wall: Handle, state: str, pga: float, records: int, edp: Float
     return _rows(receive(_core.checks.check_histories(wall.number, STATES.index(state) + 1, pga, records, edp)))
 
 
-def check_notes(rows: Sequence[SheetRow]) -> tuple[str, ...]:
-    """What a reader of a sheet should know, a sentence each."""
+def check_notes(rows: Sequence[SheetRow]) -> tuple[DondoloWarning, ...]:
+    """What a reader of a sheet should know."""
     lines = "\n".join(f"{row.method}\t{row.limit_state}\t{row.quantity}\t{row.item}" for row in rows)
     values = np.array([row.value for row in rows], float)
-    return tuple(receive(_core.checks.check_notes(lines.encode(), values)).lines)
+    return tuple(unpack_warnings(receive(_core.checks.check_notes(lines.encode(), values)).lines))
 
 
 def calculation_items(wall: Handle) -> tuple[CalculationItem, ...]:

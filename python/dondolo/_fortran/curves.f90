@@ -4,9 +4,9 @@ module curves
    use dondolo_base_error, only : error_type
    use dondolo_base_student, only : quantile => student_quantile
    use dondolo_base_threads, only : team_of
+   use dondolo_base_warning, only : warnings_type
    use dondolo_boundary, only : check_room
    use dondolo_case_result_warnings, only : warn_of_fit, warn_of_the_union => warn_of_union
-   use dondolo_case_warning, only : warnings_type
    use dondolo_fragility, only : error_names, fit_fragility, fit_ok, fragility_type
    use dondolo_fragility_clustered, only : cluster_errors
    use dondolo_fragility_logit, only : fit_one_logit => fit_logit, logit_type

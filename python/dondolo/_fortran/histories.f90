@@ -5,12 +5,12 @@ module histories
    use dondolo_base_interrupt, only : check_interrupt
    use dondolo_base_memory, only : check_memory => check_room
    use dondolo_base_threads, only : check_threads
+   use dondolo_base_warning, only : warnings_type
    use dondolo_boundary, only : as_solver, check_room, unpack_response
    use dondolo_building_floors, only : floors_type
    use dondolo_case_motion_warnings, only : scale_warnings_type, warn_of_fall, warn_of_records
    use dondolo_case_result_warnings, only : sentence => warn_of_error, sentences => warn_of_errors
    use dondolo_case_wall_warnings, only : wall_warnings_type
-   use dondolo_case_warning, only : warnings_type
    use dondolo_fragility_stripes, only : stripes_type
    use dondolo_interface_felt_motions, only : check_scale, find_motions
    use dondolo_interface_handles, only : find_suite, find_walls

@@ -3,10 +3,10 @@ module populations
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_base_error, only : error_type
    use dondolo_base_lines, only : lines_type
+   use dondolo_base_warning, only : warnings_type
    use dondolo_boundary, only : check_room, split_lines
    use dondolo_case_occurrence_warnings, only : occurrence_warnings_type
    use dondolo_case_result_warnings, only : fit_warnings_type, warn_of_union
-   use dondolo_case_warning, only : warnings_type
    use dondolo_fragility, only : error_names, fragility_type
    use dondolo_parcel, only : parcel_type, send
    use dondolo_population, only : population_type

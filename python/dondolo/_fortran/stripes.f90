@@ -5,10 +5,10 @@ module stripes
    use dondolo_base_interrupt, only : check_interrupt, watch, watched
    use dondolo_base_text, only : to_text
    use dondolo_base_threads, only : check_threads, team_of
+   use dondolo_base_warning, only : warnings_type
    use dondolo_boundary, only : as_solver, check_room, unpack_response
    use dondolo_case_motion_warnings, only : scale_warnings_type, warn_of_events, warn_of_records
    use dondolo_case_wall_warnings, only : wall_warnings_type
-   use dondolo_case_warning, only : warnings_type
    use dondolo_fragility_even_levels, only : settle_levels
    use dondolo_fragility_scaling, only : new_scaling, scaling_type, unscaled
    use dondolo_fragility_stripes, only : histories_of, plan_stripes, run_part, stripes_type

@@ -31,7 +31,7 @@ from dondolo.analysis.solver import Solver, as_solver
 from dondolo.analysis.stripe_runs import multiple_stripe
 from dondolo.analysis.stripes import Stripes
 from dondolo.curves.fragility import Fragility
-from dondolo.errors import InputError
+from dondolo.errors import DondoloWarning, InputError
 from dondolo.records.codes import LimitState, Site
 from dondolo.records.record import Record
 from dondolo.walls.wall import Wall, upload
@@ -143,8 +143,11 @@ class CodeCheck(Shown, Saved):
         return calculation_items(upload((self.wall,)))
 
     @property
-    def notes(self) -> tuple[str, ...]:
-        """What a reader should know: a strip whose hinge is not the weakest, a period beyond those of the spectrum."""
+    def notes(self) -> tuple[DondoloWarning, ...]:
+        """What a reader should know: a strip whose hinge is not the weakest, a period beyond those of the spectrum.
+
+        `str` of each is its sentence, and its code, subject and numbers are those of a warning.
+        """
         return check_notes(self.rows)
 
     @property

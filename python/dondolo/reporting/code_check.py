@@ -55,7 +55,7 @@ def code_check(check: CodeCheck, curve: Fragility | None) -> dict[str, Any]:
         "figure": drawn,
         "site": ", ".join(f"{name} {text}" for name, text in check.site._facts()),
         "sheet": _sheet(check),
-        "notes": check.notes,
+        "notes": list(map(str, check.notes)),
         "one_hazard": _site(check, "SLD") >= _site(check, "SLC"),
     }
 

@@ -1,13 +1,19 @@
 !> What a reader of a check by a building code should know of it.
 module dondolo_check_notes
    use dondolo_base_kinds, only : wp
-   use dondolo_base_lines, only : lines_type
    use dondolo_base_text, only : rounded
+   use dondolo_base_warning, only : warning_type, warnings_type
    use dondolo_check_sheet, only : sheet_type
    implicit none
    private
 
    public :: make_check_notes
+
+   !> Codes
+   character(len=*), parameter :: hinge_above_usual = 'hinge_above_usual', hinge_not_weakest = 'hinge_not_weakest', &
+      & diaphragm_not_in_demand = 'diaphragm_not_in_demand', anchor_before_bar = 'anchor_before_bar', &
+      & plate_too_thin = 'plate_too_thin', anchor_factor_differs = 'anchor_factor_differs', &
+      & anchor_not_checked = 'anchor_not_checked', period_beyond_spectrum = 'period_beyond_spectrum'
 
    !> How much greater than at the weakest hinge alpha_0 may be, and the highest hinge of a strip that bends rather than overturns
    !> from the floor below
@@ -17,38 +23,51 @@ module dondolo_check_notes
 
 contains
 
-   !> Make the notes, a sentence each
+   !> Make the notes
    subroutine make_check_notes(sheet, notes)
       type(sheet_type), intent(in) :: sheet
-      type(lines_type), intent(out) :: notes
+      type(warnings_type), intent(out) :: notes
 
+      type(warning_type) :: note
       real(wp) :: alpha, hinge, least, period
 
       alpha = sheet%value('mechanism', '', 'alpha_0')
       hinge = sheet%value('mechanism', '', 'weakest_hinge')
       least = sheet%value('mechanism', '', 'weakest_alpha_0')
-      if (hinge > highest_hinge .and. alpha > close*least) then
-         call notes%add('alpha_0 falls the higher the hinge of the strip is, down to '//rounded(least)//' at hinge = '// &
-            & rounded(hinge)//'; so high a hinge is rather a wall that overturns from the floor below')
-      else if (hinge > 0.0_wp .and. alpha > close*least) then
-         call notes%add('the check is not at the weakest hinge of the strip: alpha_0 is least, '//rounded(least)// &
-            & ', at hinge = '//rounded(hinge))
+      if (hinge > 0.0_wp .and. alpha > close*least) then
+         note = warning_type(hinge_not_weakest)
+         if (hinge > highest_hinge) note = warning_type(hinge_above_usual)
+         call note%with('alpha_0', alpha)
+         call note%with('weakest_alpha_0', least)
+         call note%with('weakest_hinge', hinge)
+         if (hinge > highest_hinge) then
+            call notes%add(note, 'alpha_0 falls the higher the hinge of the strip is, down to '//rounded(least)// &
+               & ' at hinge = '//rounded(hinge)//'; so high a hinge is rather a wall that overturns from the floor below')
+         else
+            call notes%add(note, 'the check is not at the weakest hinge of the strip: alpha_0 is least, '//rounded(least)// &
+               & ', at hinge = '//rounded(hinge))
+         end if
       end if
-      if (sheet%value('mechanism', '', 'diaphragm_period') > 0.0_wp) call notes%add('the flexible diaphragm at the top moves '// &
-         & 'the strip in its histories, but is not in the spectrum of the code: the demand of the kinematic check may be '// &
-         & 'too small')
+      if (sheet%value('mechanism', '', 'diaphragm_period') > 0.0_wp) call notes%add(warning_type(diaphragm_not_in_demand), &
+         & 'the flexible diaphragm at the top moves the strip in its histories, but is not in the spectrum of the code: the '// &
+         & 'demand of the kinematic check may be too small')
       call add_tie_notes(sheet, notes)
       period = max(sheet%value('nonlinear', 'SLV', 'period'), sheet%value('nonlinear', 'SLC', 'period'))
-      if (period > long_period) call notes%add('the equivalent period reaches '//rounded(period)//' s; beyond T_E, '// &
-         & rounded(long_period)//' s or more by the soil, the displacements of NTC 2018, 3.2.3.2.3 fall, and the demand '// &
-         & 'of the check does not')
+      if (period > long_period) then
+         note = warning_type(period_beyond_spectrum)
+         call note%with('period_s', period)
+         call note%with('limit_s', long_period)
+         call notes%add(note, 'the equivalent period reaches '//rounded(period)//' s; beyond T_E, '//rounded(long_period)// &
+            & ' s or more by the soil, the displacements of NTC 2018, 3.2.3.2.3 fall, and the demand of the check does not')
+      end if
    end subroutine make_check_notes
 
    !> Notes on ties whose anchors are not checked, give way before the bar yields, or have a plate that is too thin
    subroutine add_tie_notes(sheet, notes)
       type(sheet_type), intent(in) :: sheet
-      type(lines_type), intent(inout) :: notes
+      type(warnings_type), intent(inout) :: notes
 
+      type(warning_type) :: note
       character(len=len(sheet%rows%item)) :: item
       integer :: i
 
@@ -58,18 +77,22 @@ contains
             if (row%method /= 'tie' .or. row%value > 0.0_wp) cycle
             select case (row%quantity%name)
             case ('hierarchy')
-               call notes%add('hierarchy of strengths not respected: the anchor of '//trim(item)//' gives way at '// &
+               call begin(anchor_before_bar, [character(len=18) :: 'anchor_force_per_m', 'bar_force_per_m'])
+               call notes%add(note, 'hierarchy of strengths not respected: the anchor of '//trim(item)//' gives way at '// &
                   & trim(of_tie('anchor_force_per_m'))//' N/m, before its bar yields at '//trim(of_tie('bar_force_per_m'))// &
                   & ' N/m, and at once; a linear check of SLV with q > 1 is not applicable')
             case ('plate_verified')
-               call notes%add('the plate of '//trim(item)//' is too thin: '//trim(of_tie('plate_thickness'))//' m, it needs '// &
-                  & trim(of_tie('plate_needed'))//' m; the check takes its pressure on the masonry to be even')
+               call begin(plate_too_thin, [character(len=18) :: 'plate_thickness', 'plate_needed'])
+               call notes%add(note, 'the plate of '//trim(item)//' is too thin: '//trim(of_tie('plate_thickness'))// &
+                  & ' m, it needs '//trim(of_tie('plate_needed'))//' m; the check takes its pressure on the masonry to be even')
             case ('anchor_checked')
                if (sheet%value('tie', '', 'anchor_force', item) > 0.0_wp) then
-                  call notes%add('the anchor of '//trim(item)//' is not checked with the confidence factor of the '// &
+                  call begin(anchor_factor_differs, [character(len=18) :: 'anchor_knowledge'])
+                  call notes%add(note, 'the anchor of '//trim(item)//' is not checked with the confidence factor of the '// &
                      & 'check: its masonry has masonry_knowledge_factor = '//trim(of_tie('anchor_knowledge')))
                else
-                  call notes%add('the anchor of '//trim(item)//' is not checked: neither its plate nor a force at '// &
+                  call begin(anchor_not_checked, [character(len=18) ::])
+                  call notes%add(note, 'the anchor of '//trim(item)//' is not checked: neither its plate nor a force at '// &
                      & 'which it gives way is given')
                end if
             end select
@@ -77,6 +100,20 @@ contains
       end do
 
    contains
+
+      !> Begin a note on the tie, with numbers of it
+      subroutine begin(code, names)
+         character(len=*), intent(in) :: code
+         character(len=*), intent(in) :: names(:)
+
+         integer :: k
+
+         note = warning_type(code)
+         call note%about('item', trim(item))
+         do k = 1, size(names)
+            call note%with(trim(names(k)), sheet%value('tie', '', trim(names(k)), item))
+         end do
+      end subroutine begin
 
       !> A number of the tie
       function of_tie(name)

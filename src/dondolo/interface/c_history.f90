@@ -5,11 +5,11 @@ module dondolo_interface_c_history
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
    use dondolo_base_text, only : to_text
+   use dondolo_base_warning, only : warnings_type
    use dondolo_building_floors, only : floors_type
    use dondolo_case_motion_warnings, only : warn_of_fall, warn_of_records
    use dondolo_case_result_warnings, only : warn_of_error
    use dondolo_case_wall_warnings, only : wall_warnings_type
-   use dondolo_case_warning, only : warnings_type
    use dondolo_interface_c_error, only : failure_type, is_ready
    use dondolo_interface_c_settings, only : solver_of
    use dondolo_interface_c_text, only : as_handle, as_pointer, check_finite

@@ -10,10 +10,10 @@ module dondolo_interface_c_stripes
    use dondolo_base_settings_check, only : check_settings
    use dondolo_base_text, only : to_text
    use dondolo_base_threads, only : check_threads
+   use dondolo_base_warning, only : warnings_type
    use dondolo_case_motion_warnings, only : scale_warnings_type, warn_of_events, warn_of_records
    use dondolo_case_result_warnings, only : warn_of_errors, warn_of_fit
    use dondolo_case_wall_warnings, only : wall_warnings_type
-   use dondolo_case_warning, only : warnings_type
    use dondolo_fragility, only : fit_fragility, fragility_type
    use dondolo_fragility_even_levels, only : settle_levels
    use dondolo_fragility_scaling, only : new_scaling, scaling_type

@@ -1,7 +1,7 @@
 !> What comes of a case.
 module dondolo_case_results
+   use dondolo_base_warning, only : warnings_type
    use dondolo_case_check_rows, only : verdicts_type
-   use dondolo_case_warning, only : warnings_type
    use dondolo_check_sheet, only : sheet_type
    use dondolo_fragility, only : fragility_type
    use dondolo_fragility_certified, only : state_bounds_type

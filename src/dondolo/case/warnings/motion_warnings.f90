@@ -3,7 +3,7 @@ module dondolo_case_motion_warnings
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : rounded, to_text
-   use dondolo_case_warning, only : warning_type, warnings_type
+   use dondolo_base_warning, only : warning_type, warnings_type
    use dondolo_fragility_stripes, only : mark_lifts, stripes_type
    use dondolo_fragility_study, only : study_type
    use dondolo_record, only : record_type

@@ -3,7 +3,7 @@
 module dondolo_case_occurrence_warnings
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : to_text
-   use dondolo_case_warning, only : warning_type, warnings_type
+   use dondolo_base_warning, only : warning_type, warnings_type
    use dondolo_population_occurrence, only : exclusive, occurrence_names, sum_tolerance
    use dondolo_population_wall_row, only : wall_row_type
    implicit none

@@ -4,7 +4,7 @@ module dondolo_case_result_warnings
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : line_type
    use dondolo_base_text, only : counted, rounded, to_text
-   use dondolo_case_warning, only : warning_type, warnings_type
+   use dondolo_base_warning, only : warning_type, warnings_type
    use dondolo_fragility, only : fit_all_collapse, fit_decreasing, fit_extrapolated, fit_nearly_flat, fit_no_collapse, &
       & fit_not_converged, fit_ok, fit_separated, fit_single_level, fit_status_names, fragility_type, least_ratio
    use dondolo_fragility_clustered, only : fewest_clusters

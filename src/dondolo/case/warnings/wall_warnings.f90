@@ -4,7 +4,7 @@ module dondolo_case_wall_warnings
    use dondolo_base_kinds, only : wp
    use dondolo_base_property, only : hint_of, property_type
    use dondolo_base_text, only : rounded, to_text
-   use dondolo_case_warning, only : warning_type, warnings_type
+   use dondolo_base_warning, only : warning_type, warnings_type
    use dondolo_wall, only : wall_type
    use dondolo_wall_properties, only : gravity_property, wall_properties
    use dondolo_wall_rigid_body, only : same

@@ -1,6 +1,6 @@
 !> Warnings: results that are correct but may mislead. A warning is a code and numbers for programs, and a sentence for people.
 !> The procedure that raises it has all three.
-module dondolo_case_warning
+module dondolo_base_warning
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_base_json, only : json_type
    use dondolo_base_kinds, only : wp
@@ -180,4 +180,4 @@ contains
       call json%close_object()
    end subroutine put_warning
 
-end module dondolo_case_warning
+end module dondolo_base_warning
