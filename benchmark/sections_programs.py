@@ -192,7 +192,7 @@ def speeds(results, turns):
     ]
     median = rounded(Spread.of(times_of(turns, *lanes).values()).median, 3)
     sentence = (
-        f"{mine.histories} time histories of one wall take {median} ms on one core: {', '.join(words)}, "
+        f"{mine.histories} time histories of one wall take {median} ms on one core. That is {', '.join(words)}, "
         "each at its cheapest setting that is accurate enough."
     )
     return paragraph(sentence, indent="  ")[:-1]
