@@ -10,6 +10,7 @@ import subprocess
 import sys
 import time
 from pathlib import Path
+from typing import get_args
 
 import numpy as np
 import pytest
@@ -20,6 +21,7 @@ pytest.importorskip("starlette", reason="starlette is not installed")
 pytest.importorskip("httpx", reason="httpx is not installed")
 
 from dondolo.exchange.case_text import case_text
+from dondolo.reporting.properties_it import MEANINGS
 from dondolo.serve.server import application, beginning_of
 from starlette.testclient import TestClient
 
@@ -153,12 +155,15 @@ def test_files_of_an_opened_case_stay_shut(page, tmp_path):
 def test_what_is_shown_is_what_the_executable_computes(name, page, root, tmp_path):
     """Median, dispersion, counts and capacities are those of a run of the text on the page, to the bit."""
     settings, is_auto = TIED, True
+    # Comments of the case are in the language of the page.
+    lang = "it" if name == "tied" else "en"
     if name != "tied":
         settings = page.post("/open", json={"text": (root / f"data/cases/{name}.nml").read_text()}).json()["settings"]
         is_auto = False
-    shown = curve(page, settings, auto=is_auto)
+    shown = curve(page, settings, auto=is_auto, lang=lang)
+    assert ("altezza della parete" in shown["text"]) == (lang == "it")
     path = tmp_path / "shown.nml"
-    path.write_text(shown["text"])
+    path.write_text(shown["text"], encoding="utf-8")
     command = [os.path.join(os.path.dirname(sys.executable), "dondolo"), "--quiet", path]
     subprocess.run(command, cwd=tmp_path, check=True, capture_output=True)
     run = dd.read_results(tmp_path / dd.read_case(path).output)
@@ -224,6 +229,49 @@ def test_drafts_pins_and_fans(page):
         {"group": "wall", "name": "load", "place": 9},
     ):
         assert "error" in curve(page, TIED, auto=True, fan=wrong)
+
+
+def test_anchors_that_nobody_has_given(page):
+    """A tie without plate or force of its anchor is marked, and so is what it is compared with."""
+    levels = {"stripes": {"im": "pga", "levels": [0.4, 0.8, 1.2]}}
+    bare, plated = copy.deepcopy(TIED), copy.deepcopy(TIED)
+    bare["wall"] = {name: value for name, value in TIED["wall"].items() if not name.startswith("tie")}
+    plated["wall"] |= {"tie_anchor_force": [8e3]}
+    assert curve(page, TIED | levels)["unchecked"] == [1]
+    assert curve(page, bare | levels)["unchecked"] == curve(page, plated | levels)["unchecked"] == []
+    for one, other, is_open in [(TIED, bare, True), (bare, TIED, True), (plated, bare, False)]:
+        assert curve(page, one | levels, b=other | levels)["comparison"]["unchecked"] == is_open
+    notes = curve(page, TIED | levels, lang="it")["check"]["notes"]
+    assert notes == [
+        "ancoraggio di catena 1 non verificato: non sono assegnati né il capochiave né la forza per cui cede"
+    ]
+
+
+def test_refusals_are_data(page):
+    """A refusal has code, variable, group and line; each code has its Italian on the page."""
+    wall = {**TIED["wall"], "height": -6.0, "thicknes": 0.5}
+    refused = curve(page, {**TIED, "wall": wall, "stripes": {"levels": [0.5]}})
+    errors = [(one["code"], one["variable"], one["group"]) for one in refused["errors"]]
+    assert ("unknown_name", "thicknes", "wall") in errors
+    assert all(isinstance(one["line"], int) for one in refused["errors"])
+    asked = page.post("/open", json={"text": "&job task = 'history' /"}).json()
+    assert asked["errors"]
+    words = page.get("/refusals.js").text
+    table = words[words.index("const CODES") : words.index("const OWN")]
+    assert set(re.findall(r"(\w+): \"", table)) == set(get_args(dd.errors.Code))
+
+
+def test_every_property_has_its_words(page):
+    """Names and meanings of all variables are there in both languages."""
+    words = page.get("/words.js").text
+    labels = words[words.index("const LABELS") : words.index("let place")]
+    named = dict(re.findall(r"(\w+): \[(\".*?\", \".*?\")\]", labels))
+    tables = page.get("/begin").json()["properties"]
+    rows = {name: row for table in tables.values() for name, row in table.items()}
+    assert sum(map(len, tables.values())) == len(rows)
+    assert set(named) == set(rows) == set(MEANINGS)
+    for name, row in rows.items():
+        assert row["meaning"]["it"] == MEANINGS[name] != row["meaning"]["en"]
 
 
 def test_motions(page):

@@ -21,8 +21,11 @@ _FOLLOWS = {
 _WIDTH = 118
 
 
-def case_text(settings: Settings, *, commented: bool = False) -> str:
-    """Settings in the notation of a case file, each variable on a line; commented: with its unit and its meaning."""
+def case_text(settings: Settings, *, commented: bool = False, meanings: Mapping[str, str] | None = None) -> str:
+    """Settings in the notation of a case file, each variable on a line; commented: with its unit and its meaning.
+
+    `meanings` are those of another language, by name.
+    """
     lines = []
     for group, variables in settings.items():
         # A list without values is one that was not given
@@ -37,7 +40,7 @@ def case_text(settings: Settings, *, commented: bool = False) -> str:
         margin = max(map(len, parts), default=0) + 3
         lines.append(f"&{group}")
         for name, part in zip(given, parts, strict=True):
-            comment = _comment(table[name]) if name in table else ""
+            comment = _comment(table[name], meanings or {}) if name in table else ""
             line = f"   {part:{margin}}! {comment}" if comment else f"   {part}"
             # What does not fit is left out: a line is read as a whole
             lines.append(line if len(line) <= _WIDTH else f"   {part}   ! {table[name].unit}".rstrip(" !"))
@@ -45,9 +48,10 @@ def case_text(settings: Settings, *, commented: bool = False) -> str:
     return "\n".join(lines)
 
 
-def _comment(row: Property) -> str:
+def _comment(row: Property, meanings: Mapping[str, str]) -> str:
     """Unit and meaning of a variable."""
-    return f"{row.unit}: {row.meaning}" if row.unit else row.meaning
+    meaning = meanings.get(row.name, row.meaning)
+    return f"{row.unit}: {meaning}" if row.unit else meaning
 
 
 def _value(value: Any) -> str:

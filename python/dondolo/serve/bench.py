@@ -7,6 +7,7 @@ differ.
 from __future__ import annotations
 
 import pickle
+import re
 import threading
 import time
 import warnings
@@ -24,15 +25,18 @@ from dondolo._fortran.library import properties
 from dondolo.analysis.stripes import Stripes
 from dondolo.checks.ntc import CodeCheck
 from dondolo.curves.fragility import Fragility
-from dondolo.errors import DondoloError, DondoloWarning, InputError, silent
+from dondolo.errors import DondoloError, DondoloWarning, InputError, Problem, silent
 from dondolo.exchange.case_text import Settings, case_text
 from dondolo.exchange.cases import Case
 from dondolo.records.suite import intensities
 from dondolo.reporting.language import Language
+from dondolo.reporting.properties_it import MEANINGS
 from dondolo.reporting.relazione.terms import status as status_in_words
 from dondolo.reporting.relazione.terms import warning as warning_in_words
 from dondolo.serve.levels import chosen_levels
 from dondolo.serve.pictures import motion_of, picture
+from dondolo.walls.parts import parts_of
+from dondolo.walls.wall import Wall
 
 # Curves that are kept, for B and for a page that goes back
 _KEPT = 12
@@ -91,18 +95,16 @@ class Bench:
         with self._lock, silent():
             case = dd.case_from_text(text, self.records)
         if case.task != "stripes":
-            raise InputError(
-                f"task = '{case.task}': the page shows one wall, task = 'stripes'; run this case with dondolo"
-            )
+            raise _other_task(case)
         return sparse(case.settings)
 
-    def text(self, settings: Settings) -> str:
-        """The case as text, with the records of the page."""
+    def text(self, settings: Settings, lang: str = "en") -> str:
+        """The case as text, with the records of the page and comments in a language."""
         groups = {name: dict(settings[name]) for name in _GROUPS if name in settings}
         groups["records"] = {"catalogue": str(self.catalogue)} | {
             name: value for name, value in groups.get("records", {}).items() if name != "catalogue"
         }
-        return case_text(groups, commented=True) + "\n"
+        return case_text(groups, commented=True, meanings=MEANINGS if lang == "it" else None) + "\n"
 
     def curve(self, asked: Mapping[str, Any]) -> dict[str, Any]:
         """The curve of a case, its numbers, its drawing, and what it is compared with."""
@@ -111,14 +113,14 @@ class Bench:
         with self._lock:
             if asked.get("auto"):
                 settings = self._with_levels(settings)
-            found = self._curve(self.text(settings), is_draft)
+            found = self._curve(self.text(settings, language.code), is_draft)
             answer = self._shown(found, language)
             answer |= {"draft": is_draft, "levels": settings["stripes"]["levels"], "text": found.text}
             if not is_draft:
                 if asked.get("b") is not None and found.fragility.has_fit:
-                    answer["comparison"] = self._comparison(found, asked["b"])
+                    answer["comparison"] = self._comparison(found, self.text(groups_of(asked["b"]), language.code))
                 if isinstance(asked.get("fan"), dict):
-                    answer["fan"] = self._fan(settings, asked["fan"], bool(asked.get("auto")))
+                    answer["fan"] = self._fan(settings, asked["fan"], bool(asked.get("auto")), language.code)
         answer["ms"] = 1e3 * (time.perf_counter() - begin)
         return answer
 
@@ -157,7 +159,7 @@ class Bench:
             warnings.simplefilter("always", DondoloWarning)
             case = dd.case_from_text(text, self.records)
             if case.task != "stripes":
-                raise InputError(f"task = '{case.task}': the page shows one wall, task = 'stripes'")
+                raise _other_task(case)
             stripes = dd.multiple_stripe(
                 case.population.walls[0],
                 self._half if is_draft else self.records,
@@ -194,26 +196,35 @@ class Bench:
                 {"code": one.code, "sentence": warning_in_words(language, one)} for one in _once(found.warnings)
             ],
             "wall": picture(wall),
+            "unchecked": _unchecked(wall),
         }
         if fit.has_fit:
             answer |= curve_points(fit, 1.04 * float(stripes.levels[-1]))
         if found.case.site is not None:
-            answer["check"] = _checked(found.case, fit)
+            answer["check"] = _checked(found.case, fit, language)
         return answer
 
-    def _comparison(self, found: Curve, other: Any) -> dict[str, Any] | None:
+    def _comparison(self, found: Curve, text: str) -> dict[str, Any] | None:
         """The ratio of the medians of B and A with its interval, under the same records."""
-        second = self._curve(self.text(groups_of(other)), False).fragility
+        with_other = self._curve(text, False)
+        second = with_other.fragility
         if not second.has_fit or second.im != found.fragility.im:
             return None
+        walls = (one.case.population.walls[0] for one in (found, with_other))
         with silent():
             try:
                 compared = found.fragility.compare(second)
             except DondoloError:
                 return None
-        return {"ratio": compared.ratio, "interval": list(compared.ratio_interval)}
+        return {
+            "ratio": compared.ratio,
+            "interval": list(compared.ratio_interval),
+            "unchecked": any(map(_unchecked, walls)),
+        }
 
-    def _fan(self, settings: dict[str, dict[str, Any]], fan: Mapping[str, Any], is_auto: bool) -> list[dict[str, Any]]:
+    def _fan(
+        self, settings: dict[str, dict[str, Any]], fan: Mapping[str, Any], is_auto: bool, lang: str
+    ) -> list[dict[str, Any]]:
         """Curves of the wall where one of its numbers is smaller and larger by a share."""
         group, name = (str(fan.get(what)) for what in ("group", "name"))
         share, place = as_number("share", fan.get("share")), fan.get("place") or 0
@@ -228,9 +239,9 @@ class Bench:
             other = {**settings, group: {**settings[group], name: changed if isinstance(values, list) else changed[0]}}
             try:
                 with silent():
-                    found = self._curve(self.text(self._with_levels(other) if is_auto else other), False)
+                    found = self._curve(self.text(self._with_levels(other) if is_auto else other, lang), False)
             except DondoloError as error:
-                curves.append({"factor": factor, "refused": str(error)})
+                curves.append({"factor": factor, "refused": refusal(error)})
                 continue
             curves.append({"factor": factor} | (_line(found) if found.fragility.has_fit else {}))
         return curves
@@ -249,6 +260,36 @@ def curve_points(fit: Fragility, last: float) -> dict[str, Any]:
     return answer
 
 
+def refusal(error: DondoloError) -> dict[str, Any]:
+    """An error as data: its sentence, and of each thing that is wrong its code, variable, group and line."""
+    errors = []
+    for one in error.errors if isinstance(error, InputError) else ():
+        group, line = (re.search(pattern, one.place) for pattern in (r"&(\w+)", r"line (\d+)"))
+        errors.append(
+            {
+                "code": one.code,
+                "variable": one.variable,
+                "group": group[1] if group else "",
+                "line": int(line[1]) if line else None,
+            }
+        )
+    return {"error": str(error), "errors": errors}
+
+
+def _other_task(case: Case) -> InputError:
+    sentence = f"task = '{case.task}': the page shows one wall, task = 'stripes'; run this case with dondolo"
+    return InputError(sentence, errors=[Problem(sentence, "out_of_range", "task")])
+
+
+def _unchecked(wall: Wall) -> list[int]:
+    """Numbers of the ties whose anchors have neither a plate nor a force at which they give way."""
+    return [
+        place
+        for place, tie in enumerate(parts_of(wall, "ties"), 1)
+        if tie.anchor_force is None and tie.plate_width is None and tie.plate_diameter is None
+    ]
+
+
 def _line(found: Curve) -> dict[str, Any]:
     """Parameters and points of a curve, without its band."""
     whole = curve_points(found.fragility, 1.04 * float(found.stripes.levels[-1]))
@@ -259,7 +300,7 @@ def _parameters(fit: Fragility) -> dict[str, Any]:
     return {"theta": fit.theta, "beta": fit.beta}
 
 
-def _checked(case: Case, fit: Fragility) -> dict[str, Any]:
+def _checked(case: Case, fit: Fragility, language: Language) -> dict[str, Any]:
     """The kinematic check by NTC 2018, and the probability of collapse at the peak acceleration of the site."""
     assert case.site is not None
     wall = case.population.walls[0]
@@ -269,14 +310,14 @@ def _checked(case: Case, fit: Fragility) -> dict[str, Any]:
                 wall, case.site, knowledge_factor=case.knowledge_factor, behaviour=case.behaviour
             )
         except InputError as error:
-            return {"refused": str(error)}
+            return {"refused": refusal(error)}
     answer: dict[str, Any] = {
         "pga": check.pga,
         "capacities": [[*key, value] for key, value in check.capacities.items() if key not in check.not_applicable],
         "verified": [[*key, value] for key, value in check.verified.items()],
         "not_applicable": [list(key) for key in check.not_applicable],
         "alpha_0": check.value("mechanism", "", "alpha_0"),
-        "notes": list(check.notes),
+        "notes": [warning_in_words(language, note) for note in check.notes],
         "open_ties": list(check.open_ties),
     }
     if fit.has_fit and fit.im == "pga":

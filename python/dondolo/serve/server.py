@@ -9,7 +9,6 @@ from __future__ import annotations
 import hmac
 import json
 import os
-import re
 import secrets
 import socket
 import sys
@@ -29,7 +28,8 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from dondolo._fortran.library import constants, properties
 from dondolo.errors import DondoloError, InputError
-from dondolo.serve.bench import Bench, groups_of
+from dondolo.reporting.properties_it import MEANINGS
+from dondolo.serve.bench import Bench, groups_of, refusal
 from dondolo.serve.documents import DOCUMENTS, make_document
 
 # Largest request [bytes]
@@ -41,6 +41,7 @@ _FILES = {
     "page.js": "text/javascript",
     "state.js": "text/javascript",
     "form.js": "text/javascript",
+    "refusals.js": "text/javascript",
     "chart.js": "text/javascript",
     "wall.js": "text/javascript",
     "words.js": "text/javascript",
@@ -185,7 +186,7 @@ def application(bench: Bench, start: Mapping[str, Any], lang: str, port: int, to
             try:
                 return await run_in_threadpool(work, asked)
             except DondoloError as error:
-                return JSONResponse(_refusal(error), 422)
+                return JSONResponse(refusal(error), 422)
 
         return answer
 
@@ -195,8 +196,8 @@ def application(bench: Bench, start: Mapping[str, Any], lang: str, port: int, to
         return JSONResponse({"settings": bench.open(asked["text"])})
 
     def document(asked: Mapping[str, Any]) -> Response:
-        kind = str(asked.get("kind"))
-        made = make_document(bench.text(groups_of(asked.get("settings"))), kind, str(asked.get("lang", "en")))
+        kind, lang = str(asked.get("kind")), str(asked.get("lang", "en"))
+        made = make_document(bench.text(groups_of(asked.get("settings")), lang), kind, lang)
         return Response(made, media_type=DOCUMENTS[kind])
 
     routes = [
@@ -227,7 +228,8 @@ def _beginning(bench: Bench, start: Mapping[str, Any], lang: str) -> dict[str, A
                 "high": row.largest,
                 "choices": row.choices,
                 "owners": row.owners,
-                "meaning": row.meaning,
+                "bounds": row.bounds,
+                "meaning": {"en": row.meaning, "it": MEANINGS.get(row.name, row.name)},
             }
             for row in properties(group)
         }
@@ -242,15 +244,6 @@ def _beginning(bench: Bench, start: Mapping[str, Any], lang: str) -> dict[str, A
         "synthetic": bench.are_synthetic,
         "version": constants().version,
     }
-
-
-def _refusal(error: DondoloError) -> dict[str, Any]:
-    """An error as data: its sentence, and which variables of which groups it names."""
-    errors = []
-    for one in error.errors if isinstance(error, InputError) else ():
-        group = re.search(r"&(\w+)", one.place)
-        errors.append({"code": one.code, "variable": one.variable, "group": group[1] if group else ""})
-    return {"error": str(error), "errors": errors}
 
 
 def serve(case: str | None, records: str | None, port: int, is_opened: bool, threads: int, lang: str) -> None:
@@ -281,6 +274,8 @@ def serve(case: str | None, records: str | None, port: int, is_opened: bool, thr
             listener.bind(("127.0.0.1", port))
         except OSError as error:
             raise InputError(f"--port {port}: {error.strerror}") from None
+        # A browser that is fast waits until the server answers, and is not refused.
+        listener.listen()
         at, token = listener.getsockname()[1], secrets.token_urlsafe(32)
         address = f"http://127.0.0.1:{at}/?token={token}"
         app = application(bench, start, lang, at, token)

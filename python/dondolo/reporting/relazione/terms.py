@@ -176,6 +176,23 @@ WARNINGS = {
     "one_level": "un solo livello: nessuna curva di fragilità",
     "all_below_trigger": "nessuna analisi in cui la parete si muove",
     "one_record": "un solo accelerogramma",
+    "hinge_not_weakest": "verifica non riferita alla cerniera più debole: il moltiplicatore è minimo,"
+    " {weakest_alpha_0}, per la cerniera alla quota relativa {weakest_hinge}",
+    "hinge_above_usual": "il moltiplicatore si riduce quanto più in alto è la cerniera, fino a {weakest_alpha_0} alla"
+    " quota relativa {weakest_hinge}: una cerniera così alta è piuttosto un ribaltamento dal solaio inferiore",
+    "diaphragm_not_in_demand": "il solaio deformabile in sommità muove la parete nelle analisi, ma non è nello spettro"
+    " della norma: la domanda della verifica cinematica può essere troppo piccola",
+    "anchor_before_bar": "gerarchia delle resistenze non rispettata: l'ancoraggio di {item} cede a {anchor_force_per_m}"
+    " N/m, prima dello snervamento della barra a {bar_force_per_m} N/m, e di colpo; verifica lineare SLV con q > 1 non"
+    " applicabile",
+    "plate_too_thin": "capochiave di {item} troppo sottile: {plate_thickness} m, ne servono {plate_needed}; la verifica"
+    " ne suppone uniforme la pressione sulla muratura",
+    "anchor_factor_differs": "ancoraggio di {item} non verificato con il fattore di confidenza della verifica: la sua"
+    " muratura ha {anchor_knowledge}",
+    "anchor_not_checked": "ancoraggio di {item} non verificato: non sono assegnati né il capochiave né la forza per cui"
+    " cede",
+    "period_beyond_spectrum": "il periodo equivalente raggiunge {period_s} s: oltre T_E, almeno {limit_s} s secondo il"
+    " sottosuolo, gli spostamenti di NTC 2018, 3.2.3.2.3 si riducono, e la domanda della verifica no",
     "few_clusters": "solo {clusters} terremoti per {records} accelerogrammi",
 }
 
@@ -192,5 +209,8 @@ def warning(language: Language, found: DondoloWarning) -> str:
     if found.code not in WARNINGS:
         return f"avvertenza {found.code} (v. file dei risultati)"
     values = defaultdict(lambda: "\N{EN DASH}", found.subject)
+    if "item" in found.subject:
+        kind, _, place = found.subject["item"].partition(" ")
+        values["item"] = f"{ITEMS.get(kind, kind)} {place}".strip()
     values |= {name: language.plain(number(value)) for name, value in found.numbers.items()}
     return WARNINGS[found.code].format_map(values)

@@ -7,7 +7,8 @@ const digits = (x) => Math.max(0, Math.min(4, Math.ceil(-Math.log10(x) - 1e-9)) 
 
 // SVG of curve A, perhaps with B, fan and marks: {x, label, kind}
 export function chart(a, b, { width, im, marks = [], fan = [] }) {
-  const left = 46, right = 14, top = 12, bottom = 44, w = Math.max(300, Math.min(900, width)), h = Math.round(Math.max(230, Math.min(430, w * 0.56)));
+  // Labels of marks have rows of their own above the curves.
+  const left = 60, right = 14, top = 12 + 15 * marks.length, bottom = 44, w = Math.max(300, Math.min(900, width)), h = Math.round(Math.max(230, Math.min(430, w * 0.56)) + 15 * marks.length);
   const curves = [b && b.p ? [b, "b"] : null, a ? [a, "a"] : null].filter(Boolean);
   const last = nice(Math.max(...curves.map(([c]) => (c.x ? c.x[c.x.length - 1] : c.stripes[0][c.stripes[0].length - 1])), ...marks.map(({ x }) => 1.05 * x)));
   const X = (x) => +(left + ((w - left - right) * x) / last).toFixed(2), Y = (p) => +(top + (h - top - bottom) * (1 - p)).toFixed(2);
@@ -17,11 +18,14 @@ export function chart(a, b, { width, im, marks = [], fan = [] }) {
   const by = step(last, w < 480 ? 4 : 8);
   for (let i = 0; i * by <= last * 1.0001; i++) out.push(`<line class="axis" x1="${X(i * by)}" x2="${X(i * by)}" y1="${Y(0)}" y2="${Y(0) + 4}"/><text class="tick" x="${X(i * by)}" y="${Y(0) + 18}" text-anchor="middle">${num(i * by, digits(by))}</text>`);
   out.push(`<text class="tick" x="${(left + w - right) / 2}" y="${h - 6}" text-anchor="middle">${safe(im)}</text>`);
+  out.push(`<text class="tick" transform="rotate(-90 13 ${(Y(0) + Y(1)) / 2})" x="13" y="${(Y(0) + Y(1)) / 2 + 4}" text-anchor="middle">${safe(t("collapse"))}</text>`);
   for (const [c, of] of curves) if (c.band) out.push(`<path class="band ${of}" d="${path(c.x, c.band[0])}${path(c.x, c.band[1]).slice(1).split("L").reverse().reduce((d, one) => `${d}L${one}`, "")}Z"/>`);
   for (const one of fan) if (one.p) out.push(`<path class="line fan" d="${path(one.x, one.p)}"/>`);
-  marks.forEach(({ x, label, kind }, i) => {
-    const flips = X(x) > w * 0.62, y = Y(1) + 12 + 16 * i;
-    out.push(`<line class="mark-line ${kind}" x1="${X(x)}" x2="${X(x)}" y1="${Y(1)}" y2="${Y(0)}"/><text class="tick halo ${kind}" x="${X(x) + (flips ? -5 : 5)}" y="${y}" text-anchor="${flips ? "end" : "start"}">${safe(label)}</text>`);
+  // In this order no line crosses a label that reads away from it.
+  const flipped = ({ x }) => X(x) > w * 0.62, ordered = [...marks.filter((one) => !flipped(one)).sort((one, other) => one.x - other.x), ...marks.filter(flipped).sort((one, other) => other.x - one.x)];
+  ordered.forEach(({ x, label, kind }, i) => {
+    const flips = flipped({ x }), y = 12 + 15 * i;
+    out.push(`<line class="mark-line ${kind}" x1="${X(x)}" x2="${X(x)}" y1="${y - 9}" y2="${Y(0)}"/><text class="tick halo ${kind}" x="${X(x) + (flips ? -5 : 5)}" y="${y}" text-anchor="${flips ? "end" : "start"}">${safe(label)}</text>`);
   });
   for (const [c, of] of curves) {
     if (c.p) out.push(`<path class="line ${of}" d="${path(c.x, c.p)}"/>`);

@@ -1,6 +1,6 @@
 // The form: rows of sliders made of the table of properties.
 import { changed, state } from "./state.js";
-import { has, make, num, read, t } from "./words.js";
+import { choiceOf, labelOf, language, make, num, read, t } from "./words.js";
 
 // How a number is shown: least, largest, step, factor on what the case has, unit, digits
 const FIELDS = {
@@ -29,19 +29,15 @@ const KINDS = {
   two_block: '<path d="M4 27h22M4 4h22M13 27l5-11-5-12m-4 23 5-11-5-12M9 27h4M9 4h4"/>',
 };
 const kept = {};
-let drawn = () => {};
-export const whenDrawn = (f) => { drawn = f; };
 
 const wall = () => state.settings.wall;
 const isPart = (name, word) => name === word || name.startsWith(word + "_");
 const lists = (word) => Object.keys(wall()).filter((name) => isPart(name, word) && state.properties.wall[name]?.kind === "list");
 const partCount = (word) => Math.max(0, ...lists(word).map((name) => [].concat(wall()[name]).length));
-const label = (name) => (has(name + "_value") ? t(name + "_value") : has(name) ? t(name) : name.replaceAll("_", " "));
-export const labelOf = label;
 export const fieldOf = (name) => FIELDS[name];
 
 const clean = (x) => Number(x.toPrecision(12));
-const get = (group, name, place) => { const value = state.settings[group][name]; return Array.isArray(value) ? value[place ?? 0] : value; };
+const get = (group, name, place) => { const value = state.settings[group]?.[name]; return Array.isArray(value) ? value[place ?? 0] : value; };
 function put(group, name, place, value) {
   const old = state.settings[group][name];
   if (Array.isArray(old)) { const next = [...old]; next[place ?? 0] = value; state.settings[group][name] = next; } else state.settings[group][name] = value;
@@ -56,20 +52,25 @@ export function expand() {
   for (const group of ["building", "check"]) for (const [name, value] of Object.entries(state.settings[group] || {})) if (state.properties[group][name]?.kind === "list" && !Array.isArray(value)) state.settings[group][name] = [value];
 }
 
+const inWords = (unit) => (unit === "year" ? t(unit) : unit);
+// The meaning of a property, with its value as the case has it: the field beside may have another unit.
+function tip(group, name, place) {
+  const { unit: given, meaning } = state.properties[group][name], unit = inWords(given), value = get(group, name, place), as = typeof value === "number" ? `\n${t("in_case", { name, value: value + (unit ? ` [${unit}]` : "") })}` : ` (${name}${unit ? `, ${unit}` : ""})`;
+  return meaning[language()] + as;
+}
+
 let serial = 0;
 function row(group, name, place) {
   const property = state.properties[group][name], field = FIELDS[name], id = `f${serial++}`;
-  const tip = property.meaning + (property.unit ? ` [${property.unit}]` : "");
-  if (property.choices.length) return choice(group, name, property.choices, tip);
-  if (!field || (place === undefined && Array.isArray(state.settings[group][name]) && state.settings[group][name].length > 1)) return plainRow(group, name, tip);
+  if (property.choices.length || property.kind === "logical") return choice(group, name);
+  if (!field || (place === undefined && Array.isArray(state.settings[group][name]) && state.settings[group][name].length > 1)) return plainRow(group, name);
   const [low, high, step, factor, unit, digits] = field, value = get(group, name, place) * factor;
-  const range = make("input", { type: "range", id: id + "r", min: Math.min(low, value), max: Math.max(high, value), step, "aria-label": `${label(name)}${place === undefined ? "" : " " + (place + 1)}${unit ? `, ${unit}` : ""}`, tabindex: 0 });
-  const box = make("input", { type: "text", id, inputmode: "decimal", autocomplete: "off", title: tip });
-  const fill = (x) => { range.value = x; range.style.setProperty("--part", `${(100 * (x - range.min)) / (range.max - range.min)}%`); range.setAttribute("aria-valuetext", `${num(x, digits)} ${unit}`); };
+  const range = make("input", { type: "range", id: id + "r", min: Math.min(low, value), max: Math.max(high, value), step, "aria-label": `${labelOf(name)}${place === undefined ? "" : " " + (place + 1)}${unit ? `, ${unit}` : ""}`, tabindex: 0 });
+  const box = make("input", { type: "text", id, inputmode: "decimal", autocomplete: "off" });
+  const fill = (x) => { element.firstChild.title = box.title = tip(group, name, place); range.value = x; range.style.setProperty("--part", `${(100 * (x - range.min)) / (range.max - range.min)}%`); range.setAttribute("aria-valuetext", `${num(x, digits)} ${unit}`); };
   const exact = Math.abs(clean(value) - Number(value.toFixed(digits))) < 1e-9 * Math.max(1, Math.abs(value));
   box.value = exact ? num(value, digits) : num(value);
-  fill(value);
-  range.addEventListener("input", () => { const x = Number(range.value); box.value = num(x, digits); fill(x); element.classList.remove("wrong"); put(group, name, place, clean(x / factor)); changed(true); });
+  range.addEventListener("input", () => { const x = Number(range.value); box.value = num(x, digits); put(group, name, place, clean(x / factor)); fill(x); element.classList.remove("wrong"); changed(true); });
   range.addEventListener("change", () => changed(false));
   box.addEventListener("change", () => {
     const x = read(box.value), isWrong = Number.isNaN(x);
@@ -77,36 +78,38 @@ function row(group, name, place) {
     if (isWrong) return;
     if (x < Number(range.min)) range.min = x;
     if (x > Number(range.max)) range.max = x;
-    fill(x); put(group, name, place, clean(x / factor)); changed(false);
+    put(group, name, place, clean(x / factor)); fill(x); changed(false);
   });
   const isFan = () => state.fan && state.fan.group === group && state.fan.name === name && (state.fan.place ?? 0) === (place ?? 0);
-  const fan = make("button", { class: "small", type: "button", "aria-pressed": String(Boolean(isFan())), "aria-label": t("fan_button", { what: label(name) }), title: t("fan_button", { what: label(name) }), onclick: () => {
+  const fan = make("button", { class: "small", type: "button", "aria-pressed": String(Boolean(isFan())), "aria-label": t("fan_button", { what: labelOf(name) }), title: t("fan_button", { what: labelOf(name) }), onclick: () => {
     const share = isFan() ? { 0.1: 0.2, 0.2: 0 }[state.fan.share] : 0.1;
     state.fan = share ? { group, name, place: place ?? null, share } : null;
     draw(); changed(false);
     document.querySelector(`[data-key="${element.dataset.key}"] button`)?.focus();
   } }, isFan() ? `±${100 * state.fan.share} %` : "±");
-  const element = make("div", { class: "row", "data-key": `${group}.${name}.${place ?? ""}`, "data-name": `${group}.${name}` }, make("label", { for: id, title: tip }, label(name)), make("span", { class: "value" }, box, make("span", { class: "unit" }, unit), fan), range);
+  const element = make("div", { class: "row", "data-key": `${group}.${name}.${place ?? ""}`, "data-name": `${group}.${name}` }, make("label", { for: id }, labelOf(name)), make("span", { class: "value" }, box, make("span", { class: "unit" }, unit), fan), range);
+  fill(value);
   return element;
 }
-function choice(group, name, choices, tip) {
-  const id = `f${serial++}`, now = state.settings[group][name] ?? state.properties[group][name].default.replaceAll("'", "");
-  const select = make("select", { id, title: tip, onchange: () => { state.settings[group][name] = select.value; changed(false); } }, ...choices.map((word) => make("option", { value: word, selected: word === now }, name === "load_inertia" && word === "both" ? t("all") : has(word) && word.length > 2 ? t(word) : word)));
-  return make("div", { class: "row one", "data-name": `${group}.${name}` }, make("label", { for: id, title: tip }, label(name)), select);
+function choice(group, name) {
+  const id = `f${serial++}`, { kind, choices, default: usual } = state.properties[group][name], isFlag = kind === "logical";
+  const now = String(state.settings[group][name] ?? usual.replaceAll(/['.]/g, ""));
+  const select = make("select", { id, title: tip(group, name), onchange: () => { state.settings[group][name] = isFlag ? select.value === "true" : select.value; changed(false); } }, ...(isFlag ? ["true", "false"] : choices).map((word) => make("option", { value: word, selected: word === now }, choiceOf(isFlag ? "logical" : name, word))));
+  return make("div", { class: "row one", "data-name": `${group}.${name}` }, make("label", { for: id, title: tip(group, name) }, labelOf(name)), select);
 }
 // Any other property, as the case has it
-function plainRow(group, name, tip) {
+function plainRow(group, name) {
   const id = `f${serial++}`, { kind, unit } = state.properties[group][name], value = state.settings[group][name];
-  const box = make("input", { type: "text", id, title: tip, autocomplete: "off", value: [].concat(value).map((x) => (typeof x === "number" ? num(x) : x)).join("; ") });
+  const box = make("input", { type: "text", id, title: tip(group, name), autocomplete: "off", value: [].concat(value).map((x) => (typeof x === "number" ? num(x) : x)).join("; ") });
   box.addEventListener("change", () => {
     const words = box.value.split(";").map((word) => word.trim()).filter(Boolean);
-    const values = ["text", "words"].includes(kind) ? words : kind === "logical" ? [words[0] === "true"] : words.map(read);
+    const values = ["text", "words"].includes(kind) ? words : words.map(read);
     element.classList.toggle("wrong", !values.length || values.some(Number.isNaN));
     if (element.classList.contains("wrong")) return;
     state.settings[group][name] = kind === "list" || values.length > 1 ? values : values[0];
     changed(false);
   });
-  const element = make("div", { class: "row", "data-name": `${group}.${name}` }, make("label", { for: id, title: tip }, label(name)), make("span", { class: "value" }, box, make("span", { class: "unit" }, unit), make("button", { class: "small", type: "button", "aria-label": `${t("remove")} ${label(name)}`, onclick: () => { delete state.settings[group][name]; again(); } }, "×")));
+  const element = make("div", { class: "row", "data-name": `${group}.${name}` }, make("label", { for: id, title: tip(group, name) }, labelOf(name)), make("span", { class: "value" }, box, make("span", { class: "unit" }, inWords(unit)), make("button", { class: "small", type: "button", "aria-label": `${t("remove")} ${labelOf(name)}`, onclick: () => { delete state.settings[group][name]; again(); } }, "×")));
   return element;
 }
 const again = () => { draw(); changed(false); };
@@ -130,7 +133,7 @@ function removePart(kind, place) {
   again();
 }
 export const heightOf = () => wall().height ?? clean((wall().section_height || [3]).reduce((a, b) => a + b, 0));
-const thicknessOf = () => wall().thickness ?? wall().section_thickness?.[0] ?? 0.3;
+export const thicknessOf = () => wall().thickness ?? wall().section_thickness?.[0] ?? 0.3;
 
 function changeKind(kind) {
   const old = wall(), next = kept[kind] ? { ...kept[kind] } : { mechanism: kind };
@@ -141,8 +144,8 @@ function changeKind(kind) {
   state.settings.wall = next; state.fan = null;
   again();
 }
-function group(title, isOpen, count, ...rows) {
-  return make("details", { class: "group", open: isOpen, "data-group": title }, make("summary", {}, title, count ? make("span", { class: "count" }, ` (${count})`) : null), ...rows);
+function group(name, isOpen, count, ...rows) {
+  return make("details", { class: "group", open: isOpen, "data-group": name }, make("summary", {}, t(name), count ? make("span", { class: "count" }, ` (${count})`) : null), ...rows);
 }
 const opened = {};
 
@@ -150,7 +153,7 @@ export function draw() {
   const form = document.getElementById("form"), w = wall(), shown = new Set(["job.task", "job.title", "job.output", "wall.mechanism"]);
   for (const element of form.querySelectorAll("details")) opened[element.dataset.group] = element.open;
   const rows = (of, names, place) => names.filter((name) => { const is = state.settings[of] && name in state.settings[of]; if (is) shown.add(`${of}.${name}`); return is; }).map((name) => row(of, name, place));
-  const kinds = make("div", { class: "kinds", role: "radiogroup", "aria-label": t("mechanism") }, ...Object.keys(KINDS).map((kind) => {
+  const kinds = make("div", { class: "kinds", role: "radiogroup", "aria-label": labelOf("mechanism") }, ...Object.keys(KINDS).map((kind) => {
     const input = make("input", { type: "radio", name: "kind", value: kind, checked: w.mechanism === kind, onchange: () => { changeKind(kind); document.querySelector(`input[value=${kind}]`).focus(); } });
     const icon = make("span"); icon.innerHTML = `<svg viewBox="0 0 30 30" aria-hidden="true">${KINDS[kind]}</svg>`;
     return make("label", {}, input, icon.firstChild, t(kind));
@@ -165,34 +168,33 @@ export function draw() {
     for (let i = 0; i < count; i++) body.push(make("div", { class: "part" }, make("div", { class: "head" }, t(word, { n: i + 1 }), make("button", { class: "small", type: "button", "aria-label": `${t("remove")}: ${t(word, { n: i + 1 })}`, onclick: () => removePart(kind, i) }, t("remove"))), ...names.map((name) => { shown.add(`wall.${name}`); return row("wall", name, i); })));
     if (word === "load" && count && typeof w.load_inertia === "string" && !w.load_inertia.includes(",")) body.push(...rows("wall", ["load_inertia"]));
     if (word === "tie" && count) body.push(...rows("wall", ["masonry_compression", "masonry_shear", "masonry_tension"]));
-    const adds = [make("button", { class: "small", type: "button", onclick: () => { opened[t(kind)] = true; addPart(kind); } }, t(kind === "sections" && count ? "more_sections" : `add_${kind}`))];
+    const adds = [make("button", { class: "small", type: "button", onclick: () => { opened[kind] = true; addPart(kind); } }, t(kind === "sections" && count ? "more_sections" : `add_${kind}`))];
     if (word === "tie" && count && !("tie_plate_width" in w) && !("tie_plate_diameter" in w) && !("tie_anchor_force" in w)) adds.push(make("button", { class: "small", type: "button", onclick: () => { Object.assign(w, { tie_plate_width: Array(count).fill(0.3), tie_plate_height: Array(count).fill(0.3), tie_plate_thickness: Array(count).fill(0.02), masonry_compression: 2e6, masonry_shear: 4e4, masonry_tension: 5e4 }); again(); } }, t("add_plates")));
-    parts.push(group(t(kind), opened[t(kind)] ?? count > 0, count, ...body, make("div", { class: "adds" }, ...adds)));
+    parts.push(group(kind, opened[kind] ?? count > 0, count, ...body, make("div", { class: "adds" }, ...adds)));
   }
   const hasBuilding = "building" in state.settings, top = heightOf();
-  parts.push(group(t("building"), opened[t("building")] ?? hasBuilding, 0, ...(hasBuilding ? [...rows("building", BUILDING), make("div", { class: "adds" }, make("button", { class: "small", type: "button", onclick: () => { delete state.settings.building; again(); } }, t("remove")))] : [make("p", { class: "hint" }, t("building_hint")), make("div", { class: "adds" }, make("button", { class: "small", type: "button", onclick: () => { opened[t("building")] = true; state.settings.building = { period: [0.3], damping: [0.05], storeys: 2, level: 0, building_height: Math.max(6, top) }; again(); } }, t("add_building")))])));
+  parts.push(group("building", opened.building ?? hasBuilding, 0, ...(hasBuilding ? [...rows("building", BUILDING), make("div", { class: "adds" }, make("button", { class: "small", type: "button", onclick: () => { delete state.settings.building; again(); } }, t("remove")))] : [make("p", { class: "hint" }, t("building_hint")), make("div", { class: "adds" }, make("button", { class: "small", type: "button", onclick: () => { opened.building = true; state.settings.building = { period: [0.3], damping: [0.05], storeys: 2, level: 0, building_height: Math.max(6, top) }; again(); } }, t("add_building")))])));
   const site = "check" in state.settings;
   if (site) for (const [name, value] of Object.entries({ soil: "A", topography: "T1", knowledge_factor: 1.35, behaviour: 2 })) state.settings.check[name] ??= value;
   const siteRows = site ? rows("check", SITE).map((element) => element) : [];
-  parts.push(group(t("site"), opened[t("site")] ?? site, 0, ...siteRows, make("div", { class: "adds" }, make("button", { class: "small", type: "button", onclick: () => { if (site) delete state.settings.check; else state.settings.check = { ag: [0.2], f0: [2.5], tc_star: [0.35], soil: "B" }; opened[t("site")] = true; again(); } }, t(site ? "remove" : "add_site")))));
+  parts.push(group("site", opened.site ?? site, 0, ...siteRows, make("div", { class: "adds" }, make("button", { class: "small", type: "button", onclick: () => { if (site) delete state.settings.check; else state.settings.check = { ag: [0.2], f0: [2.5], tc_star: [0.35], soil: "B" }; opened.site = true; again(); } }, t(site ? "remove" : "add_site")))));
   parts.push(analysis(shown));
   parts.push(others(shown));
   form.replaceChildren(...parts);
-  drawn();
 }
 function analysis(shown) {
   const records = (state.settings.records ??= {}), stripes = (state.settings.stripes ??= {});
   for (const name of ["records.polarity", "records.catalogue", "stripes.im", "stripes.levels", "stripes.first", "stripes.last", "stripes.count"]) shown.add(name);
   records.polarity ??= "as_recorded"; stripes.im ??= "pga";
   const auto = make("input", { type: "checkbox", id: "auto", checked: state.auto, onchange: () => { state.auto = auto.checked; if (!state.auto && state.answer) stripes.levels = state.answer.levels; again(); } });
-  const body = [choice("records", "polarity", state.properties.records.polarity.choices, state.properties.records.polarity.meaning), plainIm(), make("div", { class: "row one" }, make("label", { for: "auto" }, t("auto")), auto)];
-  if (!state.auto) body.push(plainRow("stripes", "levels", state.properties.stripes.levels.meaning));
-  return group(t("analysis"), opened[t("analysis")] ?? !state.auto, 0, ...body);
+  const body = [choice("records", "polarity"), plainIm(), make("div", { class: "row one" }, make("label", { for: "auto" }, t("auto")), auto)];
+  if (!state.auto) body.push(plainRow("stripes", "levels"));
+  return group("analysis", opened.analysis ?? !state.auto, 0, ...body);
 }
 function plainIm() {
   const choices = ["pga", "pgv", "sa(0.2)", "sa(0.5)", "sa(1)", "saavg(0.2:2)", "arias", "cav", "hi"], now = state.settings.stripes.im;
   const select = make("select", { id: "im", onchange: () => { state.settings.stripes.im = select.value; state.auto = true; again(); } }, ...[...new Set([now, ...choices])].map((word) => make("option", { value: word, selected: word === now }, word)));
-  return make("div", { class: "row one", "data-name": "stripes.im" }, make("label", { for: "im" }, t("im")), select);
+  return make("div", { class: "row one", "data-name": "stripes.im" }, make("label", { for: "im", title: tip("stripes", "im") }, labelOf("im")), select);
 }
 // What the case has besides, and a list of what it may have: nothing of a case is out of sight.
 function others(shown) {
@@ -206,15 +208,12 @@ function others(shown) {
     const [of, name] = select.value.split("."), { kind, choices, low, default: usual } = state.properties[of][name], plain = usual.replaceAll("'", "");
     const number = Number.isFinite(Number(plain)) && plain !== "" ? Number(plain) : FIELDS[name] ? clean((FIELDS[name][0] + FIELDS[name][1]) / 2 / FIELDS[name][3]) : Math.max(1, low > 0 ? low : 1);
     (state.settings[of] ??= {})[name] = choices.length ? choices[0] : kind === "logical" ? true : kind === "text" ? plain || "wall" : kind === "list" ? Array(Math.max(1, ...Object.values(PARTS).filter(({ word }) => isPart(name, word)).map(({ word }) => partCount(word)))).fill(number) : number;
-    opened[t("others")] = true; again();
-  } }, make("option", { value: "" }, t("add_property")), ...may.map(([of, name]) => make("option", { value: `${of}.${name}`, title: state.properties[of][name].meaning }, `${label(name)}${of === "wall" ? "" : ` (&${of})`}`)));
-  return group(t("others"), opened[t("others")] ?? rest.length > 0, rest.length, ...rest.map(([of, name]) => (FIELDS[name] ? row(of, name) : row(of, name))), make("div", { class: "adds" }, select));
+    opened.others = true; again();
+  } }, make("option", { value: "" }, t("add_property")), ...may.map(([of, name]) => make("option", { value: `${of}.${name}`, title: tip(of, name) }, `${labelOf(name)}${of === "wall" ? "" : ` (&${of})`}`)));
+  return group("others", opened.others ?? rest.length > 0, rest.length, ...rest.map(([of, name]) => row(of, name)), make("div", { class: "adds" }, select));
 }
 // Mark the row that an error names
-export function markWrong(errors, sentence) {
-  for (const element of document.querySelectorAll(".row.wrong")) { element.classList.remove("wrong"); element.querySelector(".why")?.remove(); }
-  const named = errors.filter((one) => one.variable).map((one) => [one.group, one.variable]);
-  const found = /&(\w+): (\w+)/.exec(sentence);
-  if (!named.length && found) named.push([found[1], found[2]]);
-  for (const [of, name] of named) document.querySelector(of ? `[data-name="${of}.${name}"]` : `[data-name$=".${name}"]`)?.classList.add("wrong");
+export function markWrong(errors) {
+  for (const element of document.querySelectorAll(".row.wrong")) element.classList.remove("wrong");
+  for (const { group: of, variable: name } of errors) if (name) document.querySelector(of ? `[data-name="${of}.${name}"]` : `[data-name$=".${name}"]`)?.classList.add("wrong");
 }

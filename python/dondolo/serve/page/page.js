@@ -1,8 +1,9 @@
 // The page: what the answers of the server become.
 import { chart, standalone } from "./chart.js";
-import { draw, expand, fieldOf, labelOf, markWrong, whenDrawn } from "./form.js";
+import { draw, expand, fieldOf, markWrong } from "./form.js";
+import { sentenceOf } from "./refusals.js";
 import { changed, post, state, whenTold } from "./state.js";
-import { has, language, make, num, probability, sig, speak, t } from "./words.js";
+import { labelOf, language, make, num, probability, sig, speak, t } from "./words.js";
 import { drawing, trace } from "./wall.js";
 
 const at = (id) => document.getElementById(id);
@@ -22,19 +23,19 @@ async function begin() {
 // Everything that does not depend on the answer
 function words() {
   const job = state.settings.job ??= { task: "stripes" };
-  at("title").value = job.title || ""; at("title").placeholder = t("untitled"); at("title").setAttribute("aria-label", t("title"));
+  at("title").value = job.title || ""; at("title").placeholder = t("untitled"); at("title").setAttribute("aria-label", t("case_title"));
   document.title = `${job.title || t("untitled")} · dondolo`;
   at("wall-title").textContent = t("motion"); at("case-title").textContent = t("case_file");
   const file = make("input", { type: "file", accept: ".nml,text/plain", onchange: () => { if (file.files[0]) file.files[0].text().then(open); file.value = ""; } });
-  const document_ = (kind, name, key) => make("button", { type: "button", "data-kind": kind, onclick: () => makeDocument(kind, name) }, t(key));
-  at("actions").replaceChildren(make("label", { class: "file" }, t("open"), file), make("button", { type: "button", onclick: () => isWhole() && save(state.answer.text, `${slug()}.nml`) }, t("save")), document_("report", "report.html", "report"), document_("relazione", "relazione.html", "relazione"), document_("relazione_word", "relazione.docx", "relazione"), make("button", { type: "button", onclick: saveFigure }, t("figure")), make("button", { type: "button", lang: language() === "it" ? "en" : "it", onclick: () => { speak(language() === "it" ? "en" : "it"); words(); draw(); changed(); } }, t("other_language")));
-  at("actions").querySelector("[data-kind=relazione_word]").textContent = "Word";
+  const document_ = (kind, name, ending) => make("button", { type: "button", "data-kind": kind, onclick: () => makeDocument(kind, `${t(name)}.${ending}`) }, ending === "docx" ? "Word" : t(kind));
+  at("actions").replaceChildren(make("label", { class: "file" }, t("open"), file), make("button", { type: "button", onclick: () => isWhole() && save(state.answer.text, `${slug()}.nml`) }, t("save")), document_("report", "file_report", "html"), document_("relazione", "file_relazione", "html"), document_("relazione_word", "file_relazione", "docx"), make("button", { type: "button", onclick: saveFigure }, t("figure")), make("button", { type: "button", lang: language() === "it" ? "en" : "it", onclick: () => { speak(language() === "it" ? "en" : "it"); words(); draw(); changed(); } }, t("other_language")));
   at("actions").querySelector("[data-kind=relazione_word]").setAttribute("aria-label", `${t("relazione")}, Word`);
   at("footer").replaceChildren(`dondolo ${begun.version} · ${t("records", { n: begun.records.length, name: begun.catalogue })} · ${t("local")}`);
   filmForm();
 }
 at("title").addEventListener("input", () => { const { value } = at("title"); if (value) state.settings.job.title = value; else delete state.settings.job.title; document.title = `${value || t("untitled")} · dondolo`; changed(true); });
-const slug = () => (state.settings.job.title || "case").toLowerCase().replace(/[^a-z0-9]+/g, "_").replace(/^_|_$/g, "") || "case";
+// The title as the name of a file, without accents
+const slug = () => (state.settings.job.title || "").normalize("NFD").replace(/[\u0300-\u036f]/g, "").toLowerCase().replace(/[^a-z0-9]+/g, "_").replace(/^_|_$/g, "") || t("file_case");
 function save(content, name) {
   const url = URL.createObjectURL(content instanceof Blob ? content : new Blob([content], { type: "text/plain" }));
   make("a", { href: url, download: name }).click();
@@ -59,11 +60,11 @@ function saveFigure() { const svg = at("chart").querySelector("svg"); if (svg &&
 const say = (text) => { at("said").textContent = text; };
 
 function refuse(error, isAside = false) {
-  const sentence = error.answer?.error || t("no_answer"), errors = error.answer?.errors || [];
+  const errors = error.answer?.errors || [];
   at("notice").hidden = false;
-  at("notice").replaceChildren(...(isAside ? [] : [make("strong", {}, t("refused")), " "]), sentence.replace(/^case\.nml: /, ""));
+  at("notice").replaceChildren(...(isAside ? [] : [make("strong", {}, t("refused")), " "]), sentenceOf(error.answer));
   if (isAside) return;
-  markWrong(errors, sentence);
+  markWrong(errors);
   // Nothing of another wall stays.
   at("numbers").replaceChildren(); at("warnings").replaceChildren(); at("check").replaceChildren(); at("under").replaceChildren(); at("text").textContent = "";
   at("chart").replaceChildren(); at("wall").replaceChildren(); stopFilm();
@@ -75,8 +76,8 @@ function number(key, value, unit, more, kind = "") {
 function show() {
   const a = state.answer, unit = unitOf(a.im), fitted = "theta" in a;
   at("notice").hidden = fitted;
-  if (!fitted) at("notice").textContent = a.sentence;
-  markWrong([], "");
+  at("notice").textContent = fitted ? "" : a.sentence;
+  markWrong([]);
   at("numbers").className = "numbers";
   at("numbers").replaceChildren(
     number("theta", fitted ? sig(a.theta) : "–", unit, a.interval ? t("interval", { a: sig(a.interval[0]), b: sig(a.interval[1]) }) : "", "main"),
@@ -94,7 +95,7 @@ function show() {
   const b = state.bAnswer && state.bAnswer.im === a.im ? state.bAnswer : null;
   at("chart").innerHTML = chart(a, b, { width: at("chart").clientWidth || 640, im: nameOf(a.im), marks, fan: a.fan || [] });
   under(a, unit);
-  at("warnings").replaceChildren(...[...a.warnings.filter(({ code }) => code !== "note").map(({ sentence }) => sentence), ...(begun.synthetic ? [t("synthetic")] : [])].map((sentence) => make("li", {}, sentence)));
+  at("warnings").replaceChildren(...[...(a.unchecked.length ? [t("anchors", { n: a.unchecked.map((n) => t("tie_n", { n })).join(", ") })] : []), ...a.warnings.filter(({ code }) => code !== "note").map(({ sentence }) => sentence), ...(begun.synthetic ? [t("synthetic")] : [])].map((sentence) => make("li", {}, sentence)));
   check(a.check);
   if (film === null) at("wall").innerHTML = drawing(a.wall);
   at("text").textContent = a.text;
@@ -104,24 +105,24 @@ function under(a, unit) {
   const rows = [make("button", { type: "button", class: "small", onclick: () => { state.b = structuredClone({ ...state.settings, stripes: { ...state.settings.stripes, levels: a.levels } }); state.bAnswer = a; state.bAuto = state.auto; changed(); } }, t("pin"))];
   if (state.b) rows.push(make("button", { type: "button", class: "small", onclick: () => { const auto = state.bAuto; state.settings = structuredClone(state.b); if (auto) delete state.settings.stripes.levels; state.auto = auto; state.fan = null; words(); draw(); changed(); } }, t("back")), make("button", { type: "button", class: "small", onclick: () => { state.b = state.bAnswer = null; changed(); } }, t("unpin")));
   rows.push(make("span", { class: "said" }, a.draft ? t("draft") : t("histories", { n: a.histories, ms: num(a.ms, 0) })));
-  if (state.b && a.comparison && !a.draft) rows.push(make("div", { class: "compare" }, t("better", { x: `${num(100 * a.comparison.ratio, 0)} %`, a: num(100 * a.comparison.interval[0], 0), b: num(100 * a.comparison.interval[1], 0) })));
+  if (state.b && a.comparison && !a.draft) rows.push(make("div", { class: "compare" }, t(a.comparison.unchecked ? "better_if" : "better", { x: `${num(100 * a.comparison.ratio, 0)} %`, a: num(100 * a.comparison.interval[0], 0), b: num(100 * a.comparison.interval[1], 0) })));
   if (state.fan && a.fan) {
     const [low, high] = a.fan, field = fieldOf(state.fan.name), value = [].concat(state.settings[state.fan.group][state.fan.name])[state.fan.place ?? 0];
     const shown = (one) => (field ? `${num(one.factor * value * field[3], field[5])} ${field[4]}` : sig(one.factor * value));
-    rows.push(make("div", { class: "compare" }, low.refused || high.refused || t("fan", { what: labelOf(state.fan.name), low: shown(low), high: shown(high), x: low.theta ? sig(Math.min(low.theta, high.theta ?? low.theta)) : "–", y: high.theta ? sig(Math.max(high.theta, low.theta ?? high.theta)) : "–" })));
+    rows.push(make("div", { class: "compare" }, low.refused || high.refused ? sentenceOf(low.refused || high.refused) : t("fan", { what: labelOf(state.fan.name), low: shown(low), high: shown(high), x: low.theta ? sig(Math.min(low.theta, high.theta ?? low.theta)) : "–", y: high.theta ? sig(Math.max(high.theta, low.theta ?? high.theta)) : "–" })));
   }
   at("under").replaceChildren(...rows);
 }
 function check(found) {
   if (!found) { at("check").replaceChildren(); return; }
-  if (found.refused) { at("check").replaceChildren(make("p", { class: "hint" }, found.refused)); return; }
+  if (found.refused) { at("check").replaceChildren(make("p", { class: "hint" }, sentenceOf(found.refused))); return; }
   const capacities = new Map(found.capacities.map(([method, limit, x]) => [`${method} ${limit}`, x])), off = new Set(found.not_applicable.map((key) => key.join(" ")));
   const rows = found.verified.map(([method, limit, fine]) => {
     const key = `${method} ${limit}`, isOff = off.has(key), isOpen = fine && found.open_ties.length > 0, word = t(isOff ? "not_applicable" : !fine ? "not_verified" : isOpen ? "with_anchors" : "verified");
-    return make("tr", {}, make("th", { scope: "row" }, `${has(method) ? t(method) : method} ${limit}`), make("td", { class: "n" }, capacities.has(key) ? num(capacities.get(key), 3) : "–"), make("td", { class: isOff || isOpen ? "" : fine ? "good" : "bad" }, `${isOff || isOpen ? "" : fine ? "✓ " : "✗ "}${word}`));
+    return make("tr", {}, make("th", { scope: "row" }, `${t(method)} ${limit}`), make("td", { class: "n" }, capacities.has(key) ? num(capacities.get(key), 3) : "–"), make("td", { class: isOff || isOpen ? "" : fine ? "good" : "bad" }, `${isOff || isOpen ? "" : fine ? "✓ " : "✗ "}${word}`));
   });
   const failed = found.verified.some(([, , fine]) => !fine) && found.probability < 0.01;
-  at("check").replaceChildren(make("div", { class: "scroll" }, make("table", {}, make("caption", {}, `${t("check_title")}, α₀ = ${num(found.alpha_0, 3)}`), make("thead", {}, make("tr", {}, make("th", { scope: "col" }, t("method")), make("th", { scope: "col", class: "n" }, t("capacity_head")), make("th", { scope: "col" }, t("outcome")))), make("tbody", {}, ...rows))), failed ? make("p", { class: "hint" }, t("check_why")) : "", ...found.notes.map((note) => make("p", { class: "hint", lang: "en" }, note)));
+  at("check").replaceChildren(make("div", { class: "scroll" }, make("table", {}, make("caption", {}, `${t("check_title")}, α₀ = ${num(found.alpha_0, 3)}`), make("thead", {}, make("tr", {}, make("th", { scope: "col" }, t("method")), make("th", { scope: "col", class: "n" }, t("capacity_head")), make("th", { scope: "col" }, t("outcome")))), make("tbody", {}, ...rows))), failed ? make("p", { class: "hint" }, t("check_why")) : "", ...found.notes.map((note) => make("p", { class: "hint" }, note)));
 }
 
 // The motion under one record
@@ -175,7 +176,6 @@ whenTold((what, error) => {
   else { at("wall").classList.remove("old"); show(); }
   window.dispatchEvent(new CustomEvent("painted"));
 });
-whenDrawn(() => {});
 let width = 0;
 new ResizeObserver(() => { if (Math.abs(at("chart").clientWidth - width) > 8) { width = at("chart").clientWidth; if (state.answer) show(); } }).observe(at("chart"));
 begin();

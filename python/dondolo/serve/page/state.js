@@ -25,7 +25,7 @@ export function changed(moving = false) {
   state.isNewest = false;
   dragging = moving && slow > SLOW;
   clearTimeout(later);
-  if (moving) later = setTimeout(() => { dragging = false; if (state.answer === null || state.answer.draft) ask(); }, PAUSE);
+  if (moving) later = setTimeout(() => { dragging = false; if (!flying && (state.answer === null || state.answer.draft)) ask(); }, PAUSE);
   told("waiting");
   ask();
 }
@@ -45,6 +45,8 @@ async function ask() {
       state.answer = answer;
       state.isNewest = version === state.version;
       told("answer");
+      // The drag was over before its draft was there.
+      if (draft && !dragging) waits = true;
     } catch (error) {
       // The refusal of a state that has passed is nothing to read: the answer to the newest one follows.
       if (version !== state.version) continue;

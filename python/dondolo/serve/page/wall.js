@@ -7,8 +7,15 @@ export function drawing(wall, blocks) {
   const h = wall.height, reach = Math.max(2.2 * wall.thickness, 0.34 * h), x0 = -reach, x1 = wall.thickness + 1.15 * reach, scale = 300 / (1.22 * h), w = (x1 - x0) * scale, tall = 1.22 * h * scale;
   const X = (x) => +((x - x0) * scale).toFixed(1), Y = (y) => +((1.12 * h - y) * scale).toFixed(1);
   const shape = (points) => points.map(([x, y]) => `${X(x)},${Y(y)}`).join(" ");
+  const upright = (x, y, text) => `<text class="small halo" transform="rotate(-90 ${x.toFixed(1)} ${y.toFixed(1)})" x="${x.toFixed(1)}" y="${(y + 4).toFixed(1)}" text-anchor="middle">${safe(text)}</text>`;
   const out = [`<line class="ground" x1="${X(x0)}" x2="${X(x1)}" y1="${Y(0)}" y2="${Y(0)}"/>`];
-  if (wall.kind === "one_sided") out.push(`<rect class="behind" x="${X(x0)}" y="${Y(h)}" width="${X(0) - X(x0) - 1.5}" height="${Y(0) - Y(h)}"/>`);
+  // The transverse wall that it cannot rock into, and as far as it goes the building that moves it
+  if (wall.kind === "one_sided") {
+    const rows = Math.round((Y(0) - Y(h)) / 11), wide = X(0) - X(x0) - 1.5, rise = Math.min(wide, 22);
+    for (let i = 0; i <= rows; i++) { const y = Y(h) + (i * (Y(0) - Y(h))) / rows, x = X(0) - 1.5, run = Math.min(rise, y - Y(h)); if (run > 0) out.push(`<line class="hatch" x1="${x - run}" y1="${(y - run).toFixed(1)}" x2="${x}" y2="${y.toFixed(1)}"/>`); }
+    if (wall.building > 0) { const top = Math.min(wall.building, h); out.push(`<rect class="behind" x="${X(x0)}" y="${Y(top)}" width="${wide - rise}" height="${Y(0) - Y(top)}"/>`, upright((X(x0) + X(0) - rise) / 2, Y(0.5 * top), t("building"))); }
+    else out.push(upright(X(0) - rise - 8, Y(0.5 * h), t("transverse")));
+  }
   if (wall.kind === "two_block") out.push(`<rect class="behind" x="${X(x0)}" y="${Y(1.035 * h)}" width="${X(0) - X(x0)}" height="${Y(h) - Y(1.035 * h)}"/><rect class="behind" x="${X(wall.thickness)}" y="${Y(1.035 * h)}" width="${X(x1) - X(wall.thickness)}" height="${Y(h) - Y(1.035 * h)}"/>`);
   for (const [x, y, height, diameter] of wall.ties) { const half = 0.5 * Math.max(height, diameter, 0.035 * h); out.push(`<line class="tie" x1="${X(x0)}" x2="${X(x)}" y1="${Y(y)}" y2="${Y(y)}"/><line class="plate" x1="${X(x) + 2}" x2="${X(x) + 2}" y1="${Y(y - half)}" y2="${Y(y + half)}"/>`); }
   for (const block of blocks ? wall.rest : wall.leaning) out.push(`<polygon class="ghost" points="${shape(block)}"/>`);
