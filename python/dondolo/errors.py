@@ -218,7 +218,7 @@ def silent() -> Iterator[None]:
 
 
 class Interrupted(KeyboardInterrupt):
-    """Ctrl-C stopped a long run; what was finished is kept.
+    """Ctrl-C, or the event that was given as ``stop``, ended a long run; what was finished is kept.
 
     Attributes
     ----------
@@ -228,6 +228,9 @@ class Interrupted(KeyboardInterrupt):
 
     Examples
     --------
+    A run in another thread ends by an event: ``stop=event`` and, from anywhere, ``event.set()``. It raises this, which
+    is a `KeyboardInterrupt` and not an `Exception`.
+
     In a notebook, after the interruption: ``import sys; partial = sys.last_value.partial``. In a script:
 
     >>> import dondolo as dd

@@ -4,12 +4,13 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 
 import numpy as np
 import pytest
 from dondolo._base.interrupts import deferred
-from dondolo.analysis import certificate, cloud, overturning, stripe_runs
+from dondolo.analysis import certificate, cloud, overturning, request, stripe_runs
 from dondolo.populations import blocks, study
 
 import dondolo as dd
@@ -255,3 +256,100 @@ def test_deferred_interrupts():
     with pytest.raises(ValueError, match="wrong"):
         failing()
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+
+
+def _stop_after(monkeypatch, module, name, call):
+    """An event that is set when a function of a module has been called for a time."""
+    event, inner, calls = threading.Event(), getattr(module, name), []
+
+    def called(*arguments, **named):
+        result = inner(*arguments, **named)
+        calls.append(name)
+        if len(calls) == call:
+            event.set()
+        return result
+
+    monkeypatch.setattr(module, name, called)
+    return event
+
+
+def _in_a_thread(call):
+    """What a call raises in a thread of its own."""
+    raised = []
+
+    def run():
+        try:
+            call()
+        except BaseException as error:
+            raised.append(error)
+
+    thread = threading.Thread(target=run)
+    thread.start()
+    thread.join(60)
+    assert not thread.is_alive()
+    return raised
+
+
+@pytest.mark.parametrize("is_main", [True, False])
+def test_an_event_ends_stripes_after_a_block(is_main, wall, few, monkeypatch):
+    """The stripes that are complete are kept, and are those of a run of their levels."""
+    monkeypatch.setattr(request, "_FIRST_SAMPLES", (len(few) + 1) * max(map(len, few)))
+    monkeypatch.setattr(request, "_SECONDS", 1e-9)
+    stop = _stop_after(monkeypatch, request.Pace, "learn", 2)
+    levels = [0.2, 0.4, 0.6, 0.8, 1.0, 1.2]
+
+    def run():
+        dd.multiple_stripe(wall, few, levels, progress=False, stop=stop)
+
+    if is_main:
+        with pytest.raises(dd.errors.Interrupted, match="of 6 stripes are complete") as caught:
+            run()
+        error = caught.value
+        assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    else:
+        (error,) = _in_a_thread(run)
+        assert isinstance(error, dd.errors.Interrupted)
+    part = error.partial
+    whole = dd.multiple_stripe(wall, few, part.levels, progress=False)
+    assert 0 < len(part.levels) < 6
+    assert part.edp.tolist() == whole.edp.tolist()
+    # An event of an earlier run ends nothing of the next
+    assert len(dd.multiple_stripe(wall, few, levels, progress=False).levels) == 6
+
+
+def test_an_event_that_was_set_before(wall, few):
+    """Nothing is run, and nothing is kept."""
+    stop = threading.Event()
+    stop.set()
+    with pytest.raises(dd.errors.Interrupted, match="interrupted: 0 of 2 stripes are complete") as caught:
+        dd.Study(few, [0.4, 0.8]).run(wall, progress=False, stop=stop)
+    assert caught.value.partial is None
+    with pytest.raises(dd.errors.Interrupted):
+        dd.adaptive_stripes(wall, few, 60, progress=False, stop=stop)
+    grid = {"frequencies": [1.0, 2.0], "amplitudes": [0.2, 1.0]}
+    with pytest.raises(dd.errors.Interrupted):
+        dd.overturning_spectrum(wall, dd.pulses.ricker, **grid, progress=False, stop=stop)
+    with pytest.raises(dd.errors.InputError, match=r"stop: must be a threading\.Event, not bool"):
+        dd.multiple_stripe(wall, few, [0.4], progress=False, stop=True)
+
+
+@pytest.mark.parametrize("is_main", [True, False])
+def test_an_event_ends_a_population_after_a_block(is_main, few, monkeypatch, tmp_path):
+    """The walls that are complete are in the checkpoint, from which the same call goes on."""
+    walls = [dd.OneSidedWall(1.5 + 0.1 * i, 0.25, name=f"w{i}") for i in range(4)]
+    how = {"levels": [0.4, 0.8], "checkpoint": tmp_path / "part", "block": 1, "progress": False}
+    stop = _stop_after(monkeypatch, blocks.Blocks, "learn", 2)
+
+    def run():
+        dd.typology(walls, few, **how, stop=stop)
+
+    if is_main:
+        with pytest.raises(dd.errors.Interrupted, match="2 of 4 walls are complete") as caught:
+            run()
+        error = caught.value
+    else:
+        (error,) = _in_a_thread(run)
+    assert len(error.partial.population) == 2
+    resumed, whole = dd.typology(walls, few, **how), dd.typology(walls, few, [0.4, 0.8], progress=False)
+    assert resumed["all"](0.6) == whole["all"](0.6)
+    assert os.listdir(tmp_path) == ["part"]

@@ -1,4 +1,4 @@
-"""Ctrl-C in long work: it is noted at once, and heard where nothing that is complete is lost."""
+"""Ctrl-C or an event in long work: it is noted at once, and heard where nothing that is complete is lost."""
 
 from __future__ import annotations
 
@@ -8,21 +8,34 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
 
+from dondolo._base.arguments import wrong_type
+
 
 class Interrupts:
-    """Ctrl-C while work is under way.
+    """Ctrl-C, or an event that was set, while work is under way.
+
+    Parameters
+    ----------
+    stop : threading.Event, optional
+        The event.
 
     Attributes
     ----------
-    requested : bool
-        Whether it has come.
+    signalled : bool
+        Whether Ctrl-C has come.
     answered : bool
         Whether who asked for it tells its caller, so that nothing is raised at the end.
     """
 
-    def __init__(self) -> None:
-        self.requested = self.answered = False
+    def __init__(self, stop: threading.Event | None = None) -> None:
+        self.signalled = self.answered = False
         self._is_heard = False
+        self._stop = stop
+
+    @property
+    def requested(self) -> bool:
+        """Whether the work is to end."""
+        return self.signalled or (self._stop is not None and self._stop.is_set())
 
     @contextmanager
     def heard(self) -> Iterator[None]:
@@ -37,34 +50,48 @@ class Interrupts:
 
     def note(self, number: int, frame: FrameType | None) -> None:
         """Take note of it: the handler of the signal."""
-        self.requested = True
+        self.signalled = True
         if self._is_heard:
             raise KeyboardInterrupt
 
 
+def as_event(stop: threading.Event | None) -> threading.Event | None:
+    """The event that ends a run, if there is one."""
+    if stop is not None and not isinstance(stop, threading.Event):
+        raise wrong_type("stop", stop, "a threading.Event")
+    return stop
+
+
+class _Outermost(threading.local):
+    """What a thread has under way."""
+
+    interrupts: Interrupts | None = None
+
+
+_OUTERMOST = _Outermost()
+
+
 @contextmanager
-def deferred() -> Iterator[Interrupts]:
+def deferred(stop: threading.Event | None = None) -> Iterator[Interrupts]:
     """Let Ctrl-C wait until it is asked for, or else until the end; inside another, that of the other is given.
 
     Only Python's own handler, which raises KeyboardInterrupt anywhere, is put aside, and in the main thread alone; one
-    of the user's stays, and what it raises is not held back.
+    of the user's stays, and what it raises is not held back. An event is looked at in any thread.
     """
-    if threading.current_thread() is not threading.main_thread():
-        yield Interrupts()
+    if _OUTERMOST.interrupts is not None:
+        yield _OUTERMOST.interrupts
         return
-    before = signal.getsignal(signal.SIGINT)
-    outer = getattr(before, "__self__", None)
-    if isinstance(outer, Interrupts):
-        yield outer
-        return
-    here = Interrupts()
-    if before is not signal.default_int_handler:
-        yield here
-        return
-    signal.signal(signal.SIGINT, here.note)
+    here = Interrupts(stop)
+    is_main = threading.current_thread() is threading.main_thread()
+    is_put_aside = is_main and signal.getsignal(signal.SIGINT) is signal.default_int_handler
     try:
+        _OUTERMOST.interrupts = here
+        if is_put_aside:
+            signal.signal(signal.SIGINT, here.note)
         yield here
     finally:
-        signal.signal(signal.SIGINT, before)
-    if here.requested and not here.answered:
+        _OUTERMOST.interrupts = None
+        if is_put_aside:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+    if here.signalled and not here.answered:
         raise KeyboardInterrupt

@@ -111,7 +111,7 @@ def run_again(stripes: Stripes, records: Sequence[Record], threads: int, progres
             is_stopped = True
         except DondoloError:
             # Fortran has broken the block off.
-            is_stopped = interrupts.requested
+            is_stopped = interrupts.signalled
             if not is_stopped:
                 raise
         if is_stopped:

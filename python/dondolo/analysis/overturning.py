@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import threading
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from enum import IntEnum
@@ -12,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_array, as_number, instance_of, one_of
-from dondolo._base.interrupts import deferred
+from dondolo._base.interrupts import as_event, deferred
 from dondolo._base.shown import Shown
 from dondolo._fortran import _core
 from dondolo._fortran.library import Stoppable, as_text, check
@@ -239,6 +240,7 @@ def overturning_spectrum(
     solver: Solver | None = None,
     threads: int = 0,
     progress: bool = True,
+    stop: threading.Event | None = None,
 ) -> OverturningSpectrum:
     """Scan amplitudes and frequencies of a pulse for those that overturn a wall.
 
@@ -267,6 +269,8 @@ def overturning_spectrum(
         Number of threads; 0: all (OMP_NUM_THREADS is honoured). Results do not depend on it.
     progress : bool
         Show progress bars in a terminal or notebook.
+    stop : threading.Event, optional
+        As for `multiple_stripe`.
 
     Returns
     -------
@@ -277,7 +281,7 @@ def overturning_spectrum(
     InputError
         What cannot be run.
     Interrupted
-        Ctrl-C; its `partial` has the frequencies whose scan is complete, with the brackets that were reached.
+        Ctrl-C or `stop`; its `partial` has the frequencies whose scan is complete, with the brackets that were reached.
 
     Notes
     -----
@@ -321,7 +325,7 @@ def overturning_spectrum(
         check_threads(threads),
         progress,
     )
-    with deferred() as interrupts:
+    with deferred(as_event(stop)) as interrupts:
         spectrum, stopped = _spectrum(runner, frequency, amplitude, width, polarity)
         if stopped or interrupts.requested:
             complete = len(spectrum.frequencies)

@@ -229,7 +229,7 @@ class Request:
         return [round(number * stripes) for number in histories.tolist()]
 
     def run(self, histories: IntArray, progress: bool, label: str) -> tuple[Outcome, bool]:
-        """Run all histories; the second result says whether Ctrl-C stopped it before the end."""
+        """Run all histories; the second result says whether it was stopped before the end."""
         totals = self.totals(histories)
         with progress_bar(sum(totals), progress, label, "history") as bar:
             return self.advance(totals, Pace(self.facts.samples), bar.update)
@@ -283,7 +283,7 @@ class Pace:
 def in_blocks(
     total: int, pace: Pace, block: Callable[[int, int], None], report: Callable[[int], object]
 ) -> tuple[int, bool]:
-    """Run histories block by block: how many are done, and whether Ctrl-C stopped it before the end.
+    """Run histories block by block: how many are done, and whether it was stopped before the end.
 
     `block(done, count)` runs the next `count` histories.
     """
@@ -302,9 +302,9 @@ def in_blocks(
             return done, True
         except DondoloError:
             # Fortran has broken the block off.
-            if not interrupts.requested:
+            if not interrupts.signalled:
                 raise
-        interrupts.answered = interrupts.requested
+        interrupts.answered = interrupts.signalled
         return done, interrupts.requested
 
 

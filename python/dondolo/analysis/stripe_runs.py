@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import threading
 from collections.abc import Iterable, Mapping
 from typing import Any
 
@@ -10,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_count, as_flag, instance_of
-from dondolo._base.interrupts import Interrupts, deferred
+from dondolo._base.interrupts import Interrupts, as_event, deferred
 from dondolo._base.shown import Shown
 from dondolo._fortran.histories import warnings_of_errors
 from dondolo._fortran.library import warn
@@ -97,7 +98,7 @@ class Study(Shown):
         """Intensity measure."""
         return self._request.im
 
-    def run(self, wall: Wall, *, progress: bool = True) -> Stripes:
+    def run(self, wall: Wall, *, progress: bool = True, stop: threading.Event | None = None) -> Stripes:
         """Run the records at the levels with a wall.
 
         Parameters
@@ -106,6 +107,8 @@ class Study(Shown):
             The wall.
         progress : bool
             Show a progress bar in a terminal or notebook.
+        stop : threading.Event, optional
+            As for `multiple_stripe`.
 
         Returns
         -------
@@ -124,7 +127,7 @@ class Study(Shown):
         instance_of("wall", wall, Wall)
         as_flag("progress", progress)
         request = dataclasses.replace(self._request, walls=(wall,))
-        with deferred() as interrupts:
+        with deferred(as_event(stop)) as interrupts:
             try:
                 plan = request.plan()
             except KeyboardInterrupt:
@@ -172,6 +175,7 @@ def multiple_stripe(
     certify: bool = False,
     threads: int = 0,
     progress: bool = True,
+    stop: threading.Event | None = None,
 ) -> Stripes:
     """Run records at levels of intensity: every record at every level, or other records at each level.
 
@@ -202,6 +206,8 @@ def multiple_stripe(
         Number of threads; 0: all (OMP_NUM_THREADS is honoured). Results do not depend on it.
     progress : bool
         Show a progress bar in a terminal or notebook.
+    stop : threading.Event, optional
+        Once another thread has set it, the run ends after its block of histories, within about a second.
 
     Returns
     -------
@@ -213,8 +219,8 @@ def multiple_stripe(
         What cannot be run, with the sentence of the executable; a record without motion, which no factor brings to a
         level.
     Interrupted
-        Ctrl-C; its `partial` has the stripes that are complete; while histories are certified all stripes, with
-        which `certify` goes on.
+        Ctrl-C or `stop`; its `partial` has the stripes that are complete; while histories are certified all stripes,
+        with which `certify` goes on.
 
     Warns
     -----
@@ -256,7 +262,7 @@ def multiple_stripe(
         certify=certify,
         threads=threads,
     )
-    return study.run(wall, progress=progress)
+    return study.run(wall, progress=progress, stop=stop)
 
 
 def adaptive_stripes(
@@ -271,6 +277,7 @@ def adaptive_stripes(
     certify: bool = False,
     threads: int = 0,
     progress: bool = True,
+    stop: threading.Event | None = None,
 ) -> Stripes:
     """Run records at levels that are chosen one after the other, each where it tells most of the curve of collapse.
 
@@ -283,7 +290,7 @@ def adaptive_stripes(
     budget : int
         How many histories to run at most, enough for three stripes of all records. What does not suffice for a stripe
         is not spent.
-    im, polarity, solver, estimate_error, certify, threads, progress
+    im, polarity, solver, estimate_error, certify, threads, progress, stop
         As for `multiple_stripe`.
 
     Returns
@@ -296,7 +303,7 @@ def adaptive_stripes(
     InputError
         What cannot be run; records with levels of their own; a budget that is too small.
     Interrupted
-        Ctrl-C; its `partial` has the stripes that are complete.
+        Ctrl-C or `stop`; its `partial` has the stripes that are complete.
 
     Warns
     -----
@@ -325,12 +332,12 @@ def adaptive_stripes(
     if isinstance(records, Mapping) or getattr(records, "level", None) is not None:
         raise InputError("records: have levels of their own, and adaptive_stripes chooses them")
     request = new_request((wall,), records, [1.0], im, polarity, solver, threads, estimate_error or certify)
-    with deferred() as interrupts:
+    with deferred(as_event(stop)) as interrupts:
         return _finished(_adaptive(request, budget, progress, interrupts), request, certify, progress, interrupts)
 
 
 def _stopped(complete: int, stripes: int, partial: Stripes | None) -> Interrupted:
-    """What Ctrl-C leaves."""
+    """What is left when it was stopped."""
     return Interrupted(f"interrupted: {complete} of {stripes} stripes are complete", partial)
 
 

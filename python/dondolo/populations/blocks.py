@@ -87,7 +87,7 @@ def run_walls(
     progress: bool,
     interrupts: Interrupts,
 ) -> Contents:
-    """Run all walls, or those that are complete when Ctrl-C comes, which is heard while they run alone."""
+    """Run all walls, or those that are complete when Ctrl-C or an event stops it, heard while they run alone."""
     from dondolo.populations.crew import CrewError
 
     _check(executor, block)
@@ -95,7 +95,7 @@ def run_walls(
         store.claim()
         try:
             with interrupts.heard():
-                _run_rest(store, request, histories, states, executor, block, progress)
+                _run_rest(store, request, histories, states, executor, block, progress, interrupts)
         except KeyboardInterrupt:
             # What is complete is in the store.
             pass
@@ -115,6 +115,7 @@ def _run_rest(
     executor: Executor | None,
     block: int | None,
     progress: bool,
+    interrupts: Interrupts,
 ) -> None:
     """Run the walls that are not complete."""
     from dondolo.populations.crew import Crew
@@ -140,6 +141,8 @@ def _run_rest(
             store.put(part.block, count)
             blocks.learn(first, count, part.seconds)
             bar.update(int(sizes[first : first + count].sum()))
+            if interrupts.requested:
+                raise KeyboardInterrupt
 
 
 class Blocks:

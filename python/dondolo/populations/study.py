@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import os
+import threading
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
@@ -11,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray
-from dondolo._base.interrupts import deferred
+from dondolo._base.interrupts import as_event, deferred
 from dondolo._fortran.library import as_text, warn
 from dondolo._fortran.populations import warnings_of_occurrence
 from dondolo.analysis.request import Polarity, new_request
@@ -44,6 +45,7 @@ def typology(
     checkpoint: str | os.PathLike[str] | None = None,
     block: int | None = None,
     progress: bool = True,
+    stop: threading.Event | None = None,
 ) -> Typology:
     """Fragility of a population of walls.
 
@@ -67,6 +69,8 @@ def typology(
     block : int, optional
         Rows of a block (a row is one mechanism of a wall), the unit of checkpoints and executors; as many as take one
         to two seconds if left out. Results do not depend on it.
+    stop : threading.Event, optional
+        Once another thread has set it, the run ends after its block, as by Ctrl-C.
 
     Returns
     -------
@@ -79,7 +83,7 @@ def typology(
     DondoloError
         The executor failed, or the checkpoint cannot be written.
     Interrupted
-        Ctrl-C; its `partial` is the typology of the walls that are complete.
+        Ctrl-C or `stop`; its `partial` is the typology of the walls that are complete.
 
     Warns
     -----
@@ -110,7 +114,7 @@ def typology(
     plan = request.plan()
     names = b"".join(as_text("name", name) + b"\n" for name in people.wholes)
     of_occurrence = warnings_of_occurrence(names, people.p_occ, people.alternative_numbers, people._numbers_of_rows)
-    with deferred() as interrupts:
+    with deferred(as_event(stop)) as interrupts:
         run = run_walls(request, plan.histories, states, executor, checkpoint, block, progress, interrupts)
         result, complete, number = typology_of(
             people,
