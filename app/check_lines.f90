@@ -149,11 +149,26 @@ contains
          do i = 1, size(check_states)
             associate (spectrum => input%spectrum(findloc(state_names, check_states(i), dim=1)))
                write (output_unit, '(a, 4a14)') check_methods(i)//'    ', check_states(i), right(rounded(spectrum%pga), 14), &
-                  & right(to_text(verdicts%verified(i)), 14), right(rounded(verdicts%least(i)), 14)
+                  & right(to_text(verdicts%verified(i)), 14), least(verdicts%least(i))
             end associate
          end do
+         if (verdicts%open > 0) write (output_unit, '(a)') 'ties open (anchor not checked or weaker than the bar, plate too '// &
+            & 'thin): '//counted(verdicts%open, 'row')//', not counted as verified'
       end if
       write (output_unit, '(a)') ''
+
+   contains
+
+      !> The least ratio of the rows that the check is applicable to, a dash if it is to none
+      function least(ratio) result(cell)
+         real(wp), intent(in) :: ratio
+         !> Its text
+         character(len=14) :: cell
+
+         cell = right('-', len(cell))
+         if (ratio < huge(ratio)) cell = right(rounded(ratio), len(cell))
+      end function least
+
    end subroutine print_verdicts
 
    !> Print the criterion for time histories
@@ -162,13 +177,18 @@ contains
       !> Limit state
       character(len=*), intent(in) :: state
 
+      character(len=24) :: verdict
+
+      verdict = 'verified'
+      if (sheet%has_open_ties()) verdict = 'verified if its ties are'
+      if (.not. sheet%value('dynamic', state, 'verified') > 0.0_wp) verdict = 'not verified'
       write (output_unit, '(a)') 'dynamic '//state//' at a_g S = '//rounded(sheet%value('dynamic', state, 'pga'))//' g: '// &
          & to_text(nint(sheet%value('dynamic', state, 'beyond')))//' of '// &
          & to_text(nint(sheet%value('dynamic', state, 'histories')))//' histories of '// &
          & counted(nint(sheet%value('dynamic', state, 'records')), 'record')//' beyond d_0*, mean of the largest d '// &
          & rounded(sheet%value('dynamic', state, 'mean_displacement'))//' m, allowed '// &
          & rounded(sheet%value('dynamic', state, 'displacement'))//' m: '// &
-         & trim(merge('verified    ', 'not verified', sheet%value('dynamic', state, 'verified') > 0.0_wp))
+         & trim(verdict)
    end subroutine print_histories
 
 end module dondolo_check_lines

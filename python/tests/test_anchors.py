@@ -149,6 +149,40 @@ def test_the_design_of_the_facade():
     assert bar.open_ties == {"tie 1": ("anchor_checked",)}
     assert [(note.code, note.subject) for note in bar.notes] == [("anchor_not_checked", {"item": "tie 1"})]
     assert "the anchor of tie 1 is not checked" in str(bar.notes[0])
+    assert bar.verified["nonlinear", "SLV"]
+    assert "nonlinear SLV verified if its ties are, a_g S up to" in str(bar)
+    assert not re.search(r"SL[DVC] verified,", str(bar))
+
+
+def test_a_wall_with_open_ties_is_not_satisfied(executable, root, tmp_path):
+    """Neither in the report's verdict nor in the counts of a population, by the executable and by Python."""
+    (tmp_path / "walls.csv").write_text(
+        "name,mechanism,height,thickness,tie1_height,tie1_area,tie1_length,tie1_anchor_force\n"
+        "bare,one_sided,3,0.6,,,,\nopen,one_sided,3,0.6,2.5,1e-4,5,\ngiven,one_sided,3,0.6,2.5,1e-4,5,1e5\n"
+        "brittle,one_sided,3,0.6,2.5,1e-4,5,1e3\n"
+    )
+    (tmp_path / "case.nml").write_text(
+        "&job task = 'typology', output = 'out' /\n&population file = 'walls.csv' /\n"
+        "&check ag = 0.05, f0 = 2.5, tc_star = 0.3 /\n"
+        f"&records catalogue = '{root / 'data/records/synthetic44.csv'}' /\n&stripes levels = 0.2, 0.6, 1.2 /\n"
+    )
+    done = subprocess.run([executable, "case.nml"], cwd=tmp_path, capture_output=True, text=True, check=True)
+    lines = done.stdout.splitlines()
+    place = next(i for i, line in enumerate(lines) if line.startswith("kinematic"))
+    assert [line.split()[3] for line in lines[place + 1 : place + 5]] == ["2"] * 4
+    assert lines[place + 5].startswith("ties open (anchor not checked or weaker than the bar, plate too thin): 2 rows")
+    with (tmp_path / "out_checks.csv").open() as file:
+        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    void = {row["wall"]: row["linear_slv_g"] + row["linear_slv_ratio"] for row in rows}
+    assert [name for name, text in void.items() if not text] == ["brittle"]
+    results = dd.read_results(tmp_path / "out")
+    dd.report(results, tmp_path / "report.html")
+    page = " ".join(re.sub(r"<[^>]+>", "", (tmp_path / "report.html").read_text()).split())
+    assert "linear, SLD: 2 of 4" in page
+    assert "Of 2 something of the ties is open" in page
+    assert "Open: anchors of the ties not checked" in page
+    assert "of 15 checks by NTC 2018 fails; ζ_E" in page
+    assert "checks by NTC 2018 satisfied" not in page
 
 
 def test_confidence_factor_of_the_check():

@@ -9,6 +9,8 @@ import subprocess
 import sys
 import zipfile
 
+import matplotlib
+import matplotlib.pyplot
 import pytest
 from dondolo.reporting.blocks import Fraction, linear, symbol_of
 from dondolo.reporting.content import Symbol
@@ -16,6 +18,9 @@ from dondolo.reporting.language import Language
 from dondolo.reporting.numerals import Numeral
 from dondolo.reporting.relazione import project, terms
 from dondolo.reporting.relazione.checks import sums_of
+from dondolo.reporting.relazione.document import Document
+from dondolo.reporting.relazione.drawings import draw_anchor
+from dondolo.reporting.relazione.subjects import subjects_of
 from dondolo.reporting.statuses import STATUSES
 from dondolo.reporting.units import CENTIMETRES, UNITS, quantity
 
@@ -154,6 +159,10 @@ def test_no_english_in_an_italian_document(written):
     assert '<html lang="it">' in written["it", ".html"].read_text()
     assert "[DA COMPLETARE: " in text
     assert "verifiche su 6 NON soddisfatte" in text
+    # The anchors of the design are not checked: nothing is called satisfied, and nothing is green.
+    assert "nessuna delle 6 verifiche fallisce" in text
+    assert "6 verifiche su 6 soddisfatte" not in text
+    assert 'class="note fine"' not in written["it", ".html"].read_text()
 
 
 def test_the_numbers_are_those_of_the_check(written, both):
@@ -180,6 +189,93 @@ def test_the_numbers_are_those_of_the_check(written, both):
     assert "0.8702" in text
 
 
+def by_hand(text, place):
+    """alpha_0, a_0*, d_0*, a(d_C) and the ratio of SLV of a wall, from the numbers of an Italian document."""
+
+    def number(word):
+        return float(word.replace(",", ".")) if word else 0.0
+
+    hazard = text.partition("Tabella 1.")[2].partition("SLV\n")[2].split("\n")[:8]
+    pga, f0, tb, tc, td = (number(hazard[i]) for i in (7, 1, 4, 5, 6))
+    section = text.split("Calcolo del moltiplicatore, elemento per elemento")[place]
+    cells = section.partition("P z² [kNm²/m]\n")[2].split("\n")
+    rows = [cells[first : first + 9] for first in range(0, 9 * cells[::9].index("somma"), 9)]
+    depth = number(re.search(r"con u = ([\d,]+) m", section)[1])
+    weights = [row for row in rows if row[7]]
+    thrusts, ties = ([row for row in rows if row[0].startswith(word)] for word in ("spinta", "catena"))
+
+    def add(some, *columns):
+        return math.fsum(math.prod(number(row[i]) for i in columns) for row in some)
+
+    first, second = add(weights, 1, 4), add(rows, 8)
+    held, pushed, arms = add(weights, 1, 3), add(thrusts, 1, 4), add(weights, 1, 3)
+    off = {name: add(some, 1, 2) - depth * add(some, 1) for name, some in (("H", thrusts), ("T", ties))}
+    alpha = (held + add(ties, 1, 4) - pushed) / first
+    ratio = first**2 / (add(weights, 1) * second)
+    a0 = alpha * 9.81 / (ratio * 1.35)
+    d0 = math.sin(math.atan((held - pushed) / (first + off["H"]))) * second / first
+    d = 0.4 * d0
+    angle = math.asin(d * first / second)
+    moment = (held + add(ties, 1, 4) - pushed) * math.cos(angle) - (first + off["H"] - off["T"]) * math.sin(angle)
+    a = moment / (first * math.cos(angle) + arms * math.sin(angle)) * 9.81 / (ratio * 1.35)
+    period = 1.68 * math.pi * math.sqrt(d / a)
+    shape = 1.0 if tb < period < tc else tc / period if period < td else tc * td / period**2
+    demand = pga * math.sqrt(10 / 13) * f0 * shape * 9.81 * (period / (2 * math.pi)) ** 2
+    return alpha, a0, d0, a, max(d / demand, a0 / (pga * 9.81))
+
+
+def test_a_calculator_and_the_document_are_enough(written, both):
+    """All that the checks of both states need is in the text, to its six figures; the hazard has four."""
+    pytest.importorskip("docx")
+    text = of_word(written["it", ".docx"])
+    for place, results in enumerate(both, 1):
+        check = results.check
+        expected = [check.value("mechanism", "SLV", name) for name in ("alpha_0", "a_0", "d_0")]
+        expected += [check.value("nonlinear", "SLV", name) for name in ("acceleration", "ratio")]
+        assert by_hand(text, place) == pytest.approx(expected, rel=1e-4)
+
+
+def test_why_the_displacement_is_what_it_is(brittle, both):
+    """Shares of d_0*, the fracture of ties with its elongation, and all steps that lead to a(d_C)."""
+    place, results = brittle
+    pages = {}
+    for name, found in (("brittle", results), ("both", both)):
+        dd.calculation_report(found, place / f"{name}.html", lang="en")
+        pages[name] = " ".join(of_page(place / f"{name}.html").split())
+    assert "there ties break that give more than half of the greatest resistance" in pages["brittle"]
+    assert "there ties break" not in pages["both"]
+    check = results[1].check
+    broken = check.value("nonlinear", "SLV", "displacement")
+    assert f"{broken:.6g} m, less than 0.4 d0*" in pages["brittle"]
+    # The anchor gives way at T/A less the preload, over E, times the length
+    tie = results[1].check.wall.ties[0]
+    elongation = (check.items[-1].force / tie.section - 50e6) / 2.06e11 * 10
+    assert f"{elongation:.6g} m" in pages["brittle"]
+    for found in both:
+        assert f"{found.check.value('nonlinear', 'SLC', 'acceleration'):.6g} m/s²" in pages["both"]
+    assert "the return period of the capacity is not given: the check has no reference life" in pages["both"].lower()
+    assert "is not given" not in pages["brittle"]
+
+
+def test_plate_and_frustum(brittle):
+    """The figure has the sizes and the forces of the sheet, in greys."""
+    place, results = brittle
+    dd.calculation_report(results, place / "plate.html", lang="it")
+    page = (place / "plate.html").read_text()
+    assert page.count("tronco di piramide di muratura che essa estrae") == 1
+    subjects = subjects_of(results)
+    drawn = draw_anchor(Document(Language("it"), project.Project(), subjects), subjects.several[1], "tie 1")
+    texts = [one.get_text() for one in drawn.figure.findobj(matplotlib.text.Text)]
+    check = results[1].check
+    for force in ("bar_force", "bearing_force", "shear_force", "cone_force"):
+        value = f"{1e-3 * check.value('tie', '', force):.4g}".replace(".", ",")
+        assert any(value in text for text in texts), force
+    assert {"a = 35", "b = 35", "t = 55"} <= set(texts)
+    colours = [one.get_facecolor() for one in drawn.figure.findobj(matplotlib.patches.Polygon)]
+    assert all(len(set(colour[:3])) == 1 for colour in colours)
+    matplotlib.pyplot.close(drawn.figure)
+
+
 # --- What the engineer writes
 
 
@@ -189,7 +285,7 @@ def test_what_is_not_written_is_seen_and_counted(both, written, folder):
     page = written["en", ".html"].read_text()
     assert page.count("<mark>[TO BE COMPLETED: ") == len(left)
     data = folder / "project.toml"
-    lines = ["[project]", *(f"{name} = 'written {name}'" for name in project.WORDS)]
+    lines = ["[project]", *(f"{name} = 'written {name}, LC1'" for name in project.WORDS)]
     lines += [f"{name} = 42" for name in project.NUMBERS] + ["[texts]"]
     data.write_text(
         "\n".join([*lines, *(f"{name} = 'first {name}\\n\\nsecond'" for name in project.TEXTS)]).replace("'", '"')
@@ -433,6 +529,10 @@ def test_a_check_that_is_not_applicable_has_no_number(brittle):
         ("nominal_life = 50\nuse_coefficient = 1.5", "their product is 75 years, but the reference_life"),
         ('knowledge_level = "LC2"', None),
         ('knowledge_level = "LC1"', None),
+        ('knowledge_level = "limited, LC1 (lc1)"', None),
+        ('knowledge_level = "LC1/LC2"', "LC1/LC2': must name one of LC1, LC2, LC3"),
+        ('knowledge_level = "LC12"', "LC12': must name one of"),
+        ('knowledge_level = "limited"', "limited': must name one of"),
     ],
 )
 def test_a_project_that_disagrees_with_the_check(line, words, brittle, tmp_path):

@@ -137,6 +137,14 @@ class CodeCheck(Shown, Saved):
         bound = {"<": -1.0, ">": 1.0}.get(years.bound, 0.0) if years is not None else 0.0
         return (*(np.nan if row is None else row.value for row in rows), bound)
 
+    def _verdict(self, key: tuple[str, str]) -> str:
+        """The outcome of a check (method, limit state) in words; none is verified while something of a tie is open."""
+        if key in self.not_applicable:
+            return "not applicable"
+        if not self.verified[key]:
+            return "not verified"
+        return "verified if its ties are" if self.open_ties else "verified"
+
     @property
     def items(self) -> tuple[CalculationItem, ...]:
         """The terms of the sums behind alpha_0, M* and e*, the executable's ``_calculation.csv``."""
@@ -328,10 +336,10 @@ class CodeCheck(Shown, Saved):
         names = ("alpha_0", "mass_ratio", "a_0", "d_0")
         shown = {row.quantity: row for row in self.rows if row.method == "mechanism"}
         facts = [(shown[name].symbol, f"{shown[name].value:.6g} {shown[name].unit}".strip()) for name in names]
-        for (method, state), holds in self.verified.items():
-            text = "verified" if holds else "not verified"
+        for method, state in self.verified:
+            text = self._verdict((method, state))
             if (method, state) in self.not_applicable:
-                text = "not applicable"
+                pass
             elif (method, state) in self.capacities:
                 text += f", a_g S up to {self.capacities[method, state]:.4g} g"
             else:

@@ -36,7 +36,7 @@ def code_check(check: CodeCheck, curve: Fragility | None) -> dict[str, Any]:
         (Symbol("a", "g"), Symbol("S"), " of the site [g]"): [number(_site(check, state)) for _, state in kinematic],
         "withstands [g]": [number(check._outcome(key, "capacity_pga")) for key in kinematic],
         "capacity / demand": [number(check._outcome(key, "ratio"), 3) for key in kinematic],
-        "verdict": [_verdict(check, key) for key in kinematic],
+        "verdict": [check._verdict(key) for key in kinematic],
     }
     if chances:
         columns["P(collapse) at the site"] = [
@@ -48,7 +48,7 @@ def code_check(check: CodeCheck, curve: Fragility | None) -> dict[str, Any]:
     histories: dict[Piece, Sequence[Piece]] = {"limit state": [state for _, state in dynamic]}
     for name, head in _DYNAMIC.items():
         histories[head] = [number(check.value(*key, name)) for key in dynamic]
-    histories["verdict"] = [_verdict(check, key) for key in dynamic]
+    histories["verdict"] = [check._verdict(key) for key in dynamic]
     return {
         "checks": Table.of(columns, ("verdict",)),
         "histories": Table.of(histories, ("verdict",)) if dynamic else None,
@@ -99,7 +99,10 @@ def code_checks(
         columns["P(collapse) at the site"] = [
             probability(float(curve(check.pga)) if curve.has_fit else np.nan) for check, curve in made
         ]
-    held = [(", ".join(key), whole(sum(check.verified[key] for check, _ in made)), len(made)) for key in _KINEMATIC]
+    held = [
+        (", ".join(key), whole(sum(check._verdict(key) == "verified" for check, _ in made)), len(made))
+        for key in _KINEMATIC
+    ]
     site = ", ".join(f"{name} {text}" for name, text in made[0][0].site._facts()) if made else ""
     together: Piece | None = None
     if made and facade is not None and facade.has_fit and facade.im == "pga":
@@ -110,6 +113,7 @@ def code_checks(
         "checks": Table.of(columns),
         "held": held,
         "site": site,
+        "open": sum(bool(check.open_ties) for check, _ in made),
         "left_out": len(checks) - len(made),
         "together": together,
         "sheets": [(check.wall.name, _sheet(check)) for check, _ in made] if with_sheets else [],
@@ -172,13 +176,15 @@ def verdict(checks: Sequence[CodeCheck | None], walls: Sequence[Wall], *, withou
     verdicts = [holds for check in made for key, holds in check.verified.items() if key not in check.not_applicable]
     if missed:
         words = f"{verdicts.count(False)} of {len(verdicts)} checks by NTC 2018 not satisfied"
+    elif doubts:
+        # What is open may turn any of them: nothing is called satisfied.
+        reasons = "; ".join(one.partition(":")[0] for one in doubts)
+        words = f"open: {reasons}; none of {len(verdicts)} checks by NTC 2018 fails"
     else:
         words = f"all {len(verdicts)} checks by NTC 2018 satisfied"
     index = min(made, key=lambda check: check.value("nonlinear", "SLV", "ratio"))
     whose = f", {index.wall.name}" if len(made) > 1 else ""
     words = f"{words[0].upper()}{words[1:]}; ζ_E {_ratio(index):.3g} (nonlinear SLV{whose})"
-    if doubts and not missed:
-        words += "; open: " + "; ".join(one.partition(":")[0] for one in doubts)
     return Verdict("failed" if missed else "doubt" if doubts else "fine", words, (*missed, *doubts))
 
 
@@ -220,12 +226,6 @@ def _failed(made: Sequence[CodeCheck]) -> list[str]:
 
 def _site(check: CodeCheck, state: str) -> float:
     return check.value("site", state, "pga")
-
-
-def _verdict(check: CodeCheck, key: tuple[str, str]) -> str:
-    if key in check.not_applicable:
-        return "not applicable"
-    return "verified" if check.verified[key] else "not verified"
 
 
 def _sheet(check: CodeCheck) -> Table:

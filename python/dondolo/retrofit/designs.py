@@ -178,7 +178,7 @@ class DesignComparison(tables.Tabular, Saved):
         return {
             **plain(self._columns()),
             **{
-                f"{method}_{state.lower()}": [check.capacities[method, state] for check in self.checks]
+                f"{method}_{state.lower()}": [check._outcome((method, state), "capacity_pga") for check in self.checks]
                 for method, state in _CHECKS
                 if self.checks
             },

@@ -142,6 +142,7 @@ module dondolo_check_sheet
       procedure, private :: find
       !> Is a quantity 1 in all lines that have it?
       procedure :: is_all_one
+      procedure :: has_open_ties
    end type sheet_type
 
 contains
@@ -289,5 +290,13 @@ contains
          end associate
       end do
    end function is_all_one
+
+   !> Is an anchor of a tie unchecked or weaker than its bar, or a plate too thin? The checks then hold only if it is made good.
+   pure logical function has_open_ties(self)
+      class(sheet_type), intent(in) :: self
+
+      has_open_ties = .not. (self%is_all_one('tie', 'anchor_checked') .and. self%is_all_one('tie', 'hierarchy') .and. &
+         & self%is_all_one('tie', 'plate_verified'))
+   end function has_open_ties
 
 end module dondolo_check_sheet

@@ -1,6 +1,6 @@
 """The chapters of a calculation report, in their order: functions that give blocks of a document."""
 
-from dondolo.reporting.relazione import checks, opening, outcome
+from dondolo.reporting.relazione import checks, opening, outcome, ties
 
 CHAPTERS = (
     opening.title_page,
@@ -14,7 +14,7 @@ CHAPTERS = (
     opening.code,
     checks.mechanism,
     checks.checks,
-    checks.ties,
+    ties.ties,
     outcome.histories,
     outcome.fragility,
     outcome.summary,

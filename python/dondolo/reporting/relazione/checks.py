@@ -1,4 +1,4 @@
-"""Chapters 10 to 12 of a calculation report: the mechanism, the checks with their numbers, and the ties."""
+"""Chapters 10 and 11 of a calculation report: the mechanism, and the checks with their numbers."""
 
 from __future__ import annotations
 
@@ -14,22 +14,19 @@ from dondolo.reporting.blocks import (
     Formula,
     Fraction,
     Heading,
-    Note,
     Picture,
     Root,
     symbol_of,
 )
 from dondolo.reporting.content import Piece, Table
-from dondolo.reporting.numerals import NONE, Numeral, number, whole
+from dondolo.reporting.numerals import NONE, number, whole
+from dondolo.reporting.relazione.capacity import FIGURES, capacity_of, end_of, shown
 from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.drawings import draw_capacity, draw_wall
 from dondolo.reporting.relazione.subjects import Subject
 from dondolo.reporting.units import CENTIMETRES, UNITS, Unit, cell
 from dondolo.walls.mechanisms import TwoBlockWall
-from dondolo.walls.parts import parts_of
 
-# Figures of what is to be calculated again by hand
-_FIGURES = 6
 # Displacements of the sheet, which are small
 _LENGTHS = (
     "d_0", "tie_fracture", "displacement", "demand", "mean_displacement", "bar", "plate_width", "plate_height",
@@ -141,7 +138,7 @@ def _items(document: Document, one: Subject, name: str) -> CaptionedTable:
     items, strip = one.check.items, isinstance(one.wall, TwoBlockWall)
     force, moment, second = UNITS["N/m"], UNITS["N m/m"], UNITS["N m2/m"]
 
-    def column(field: str, unit: Unit, figures: int = _FIGURES) -> list[Piece]:
+    def column(field: str, unit: Unit, figures: int = FIGURES) -> list[Piece]:
         values = [getattr(item, field) for item in items]
         return ["" if math.isnan(value) else cell(value, unit, figures) for value in values]
 
@@ -162,19 +159,15 @@ def _items(document: Document, one: Subject, name: str) -> CaptionedTable:
     columns[product] = column("force_lever", moment)
     columns[square] = column("force_lever2", second)
     ends: dict[Piece, Piece] = {
-        stab: cell(sums["stabilising"], moment, _FIGURES),
-        over: cell(sums["overturning"], moment, _FIGURES),
-        product: cell(sums["force_lever"], moment, _FIGURES),
-        square: cell(sums["force_lever2"], second, _FIGURES),
+        stab: cell(sums["stabilising"], moment, FIGURES),
+        over: cell(sums["overturning"], moment, FIGURES),
+        product: cell(sums["force_lever"], moment, FIGURES),
+        square: cell(sums["force_lever2"], second, FIGURES),
     }
     for place, (head, cells) in enumerate(columns.items()):
         cells.append(document.text(_("sum")) if not place else ends.get(head, ""))
     caption = document.titled(document.text(_("Calculation of the multiplier, item by item, per metre of wall")), name)
     return CaptionedTable(Table.of(columns), caption, strong=1)  # type: ignore[arg-type]
-
-
-def _n(value: float, unit: Unit = UNITS[""], figures: int = _FIGURES) -> Numeral:
-    return cell(value, unit, figures)
 
 
 def _formulas(document: Document, one: Subject) -> list[Block]:
@@ -188,15 +181,15 @@ def _formulas(document: Document, one: Subject) -> list[Block]:
     alpha, mass, ratio, a0 = (
         check.value("mechanism", "SLV", name) for name in ("alpha_0", "mass", "mass_ratio", "a_0")
     )
-    g = _n(wall.gravity)
-    along = _n(sums["force_lever"], moment)
+    g = shown(wall.gravity)
+    along = shown(sums["force_lever"], moment)
     blocks: list[Block] = [
         Formula(
             (
                 (symbol_of("alpha_0")),
                 Fraction(top, total),
-                Fraction((_n(sums["stabilising"], moment), " - ", _n(sums["overturning"], moment)), along),
-                _n(alpha),
+                Fraction((shown(sums["stabilising"], moment), " - ", shown(sums["overturning"], moment)), along),
+                shown(alpha),
             )
         )
     ]
@@ -205,8 +198,8 @@ def _formulas(document: Document, one: Subject) -> list[Block]:
             (
                 symbol_of("M*"),
                 Fraction(("(", *total, ")²"), (symbol_of("g"), " Σ", symbol_of("P"), " ", symbol_of(lever), "²")),
-                Fraction(("(", along, ")²"), (g, " · ", _n(sums["force_lever2"], second))),
-                (_n(1e-3 * mass), " t/m"),
+                Fraction(("(", along, ")²"), (g, " · ", shown(sums["force_lever2"], second))),
+                (shown(1e-3 * mass), " t/m"),
             )
         )
     )
@@ -215,8 +208,8 @@ def _formulas(document: Document, one: Subject) -> list[Block]:
             (
                 symbol_of("e*"),
                 Fraction((symbol_of("g"), " ", symbol_of("M*")), ("Σ", symbol_of("P"))),
-                Fraction((g, " · ", _n(1e-3 * mass)), _n(wall.gravity * mass / ratio, UNITS["N/m"])),
-                _n(ratio),
+                Fraction((g, " · ", shown(1e-3 * mass)), shown(wall.gravity * mass / ratio, UNITS["N/m"])),
+                shown(ratio),
             )
         )
     )
@@ -225,11 +218,12 @@ def _formulas(document: Document, one: Subject) -> list[Block]:
             (
                 symbol_of("a_0*"),
                 Fraction((symbol_of("alpha_0"), " ", symbol_of("g")), (symbol_of("e*"), " FC")),
-                Fraction((_n(alpha), " · ", g), (_n(ratio), " · ", _n(factor))),
-                (_n(a0), " m/s²"),
+                Fraction((shown(alpha), " · ", g), (shown(ratio), " · ", shown(factor))),
+                (shown(a0), " m/s²"),
             )
         )
     )
+    blocks += end_of(document, one)
     for state in ("SLV", "SLC"):
         blocks += _nonlinear(document, one, state)
     return blocks
@@ -241,38 +235,28 @@ def _nonlinear(document: Document, one: Subject, state: str) -> list[Block]:
     names = ("displacement", "acceleration", "period", "spectral_demand", "demand", "ratio")
     d, a, period, ordinate, demand, ratio = (check.value("nonlinear", state, name) for name in names)
     factor, damping = _PERIODS[state]
-    g, d0, a0 = one.wall.gravity, check.value("mechanism", state, "d_0"), check.value("mechanism", state, "a_0")
-    share = number(d / d0, _FIGURES)
+    g, a0 = one.wall.gravity, check.value("mechanism", state, "a_0")
     blocks: list[Block] = [
-        document.say(
-            _("{state}: {capacity} = {d} m = {share} {end}, {acceleration} = {a} m/s²:"),
-            state=state,
-            capacity=symbol_of("d_C"),
-            d=_n(d),
-            share=share,
-            end=symbol_of("d_0*"),
-            acceleration=symbol_of("a(d_C)"),
-            a=_n(a),
-        ),
+        *capacity_of(document, one, state),
         Formula(
             (
                 symbol_of(f"T_{state}"),
                 (number(factor), " π ", Root(Fraction(symbol_of("d_C"), symbol_of("a(d_C)")))),
-                (number(factor), " π ", Root(Fraction(_n(d), _n(a)))),
-                (_n(period), " s"),
+                (number(factor), " π ", Root(Fraction(shown(d), shown(a)))),
+                (shown(period), " s"),
             )
         ),
     ]
     on_ground = not one.is_on_floor
     if on_ground:
-        blocks.append(_ordinate(one, state, period, damping, ordinate))
+        blocks += _ordinate(one, state, period, damping, ordinate)
     blocks.append(
         Formula(
             (
                 symbol_of("d_D"),
                 (symbol_of("S_e"), " ", Fraction((symbol_of("T"), "²"), ("4π²"))),
-                (_n(ordinate), " · ", _n(g), " · ", Fraction((_n(period), "²"), ("4π²"))),
-                (_n(demand), " m"),
+                (shown(ordinate), " · ", shown(g), " · ", Fraction((shown(period), "²"), ("4π²"))),
+                (shown(demand), " m"),
             )
         )
     )
@@ -284,21 +268,21 @@ def _nonlinear(document: Document, one: Subject, state: str) -> list[Block]:
             (
                 symbol_of("ζ_E"),
                 ("max(", Fraction(symbol_of("d_C"), symbol_of("d_D")), "; ", Fraction(symbol_of("a_0*"), symbol), ")"),
-                ("max(", _n(d / demand), "; ", _n(starts), ")"),
-                _n(ratio),
+                ("max(", shown(d / demand), "; ", shown(starts), ")"),
+                shown(ratio),
             )
         )
     )
     return blocks
 
 
-def _ordinate(one: Subject, state: str, period: float, damping: float, ordinate: float) -> Formula:
+def _ordinate(one: Subject, state: str, period: float, damping: float, ordinate: float) -> list[Block]:
     """The ordinate of the elastic spectrum of the ground, with the numbers put in."""
     pga, amplified, tb, tc, td = ntc_parameters(one.check.site._input(), state).tolist()
     eta = max(math.sqrt(10.0 / (5.0 + damping)), 0.55)
     common = (symbol_of("a_g S"), " η ", symbol_of("F_0"))
-    values = (_n(pga), " · ", _n(eta), " · ", _n(amplified))
-    t = _n(period)
+    values = (shown(pga), " · ", shown(eta), " · ", shown(amplified))
+    t = shown(period)
     if period < tb:
         symbols: Any = (
             symbol_of("a_g S"),
@@ -308,16 +292,31 @@ def _ordinate(one: Subject, state: str, period: float, damping: float, ordinate:
             symbol_of("F_0"),
             " - 1)]",
         )
-        numbers: Any = (_n(pga), " [1 + ", Fraction(t, _n(tb)), " (", _n(eta), " · ", _n(amplified), " - 1)]")
+        numbers: Any = (
+            shown(pga),
+            " [1 + ",
+            Fraction(t, shown(tb)),
+            " (",
+            shown(eta),
+            " · ",
+            shown(amplified),
+            " - 1)]",
+        )
     elif period < tc:
         symbols, numbers = common, values
     elif period < td:
         symbols = (*common, " ", Fraction(symbol_of("T_C"), symbol_of("T")))
-        numbers = (*values, " · ", Fraction(_n(tc), t))
+        numbers = (*values, " · ", Fraction(shown(tc), t))
     else:
         symbols = (*common, " ", Fraction((symbol_of("T_C"), " ", symbol_of("T_D")), (symbol_of("T"), "²")))
-        numbers = (*values, " · ", Fraction((_n(tc), " · ", _n(td)), (t, "²")))
-    return Formula((symbol_of("S_e"), symbols, numbers, (_n(ordinate), " g")))
+        numbers = (*values, " · ", Fraction((shown(tc), " · ", shown(td)), (t, "²")))
+    result = (shown(ordinate), " g")
+    factor = Formula((symbol_of("eta"), Root(Fraction(number(10.0), ("5 + ", symbol_of("xi"), " [%]"))),
+                      Root(Fraction(number(10.0), ("5 + ", number(damping)))), shown(eta)))  # fmt: skip
+    if tb <= period < td:
+        return [factor, Formula((symbol_of("S_e"), symbols, numbers, result))]
+    # Symbols and numbers in one line are wider than a page.
+    return [factor, Formula((symbol_of("S_e"), symbols)), Formula((symbol_of("S_e"), numbers, result))]
 
 
 def _sheet(document: Document) -> CaptionedTable:
@@ -337,7 +336,7 @@ def _sheet(document: Document) -> CaptionedTable:
     for name, one in document.each():
         known = {(row.method, row.limit_state, row.quantity): row for row in one.check.rows}
         columns[name] = [value_of(document, one.check, known.get(key)) for key in rows]
-    columns[document.text(_("unit"))] = [document.unit(_unit(row).name) for row in rows.values()]
+    columns[document.text(_("unit"))] = [document.unit(unit_of(row).name) for row in rows.values()]
     columns[document.text(_("place"))] = [row.formula for row in rows.values()]
     words = [document.text(word) for word in (_("check"), _("symbol"), _("unit"), _("place"))]
     caption = document.text(_("Numbers of the checks, with their places in NTC 2018 and in the Circolare (C)."))
@@ -361,7 +360,7 @@ def method_name(document: Document, method: str) -> str:
     return document.text(names[method])
 
 
-def _unit(row: SheetRow) -> Unit:
+def unit_of(row: SheetRow) -> Unit:
     return CENTIMETRES if row.quantity in _LENGTHS else UNITS[row.unit]
 
 
@@ -376,116 +375,14 @@ def value_of(document: Document, check: CodeCheck, row: SheetRow | None) -> Piec
     if row.quantity in _FLAGS:
         return document.text(_("yes")) if row.value == 1.0 else document.text(_("no"))
     if row.bound:
-        return (f"{row.bound} ", cell(row.value, _unit(row), 5))
-    return whole(row.value) if row.quantity in _COUNTS else cell(row.value, _unit(row), 5)
+        return (f"{row.bound} ", cell(row.value, unit_of(row), 5))
+    return whole(row.value) if row.quantity in _COUNTS else cell(row.value, unit_of(row), 5)
 
 
 def outcome(document: Document, check: CodeCheck, key: tuple[str, str]) -> str:
     """The verdict of a check in words; one that is not for the wall has none."""
     if key in check.not_applicable:
         return document.text(_("not applicable"))
-    return document.text(_("satisfied")) if check.verified[key] else document.text(_("NOT satisfied"))
-
-
-def ties(document: Document) -> list[Block]:
-    """Chapter 12."""
-    blocks: list[Block] = [Heading(document.text(_("Ties and their anchors")))]
-    rows = [
-        (name, number_of, tie, item)
-        for name, one in document.each()
-        for number_of, (tie, item) in enumerate(
-            zip(parts_of(one.wall, "ties"), [x for x in one.check.items if x.item.startswith("tie")], strict=False), 1
-        )
-    ]
-    if not rows:
-        return [*blocks, document.say(_("The walls have no ties."))]
-    anchored = [
-        next(
-            (row.value for row in one.check.rows if (row.item, row.quantity) == (f"tie {count}", "anchor_force_per_m")),
-            None,
-        )
-        for _name, one in document.each()
-        for count in range(1, len(parts_of(one.wall, "ties")) + 1)
-    ]
-    columns: dict[Piece, Sequence[Piece]] = {
-        document.text(_("wall")): [name for name, *_rest in rows],
-        document.text(_("tie")): [whole(count) for _name, count, *_rest in rows],
-        document.text(_("height [m]")): [number(tie.height) for _name, _count, tie, _item in rows],
-        document.text(_("area [cm²/m]")): [cell(tie.section, UNITS["m2/m"]) for _name, _count, tie, _item in rows],
-        document.text(_("length [m]")): [number(tie.length) for _name, _count, tie, _item in rows],
-        document.text(_("strength [MPa]")): [cell(tie.strength, UNITS["Pa"]) for _name, _count, tie, _item in rows],
-        document.text(_("force that holds [kN/m]")): [cell(item.force, UNITS["N/m"], 5) for *_rest, item in rows],
-        document.text(_("strength of the anchor [kN/m]")): [
-            cell(force, UNITS["N/m"], 5) if force is not None else document.text(_("not checked")) for force in anchored
-        ],
-    }
-    blocks.append(CaptionedTable(Table.of(columns), document.text(_("Ties, per metre of wall."))))
-    blocks += [table for name, one in document.each() if (table := _anchors(document, name, one.check)) is not None]
-    for quantity, words in _OPEN_TIES.items():
-        several = [
-            f"{name}, {document.item(item)}" if len(document.names) > 1 else document.item(item)
-            for name, one in document.each()
-            for item, found in open_ties_of(one.check).items()
-            if quantity in found
-        ]
-        if several:
-            blocks.append(Note("doubt", document.say(words, ties="; ".join(several)).pieces))
-    blocks += document.written("anchors", _("check of the anchors: bar, plate, bearing and punching of the masonry"))
-    return blocks
-
-
-def open_ties_of(check: CodeCheck) -> dict[str, tuple[str, ...]]:
-    """What is open of each tie; an anchor whose plate has masonry of another confidence factor is a case of its own."""
-    return {
-        item: tuple(
-            "anchor_knowledge"
-            if name == "anchor_checked" and check._has("tie", "", "anchor_force", item=item)
-            else name
-            for name in names
-        )
-        for item, names in check.open_ties.items()
-    }
-
-
-# What is open of ties, in sentences
-_OPEN_TIES = {
-    "hierarchy": _(
-        "Hierarchy of strengths not respected: {ties}. The anchor gives way before the bar yields, and at once:"
-        " the linear check of SLV with the behaviour factor is not applicable."
-    ),
-    "plate_verified": _(
-        "Plate too thin: {ties}. The strength of the anchor is that of a plate that presses on the masonry evenly,"
-        " as a plate that bends does not."
-    ),
-    "anchor_knowledge": _(
-        "Strengths of the masonry at the plate with a smaller confidence factor than that of the check: {ties}."
-    ),
-    "anchor_checked": _(
-        "Anchors not checked: {ties}. The force of these ties is that of the bar alone. Bearing and punching of the"
-        " masonry under the plate, and the plate, must be checked; an anchor that is weaker than the bar is brittle,"
-        " and the behaviour factor of the linear check does not apply."
-    ),
-}
-
-
-def _anchors(document: Document, name: str, check: CodeCheck) -> CaptionedTable | None:
-    """Bar, plate, masonry and hierarchy of the ties of a wall, a column for each tie."""
-    found = [row for row in check.rows if row.method == "tie"]
-    items = list(dict.fromkeys(row.item for row in found))
-    rows = {row.quantity: row for row in found}
-    if not items:
-        return None
-    known = {(row.item, row.quantity): row for row in found}
-    columns: dict[Piece, Sequence[Piece]] = {
-        document.text(_("quantity")): [document.meaning(row) for row in rows.values()],
-        document.text(_("symbol")): [symbol_of(row.symbol) if row.symbol else NONE for row in rows.values()],
-        document.text(_("formula")): [
-            symbol_of(row.expression.replace("^2", "²")) if row.expression else NONE for row in rows.values()
-        ],
-    }
-    for item in items:
-        columns[document.item(item)] = [value_of(document, check, known.get((item, each))) for each in rows]
-    columns[document.text(_("unit"))] = [_unit(row).name for row in rows.values()]
-    words = [document.text(word) for word in (_("symbol"), _("formula"), _("unit"))]
-    caption = document.titled(document.text(_("Bar, masonry at the plate, plate and hierarchy of strengths")), name)
-    return CaptionedTable(Table.of(columns, words), caption)
+    if not check.verified[key]:
+        return document.text(_("NOT satisfied"))
+    return document.text(_("satisfied if its ties are")) if check.open_ties else document.text(_("satisfied"))

@@ -83,6 +83,9 @@ def draw_wall(document: Document, one: Subject) -> Any:
     return rest
 
 
+_SIZE = {
+    "arrowstyle": "|-|, widthA=0.25, widthB=0.25", "color": _MIDDLE, "linewidth": 0.7, "shrinkA": 0.0, "shrinkB": 0.0,
+}  # fmt: skip
 _ARROW = {"arrowstyle": "-|>", "color": _DARK, "linewidth": 1.1, "shrinkA": 0.0, "shrinkB": 0.0}
 
 
@@ -109,15 +112,8 @@ def _dimensions(document: Document, ax: Axes, one: Subject, reach: float) -> Non
     if isinstance(one.wall, TwoBlockWall):
         middle = one.wall.hinge * one.wall.height
         sizes = [(middle, right), (one.wall.height - middle, right)]
-    line = {
-        "arrowstyle": "|-|, widthA=0.25, widthB=0.25",
-        "color": _MIDDLE,
-        "linewidth": 0.7,
-        "shrinkA": 0.0,
-        "shrinkB": 0.0,
-    }
     for height, thickness in sizes:
-        ax.annotate("", (x, bottom), (x, bottom + height), arrowprops=line)
+        ax.annotate("", (x, bottom), (x, bottom + height), arrowprops=_SIZE)
         words = document.language.decimal(f"{_CENTIMETRES * height:.5g}")
         ax.annotate(words, (x, bottom + 0.5 * height), (-3, 0), textcoords="offset points", rotation=90, ha="right",
                     va="center", fontsize=7)  # fmt: skip
@@ -196,6 +192,65 @@ def _is_demand_of(one: Subject, state: LimitState, period: float, building: Buil
         periods=[period, 1.01 * period], damping=_DAMPINGS[state], limit_state=state, building=building
     )
     return math.isclose(spectrum.sa[0], one.check.value("nonlinear", state, "spectral_demand"), rel_tol=1e-9)
+
+
+def draw_anchor(document: Document, one: Subject, item: str) -> Any:
+    """The plate of a tie: in section, where the frustum grows by the depth on each side, and from the front."""
+    ax, front = _axes(document, (6.6, 3.4), 2)
+    found = {row.quantity: row.value for row in one.check.rows if (row.method, row.item) == ("tie", item)}
+    round_plate = found.get("plate_diameter", 0.0)
+    width, height = (round_plate or found[name] for name in ("plate_width", "plate_height"))
+    depth, thick = found["masonry_thickness"], found.get("plate_thickness") or 0.04 * found["masonry_thickness"]
+    # A frustum that meets the top of the wall ends there.
+    above = min(depth, found.get("edge_distance", depth))
+    top, bottom, reach = 0.5 * height + above, -0.5 * height - depth, 0.5 * width + depth
+    # Section: the inner face is at 0, the plate outside
+    floor, roof = 1.15 * bottom, top if above < depth else 1.15 * top
+    ax.fill([0.0, depth, depth, 0.0], [floor, floor, roof, roof], facecolor="none", edgecolor=_MIDDLE, linewidth=0.8)
+    outline = [depth, depth - min(above, depth), 0.0, 0.0, depth], [0.5 * height, top, top, bottom, -0.5 * height]
+    ax.fill(*outline, facecolor=_PALE, edgecolor=_DARK, linestyle="--", linewidth=0.9)
+    ax.fill([depth, depth + thick, depth + thick, depth], [-0.5 * height, -0.5 * height, 0.5 * height, 0.5 * height],
+            facecolor=_DARK)  # fmt: skip
+    ax.plot([-0.5 * depth, depth + 2.0 * thick], [0.0, 0.0], color=_DARK, linewidth=1.6)
+    ax.annotate("45°", (0.55 * depth, -0.5 * height - 0.2 * depth), fontsize=7.5, ha="center")
+    circle = np.linspace(0.0, 2.0 * np.pi, 181)
+    faces = ((reach, (bottom, top), _PALE, "--"), (0.5 * width, (-0.5 * height, 0.5 * height), _DARK, "-"))
+    for half, (least, most), face, line in faces:
+        x, y = np.array([-half, half, half, -half]), np.array([least, least, most, most])
+        if round_plate:
+            x, y = half * np.cos(circle), np.minimum(half * np.sin(circle), most)
+        front.fill(x, y, facecolor=face, edgecolor=_DARK, linestyle=line, linewidth=0.9)
+    size = document.language.decimal
+    sizes = [(ax, (0.0, depth), 1.28 * bottom, f"t = {size(f'{_CENTIMETRES * depth:.4g}')}")]
+    name = "D" if round_plate else "a"
+    sizes.append((front, (-0.5 * width, 0.5 * width), 1.28 * bottom, f"{name} = {size(f'{_CENTIMETRES * width:.4g}')}"))
+    for panel, (start, end), at, words in sizes:
+        panel.annotate("", (start, at), (end, at), arrowprops=_SIZE)
+        panel.annotate(words, (0.5 * (start + end), at), (0, -9), textcoords="offset points", ha="center", fontsize=7.5)
+    beside = depth + 4.0 * thick
+    ax.annotate("", (beside, -0.5 * height), (beside, 0.5 * height), arrowprops=_SIZE)
+    label = "D" if round_plate else "b"
+    ax.annotate(
+        f"{label} = {size(f'{_CENTIMETRES * height:.4g}')}",
+        (beside, 0.25 * height),
+        (4, 0),
+        textcoords="offset points",
+        fontsize=7.5,
+    )
+    names = {
+        "bar_force": _("bar"), "bearing_force": _("bearing"), "shear_force": _("shear"), "cone_force": _("frustum"),
+        "band_force": _("band"),
+    }  # fmt: skip
+    lines = [f"{document.text(words)} {_kilo(document, found[one])} kN" for one, words in names.items() if one in found]
+    front.annotate("\n".join(lines), (1.05 * reach, 0.0), fontsize=7.5, va="center")
+    for panel, words in ((ax, _("section")), (front, _("front"))):
+        panel.set_aspect("equal")
+        panel.axis("off")
+        panel.set_ylim(1.5 * bottom, 1.25 * max(top, -bottom))
+        panel.set_title(document.text(words), fontsize=9)
+    ax.set_xlim(-0.6 * depth, depth + 12.0 * thick)
+    front.set_xlim(-1.05 * reach, 2.3 * reach)
+    return ax
 
 
 def draw_spectra(document: Document) -> Any:

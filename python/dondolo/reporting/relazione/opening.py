@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Sequence
 from typing import Any, Literal
 
@@ -16,11 +17,12 @@ from dondolo.records.codes import LimitState
 from dondolo.reporting.blocks import Block, CaptionedTable, Facts, Heading, Note, Picture, symbol_of
 from dondolo.reporting.content import Piece, Table
 from dondolo.reporting.numerals import NONE, number, whole
-from dondolo.reporting.relazione.checks import method_name, open_ties_of
+from dondolo.reporting.relazione.checks import method_name
 from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.drawings import draw_spectra
 from dondolo.reporting.relazione.subjects import Subject
 from dondolo.reporting.relazione.terms import MECHANISMS
+from dondolo.reporting.relazione.ties import open_ties_of
 from dondolo.reporting.units import CENTIMETRES, UNITS, cell, quantity
 from dondolo.walls.mechanisms import OneSidedWall, TwoBlockWall
 from dondolo.walls.parts import parts_of
@@ -72,8 +74,12 @@ def _verdict(document: Document, name: str, one: Subject) -> Note:
     if not all(verdicts):
         sentence = _("{wall}: {failed} of {many} checks NOT satisfied; {zeta} = {index} (nonlinear SLV)")
         return Note("failed", (*document.say(sentence, failed=whole(verdicts.count(False)), **values).pieces, *more))
+    if found:
+        # What is open of a tie may turn any of them: nothing is called satisfied.
+        sentence = _("{wall}: ties open, none of {many} checks fails; {zeta} = {index} (nonlinear SLV)")
+        return Note("doubt", (*document.say(sentence, **values).pieces, *more))
     sentence = _("{wall}: {many} of {many} checks satisfied; {zeta} = {index} (nonlinear SLV)")
-    return Note("doubt" if found else "fine", (*document.say(sentence, **values).pieces, *more))
+    return Note("fine", (*document.say(sentence, **values).pieces, *more))
 
 
 # What is open of ties, at a glance
@@ -249,13 +255,19 @@ def materials(document: Document) -> list[Block]:
     ]
 
 
-# Least confidence factors of the levels of knowledge
+# Least confidence factors of the levels of knowledge, and their names in a text
 _FACTORS = {"LC1": 1.35, "LC2": 1.2, "LC3": 1.0}
+_LEVEL = re.compile(r"\bLC\d+\b", re.IGNORECASE)
 
 
 def _check_level(level: str, one: Subject) -> None:
-    """Refuse a level of knowledge that asks for a greater confidence factor than that of a check."""
-    least = next((factor for name, factor in _FACTORS.items() if name in level.upper()), 0.0)
+    """Refuse a text that names not one level of knowledge, or one whose confidence factor is above that of a check."""
+    if not level:
+        return
+    named = {found.upper() for found in _LEVEL.findall(level)}
+    if len(named) != 1 or not named <= _FACTORS.keys():
+        raise InputError(f"knowledge_level = {level!r}: must name one of {', '.join(_FACTORS)}")
+    least = _FACTORS[named.pop()]
     factor = one.check.value("mechanism", "SLV", "knowledge_factor")
     if factor < least:
         raise InputError(

@@ -34,6 +34,7 @@ from dondolo.walls.mechanisms import TwoBlockWall
 
 _CHECKS = (("linear", "SLD"), ("linear", "SLV"), ("nonlinear", "SLV"), ("nonlinear", "SLC"))
 _DYNAMIC = (("dynamic", "SLV"), ("dynamic", "SLC"))
+_STATES = ("SLD", "SLV", "SLC")
 _DECIMAL = re.compile(r"\d+\.\d+")
 # T_SLV of a curve of capacity that is a straight line: 1.68 pi sqrt(0.4/0.6)
 _STRAIGHT = 1.68 * math.pi * math.sqrt(0.4 / 0.6)
@@ -170,6 +171,8 @@ def summary(document: Document) -> list[Block]:
         blocks.append(document.say(index, index=number(least.index, 4), name=least.wall.name))
     elif len(several) > 1:
         blocks += _differences(document)
+    if not has_periods:
+        blocks.append(document.say(_why_no_period(document)))
     if has_periods:
         words = _(
             "A return period of the capacity outside the range in which it is meaningful, which is assumed and not read"
@@ -209,6 +212,22 @@ def summary(document: Document) -> list[Block]:
         ),
     ]
     return blocks
+
+
+def _why_no_period(document: Document) -> str:
+    """Why the capacity has no return period."""
+    site = document.subjects.several[0].check.site
+    if np.size(site.ag) < len(_STATES):
+        return _(
+            "The return period of the capacity is not given: the hazard of the site is one for all limit states, and a"
+            " line through return periods needs that of each."
+        )
+    if np.any(np.diff(site.ag) <= 0.0):
+        return _(
+            "The return period of the capacity is not given: the accelerations of the limit states do not increase from"
+            " SLD to SLC."
+        )
+    return _("The return period of the capacity is not given: the check has no reference life.")
 
 
 def _differences(document: Document) -> list[Block]:

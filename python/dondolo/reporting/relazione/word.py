@@ -38,6 +38,8 @@ _DOTS_PER_INCH = 300
 _WIDTH, _HEIGHT, _TEXT, _SMALL, _SMALLER = 15.5, 9.0, 16.6, 8.5, 7.0
 # Characters of a column: of the longest cell no more than these count
 _LONGEST = 34
+# Margins of a cell, and width of a wide font's bold letter over its size [cm]
+_MARGINS, _LETTER = 0.42, 0.0245
 # Columns of a table that takes small letters
 _WIDE = 7
 _LANGUAGES = {"it": "it-IT", "en": "en-GB"}
@@ -266,7 +268,7 @@ class _Writer:
         header.set(qn("w:val"), "true")
         table.rows[0]._tr.get_or_add_trPr().append(header)
         heads = tuple(column.head for column in shown.columns)
-        widths = [Cm(width) for width in self._widths((heads, *rows))]
+        widths = [Cm(width) for width in self._widths((heads, *rows), size)]
         for column, width in zip(table.columns, widths, strict=True):
             column.width = width
         # The cells of python-docx are looked up from the first on: by rows they are found in one go.
@@ -284,13 +286,17 @@ class _Writer:
                     paragraph.alignment = WD_ALIGN_PARAGRAPH.RIGHT
         self._space()
 
-    def _widths(self, rows: Sequence[tuple[Any, ...]]) -> list[float]:
+    def _widths(self, rows: Sequence[tuple[Any, ...]], size: float) -> list[float]:
         """Widths of the columns of a table [cm]: no word is parted where there is room, long cells get more."""
         texts = [[self._document.language.plain(piece) for piece in column] for column in zip(*rows, strict=True)]
         words = [max(len(word) for text in column for word in text.split() or [""]) for column in texts]
         longest = [min(_LONGEST, max(map(len, column[1:]), default=0)) for column in texts]
-        sizes = [4 + max(word, long // 2) for word, long in zip(words, longest, strict=True)]
-        return [_TEXT * size / sum(sizes) for size in sizes]
+        # Every column has room for its longest word, and the rest goes to those with long cells.
+        needs = [_MARGINS + _LETTER * size * word for word in words]
+        rest = max(0.0, _TEXT - sum(needs))
+        wanted = [max(0.5, 0.5 * long - word) for word, long in zip(words, longest, strict=True)]
+        widths = [need + rest * want / sum(wanted) for need, want in zip(needs, wanted, strict=True)]
+        return [_TEXT * width / sum(widths) for width in widths]
 
     def _picture(self, block: Picture) -> None:
         import matplotlib.pyplot as plt

@@ -43,7 +43,9 @@ module dondolo_case_check_rows
    type :: verdicts_type
       !> Rows that were checked, and others
       integer :: checked = 0, others = 0
-      !> Of the first, those that each check verifies, and the least capacity / demand
+      !> Of the first, those with open ties, those without that each check verifies, and the least capacity / demand where the
+      !> check is applicable
+      integer :: open = 0
       integer :: verified(size(check_states)) = 0
       real(wp) :: least(size(check_states)) = huge(1.0_wp)
       !> The first rows, one by one
@@ -95,8 +97,8 @@ contains
       call put_value('d_0_m', 'mechanism', '', 'd_0')
       do i = 1, size(check_states)
          name = trim(check_methods(i))//'_'//lower(check_states(i))
-         call put_value(name//'_g', check_methods(i), check_states(i), 'capacity_pga')
-         call put_value(name//'_ratio', check_methods(i), check_states(i), 'ratio')
+         call put_outcome(name//'_g', 'capacity_pga')
+         call put_outcome(name//'_ratio', 'ratio')
       end do
       call put_value('probability_site', 'site', 'SLV', 'probability')
       call put_value('probability_nonlinear_slv', 'nonlinear', 'SLV', 'probability')
@@ -106,6 +108,23 @@ contains
       call table%put('note', note)
 
    contains
+
+      !> Put what a check comes to, nothing if it is not one for the wall
+      subroutine put_outcome(name, quantity)
+         !> Name of the column
+         character(len=*), intent(in) :: name
+         !> Quantity of the sheet
+         character(len=*), intent(in) :: quantity
+
+         real(wp) :: value
+         logical :: is_given
+
+         value = -1.0_wp
+         is_given = .not. allocated(error)
+         if (is_given) is_given = sheet%is_all_one(check_methods(i), 'applicable', check_states(i))
+         if (is_given) value = sheet%value(check_methods(i), check_states(i), quantity)
+         call table%put(name, value, is_given)
+      end subroutine put_outcome
 
       !> Put a value of the sheet; a probability is less than 0 where there is none
       subroutine put_value(name, method, state, quantity)
@@ -143,6 +162,7 @@ contains
       logical, intent(in) :: is_checked
 
       real(wp) :: ratio(size(check_states))
+      logical :: is_applicable(size(check_states))
       integer :: i
 
       if (.not. is_checked) then
@@ -151,15 +171,20 @@ contains
       end if
       verdicts%checked = verdicts%checked + 1
       ratio = [(sheet%value(check_methods(i), check_states(i), 'ratio'), i=1, size(check_states))]
-      verdicts%verified = verdicts%verified + nint([(sheet%value(check_methods(i), check_states(i), 'verified'), &
-         & i=1, size(check_states))])
-      verdicts%least = min(verdicts%least, ratio)
+      is_applicable = [(sheet%is_all_one(check_methods(i), 'applicable', check_states(i)), i=1, size(check_states))]
+      if (sheet%has_open_ties()) then
+         verdicts%open = verdicts%open + 1
+      else
+         verdicts%verified = verdicts%verified + nint([(sheet%value(check_methods(i), check_states(i), 'verified'), &
+            & i=1, size(check_states))])
+      end if
+      where (is_applicable) verdicts%least = min(verdicts%least, ratio)
       if (verdicts%checked > shown_verdicts) return
       associate (verdict => verdicts%first(verdicts%checked))
          verdict%name = row%wall%name()
          verdict%multiplier = sheet%value('mechanism', '', 'alpha_0')
          verdict%ratio = ratio
-         verdict%is_applicable = [(sheet%is_all_one(check_methods(i), 'applicable', check_states(i)), i=1, size(check_states))]
+         verdict%is_applicable = is_applicable
          verdict%probability = sheet%value('site', 'SLV', 'probability')
       end associate
    end subroutine count_verdict

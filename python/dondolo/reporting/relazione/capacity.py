@@ -1,0 +1,395 @@
+"""The steps from the items of a calculation to d_0* and a(d_C), with the numbers put in, for a calculator.
+
+A wall that turns by θ about its hinge lowers its weights by z sin θ while it moves them by z cos θ + e sin θ; a strip
+that bends has the geometry of its two blocks. Steps are shown only if they give the numbers of the check: friction of
+interlocking and rounded edges have further terms.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+from dondolo._fortran.checks import CalculationItem
+from dondolo._fortran.walls import WALL_ABSENT
+from dondolo.reporting.blocks import Block, CaptionedTable, Formula, Fraction, symbol_of
+from dondolo.reporting.content import Piece, Symbol, Table
+from dondolo.reporting.numerals import Numeral
+from dondolo.reporting.relazione.document import Document, _
+from dondolo.reporting.relazione.subjects import Subject
+from dondolo.reporting.units import UNITS, Unit, cell
+from dondolo.walls.mechanisms import TwoBlockWall
+from dondolo.walls.parts import parts_of
+
+# Figures of what is to be calculated again by hand, and how well the steps give the numbers of the check
+FIGURES = 6
+_SAME = 1e-9
+_THETA = Symbol("θ")
+
+
+def shown(value: float, unit: Unit = UNITS[""], figures: int = FIGURES) -> Numeral:
+    """A number to calculate with."""
+    return cell(value, unit, figures)
+
+
+class _Turning(NamedTuple):
+    """Sums over the items of a wall that turns about its base: moments at rest, and products with arms.
+
+    Attributes
+    ----------
+    weights, ties, thrusts : float
+        Moments at rest, without earthquake.
+    pushed : float
+        Weight times height of masses that the wall only pushes.
+    first, second, arms : float
+        ΣP z, ΣP z² and ΣP e.
+    thrust_arms, tie_arms : float
+        ΣH e and ΣT e.
+    hinge : float
+        Depth u of the hinge.
+    """
+
+    weights: float
+    ties: float
+    thrusts: float
+    pushed: float
+    first: float
+    second: float
+    arms: float
+    thrust_arms: float
+    tie_arms: float
+    hinge: float
+
+    def multiplier(self, sine: float, *, with_ties: bool) -> float:
+        """Multiplier at a rotation."""
+        cosine = math.sqrt(1.0 - sine**2)
+        ties, arms = (self.ties, self.tie_arms) if with_ties else (0.0, 0.0)
+        top = (self.weights + ties - self.thrusts) * cosine - (self.lowered - arms) * sine
+        return top / (self.first * cosine + self.arms * sine)
+
+    @property
+    def lowered(self) -> float:
+        """What loses height for a unit of rotation."""
+        return self.first - self.pushed + self.thrust_arms
+
+
+def _turning(items: tuple[CalculationItem, ...]) -> _Turning:
+    weights = [one for one in items if not math.isnan(one.arm) and one.item != "masonry"]
+    ties = [one for one in items if one.item.startswith(("tie", "friction"))]
+    thrusts = [one for one in items if not math.isnan(one.overturning)]
+    hinge = weights[0].depth - weights[0].arm
+    return _Turning(
+        weights=math.fsum(one.stabilising for one in weights if not math.isnan(one.stabilising)),
+        ties=math.fsum(one.stabilising for one in ties),
+        thrusts=math.fsum(one.overturning for one in thrusts),
+        pushed=math.fsum(one.force_lever for one in weights if math.isnan(one.stabilising)),
+        first=math.fsum(one.force_lever for one in weights),
+        second=math.fsum(one.force_lever2 for one in items if not math.isnan(one.force_lever2)),
+        arms=math.fsum(one.force * one.arm for one in weights),
+        thrust_arms=math.fsum(one.force * (one.depth - hinge) for one in thrusts),
+        tie_arms=math.fsum(one.force * (one.depth - hinge) for one in ties),
+        hinge=hinge,
+    )
+
+
+def end_of(document: Document, one: Subject) -> list[Block]:
+    """Steps to d_0*."""
+    if isinstance(one.wall, TwoBlockWall):
+        return _strip(document, one)
+    sums, d0 = _turning(one.check.items), one.check.value("mechanism", "SLV", "d_0")
+    tangent = (sums.weights - sums.thrusts) / sums.lowered
+    sine = tangent / math.hypot(1.0, tangent)
+    if not math.isclose(sine * sums.second / sums.first, d0, rel_tol=_SAME):
+        return [document.say(_("{d0} = {value} m is that of the code: the hinge has a rounded edge."),
+                             d0=symbol_of("d_0*"), value=shown(d0))]  # fmt: skip
+    moment = UNITS["N m/m"]
+    top: list[Any] = [symbol_of("M_stab,P"), " - ", symbol_of("M_rib")]
+    numbers: list[Any] = [shown(sums.weights, moment), " - ", shown(sums.thrusts, moment)]
+    total, first, second = _sum("P", "z"), shown(sums.first, moment), shown(sums.second, UNITS["N m2/m"])
+    lowered, lowered_numbers = _lowered(sums, with_ties=False)
+    return [
+        *_set_back(one, sums),
+        document.say(
+            _(
+                "The wall turns by {theta} about its hinge; the arms are {arm}, with {hinge} = {value} m, and {first} ="
+                " {sum} kNm/m. At {d0} nothing holds it but its weights, whose moment is {moment}; ties have broken or"
+                " hold no longer:"
+            ),
+            theta=_THETA,
+            arm=(symbol_of("e"), " = ", symbol_of("d"), " - ", symbol_of("u")),
+            hinge=symbol_of("u"),
+            value=shown(sums.hinge),
+            first=_sum("P", "e"),
+            sum=shown(sums.arms, moment),
+            d0=symbol_of("d_0*"),
+            moment=symbol_of("M_stab,P"),
+        ),
+        Formula((("tan ", Symbol("θ", "0")), Fraction(tuple(top), lowered), Fraction(tuple(numbers), lowered_numbers),
+                 shown(tangent))),
+        Formula((symbol_of("d_0*"), ("sin ", Symbol("θ", "0"), " ", Fraction((*total, "²"), total)),
+                 (shown(sine), " · ", Fraction(second, first)), (shown(d0), " m"))),
+    ]  # fmt: skip
+
+
+def _set_back(one: Subject, sums: _Turning) -> list[Block]:
+    """The depth of the hinge, if it follows from the strength of the masonry, 0.85 f over twice that depth."""
+    weight = math.fsum(item.force for item in one.check.items if item.item != "masonry" and item.stabilising > 0.0
+                       and not math.isnan(item.arm))  # fmt: skip
+    strength = getattr(one.wall, "compressive_strength", None)
+    if not strength or not math.isclose(weight / (1.7 * strength), sums.hinge, rel_tol=_SAME):
+        return []
+    under = ("2 · ", shown(0.85), " ", symbol_of("f"))
+    numbers = (shown(weight, UNITS["N/m"]), " kN/m"), ("2 · ", shown(0.85), " · ", shown(strength, UNITS["Pa"]), " MPa")
+    return [
+        Formula((symbol_of("u"), Fraction(("Σ", symbol_of("P")), under), Fraction(*numbers), (shown(sums.hinge), " m")))
+    ]
+
+
+def capacity_of(document: Document, one: Subject, state: str) -> list[Block]:
+    """Why d_C is what it is, and the steps to a(d_C)."""
+    check = one.check
+    d, a = check.value("nonlinear", state, "displacement"), check.value("nonlinear", state, "acceleration")
+    d0 = check.value("mechanism", state, "d_0")
+    blocks = _displacement(document, one, state, d, d0)
+    if isinstance(one.wall, TwoBlockWall):
+        return blocks
+    factor, ratio = (check.value("mechanism", state, name) for name in ("knowledge_factor", "mass_ratio"))
+    alpha = a * ratio * factor / one.wall.gravity
+    sums = _turning(check.items)
+    sine = d * sums.first / sums.second
+    held = next(
+        (kept for kept in (True, False) if math.isclose(sums.multiplier(sine, with_ties=kept), alpha, rel_tol=_SAME)),
+        None,
+    )
+    words = (symbol_of("a(d_C)"), (symbol_of("alpha(d_C)"), " ", symbol_of("g"), "/(", symbol_of("e*"), " FC)"))
+    if held is None:
+        text = _("{a} = {value} m/s² is that of the capacity curve, with the friction of interlocking, springs or ties"
+                 " of which some have broken, which the sums of the table do not have.")  # fmt: skip
+        return [*blocks, document.say(text, a=symbol_of("a(d_C)"), value=shown(a))]
+    moment = UNITS["N m/m"]
+    theta = Symbol("θ", "C")
+    cosine = math.sqrt(1.0 - sine**2)
+    held = held and sums.ties > 0.0
+    stabilising = sums.weights + (sums.ties if held else 0.0)
+    lowered, lowered_numbers = _lowered(sums, with_ties=held)
+    sin, cos = (" sin ", theta), (" cos ", theta)
+    name = symbol_of("M_stab" if held or not sums.ties else "M_stab,P")
+    left, moved = symbol_of("M_C"), symbol_of("B_C")
+    rest, fall = symbol_of("A"), symbol_of("B")
+    at_rest, falling = stabilising - sums.thrusts, sums.lowered - (sums.tie_arms if held else 0.0)
+    top_numbers = (
+        shown(at_rest, moment), " · ", shown(cosine), " - ", shown(falling, moment), " · ", shown(sine),
+    )  # fmt: skip
+    bottom = (*_sum("P", "z"), *cos, " + ", *_sum("P", "e"), *sin)
+    bottom_numbers = (
+        shown(sums.first, moment), " · ", shown(cosine), *_signed(" + ", sums.arms), " · ", shown(sine),
+    )  # fmt: skip
+    # In symbols once: those of SLC are the same.
+    symbols = [Formula((left, (rest, *cos, " - ", fall, *sin))), Formula((moved, bottom))] if state == "SLV" else []
+    under = sums.first * cosine + sums.arms * sine
+    over, below = shown(alpha * under, moment), shown(under, moment)
+    first, second = shown(sums.first, moment), shown(sums.second, UNITS["N m2/m"])
+    total = _sum("P", "z")
+    numbers = Fraction((shown(alpha), " · ", shown(one.wall.gravity)), (shown(ratio), " · ", shown(factor)))
+    return [
+        *blocks,
+        Formula((("sin ", theta), (symbol_of("d_C"), " ", Fraction(total, (*total, "²"))),
+                 (shown(d), " · ", Fraction(first, second)), shown(sine))),
+        Formula((rest, (name, " - ", symbol_of("M_rib")), (shown(at_rest, moment), " kNm/m"))),
+        Formula((fall, lowered, lowered_numbers, (shown(falling, moment), " kNm/m"))),
+        *symbols[:1],
+        Formula((left, top_numbers, (over, " kNm/m"))),
+        *symbols[1:],
+        Formula((moved, bottom_numbers, (below, " kNm/m"))),
+        Formula((symbol_of("alpha(d_C)"), Fraction(left, moved), Fraction(over, below), shown(alpha))),
+        Formula((*words, numbers, (shown(a), " m/s²"))),
+    ]  # fmt: skip
+
+
+def _sum(force: str, lever: str) -> tuple[Any, ...]:
+    return ("Σ", symbol_of(force), " ", symbol_of(lever))
+
+
+def _lowered(sums: _Turning, *, with_ties: bool) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
+    """What loses height, in symbols and in numbers."""
+    moment = UNITS["N m/m"]
+    symbols: list[Any] = [*_sum("P", "z")]
+    numbers: list[Any] = [shown(sums.first, moment)]
+    terms = [(" - ", "Q", "z", sums.pushed), (" + ", "H", "e", sums.thrust_arms)]
+    terms += [(" - ", "T", "e", sums.tie_arms)] if with_ties else []
+    for sign, force, lever, value in terms:
+        if value:
+            symbols += [sign, *_sum(force, lever)]
+            numbers += _signed(sign, value)
+    return tuple(symbols), tuple(numbers)
+
+
+def _signed(sign: str, moment: float) -> tuple[Piece, Numeral]:
+    """A term of a sum that is added (' + ') or taken away (' - '), whose value may be less than 0."""
+    turned = {" + ": " - ", " - ": " + "}[sign] if moment < 0.0 else sign
+    return turned, shown(abs(moment), UNITS["N m/m"])
+
+
+def _displacement(document: Document, one: Subject, state: str, d: float, d0: float) -> list[Block]:
+    """d_C, and why it is not the share of d_0* that the code has for it."""
+    row = one.check._row("nonlinear", state, "displacement")
+    assert row is not None
+    share = shown({"SLV": 0.4, "SLC": 0.6}[state])
+    sides = (symbol_of("d_C"), (share, " ", symbol_of("d_0*")), (share, " · ", shown(d0)))
+    if math.isclose(d, {"SLV": 0.4, "SLC": 0.6}[state] * d0, rel_tol=_SAME):
+        return [document.say(_("{state}:"), state=state), Formula((*sides, (shown(d), " m")))]
+    values = {"state": state, "capacity": symbol_of("d_C"), "d": shown(d), "share": (share, " ", symbol_of("d_0*"))}
+    if "tie" in row.expression:
+        words = _(
+            "{state}: {capacity} = {d} m, less than {share}: there ties break that give more than half of the greatest"
+            " resistance (Circolare, C8.7.1.2.1.6)."
+        )
+        return [document.say(words, **values), *_fracture(document, one, d)]
+    words = _("{state}: {capacity} = {d} m, less than {share}: there a load loses its seat (Circolare, C8.7.1.2.1.6).")
+    return [document.say(words, **values)]
+
+
+def _fracture(document: Document, one: Subject, d: float) -> list[Block]:
+    """The elongation at which a tie breaks: that of its strain, or of its yield if the anchor gives way first."""
+    sums = _turning(one.check.items)
+    sine = d * sums.first / sums.second
+    cosine = math.sqrt(1.0 - sine**2)
+    items = [item for item in one.check.items if item.item.startswith("tie")]
+    for tie, item in zip(parts_of(one.wall, "ties"), items, strict=False):
+        arm, height = item.depth - sums.hinge, item.lever
+        travel = height * sine + arm * (1.0 - cosine)
+        strain, preload, modulus = (
+            given if (given := getattr(tie, name)) is not None else WALL_ABSENT[f"tie_{name}"]
+            for name in ("strain", "preload", "modulus")
+        )
+        force = item.force / tie.section
+        of_bar = (strain - preload / modulus) * tie.length
+        of_anchor = (force - preload) / modulus * tie.length
+        symbol = (symbol_of("D_u"), (symbol_of("z"), " sin ", Symbol("θ", "C"), " + ", symbol_of("e"), " (1 - cos ",
+                  Symbol("θ", "C"), ")"), (shown(travel), " m"))  # fmt: skip
+        stiff = (shown(modulus, UNITS["Pa"]), " MPa")
+        if math.isclose(of_bar, travel, rel_tol=1e-6):
+            before = Fraction((shown(preload, UNITS["Pa"]), " MPa"), stiff)
+            numbers: tuple[Any, ...] = ("(", shown(strain), " - ", before, ") · ", shown(tie.length), " m")
+            ratio = Fraction(symbol_of("sigma_0"), symbol_of("E"))
+            symbols: tuple[Any, ...] = ("(", symbol_of("ε_u"), " - ", ratio, ") ", symbol_of("l"))
+        elif math.isclose(of_anchor, travel, rel_tol=1e-6):
+            force_stress = Fraction(
+                (shown(item.force, UNITS["N/m"]), " kN/m"), (shown(tie.section, UNITS["m2/m"]), " cm²/m")
+            )
+            numbers = (Fraction(("(", force_stress, " - ", shown(preload, UNITS["Pa"]), " MPa)"), stiff), " · ",
+                       shown(tie.length), " m")  # fmt: skip
+            stress = (symbol_of("T"), "/", symbol_of("A"), " - ", symbol_of("sigma_0"))
+            symbols = (Fraction(stress, symbol_of("E")), " ", symbol_of("l"))
+        else:
+            continue
+        return [
+            document.say(_("{tie} breaks at the elongation"), tie=document.item(item.item)),
+            Formula((symbol_of("D_u"), symbols, numbers, (shown(travel), " m"))),
+            Formula(symbol),
+        ]
+    return []
+
+
+class _Bent(NamedTuple):
+    """Geometry of a strip at a displacement, and its multiplier."""
+
+    d: float
+    lower: float
+    upper: float
+    ratio: float
+    rise: float
+    multiplier: float
+
+
+def _bent(one: Subject, d: float) -> _Bent:
+    """A strip whose blocks have moved by d: angles of their diagonals, ratio of their rotations, rise of the load."""
+    wall, items = one.wall, one.check.items
+    assert isinstance(wall, TwoBlockWall)
+    w, h1 = items[0].arm, items[0].lever
+    h2 = 0.5 * wall.height - h1
+    r1, r2, a2 = math.hypot(w, h1), math.hypot(w, h2), math.atan2(w, h2)
+    lower = math.asin(w / r1 - d / r1)
+    upper = math.asin(r1 * math.sin(lower) / r2)
+    ratio = r1 * math.cos(lower) / (r2 * math.cos(upper))
+    inner = w - (wall.eccentricity or 0.0)
+    rise = 2.0 * r1 * math.sin(lower) * (1.0 + ratio) - inner * ratio * math.cos(a2 - upper)
+    load = items[2].force if len(items) > 2 else 0.0
+    blocks = items[0].force + items[1].force
+    top = r1 * math.sin(lower) * (items[0].force + items[1].force * (2.0 + ratio)) + load * rise
+    return _Bent(d, lower, upper, ratio, rise, top / (blocks * r1 * math.cos(lower)))
+
+
+def _strip(document: Document, one: Subject) -> list[Block]:
+    """Geometry of a strip at d_0* and at d_C, a column each."""
+    check, wall, items = one.check, one.wall, one.check.items
+    assert isinstance(wall, TwoBlockWall)
+    factor = check.value("mechanism", "SLV", "knowledge_factor")
+    places = [("d_0*", check.value("mechanism", "SLV", "d_0"), 0.0)]
+    for state in ("SLV", "SLC"):
+        d, a = (check.value("nonlinear", state, name) for name in ("displacement", "acceleration"))
+        places.append((f"d_C, {state}", d, a))
+    found = [_bent(one, d) for _name, d, _a in places]
+    scale = wall.gravity / factor
+    if any(not math.isclose(bent.multiplier * scale, a, rel_tol=_SAME, abs_tol=1e-6)
+           for bent, (_name, _d, a) in zip(found, places, strict=True)):  # fmt: skip
+        return []
+    w, h1 = items[0].arm, items[0].lever
+    h2 = 0.5 * wall.height - h1
+    b1, b2 = Symbol("β", "1"), Symbol("β", "2")
+    r1, r2, a2 = Symbol("R", "1"), Symbol("R", "2"), symbol_of("alpha_2")
+    rows: list[tuple[Piece, list[float]]] = [
+        ((symbol_of("d"), " [m]"), [bent.d for bent in found]),
+        (("sin ", b1), [math.sin(bent.lower) for bent in found]),
+        (("sin ", b2), [math.sin(bent.upper) for bent in found]),
+        (symbol_of("K"), [bent.ratio for bent in found]),
+        ((symbol_of("Y"), " [m]"), [bent.rise for bent in found]),
+        (symbol_of("alpha"), [0.0 if abs(bent.multiplier) < _SAME else bent.multiplier for bent in found]),
+        ((symbol_of("a"), " [m/s²]"), [a for _name, _d, a in places]),
+    ]
+    columns: dict[Piece, Any] = {document.text(_("quantity")): [head for head, _values in rows]}
+    for place, (name, _d, _a) in enumerate(places):
+        columns[symbol_of(name) if place == 0 else (symbol_of("d_C"), name[3:])] = [
+            shown(values[place]) for _head, values in rows
+        ]
+    load = (" + ", symbol_of("N"), " ", symbol_of("Y")) if len(items) > 2 else ()
+    top = (r1, " sin ", b1, " [", symbol_of("P_1"), " + ", symbol_of("P_2"), " (2 + ", symbol_of("K"), ")]", *load)
+    bottom = ("(", symbol_of("P_1"), " + ", symbol_of("P_2"), ") ", r1, " cos ", b1)
+    inner = ("(", symbol_of("w"), " - ", symbol_of("e_N"), ")")
+    blocks: list[Block] = [
+        document.say(
+            _(
+                "The blocks, of half heights {h1} and {h2} and with hinges {w} off their middle lines, have the"
+                " diagonals {r1} and {r2}; {alpha} = {angle} rad, {en} = {eccentricity} m. With the strip displaced by"
+                " {d}, {b1} and {b2} are the angles of the diagonals to the vertical, {k} the ratio of the rotations"
+                " and {y} the rise of the load for a unit of rotation of the lower block; {d0} is where {multiplier}"
+                " is 0:"
+            ),
+            h1=(Symbol("h", "1"), " = ", shown(h1), " m"),
+            h2=(Symbol("h", "2"), " = ", shown(h2), " m"),
+            w=(symbol_of("w"), " = ", shown(w), " m"),
+            r1=(r1, " = ", shown(math.hypot(w, h1)), " m"),
+            r2=(r2, " = ", shown(math.hypot(w, h2)), " m"),
+            alpha=a2,
+            angle=shown(math.atan2(w, h2)),
+            en=symbol_of("e_N"),
+            eccentricity=shown(wall.eccentricity or 0.0),
+            d=symbol_of("d"),
+            b1=b1,
+            b2=b2,
+            k=symbol_of("K"),
+            y=symbol_of("Y"),
+            d0=symbol_of("d_0*"),
+            multiplier=symbol_of("alpha"),
+        ),
+        Formula((("sin ", b1), ("(", symbol_of("w"), " - ", symbol_of("d"), ")/", r1))),
+        Formula((("sin ", b2), ("(", r1, "/", r2, ") sin ", b1))),
+        Formula((symbol_of("K"), Fraction((r1, " cos ", b1), (r2, " cos ", b2)))),
+        Formula((symbol_of("alpha"), Fraction(top, bottom))),
+    ]
+    if load:
+        turned = (*inner, " ", symbol_of("K"), " cos(", a2, " - ", b2, ")")
+        rise = ("2 ", r1, " sin ", b1, " (1 + ", symbol_of("K"), ") - ", *turned)
+        blocks.append(Formula((symbol_of("Y"), rise)))
+    caption = document.text(_("Geometry of the strip, multiplier and capacity a = α g/(e* FC)."))  # noqa: RUF001
+    return [*blocks, CaptionedTable(Table.of(columns), caption)]

@@ -1,0 +1,146 @@
+"""Chapter 12 of a calculation report: ties and their anchors."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from dondolo.checks.ntc import CodeCheck
+from dondolo.reporting.blocks import Block, CaptionedTable, Heading, Note, Picture, symbol_of
+from dondolo.reporting.content import Piece, Table
+from dondolo.reporting.numerals import NONE, number, whole
+from dondolo.reporting.relazione.checks import unit_of, value_of
+from dondolo.reporting.relazione.document import Document, _
+from dondolo.reporting.relazione.drawings import draw_anchor
+from dondolo.reporting.relazione.subjects import Subject
+from dondolo.reporting.units import UNITS, cell
+from dondolo.walls.parts import parts_of
+
+
+def ties(document: Document) -> list[Block]:
+    """Chapter 12."""
+    blocks: list[Block] = [Heading(document.text(_("Ties and their anchors")))]
+    rows = [
+        (name, number_of, tie, item)
+        for name, one in document.each()
+        for number_of, (tie, item) in enumerate(
+            zip(parts_of(one.wall, "ties"), [x for x in one.check.items if x.item.startswith("tie")], strict=False), 1
+        )
+    ]
+    if not rows:
+        return [*blocks, document.say(_("The walls have no ties."))]
+    anchored = [
+        next(
+            (row.value for row in one.check.rows if (row.item, row.quantity) == (f"tie {count}", "anchor_force_per_m")),
+            None,
+        )
+        for _name, one in document.each()
+        for count in range(1, len(parts_of(one.wall, "ties")) + 1)
+    ]
+    columns: dict[Piece, Sequence[Piece]] = {
+        document.text(_("wall")): [name for name, *_rest in rows],
+        document.text(_("tie")): [whole(count) for _name, count, *_rest in rows],
+        document.text(_("height [m]")): [number(tie.height) for _name, _count, tie, _item in rows],
+        document.text(_("area [cm²/m]")): [cell(tie.section, UNITS["m2/m"]) for _name, _count, tie, _item in rows],
+        document.text(_("length [m]")): [number(tie.length) for _name, _count, tie, _item in rows],
+        document.text(_("strength [MPa]")): [cell(tie.strength, UNITS["Pa"]) for _name, _count, tie, _item in rows],
+        document.text(_("force that holds [kN/m]")): [cell(item.force, UNITS["N/m"], 5) for *_rest, item in rows],
+        document.text(_("strength of the anchor [kN/m]")): [
+            cell(force, UNITS["N/m"], 5) if force is not None else document.text(_("not checked")) for force in anchored
+        ],
+    }
+    blocks.append(CaptionedTable(Table.of(columns), document.text(_("Ties, per metre of wall."))))
+    for name, one in document.each():
+        if (table := _anchors(document, name, one.check)) is not None:
+            blocks.append(table)
+        blocks += _pictures(document, name, one)
+    for quantity, words in _OPEN_TIES.items():
+        several = [
+            f"{name}, {document.item(item)}" if len(document.names) > 1 else document.item(item)
+            for name, one in document.each()
+            for item, found in open_ties_of(one.check).items()
+            if quantity in found
+        ]
+        if several:
+            blocks.append(Note("doubt", document.say(words, ties="; ".join(several)).pieces))
+    blocks += document.written("anchors", _("check of the anchors: bar, plate, bearing and punching of the masonry"))
+    return blocks
+
+
+def open_ties_of(check: CodeCheck) -> dict[str, tuple[str, ...]]:
+    """What is open of each tie; an anchor whose plate has masonry of another confidence factor is a case of its own."""
+    return {
+        item: tuple(
+            "anchor_knowledge"
+            if name == "anchor_checked" and check._has("tie", "", "anchor_force", item=item)
+            else name
+            for name in names
+        )
+        for item, names in check.open_ties.items()
+    }
+
+
+# What is open of ties, in sentences
+_OPEN_TIES = {
+    "hierarchy": _(
+        "Hierarchy of strengths not respected: {ties}. The anchor gives way before the bar yields, and at once:"
+        " the linear check of SLV with the behaviour factor is not applicable."
+    ),
+    "plate_verified": _(
+        "Plate too thin: {ties}. The strength of the anchor is that of a plate that presses on the masonry evenly,"
+        " as a plate that bends does not."
+    ),
+    "anchor_knowledge": _(
+        "Strengths of the masonry at the plate with a smaller confidence factor than that of the check: {ties}."
+    ),
+    "anchor_checked": _(
+        "Anchors not checked: {ties}. The force of these ties is that of the bar alone. Bearing and punching of the"
+        " masonry under the plate, and the plate, must be checked; an anchor that is weaker than the bar is brittle,"
+        " and the behaviour factor of the linear check does not apply."
+    ),
+}
+
+
+def _anchors(document: Document, name: str, check: CodeCheck) -> CaptionedTable | None:
+    """Bar, plate, masonry and hierarchy of the ties of a wall, a column for each tie."""
+    found = [row for row in check.rows if row.method == "tie"]
+    items = list(dict.fromkeys(row.item for row in found))
+    rows = {row.quantity: row for row in found}
+    if not items:
+        return None
+    known = {(row.item, row.quantity): row for row in found}
+    columns: dict[Piece, Sequence[Piece]] = {
+        document.text(_("quantity")): [document.meaning(row) for row in rows.values()],
+        document.text(_("symbol")): [symbol_of(row.symbol) if row.symbol else NONE for row in rows.values()],
+        document.text(_("formula")): [
+            symbol_of(row.expression.replace("^2", "²")) if row.expression else NONE for row in rows.values()
+        ],
+    }
+    for item in items:
+        columns[document.item(item)] = [value_of(document, check, known.get((item, each))) for each in rows]
+    columns[document.text(_("unit"))] = [unit_of(row).name for row in rows.values()]
+    words = [document.text(word) for word in (_("symbol"), _("formula"), _("unit"))]
+    caption = document.titled(document.text(_("Bar, masonry at the plate, plate and hierarchy of strengths")), name)
+    return CaptionedTable(Table.of(columns, words), caption)
+
+
+def _pictures(document: Document, name: str, one: Subject) -> list[Block]:
+    """Plate and frustum of the ties whose anchors are computed from a plate, one for those that are alike."""
+    alike: dict[tuple[float, ...], list[str]] = {}
+    for item in dict.fromkeys(row.item for row in one.check.rows if row.method == "tie"):
+        numbers = {row.quantity: row.value for row in one.check.rows if (row.method, row.item) == ("tie", item)}
+        if "cone_force" in numbers:
+            alike.setdefault(tuple(numbers.values()), []).append(item)
+    pictures: list[Block] = []
+    for items in alike.values():
+        words = ", ".join(map(document.item, items))
+        title = document.text(_("Plate, and frustum of masonry that it pulls out, sizes in cm: {ties}"), ties=words)
+        pictures.append(
+            Picture(
+                lambda item=items[0]: draw_anchor(document, one, item),  # type: ignore[misc]
+                document.titled(title, name),
+                document.text(
+                    _("The plate on the wall in section and from the front, with the frustum at 45 degrees.")
+                ),
+            )
+        )
+    return pictures
