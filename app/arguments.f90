@@ -5,6 +5,7 @@ module dondolo_arguments
    use dondolo_base_lines, only : lines_type
    use dondolo_base_numbers, only : parse_integer, parse_real
    use dondolo_base_spelling, only : meant
+   use dondolo_base_system, only : file_exists
    use dondolo_base_text, only : join, replaced, to_text
    use dondolo_base_threads, only : largest_threads
    use dondolo_case_job_group, only : stripes_task, task_names
@@ -163,10 +164,8 @@ contains
       type(error_type), allocatable, intent(inout) :: error
 
       character(len=:), allocatable :: hint
-      logical :: exists
 
-      inquire (file=name, exist=exists)
-      if (exists) return
+      if (file_exists(name)) return
       if (any(option_names == '--'//name)) then
          call raise_input(error, name//': no such file or command; it is an option: dondolo --'//name)
          return

@@ -3,6 +3,7 @@ module dondolo_example
    use, intrinsic :: iso_fortran_env, only : int64, output_unit
    use dondolo_base_error, only : error_type, raise_missing
    use dondolo_base_process, only : own_folder
+   use dondolo_base_system, only : file_exists
    use dondolo_base_text_file, only : read_text_file, text_file_type
    implicit none
    private
@@ -31,15 +32,13 @@ contains
 
       type(text_file_type) :: text
       character(len=:), allocatable :: folder, file, line
-      logical :: found
       integer :: i
 
       call own_folder(folder)
       ! bin and share are side by side.
       folder = folder(:max(index(folder, '/', back=.true.), 1))//'share/dondolo/'
       file = folder//'cases/'//name//'.nml'
-      inquire (file=file, exist=found)
-      if (.not. found) then
+      if (.not. file_exists(file)) then
          call raise_missing(error, '--example: '//file//': no such file; the examples come with an installation by pip')
          return
       end if

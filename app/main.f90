@@ -7,6 +7,7 @@ program dondolo_main
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
    use dondolo_base_plain, only : visible
+   use dondolo_base_process, only : hold_console
    use dondolo_base_references, only : list_bibtex
    use dondolo_base_system, only : output_arrives, set_up_process, stderr_is_terminal
    use dondolo_base_threads, only : available_threads, given_threads
@@ -35,11 +36,22 @@ program dondolo_main
    use dondolo_template, only : print_template
    implicit none
 
+   !> What a double click shows
+   character(len=*), parameter :: first_steps = 'dondolo is called in a command prompt: open the folder of your study, type cmd'// &
+      & new_line('a')//'into the address bar of its window, press Enter, and then type'//new_line('a')//new_line('a')// &
+      & '   dondolo --example parapet > parapet.nml     to print a ready case'//new_line('a')// &
+      & '   dondolo parapet.nml                         to run it'//new_line('a')// &
+      & '   dondolo --help                              to list the options'//new_line('a')//new_line('a')// &
+      & 'with the path of this program in the place of dondolo if it is not in Path.'//new_line('a')// &
+      & 'docs\windows.html, beside the folder bin, explains each step.'//new_line('a')//new_line('a')// &
+      & 'Press any key to close this window.'//new_line('a')
+
    type(arguments_type) :: arguments
    type(error_type), allocatable :: error
    integer :: i
 
    call set_up_process()
+   if (command_argument_count() == 0) call hold_console(first_steps)
    call read_arguments(arguments, error)
    if (allocated(error)) call give_up(error)
    select case (arguments%action)

@@ -4,6 +4,7 @@ module dondolo_status
    use dondolo_base_error, only : error_type, raise_missing
    use dondolo_base_lines, only : lines_type
    use dondolo_base_lock, only : holder_type, look_at_lock
+   use dondolo_base_system, only : file_exists
    use dondolo_base_text, only : to_text
    use dondolo_case_replaced, only : list_outdated
    use dondolo_case_result_files, only : published_run
@@ -28,11 +29,10 @@ contains
       type(lines_type) :: outdated
       character(len=:), allocatable :: path
       integer :: i
-      logical :: is_locked, is_written, has_store, is_file
+      logical :: is_locked, is_written, has_store
 
-      inquire (file=output, exist=is_file)
       path = output//'.checkpoint'
-      if (is_file) path = output
+      if (file_exists(output)) path = output
       ! Who writes a checkpoint may be Python, which does not write results meanwhile.
       call look_at_lock(path, writer, is_written)
       call look_at_lock(output, holder, is_locked)

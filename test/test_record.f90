@@ -1,5 +1,6 @@
 !> Numbers, tables, units, and the readers of accelerogram files.
 program test_record
+   use, intrinsic :: iso_fortran_env, only : int64
    use checks, only : check, check_close, check_error, check_ok, check_text, finish, skip, suite
    use dondolo_base_csv_reader, only : csv_row_type, csv_table_type
    use dondolo_base_csv_row, only : cell_type, split_row, text_cell
@@ -8,6 +9,7 @@ program test_record
    use dondolo_base_kinds, only : wp
    use dondolo_base_limits, only : longest_case
    use dondolo_base_numbers, only : parse_integer, parse_real, take_column, take_real
+   use dondolo_base_reader, only : file_size, reader_type
    use dondolo_base_text, only : to_text
    use dondolo_base_text_file, only : read_text_file, text_file_type
    use dondolo_record, only : record_type
@@ -24,6 +26,7 @@ program test_record
 
    call execute_command_line('mkdir -p '//scratch//'/folder/sub')
    call test_numbers()
+   call test_reader()
    call test_text_file()
    call test_csv()
    call test_csv_errors()
@@ -247,6 +250,40 @@ contains
       call test_line_ends()
       call test_ascii()
    end subroutine test_text_file
+
+   !> Bytes of files, of one that is open twice too
+   subroutine test_reader()
+      character(len=*), parameter :: name = scratch//'/città è.txt'
+      type(reader_type) :: reader, other
+      character(len=4) :: bytes
+      logical :: ok
+
+      call suite('bytes of files')
+      call write_file('città è.txt', '0123456789')
+      call check(file_size(name) == 10_int64, 'size of a file')
+      call check(file_size(scratch//'/none.txt') < 0, 'size of no file')
+      call reader%open(scratch//'/none.txt', ok)
+      call check(.not. (ok .or. reader%is_open()), 'no file')
+      call reader%open(scratch//'/folder', ok)
+      call check(.not. (ok .or. reader%is_open()), 'a folder')
+      call reader%open(name, ok)
+      call check(ok .and. reader%is_open(), 'opened')
+      call other%open(name, ok)
+      call check(ok, 'opened twice')
+      call check(reader%size() == 10_int64, 'size of an open file')
+      call reader%read(7_int64, bytes, ok)
+      call check(ok, 'read')
+      call check_text(bytes, '6789', 'its last bytes')
+      call other%read(1_int64, bytes, ok)
+      call check_text(bytes, '0123', 'its first bytes')
+      call reader%read(8_int64, bytes, ok)
+      call check(.not. ok, 'beyond its end')
+      call reader%close()
+      call other%close()
+      call check(.not. reader%is_open(), 'closed')
+      call reader%read(1_int64, bytes, ok)
+      call check(.not. ok, 'read after it was closed')
+   end subroutine test_reader
 
    !> Line ends are looked for in eight characters at once: they are found wherever they stand among them
    subroutine test_line_ends()

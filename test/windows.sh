@@ -72,6 +72,22 @@ $wine "$folder/bin/c_program.exe" "$root/data/records/synthetic44.csv" 2>/dev/nu
 check "a program in C says what docs/c.md does" grep -qF "$(tail -n 1 "$work/stdout")" "$root/docs/c.md"
 check "a program in C says something" test -s "$work/stdout"
 
+# --- a double click ------------------------------------------------------------------------------------------------
+
+# A console that Wine makes of a terminal, with nothing else in it, as after a double click
+in_console() { (sleep 8; printf x) | script -qec "${*@Q}" /dev/null >"$work/console"; }
+words() { sed 's/\x1b\[[?0-9]*[A-Za-z]//g' "$work/console" | tr -d ' \r\n'; }
+SECONDS=0
+in_console "$wine" "$exe"
+check "a double click: shows the first steps" grep -qF 'dondolo--exampleparapet>parapet.nml' <<<"$(words)"
+check "a double click: waits for a key" test "$SECONDS" -ge 8
+check "a double click: then ends as without arguments" grep -qF 'nocasegiven' <<<"$(words)"
+in_console "$wine" "$work/tools.exe" interrupt 3 "$exe"
+check "no arguments in a command prompt: ends at once" grep -qF 'nocasegiven' <<<"$(words)"
+check "no arguments in a command prompt: no first steps" test -z "$(words | grep -F exampleparapet)"
+in_console "$wine" "$exe" --version
+check "a console of its own with arguments: no first steps" test -z "$(words | grep -F exampleparapet)"
+
 # --- names ---------------------------------------------------------------------------------------------------------
 
 mkdir -p "città"

@@ -216,6 +216,14 @@ def test_python_rooms(root):
     assert seen == set(rooms)
 
 
+def test_files_are_opened_by_c(root):
+    """The names of files that Fortran itself opens would be in a code page on Windows."""
+    ours = {"machine.f90", "synthetic44.f90"}  # files of Linux, and a program of this repository
+    by_name = re.compile(r"^ *(if .*\) )?(open|inquire) ?\(.*file=", re.MULTILINE)
+    sources = [path for folder in ("app", "src", "python/dondolo") for path in (root / folder).rglob("*.f90")]
+    assert {path.name for path in sources if by_name.search(path.read_text())} == ours
+
+
 def test_rooms_are_documented(root):
     """The map of the sources names every room."""
     page = (root / "docs/architecture.md").read_text()

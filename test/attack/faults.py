@@ -146,7 +146,7 @@ class Faults:
             kinds = (errno.ENOMEM,) if large else (ERRORS[number % 3], SHORT, KILL, KILL_AFTER)
             for how in kinds:
                 if how == SHORT and not any(
-                    f" {name} " in calls[number - 1] for name in ("fwrite", "write", "pwrite", "read")
+                    f" {name} " in calls[number - 1] for name in ("fwrite", "write", "pwrite", "pread")
                 ):
                     continue
                 old.clean()

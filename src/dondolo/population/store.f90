@@ -11,7 +11,8 @@ module dondolo_population_store
    use dondolo_base_lock, only : holder_type, lock_type, look_at_lock
    use dondolo_base_memory, only : check_room
    use dondolo_base_origin, only : check_regular
-   use dondolo_base_system, only : cut_file, is_folder, remove_file, rename_file, writer_type
+   use dondolo_base_reader, only : file_size, reader_type
+   use dondolo_base_system, only : cut_file, file_exists, is_folder, remove_file, rename_file, writer_type
    use dondolo_base_text, only : to_text
    use dondolo_motion_work, only : work_type
    use dondolo_population_row_result, only : row_result_type
@@ -38,8 +39,8 @@ module dondolo_population_store
       integer(int64), allocatable, private :: place(:)
       !> Rows in memory, as they would stand in the file
       type(line_type), allocatable, private :: entry(:)
-      !> Unit while rows are read; 0: not open
-      integer, private :: unit = 0
+      !> The file while rows are read
+      type(reader_type), private :: reader
       !> The file while rows are put in
       type(writer_type), private :: writer
       type(lock_type), private :: lock
@@ -105,24 +106,23 @@ contains
       !> It is something else
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: stat
+      logical :: ok
 
       store%path = path
-      inquire (file=path, exist=exists, size=store%size)
-      if (.not. exists) return
       exists = .false.
+      store%size = file_size(path)
+      if (.not. file_exists(path)) return
       call check_regular(path, .true., error)
       if (allocated(error)) return
       ! Some systems give folders no size.
       if (store%size == 0 .and. .not. is_folder(path)) return
-      open (newunit=store%unit, file=path, access='stream', form='unformatted', action='read', status='old', iostat=stat)
-      if (stat /= 0) then
-         store%unit = 0
+      call store%reader%open(path, ok)
+      if (.not. ok) then
          call raise_input(error, path//': not a dondolo counts file, or unreadable')
          return
       end if
-      if (.not. is_cut_head(store%unit, store%size)) then
-         call read_head(store%unit, path, store%identity, store%bytes, error)
+      if (.not. is_cut_head(store%reader, store%size)) then
+         call read_head(store%reader, path, store%identity, store%bytes, error)
          if (.not. allocated(error)) call make_room(store, error)
          if (.not. allocated(error)) call find_rows(store)
          exists = .not. allocated(error)
@@ -148,14 +148,14 @@ contains
 
    !> Find the rows of a file, up to the first that is not whole
    subroutine find_rows(store)
-      !> The store, its unit open and its head read
+      !> The store, its file open and its head read
       type(store_type), intent(inout) :: store
 
       type(row_result_type) :: row
       integer(int64) :: bytes
 
       do
-         call read_entry(store%unit, store%bytes + 1, store%identity%shape, row, bytes)
+         call read_entry(store%reader, store%bytes + 1, store%identity%shape, row, bytes)
          if (bytes == 0) exit
          if (row%row < store%identity%first .or. row%row > store%identity%last) exit
          if (store%has(row%row)) exit
@@ -216,7 +216,7 @@ contains
       if (len_trim(self%lock%killed) > 0) call remove_file(ordered_path(self, self%lock%killed))
       call self%writer%append_to(self%path, ok)
       if (.not. ok) call raise_failure(error, self%path//': cannot be written')
-      inquire (file=self%path, size=size)
+      size = file_size(self%path)
       if (.not. allocated(error) .and. size /= self%size) then
          ! Another run has put rows in between, and has ended.
          call open_store(now, self%path, self%identity, error)
@@ -295,12 +295,10 @@ contains
       !> They could not be written, or the file is not as this run has left it
       type(error_type), allocatable, intent(out) :: error
 
-      integer(int64) :: size
       logical :: ok
 
       ! Where the file system has no locks
-      inquire (file=store%path, size=size)
-      if (size /= store%bytes) then
+      if (file_size(store%path) /= store%bytes) then
          call raise_failure(error, store%path//': has changed since this run began: does another run write it?')
          return
       end if
@@ -328,21 +326,19 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       integer(int64) :: bytes
-      integer :: stat
+      logical :: ok
 
       if (len(self%path) == 0) then
          call unpack_entry(self%entry(number)%text, self%identity%shape, row, bytes)
          return
       end if
-      stat = 0
-      if (self%unit == 0) open (newunit=self%unit, file=self%path, access='stream', form='unformatted', action='read', &
-         & status='old', iostat=stat)
-      if (stat /= 0) then
-         self%unit = 0
+      ok = .true.
+      if (.not. self%reader%is_open()) call self%reader%open(self%path, ok)
+      if (.not. ok) then
          call raise_failure(error, self%path//': cannot be read')
          return
       end if
-      call read_entry(self%unit, self%place(number), self%identity%shape, row, bytes)
+      call read_entry(self%reader, self%place(number), self%identity%shape, row, bytes)
       if (bytes == 0 .or. row%row /= number) call raise_failure(error, self%path//': has changed while it was read')
    end subroutine read_row
 
@@ -373,8 +369,7 @@ contains
       logical :: ok
 
       ok = .true.
-      if (self%unit /= 0) close (self%unit)
-      self%unit = 0
+      call self%reader%close()
       if (.not. self%is_writing) return
       self%is_writing = .false.
       if (self%is_complete()) then
@@ -417,8 +412,7 @@ contains
       end do
       call writer%synchronize(ok)
       call writer%close(ok)
-      if (store%unit /= 0) close (store%unit)
-      store%unit = 0
+      call store%reader%close()
       ok = ok .and. .not. allocated(error)
       if (ok) call rename_file(path, store%path, ok)
       if (ok) store%place = place

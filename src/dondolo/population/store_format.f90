@@ -6,6 +6,7 @@
 module dondolo_population_store_format
    use, intrinsic :: iso_fortran_env, only : int32, int64
    use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_reader, only : reader_type
    use dondolo_base_fingerprint, only : fingerprint_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : to_text
@@ -78,27 +79,28 @@ contains
    end subroutine make_head
 
    !> Does a file hold the beginning of a head only? A run was killed when it had hardly begun
-   logical function is_cut_head(unit, size)
-      !> Unit of the file, at its beginning
-      integer, intent(in) :: unit
+   logical function is_cut_head(reader, size)
+      !> The file
+      type(reader_type), intent(in) :: reader
       !> Its size
       integer(int64), intent(in) :: size
 
       character(len=min(size, int(line_bytes, int64))) :: line
       integer :: stat, length
+      logical :: ok
 
-      read (unit, pos=1, iostat=stat) line
+      call reader%read(1_int64, line, ok)
       length = min(len(line), len(mark))
-      is_cut_head = stat == 0 .and. line(:length) == mark(:length)
+      is_cut_head = ok .and. line(:length) == mark(:length)
       if (.not. is_cut_head .or. len(line) < line_bytes) return
       read (line(len(mark) + 3:len(mark) + 10), '(i8)', iostat=stat) length
       is_cut_head = stat == 0 .and. size < line_bytes + int(length, int64)
    end function is_cut_head
 
    !> Read the head of a file
-   subroutine read_head(unit, path, identity, bytes, error)
-      !> Unit of the file
-      integer, intent(in) :: unit
+   subroutine read_head(reader, path, identity, bytes, error)
+      !> The file
+      type(reader_type), intent(in) :: reader
       !> Its path
       character(len=*), intent(in) :: path
       !> What it is for
@@ -111,19 +113,22 @@ contains
       character(len=line_bytes) :: line
       character(len=:), allocatable :: head
       integer :: length, stat, keeps, bits, at, ends, numbers(6)
+      logical :: ok
 
       bytes = 0
       length = -1
-      read (unit, pos=1, iostat=stat) line
-      if (stat == 0 .and. line(:len(mark)) == mark .and. line(len(mark) + 1:len(mark) + 2) /= format_number//' ') then
+      call reader%read(1_int64, line, ok)
+      ok = ok .and. line(:len(mark)) == mark
+      if (ok .and. line(len(mark) + 1:len(mark) + 2) /= format_number//' ') then
          call raise_input(error, path//': was written by another version of dondolo')
          return
       end if
-      if (stat == 0 .and. line(:len(mark)) == mark) read (line(len(mark) + 3:len(mark) + 10), '(i8)', iostat=stat) length
+      stat = 0
+      if (ok) read (line(len(mark) + 3:len(mark) + 10), '(i8)', iostat=stat) length
       if (stat == 0 .and. length > 0 .and. length <= longest_head) then
          allocate (character(len=length) :: head)
-         read (unit, iostat=stat) head
-         if (stat == 0 .and. line(len(mark) + 11:) == ' '//fingerprint_of(head, '')//new_line('a')) then
+         call reader%read(line_bytes + 1_int64, head, ok)
+         if (ok .and. line(len(mark) + 11:) == ' '//fingerprint_of(head, '')//new_line('a')) then
             at = index(head, new_line('a'))
             call find_numbers(head(:at - 1), numbers)
             identity%first = numbers(1)
@@ -204,9 +209,9 @@ contains
    end subroutine pack_entry
 
    !> Read a row
-   subroutine read_entry(unit, place, shape, row, bytes)
-      !> Unit of the file
-      integer, intent(in) :: unit
+   subroutine read_entry(reader, place, shape, row, bytes)
+      !> The file
+      type(reader_type), intent(in) :: reader
       !> Byte that the row begins with
       integer(int64), intent(in) :: place
       !> How many numbers there are of a row
@@ -217,18 +222,17 @@ contains
 
       character(len=entry_head) :: head
       character(len=:), allocatable :: entry
-      integer(int64) :: length, room
-      integer :: stat
+      integer(int64) :: length
+      logical :: ok
 
       bytes = 0
-      read (unit, pos=place, iostat=stat) head
-      if (stat /= 0) return
-      inquire (unit=unit, size=room)
+      call reader%read(place, head, ok)
+      if (.not. ok) return
       call read_entry_head(head, shape, row, length)
-      if (length == 0 .or. length > room) return
+      if (length == 0 .or. length > reader%size()) return
       allocate (character(len=length) :: entry)
-      read (unit, pos=place, iostat=stat) entry
-      if (stat == 0) call unpack_entry(entry, shape, row, bytes)
+      call reader%read(place, entry, ok)
+      if (ok) call unpack_entry(entry, shape, row, bytes)
    end subroutine read_entry
 
    !> Rows out of bytes, one behind the other

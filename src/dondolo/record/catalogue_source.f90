@@ -11,6 +11,7 @@ module dondolo_record_catalogue_source
    use dondolo_base_error, only : add_place, error_type, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_plain, only : shown
+   use dondolo_base_system, only : file_exists
    use dondolo_base_text, only : lower, to_text
    use dondolo_record, only : record_type
    use dondolo_record_dead_channel, only : check_vertical_motion
@@ -202,10 +203,7 @@ contains
       ! A dt that is not allocated is an argument that is not present
       call read_record(path, record, error, source%dt, source%units, channel, source%format)
       if (.not. allocated(error) .and. len(checksum) > 0) then
-         ! One thread at a time, as in load_text
-         !$omp critical (open_file)
          call crc32_of_file(path, found, bytes, ok)
-         !$omp end critical (open_file)
          if (.not. ok .or. found /= checksum) call raise_input(error, path//': has the CRC-32 '//found//', and '//checksum// &
             & ' is stated: the file was changed, or is of another version of the catalogue')
       end if
@@ -224,8 +222,6 @@ contains
       !> It is not given, or the folders in it are separated by a backslash
       type(error_type), allocatable, intent(out) :: error
 
-      logical :: exists
-
       path = row%get_text(table%column(name))
       if (len_trim(path) == 0) then
          call raise_input(error, table%place(row)//': '//name//' is empty: must name a file')
@@ -234,8 +230,7 @@ contains
       associate (file => table%file)
          if (.not. is_absolute(path)) path = file(:scan(file, '/\', back=.true.))//path
       end associate
-      inquire (file=path, exist=exists)
-      if (index(path, '\') > 0 .and. .not. exists) call raise_input(error, table%place(row)//': '//path// &
+      if (index(path, '\') > 0 .and. .not. file_exists(path)) call raise_input(error, table%place(row)//': '//path// &
          & ': no such file: folders must be separated by /, not \')
    end subroutine find_path
 

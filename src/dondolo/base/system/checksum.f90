@@ -6,6 +6,7 @@
 module dondolo_base_checksum
    use, intrinsic :: iso_fortran_env, only : int32, int64
    use dondolo_base_kinds, only : dp, wp
+   use dondolo_base_reader, only : reader_type
    implicit none
    private
 
@@ -36,38 +37,37 @@ contains
       integer, intent(in), optional :: behind
 
       ! Not on the stack, of which there may be little
-      integer(int64), allocatable :: words(:)
+      character(len=:), allocatable :: part
+      type(reader_type) :: reader
       integer(int32) :: table(0:255, 8), crc
-      character(len=8) :: tail
-      integer(int64) :: left
-      integer :: unit, stat, i, count
+      integer(int64) :: at
+      integer :: i, count
 
       checksum = ''
-      inquire (file=path, size=bytes)
-      open (newunit=unit, file=path, access='stream', form='unformatted', action='read', status='old', iostat=stat)
-      ok = stat == 0 .and. bytes >= 0
+      bytes = -1
+      call reader%open(path, ok)
       if (.not. ok) return
-      allocate (words(chunk/8))
+      bytes = reader%size()
+      allocate (character(len=chunk) :: part)
       call make_tables(table)
       crc = not(0_int32)
-      left = bytes
-      if (present(behind)) then
-         left = bytes - behind
-         read (unit, pos=behind + 1, iostat=stat)
-      end if
-      do while (left >= 8 .and. stat == 0)
-         count = int(min(left, int(chunk, int64))/8)
-         read (unit, iostat=stat) words(:count)
-         do i = 1, count
-            call add_bytes(crc, words(i), table)
+      at = 0
+      if (present(behind)) at = behind
+      count = 0
+      ok = at <= bytes
+      do while (ok)
+         count = int(min(bytes - at, int(chunk, int64)))
+         call reader%read(at + 1, part(:count), ok)
+         if (.not. ok) exit
+         do i = 0, count - 8, 8
+            call add_bytes(crc, transfer(part(i + 1:i + 8), 0_int64), table)
          end do
-         left = left - 8*count
+         at = at + count
+         if (at == bytes) exit
       end do
-      if (left > 0 .and. stat == 0) read (unit, iostat=stat) tail(:left)
-      close (unit)
-      ok = stat == 0
+      call reader%close()
       if (.not. ok) return
-      call add_tail(crc, tail(:left), table)
+      call add_tail(crc, part(count - mod(count, 8) + 1:count), table)
       checksum = hexadecimal(not(crc))
    end subroutine crc32_of_file
 

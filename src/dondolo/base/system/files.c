@@ -112,6 +112,54 @@ void dondolo_read_ends(const char *path, char *first, char *last, size_t room)
    close(descriptor);
 }
 
+/* Open a regular file to read it, links followed; its descriptor, negative if that fails */
+int dondolo_open_to_read(const char *path)
+{
+   struct stat found;
+   int descriptor = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+
+   if (descriptor >= 0 && !(fstat(descriptor, &found) == 0 && S_ISREG(found.st_mode))) {
+      close(descriptor);
+      descriptor = -1;
+   }
+   return descriptor;
+}
+
+/* Bytes in an open file, and in what is at a path, links followed; negative if that is not known or nothing is there */
+int64_t dondolo_size_of(int descriptor)
+{
+   struct stat found;
+
+   return fstat(descriptor, &found) == 0 ? (int64_t)found.st_size : -1;
+}
+
+int64_t dondolo_size(const char *path)
+{
+   struct stat found;
+
+   return stat(path, &found) == 0 ? (int64_t)found.st_size : -1;
+}
+
+/* Read bytes at a place of an open file; 1: all of them are there */
+int dondolo_read(int descriptor, int64_t at, char *bytes, size_t count)
+{
+   while (count > 0) {
+      ssize_t length = pread(descriptor, bytes, count, (off_t)at);
+
+      if (length <= 0)
+         return 0;
+      bytes += length;
+      at += length;
+      count -= (size_t)length;
+   }
+   return 1;
+}
+
+void dondolo_close_reader(int descriptor)
+{
+   close(descriptor);
+}
+
 /* The names in a folder that begin with a text, each with a line feed at its end; those without room are left out, and so are
    names with a line feed */
 void dondolo_list(const char *folder, const char *begin, char *names, size_t room)

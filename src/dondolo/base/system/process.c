@@ -89,4 +89,10 @@ int dondolo_is_limited(void)
          return 1;
    return !promises_all;
 }
+
+/* No console ends with a program of POSIX. */
+void dondolo_hold_console(const char *text)
+{
+   (void)text;
+}
 #endif

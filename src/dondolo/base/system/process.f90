@@ -5,7 +5,7 @@ module dondolo_base_process
    implicit none
    private
 
-   public :: own_folder, become
+   public :: own_folder, become, hold_console
 
    interface
 
@@ -26,6 +26,13 @@ module dondolo_base_process
          !> Number of words
          integer(c_int), value :: count
       end subroutine c_become
+
+      !> Show a text in a console that ends with the program; see windows_process.c
+      subroutine c_hold_console(text) bind(c, name='dondolo_hold_console')
+         import :: c_char
+         !> Text, with a NUL at its end
+         character(kind=c_char), intent(in) :: text(*)
+      end subroutine c_hold_console
 
    end interface
 
@@ -60,5 +67,13 @@ contains
       end do
       call c_become(joined, int(words%count, c_int))
    end subroutine become
+
+   !> Where the console ends with the program, as after a double click on Windows, show a text and wait for a key
+   subroutine hold_console(text)
+      !> Text, with its line ends
+      character(len=*), intent(in) :: text
+
+      call c_hold_console(text//c_null_char)
+   end subroutine hold_console
 
 end module dondolo_base_process

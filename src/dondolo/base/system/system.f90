@@ -8,7 +8,8 @@ module dondolo_base_system
    implicit none
    private
 
-   public :: make_folder, remove_folder, rename_file, remove_file, cut_file, is_folder, same_file, synchronize_folder, try_file
+   public :: make_folder, remove_folder, rename_file, remove_file, cut_file, is_folder, file_exists, same_file
+   public :: synchronize_folder, try_file
    public :: is_free, is_absolute, last_separator, folder_of
    public :: writer_type, stderr_is_terminal, output_arrives, set_up_process
 
@@ -79,7 +80,7 @@ module dondolo_base_system
          integer(c_int64_t), value :: length
       end function c_cut
 
-      !> What is at a path: 3 is a folder
+      !> What is at a path: 0 is nothing, 3 a folder
       integer(c_int) function c_thing(path, follows) bind(c, name='dondolo_thing')
          import :: c_char, c_int
          !> Path
@@ -280,6 +281,18 @@ contains
 
       is_folder = c_thing(trim(path)//c_null_char, follows) == folder
    end function is_folder
+
+   !> Is there anything at a path, links followed?
+   function file_exists(path)
+      !> Path
+      character(len=*), intent(in) :: path
+      !> There is
+      logical :: file_exists
+
+      integer(c_int), parameter :: follows = 1_c_int, nothing = 0_c_int
+
+      file_exists = c_thing(trim(path)//c_null_char, follows) /= nothing
+   end function file_exists
 
    !> May a file be replaced? On Windows not while another program has it open
    function is_free(path)

@@ -8,6 +8,8 @@ module dondolo_base_text_file
    use dondolo_base_memory, only : check_room
    use dondolo_base_odd_character, only : odd_character
    use dondolo_base_origin, only : check_regular
+   use dondolo_base_reader, only : reader_type
+   use dondolo_base_system, only : file_exists
    use dondolo_base_text, only : to_text
    implicit none
    private
@@ -77,10 +79,7 @@ contains
       parts = bytes_of_byte
       if (present(room)) parts = room
       text%file = file
-      ! One thread at a time: a file that two rows of a catalogue name must not be open twice.
-      !$omp critical (open_file)
       call load(file, longest, parts, text%text, error)
-      !$omp end critical (open_file)
    end subroutine load_text
 
    !> Find the lines of a text, and make UTF-8 of it
@@ -124,27 +123,27 @@ contains
       !> The file is missing, unreadable, empty or too large, for the memory too
       type(error_type), allocatable, intent(out) :: error
 
+      type(reader_type) :: reader
       integer(int64) :: bytes
-      integer :: unit, stat
+      logical :: ok
 
-      call open_text(file, unit, bytes, error)
+      call open_text(file, reader, bytes, error)
       if (allocated(error)) return
       if (bytes > longest) then
-         close (unit)
+         call reader%close()
          call raise_input(error, file//': has '//to_text(bytes)//' bytes: must be at most '//to_text(longest))
          return
       end if
       call check_room(room*real(bytes, wp), error)
       if (allocated(error)) then
-         close (unit)
+         call reader%close()
          call add_place(error, file)
          return
       end if
-      allocate (character(len=max(bytes, 0_int64)) :: content)
-      stat = 0
-      if (bytes > 0) read (unit, iostat=stat) content
-      close (unit)
-      if (stat /= 0) call raise_input(error, file//': cannot be read')
+      allocate (character(len=bytes) :: content)
+      call reader%read(1_int64, content, ok)
+      call reader%close()
+      if (.not. ok) call raise_input(error, file//': cannot be read')
    end subroutine load
 
    !> Make UTF-8 with lines that end in LF or CRLF of what was read
@@ -181,43 +180,34 @@ contains
    end subroutine check_encoding
 
    !> Open a text file
-   subroutine open_text(file, unit, bytes, error)
+   subroutine open_text(file, reader, bytes, error)
       !> Path of the file
       character(len=*), intent(in) :: file
-      !> Its unit, for unformatted stream access; 0 after an error
-      integer, intent(out) :: unit
+      !> The file; not open after an error
+      type(reader_type), intent(out) :: reader
       !> Bytes in it
       integer(int64), intent(out) :: bytes
       !> The file is missing, unreadable or empty
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: stat
-      logical :: exists
+      logical :: ok
 
-      unit = 0
-      inquire (file=file, exist=exists, size=bytes)
-      if (.not. exists) then
+      bytes = 0
+      if (.not. file_exists(file)) then
          call raise_missing(error, file//': no such file')
          if (len_trim(odd_character(file)) > 0) error%message = error%message//'; its name has '//trim(odd_character(file))
          return
       end if
       call check_regular(file, .true., error)
       if (allocated(error)) return
-      if (bytes == 0) then
-         call raise_input(error, file//': the file is empty')
-         return
-      end if
-      open (newunit=unit, file=file, access='stream', form='unformatted', action='read', status='old', iostat=stat)
-      if (stat /= 0) then
+      call reader%open(file, ok)
+      if (ok) bytes = reader%size()
+      if (.not. ok .or. bytes < 0) then
          call raise_input(error, file//': cannot be opened for reading')
-         unit = 0
-         return
+      else if (bytes == 0) then
+         call raise_input(error, file//': the file is empty')
       end if
-      inquire (unit=unit, size=bytes)
-      if (bytes >= 0) return
-      close (unit)
-      unit = 0
-      call raise_input(error, file//': larger than 2 GiB')
+      if (allocated(error)) call reader%close()
    end subroutine open_text
 
    !> Find the lines of a text

@@ -236,6 +236,49 @@ void dondolo_read_ends(const char *path, char *first, char *last, size_t room)
    CloseHandle(file);
 }
 
+int dondolo_open_to_read(const char *path)
+{
+   HANDLE file = dondolo_thing(path, 1) == 1 ? open_file(path, GENERIC_READ, OPEN_EXISTING, 0) : INVALID_HANDLE_VALUE;
+
+   return file == INVALID_HANDLE_VALUE ? -1 : _open_osfhandle((intptr_t)file, _O_RDONLY | _O_BINARY | _O_NOINHERIT);
+}
+
+int64_t dondolo_size_of(int descriptor)
+{
+   LARGE_INTEGER size;
+
+   return GetFileSizeEx((HANDLE)_get_osfhandle(descriptor), &size) ? size.QuadPart : -1;
+}
+
+int64_t dondolo_size(const char *path)
+{
+   BY_HANDLE_FILE_INFORMATION found;
+
+   return dondolo_identify(path, &found) ? (int64_t)(((uint64_t)found.nFileSizeHigh << 32) | found.nFileSizeLow) : -1;
+}
+
+int dondolo_read(int descriptor, int64_t at, char *bytes, size_t count)
+{
+   /* ReadFile takes 32 bits. */
+   const size_t most = (size_t)1 << 30;
+
+   while (count > 0) {
+      size_t length = dondolo_read_at((HANDLE)_get_osfhandle(descriptor), (uint64_t)at, bytes, count < most ? count : most);
+
+      if (length == 0)
+         return 0;
+      bytes += length;
+      at += (int64_t)length;
+      count -= length;
+   }
+   return 1;
+}
+
+void dondolo_close_reader(int descriptor)
+{
+   _close(descriptor);
+}
+
 void dondolo_for_each(const char *folder, const char *begin, void (*action)(void *, const char *), void *data)
 {
    size_t length = strlen(folder) + strlen(begin) + 4, room = 4 * MAX_PATH;

@@ -1,6 +1,7 @@
 /* What process.c and interrupt.c do on POSIX, for Windows; see there what each function promises. */
 #ifdef _WIN32
 #include "windows_files.h"
+#include <conio.h>
 #include <io.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -49,6 +50,19 @@ int dondolo_is_terminal(int descriptor)
    DWORD mode;
 
    return GetConsoleMode((HANDLE)_get_osfhandle(descriptor), &mode) != 0;
+}
+
+/* A console that no other program is in was opened for this one and closes with it, as after a double click: show a text there
+   and wait for a key. */
+void dondolo_hold_console(const char *text)
+{
+   DWORD processes[2];
+
+   if (dondolo_is_terminal(0) && dondolo_is_terminal(1) && GetConsoleProcessList(processes, 2) == 1) {
+      fputs(text, stdout);
+      fflush(stdout);
+      _getch();
+   }
 }
 
 /* Put a word behind others as the start of the other program takes it apart, and return its end */

@@ -4,7 +4,7 @@ module dondolo_case_read_case
    use dondolo_base_kinds, only : wp
    use dondolo_base_memory, only : check_room
    use dondolo_base_paths, only : beside
-   use dondolo_base_system, only : is_folder
+   use dondolo_base_system, only : file_exists, is_folder
    use dondolo_base_text, only : brief, rounded, to_text
    use dondolo_case, only : case_type
    use dondolo_case_building_group, only : read_building_group
@@ -434,13 +434,10 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: file, hint
-      logical :: exists
-
       file = beside(path, group%file)
-      inquire (file=file, exist=exists)
       if (is_folder(file)) then
          call group%refuse(name, file//' is a folder, must be a file', no_such_file, error)
-      else if (.not. exists) then
+      else if (.not. file_exists(file)) then
          hint = ''
          if (index(path, '\') > 0) hint = '; folders must be separated by /, not \'
          call group%refuse(name, 'there is no file '//file//' (paths are relative to the case)'//hint, no_such_file, error)

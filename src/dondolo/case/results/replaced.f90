@@ -2,8 +2,10 @@
 !> Nothing of it is removed: it may be all that is left of a run.
 module dondolo_case_replaced
    use, intrinsic :: iso_c_binding, only : c_char, c_null_char, c_size_t
+   use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_base_lines, only : lines_type
    use dondolo_base_origin, only : derived_kinds, look_at_origin, origin_type, run_length
+   use dondolo_base_reader, only : reader_type
    use dondolo_base_system, only : folder_of
    use dondolo_case_result_files, only : published_run, run_suffix
    implicit none
@@ -54,20 +56,21 @@ contains
       character(len=:), allocatable, intent(out) :: case
 
       ! Settings come before the case, and a list of levels may be long.
-      integer, parameter :: room = 2**20
+      integer(int64), parameter :: room = 2_int64**20
       character(len=*), parameter :: role = '"role": "case"', name = '"path": "'
       character(len=:), allocatable :: text
-      integer :: unit, stat, bytes, at, ends
+      type(reader_type) :: reader
+      integer :: at, ends
+      logical :: ok
 
       case = ''
-      inquire (file=path, size=bytes)
-      open (newunit=unit, file=path, access='stream', form='unformatted', action='read', status='old', iostat=stat)
-      if (stat /= 0) return
-      allocate (character(len=max(0, min(bytes, room))) :: text)
-      read (unit, iostat=stat) text
-      close (unit)
+      call reader%open(path, ok)
+      if (.not. ok) return
+      allocate (character(len=min(reader%size(), room)) :: text)
+      call reader%read(1_int64, text, ok)
+      call reader%close()
       at = index(text, role)
-      if (stat /= 0 .or. at == 0) return
+      if (.not. ok .or. at == 0) return
       ends = index(text(at:), name)
       if (ends == 0) return
       at = at + ends - 1 + len(name)

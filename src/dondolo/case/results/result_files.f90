@@ -20,8 +20,8 @@ module dondolo_case_result_files
    use dondolo_base_lines, only : lines_type
    use dondolo_base_lock, only : lock_type
    use dondolo_base_origin, only : check_replaced, look_at_origin, origin_type, run_length
-   use dondolo_base_system, only : folder_of, is_folder, is_free, make_folder, remove_file, remove_folder, rename_file, &
-      & same_file, synchronize_folder, try_file, writer_type
+   use dondolo_base_system, only : file_exists, folder_of, is_folder, is_free, make_folder, remove_file, remove_folder, &
+      & rename_file, same_file, synchronize_folder, try_file, writer_type
    use dondolo_base_version, only : dondolo_version_text
    implicit none
    private
@@ -420,12 +420,10 @@ contains
       type(result_files_type), intent(in) :: files
 
       integer :: i
-      logical :: exists
 
       is_staged = .false.
       do i = 1, size(files%written)
-         inquire (file=staged(files%prefix//trim(files%written(i)%suffix), files%lock%run), exist=exists)
-         is_staged = is_staged .or. exists
+         is_staged = is_staged .or. file_exists(staged(files%prefix//trim(files%written(i)%suffix), files%lock%run))
       end do
    end function is_staged
 
