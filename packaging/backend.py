@@ -54,7 +54,7 @@ def make_editable(wheel: Path, editable: Path, sources: Path) -> None:
         for member in whole.infolist():
             content = whole.read(member)
             if member.filename.startswith("dondolo/"):
-                if member.filename.endswith((".so", ".mo")):
+                if member.filename.endswith((".so", ".pyd", ".mo")):
                     place = sources / member.filename
                     # A program that has the old one loaded keeps it.
                     place.unlink(missing_ok=True)
