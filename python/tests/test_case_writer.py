@@ -111,12 +111,15 @@ def test_a_written_case_runs_to_the_same_curve(catalogue, records, tmp_path):
     """The executable's run of a written case has the curve of the study, and the check its site."""
     wall = dd.OneSidedWall(3.0, 0.3)
     study = dd.Study(records, [0.2, 0.3, 0.45, 0.6, 0.9])
-    check = dd.check_ntc(wall, dd.Site(ag=0.2, f0=2.5, tc_star=0.35, soil="B"), knowledge_factor=1.2)
+    years = {"reference_life": 50.0, "exceedance": (0.63, 0.1, 0.05)}
+    site = dd.Site(ag=[0.08, 0.2, 0.26], f0=[2.4, 2.5, 2.5], tc_star=[0.28, 0.35, 0.36], soil="B", **years)
+    check = dd.check_ntc(wall, site, knowledge_factor=1.2)
     dd.write_case(tmp_path / "wall.nml", wall, study, catalogue=catalogue, title="A wall", check=check)
     results = dd.run_case(tmp_path / "wall.nml", progress=False)
     curve = study.run(wall, progress=False).fit()
     assert (results.fragility.theta, results.fragility.beta) == (curve.theta, curve.beta)
     assert results.check.capacities == check.capacities
+    assert results.check.site == site
     assert "height = 3" in (tmp_path / "wall.nml").read_text()
     assert "! m: height of the wall" in (tmp_path / "wall.nml").read_text()
 

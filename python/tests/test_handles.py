@@ -194,7 +194,8 @@ def test_a_study_keeps_its_suite():
     )
     del suite, record
     gc.collect()
-    assert _core.stripes.plan(study.number, upload_walls((wall,)).number, 1)[-1] == 0
+    # What is sent ends with the kind of an error, else with the number of names, negative.
+    assert _core.stripes.plan(study.number, upload_walls((wall,)).number, 1)[-1] <= 0
 
 
 def test_what_was_uploaded_is_not_pickled(few):

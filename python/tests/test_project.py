@@ -346,6 +346,13 @@ def test_results_of_functions_have_specified_lengths(root):
     assert found == set()
 
 
+def test_no_positions_of_what_the_library_sends(root):
+    """What it sends is found by its names, whatever its order there; only whole lists have none."""
+    files = set(root.glob("python/dondolo/**/*.py")) - {root / "python/dondolo/_fortran/library.py"}
+    by_place = re.compile(r"(?:parcel|receive\(.*\))\.(?:integers|reals|lines)\)?(?:\[|\.reshape|\.tolist)")
+    assert [file.name for file in files if by_place.search(file.read_text())] == []
+
+
 def test_no_submodules(root):
     """For each module that reaches one gfortran 12 writes a second file; at some of them it fails."""
     files = [file for folder in ("src", "app", "python/dondolo") for file in root.glob(f"{folder}/**/*.[fF]90")]

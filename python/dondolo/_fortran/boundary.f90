@@ -1,16 +1,19 @@
 !> What the procedures that f2py reads share: checks of what crosses, lines of text, curves, solver and responses.
 module dondolo_boundary
    use, intrinsic :: iso_c_binding, only : c_double, c_int
-   use dondolo_base_error, only : error_type
+   use dondolo_base_error, only : error_type, raise_input
    use dondolo_base_lines, only : lines_type
    use dondolo_base_memory, only : check_memory => check_room
+   use dondolo_base_property, only : is_list, is_text, property_type
+   use dondolo_base_settings, only : group_settings_type, new_settings
+   use dondolo_base_text, only : to_text
    use dondolo_fragility, only : fragility_type
    use dondolo_motion_response, only : response_type
    use dondolo_motion_solver, only : solver_type
    implicit none
    private
 
-   public :: check_room, next_line, split_lines, as_curve, as_solver, unpack_response
+   public :: check_room, next_line, split_lines, as_curve, as_settings, as_solver, unpack_response
 
    !> What each thing that is worked on takes at most, all that is copied and sent included [bytes]
    real(c_double), parameter :: bytes_of_wall = 4000.0_c_double, bytes_of_record = 2000.0_c_double, &
@@ -71,11 +74,56 @@ contains
       end do
    end subroutine split_lines
 
+   !> Values of a group, which Python puts in the order of the group's table
+   subroutine as_settings(settings, table, texts, numbers, given, error)
+      !> Its settings: what is given
+      type(group_settings_type), intent(inout) :: settings
+      !> Its table
+      type(property_type), target, intent(in) :: table(:)
+      !> A line for each text; empty: not given
+      character(len=*), intent(in) :: texts
+      !> All numbers that are given
+      real(c_double), intent(in) :: numbers(:)
+      !> How many values each number has: of a list any number, else 1 or 0
+      integer(c_int), intent(in) :: given(:)
+      !> Numbers of another table
+      type(error_type), allocatable, intent(out) :: error
+
+      character(len=:), allocatable :: text
+      integer :: k, at, number, next
+
+      if (size(given) /= count(table%kind /= is_text) .or. any(given < 0) .or. sum(given) > size(numbers)) then
+         call raise_input(error, 'values: must be '//to_text(count(table%kind /= is_text))//' numbers')
+         return
+      end if
+      call new_settings(settings, table)
+      at = 1
+      number = 0
+      next = 1
+      do k = 1, size(table)
+         associate (property => table(k))
+            if (property%kind == is_text) then
+               call next_line(texts, at, text)
+               if (len(text) > 0) call settings%set(trim(property%name), text)
+               cycle
+            end if
+            number = number + 1
+            if (given(number) < 1) cycle
+            if (property%kind == is_list) then
+               call settings%set(trim(property%name), numbers(next:next + given(number) - 1))
+            else
+               call settings%set(trim(property%name), numbers(next))
+            end if
+            next = next + given(number)
+         end associate
+      end do
+   end subroutine as_settings
+
    !> Settings of the computation
    pure function as_solver(engine, settings) result(solver)
       !> Engine
       character(len=*), intent(in) :: engine
-      !> rtol, atol, edp_limit; 1 where errors are to be estimated, 1 where collapses alone are wanted, else 0
+      !> Settings of histories.py, in their order; 1 for what is wanted, else 0
       real(c_double), intent(in) :: settings(5)
       !> The settings
       type(solver_type) :: solver

@@ -2,12 +2,10 @@
 module buildings
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use, intrinsic :: iso_fortran_env, only : int64
-   use dondolo_base_error, only : error_type, problems_type, raise_input
-   use dondolo_base_property, only : is_list
-   use dondolo_base_settings, only : group_settings_type, new_settings
+   use dondolo_base_error, only : error_type, problems_type
+   use dondolo_base_settings, only : group_settings_type
    use dondolo_base_settings_check, only : check_settings
-   use dondolo_base_text, only : to_text
-   use dondolo_boundary, only : check_room
+   use dondolo_boundary, only : as_settings, check_room
    use dondolo_building, only : building_type
    use dondolo_building_floor_motion, only : filter_record, floor_samples
    use dondolo_building_input, only : building_properties, new_building
@@ -25,9 +23,8 @@ module buildings
 
 contains
 
-   !> Reals: of each mode its damping and its participation factor times its shape at the base and at the top; damping and
-   !> participation of the diaphragm, 0 of none; how long the floor vibrates after a record [s]. The numbers are those that were
-   !> given, in the order of the table, and how many each has
+   !> Of each mode its damping and its participation factor times its shape at the base and at the top; damping and participation
+   !> of the diaphragm, 0 of none; how long the floor vibrates after a record [s]. Numbers are as as_settings takes them
    subroutine describe_building(numbers, n, given, q, sent)
       integer(c_int), intent(in) :: n, q, given(q)
       real(c_double), intent(in) :: numbers(n)
@@ -37,13 +34,18 @@ contains
       type(error_type), allocatable :: error
 
       call set_building(building, numbers, given, error)
-      if (.not. allocated(error)) parcel%reals = [building%damping, building%participation, building%participation_top, &
-         & building%diaphragm%damping, building%diaphragm%participation, building%free_vibration()]
+      if (.not. allocated(error)) then
+         call parcel%put('damping', building%damping)
+         call parcel%put('participation', building%participation)
+         call parcel%put('participation_top', building%participation_top)
+         call parcel%put('diaphragm_damping', building%diaphragm%damping)
+         call parcel%put('diaphragm_participation', building%diaphragm%participation)
+         call parcel%put('free_vibration', building%free_vibration())
+      end if
       call send(parcel, error, sent)
    end subroutine describe_building
 
-   !> Motion of the floor under a record, which has a vertical component where m = k. Integers: into how many parts each step
-   !> is divided; reals: its samples, and those of its vertical component
+   !> Motion of the floor under a record, which has a vertical component where m = k: as put_motion has it
    subroutine floor_motion(acceleration, k, vertical, m, dt, numbers, n, given, q, sent)
       !f2py threadsafe
       integer(c_int), intent(in) :: k, m, n, q, given(q)
@@ -59,8 +61,7 @@ contains
    end subroutine floor_motion
 
    !> The motion that a wall on a building feels under a record, which has a vertical component where m = k, or the motion of its
-   !> supports: 'felt', 'base' or 'top'. Integers: into how many parts each step is divided; reals: its samples, and those of its
-   !> vertical component
+   !> supports: 'felt', 'base' or 'top'
    subroutine felt_motion(acceleration, k, vertical, m, dt, walls, what, sent)
       !f2py threadsafe
       integer(c_int), intent(in) :: k, m
@@ -119,7 +120,8 @@ contains
       call send(parcel, error, sent)
    end subroutine drift_note
 
-   !> Put the motion that a building makes of a record
+   !> Put the motion that a building makes of a record: into how many parts each step is divided, its samples, and those of its
+   !> vertical component, if there is one
    subroutine put_motion(building, acceleration, vertical, dt, parcel, error)
       type(building_type), intent(in) :: building
       !> Motion of the ground [m/s2]; there is a vertical one if both have as many samples
@@ -137,42 +139,25 @@ contains
       if (.not. allocated(error)) call check_room(error, samples=floor_samples(building, ground))
       if (.not. allocated(error)) call filter_record(building, ground, floor, error)
       if (allocated(error)) return
-      parcel%integers = [building%parts(dt)]
-      parcel%reals = floor%acceleration
-      if (has_vertical) parcel%reals = [floor%acceleration, floor%vertical]
+      call parcel%put('parts', building%parts(dt))
+      call parcel%put('acceleration', floor%acceleration)
+      if (has_vertical) call parcel%put('vertical', floor%vertical)
    end subroutine put_motion
 
    !> Make a building
    subroutine set_building(building, numbers, given, error)
       type(building_type), intent(out) :: building
-      !> All numbers that were given, in the order of the table
+      !> Values of building_properties, as as_settings takes them
       real(c_double), intent(in) :: numbers(:)
-      !> How many values each has: of a list any number, else 1 or 0
       integer(c_int), intent(in) :: given(:)
       !> Everything that is wrong
       type(error_type), allocatable, intent(out) :: error
 
       type(group_settings_type) :: settings
       type(problems_type) :: problems
-      integer :: k, next
 
-      if (size(given) /= size(building_properties) .or. any(given < 0) .or. sum(given) > size(numbers)) then
-         call raise_input(error, 'building: must have '//to_text(size(building_properties))//' numbers')
-         return
-      end if
-      call new_settings(settings, building_properties)
-      next = 1
-      do k = 1, size(given)
-         if (given(k) < 1) cycle
-         associate (property => building_properties(k))
-            if (property%kind == is_list) then
-               call settings%set(property%name, numbers(next:next + given(k) - 1))
-            else
-               call settings%set(property%name, numbers(next))
-            end if
-         end associate
-         next = next + given(k)
-      end do
+      call as_settings(settings, building_properties, '', numbers, given, error)
+      if (allocated(error)) return
       call check_settings(settings, problems)
       if (problems%count == 0) call new_building(building, settings, problems)
       call problems%raise(error)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from dondolo._base.arguments import FloatArray, as_array, as_number
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
-from dondolo._fortran.library import properties, receive
+from dondolo._fortran.library import flat_values, properties, receive
 
 
 class BuildingData(NamedTuple):
@@ -45,11 +45,10 @@ def building_values(values: Mapping[str, Any]) -> dict[str, Any]:
 
 def describe_building(values: Mapping[str, Any]) -> BuildingData:
     """Let Fortran check a building and work out its modes."""
-    reals = receive(_core.buildings.describe_building(*_flat(values))).reals.tolist()
-    *modes, damping, participation, free_vibration = reals
-    number = len(modes) // 3
-    damped, base, top = (tuple(modes[i * number : (i + 1) * number]) for i in range(3))
-    return BuildingData(damped, base, top, (damping, participation), free_vibration)
+    parcel = receive(_core.buildings.describe_building(*_flat(values)))
+    modes = {name: tuple(parcel[name].tolist()) for name in ("damping", "participation", "participation_top")}
+    diaphragm = parcel["diaphragm_damping"], parcel["diaphragm_participation"]
+    return BuildingData(**modes, diaphragm=diaphragm, free_vibration=parcel["free_vibration"])
 
 
 # Horizontal and vertical motion [m/s2], and into how many parts the steps of a record are divided
@@ -88,18 +87,12 @@ def _or_one(vertical: FloatArray | None) -> FloatArray:
 def _motion(sent: Any, has_vertical: bool) -> Motion:
     """A motion out of its parcel."""
     parcel = receive(sent)
-    parts = int(parcel.integers[0])
-    if not has_vertical:
-        return parcel.reals, None, parts
-    horizontal, upwards = np.split(parcel.reals, 2)
-    return horizontal, upwards, parts
+    return parcel["acceleration"], parcel["vertical"] if has_vertical else None, parcel["parts"]
 
 
 def _flat(values: Mapping[str, Any]) -> tuple[FloatArray, NDArray[np.int32]]:
-    """Numbers that are given, and how many each property has of them."""
-    lists = [np.atleast_1d(() if values[name] is None else values[name]) for name in BUILDING_NAMES]
-    # f2py takes no empty arrays
-    return np.concatenate([*lists, [0.0]]), np.array([len(own) for own in lists], dtype=np.int32)
+    _, numbers, given = flat_values(BUILDING_PROPERTIES, values)
+    return numbers, given
 
 
 BUILDING_PROPERTIES = properties("building")

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dondolo._base.arguments import FloatArray
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
-from dondolo._fortran.library import Parcel, check, receive, unpack_warnings, warn
+from dondolo._fortran.library import check, flat_values, properties, receive, unpack_warnings, warn
+from dondolo._fortran.tables import FlatCurve, TableColumns, flat_curves, plain, text_lines, unpack_table
 from dondolo.errors import DondoloWarning
 
 #: Limit states: damage, life safety, collapse
@@ -100,51 +102,100 @@ class CalculationItem(NamedTuple):
 
 
 class SiteInput(NamedTuple):
-    """What a user says of a check, as Fortran takes it."""
+    """Values of ``&check`` as Fortran takes them (`flat_values`)."""
 
     texts: bytes
     numbers: FloatArray
-    given: tuple[int, int, int, int]
+    given: NDArray[np.int32]
 
 
-def ntc_parameters(site: SiteInput, state: str) -> FloatArray:
-    """a_g S [g], F_0, T_B, T_C and T_D [s] of the spectrum of NTC 2018 in a limit state."""
-    parameters, failure = _core.checks.ntc_parameters(*site, STATES.index(state) + 1)
-    check(failure)
-    return np.asarray(parameters)
+class CodeParameters(NamedTuple):
+    """The elastic spectrum of a code.
+
+    Attributes
+    ----------
+    pga : float
+        a_g S [g].
+    amplification : float
+        F_0; 2.5 in Eurocode 8.
+    corners : ndarray, shape (3,)
+        T_B, T_C and T_D [s].
+    """
+
+    pga: float
+    amplification: float
+    corners: FloatArray
 
 
-def code_spectrum(
-    parameters: Sequence[float] | FloatArray, damping: float, modes: FloatArray, periods: FloatArray
-) -> FloatArray:
-    """Ordinates [g] of the spectrum of a code at periods [s]; with modes, of shape (modes, 3), that of a floor."""
-    return np.asarray(_core.checks.code_spectrum(parameters, damping, modes.ravel(), periods))
+class Modes(NamedTuple):
+    """Modes of a building at a floor: periods [s], damping ratios, and participation factors times shape."""
+
+    period: FloatArray
+    damping: FloatArray
+    participation: FloatArray
+
+
+NO_MODES = Modes(np.empty(0), np.empty(0), np.empty(0))
+
+
+def site_input(values: Mapping[str, Any]) -> SiteInput:
+    """Values of ``&check`` by their names; the code has one default."""
+    return SiteInput(*flat_values(properties("check"), {"code": None, **values}))
+
+
+def ntc_parameters(site: SiteInput, state: str) -> CodeParameters:
+    """The spectrum of the ground of NTC 2018 in a limit state."""
+    parcel = receive(_core.checks.ntc_parameters(*site, STATES.index(state) + 1))
+    return CodeParameters(**parcel.named(CodeParameters._fields))
+
+
+def code_spectrum(parameters: CodeParameters, damping: float, modes: Modes, periods: FloatArray) -> FloatArray:
+    """Ordinates [g] of the spectrum of a code at periods [s]; with modes, that of a floor."""
+    # f2py takes no empty arrays
+    flat = {f"mode_{name}": np.append(values, 0.0) for name, values in modes._asdict().items()}
+    own = {**parameters._asdict(), "damping": damping, "periods": periods, "modes": len(modes.period)}
+    return np.asarray(_core.checks.code_spectrum(**own, **flat))
 
 
 def kinematic_sheet(wall: Handle, site: SiteInput) -> tuple[SheetRow, ...]:
     """The sheet of a kinematic check; warns of a wall that is most likely a slip."""
     parcel = receive(_core.checks.check_ntc(wall.number, *site))
-    warn(unpack_warnings(parcel.lines[len(parcel.reals) :]))
-    return _rows(parcel)
+    warn(unpack_warnings(parcel["warnings"]))
+    return sheet_rows(plain(unpack_table(parcel, "table")))
 
 
 def dynamic_sheet(wall: Handle, state: str, pga: float, records: int, edp: FloatArray) -> tuple[SheetRow, ...]:
     """The sheet of the criterion for time histories in a limit state."""
-    return _rows(receive(_core.checks.check_histories(wall.number, STATES.index(state) + 1, pga, records, edp)))
+    parcel = receive(_core.checks.check_histories(wall.number, STATES.index(state) + 1, pga, records, edp))
+    return sheet_rows(plain(unpack_table(parcel, "table")))
+
+
+def sheet_rows(columns: Mapping[str, Any]) -> tuple[SheetRow, ...]:
+    """The rows of a sheet out of the columns of ``_check.csv``."""
+    rows = [columns[name].tolist() if name == "value" else columns[name] for name in SheetRow._fields]
+    return tuple(map(SheetRow, *rows))
+
+
+def check_columns(walls: Handle, site: SiteInput, im: str, curves: Sequence[FlatCurve]) -> TableColumns:
+    """Columns of ``_checks.csv`` of walls without groups, with their curves of collapse."""
+    kinds = text_lines(curve.errors for curve in curves)
+    sent = _core.checks.check_table(walls.number, *site, im.encode(), kinds, *flat_curves(curves))
+    return unpack_table(receive(sent), "table")
 
 
 def check_notes(rows: Sequence[SheetRow]) -> tuple[DondoloWarning, ...]:
     """What a reader of a sheet should know."""
-    lines = "\n".join(f"{row.method}\t{row.limit_state}\t{row.quantity}\t{row.item}" for row in rows)
+    names = ("method", "limit_state", "quantity", "item")
+    texts = {name: text_lines(getattr(row, name) for row in rows) for name in names}
     values = np.array([row.value for row in rows], float)
-    return tuple(unpack_warnings(receive(_core.checks.check_notes(lines.encode(), values)).lines))
+    return tuple(unpack_warnings(receive(_core.checks.check_notes(values=values, **texts)).lines))
 
 
 def calculation_items(wall: Handle) -> tuple[CalculationItem, ...]:
     """The items of the kinematic check of a wall."""
     parcel = receive(_core.checks.calculation_items(wall.number))
-    numbers = np.reshape(parcel.reals, (len(parcel.lines), -1)).tolist()
-    return tuple(CalculationItem(name, *row) for name, row in zip(parcel.lines, numbers, strict=True))
+    names, *numbers = CalculationItem._fields
+    return tuple(map(CalculationItem, parcel[names], *(parcel[name].tolist() for name in numbers)))
 
 
 def capacity_curve(wall: Handle, knowledge_factor: float, points: int) -> tuple[FloatArray, FloatArray]:
@@ -152,12 +203,3 @@ def capacity_curve(wall: Handle, knowledge_factor: float, points: int) -> tuple[
     displacements, accelerations, failure = _core.checks.capacity_curve(wall.number, knowledge_factor, points)
     check(failure)
     return np.asarray(displacements), np.asarray(accelerations)
-
-
-def _rows(parcel: Parcel) -> tuple[SheetRow, ...]:
-    """Lines of a sheet."""
-    rows = []
-    for line, value in zip(parcel.lines[: len(parcel.reals)], parcel.reals.tolist(), strict=True):
-        method, state, quantity, symbol, unit, *words = line.split("\t")
-        rows.append(SheetRow(method, state, quantity, symbol, value, unit, *words))
-    return tuple(rows)

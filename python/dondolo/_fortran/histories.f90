@@ -34,16 +34,15 @@ module histories
 
 contains
 
-   !> One motion; with history = 1 also the parcel of its rows: time, ground acceleration, rotation, velocity; as integers
-   !> side and whether it is just after an impact. Times of yield and of fracture of the ties follow, negative for never.
-   !> The initial state is rotation and velocity
-   subroutine simulate(walls, suite, number, scale, engine, settings, initial, history, &
+   !> One motion; with history = 1 also the columns of its rows, and of each tie the times of its yield and of its fracture,
+   !> negative for never
+   subroutine simulate(walls, suite, number, scale, engine, settings, initial_rotation, initial_velocity, history, &
          & edp, collapsed, impacts, time_of_peak, edp_error, sent)
       !f2py threadsafe
       integer(c_int64_t), intent(in) :: walls, suite
       character(len=*), intent(in) :: engine
       integer(c_int), intent(in) :: number, history
-      real(c_double), intent(in) :: scale, settings(5), initial(2)
+      real(c_double), intent(in) :: scale, settings(5), initial_rotation, initial_velocity
       real(c_double), intent(out) :: edp, time_of_peak, edp_error
       integer(c_int), intent(out) :: collapsed, impacts
       integer(c_int64_t), intent(out) :: sent(5)
@@ -62,7 +61,7 @@ contains
       solver = as_solver(engine, settings)
       if (.not. allocated(error)) call check_scale(records, number, scale, error)
       if (.not. allocated(error)) call find_motions(wall(1), records, 1, own, motions, error)
-      state = initial_state_type(initial(1), initial(2))
+      state = initial_state_type(initial_rotation, initial_velocity)
       if (.not. allocated(error)) then
          if (history == 1) then
             call simulate_wall(wall(1)%mechanism, motions%records(number), scale, solver, response, error, trace, &
@@ -73,9 +72,14 @@ contains
       end if
       if (.not. allocated(error) .and. history == 1) call check_memory(bytes_of_row*real(trace%rows, c_double), error)
       if (.not. allocated(error) .and. history == 1) then
-         parcel%reals = [trace%time, trace%acceleration, trace%rotation, trace%velocity, trace%ties%time_of_yield, &
-            & trace%ties%time_of_fracture]
-         parcel%integers = [nint(trace%side), merge(1, 0, trace%after_impact)]
+         call parcel%put('time', trace%time)
+         call parcel%put('ground_acceleration', trace%acceleration)
+         call parcel%put('rotation', trace%rotation)
+         call parcel%put('velocity', trace%velocity)
+         call parcel%put('side', nint(trace%side))
+         call parcel%put('after_impact', merge(1, 0, trace%after_impact))
+         call parcel%put('time_of_yield', trace%ties%time_of_yield)
+         call parcel%put('time_of_fracture', trace%ties%time_of_fracture)
       end if
       call unpack_response(response, edp, collapsed, impacts, time_of_peak, edp_error)
       call send(parcel, error, sent)

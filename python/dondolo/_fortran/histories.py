@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import functools
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,33 +14,32 @@ from dondolo._fortran.library import check, constants, receive, unpack_warnings
 from dondolo.errors import DondoloWarning
 
 
+class Settings(NamedTuple):
+    """Numbers of the solver, in Fortran's order (as_solver)."""
+
+    rtol: float
+    atol: float
+    edp_limit: float
+    estimate_error: bool
+    collapses_only: bool
+
+
 def settings(
     rtol: float | None,
     atol: float | None,
     edp_limit: float | None,
     estimate_error: bool = False,
     collapses_only: bool = False,
-) -> FloatArray:
-    """rtol, atol and edp_limit, with Fortran's own defaults where there is None, and 1 or 0 for each of the others."""
-    estimate_error, collapses_only = as_flag("estimate_error", estimate_error), bool(collapses_only)
-    if rtol is None and atol is None and edp_limit is None and not estimate_error and not collapses_only:
-        return _default_settings()
+) -> Settings:
+    """Settings with Fortran's own defaults where there is None."""
     default = constants()
-    return np.array(
-        [
-            default.rtol if rtol is None else as_number("rtol", rtol),
-            default.atol if atol is None else as_number("atol", atol),
-            default.edp_limit if edp_limit is None else as_number("edp_limit", edp_limit),
-            float(estimate_error),
-            float(collapses_only),
-        ]
+    return Settings(
+        rtol=default.rtol if rtol is None else as_number("rtol", rtol),
+        atol=default.atol if atol is None else as_number("atol", atol),
+        edp_limit=default.edp_limit if edp_limit is None else as_number("edp_limit", edp_limit),
+        estimate_error=as_flag("estimate_error", estimate_error),
+        collapses_only=bool(collapses_only),
     )
-
-
-@functools.cache
-def _default_settings() -> FloatArray:
-    default = constants()
-    return np.array([default.rtol, default.atol, default.edp_limit, 0.0, 0.0])
 
 
 def is_doubtful(edp: FloatArray, edp_error: FloatArray, edp_limit: float) -> NDArray[np.bool_]:

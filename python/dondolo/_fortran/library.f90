@@ -38,34 +38,42 @@ module library
 contains
 
    !> Version, defaults and limits that Python must not repeat
-   subroutine constants(longest, fewest, fitted, defaults, version, commit, statuses, errors)
-      ! Bytes of a name, clusters that standard errors need, and how many of the statuses, the first ones, have a curve
-      integer(c_int), intent(out) :: longest, fewest, fitted
-      ! rtol, atol, edp_limit, gravity; the part of a distribution that must be left where it is cut off, and of a level by
-      ! which another differs; likelihood ratio from which on a slope is significant; by how much a sum of probabilities may miss 1
-      real(c_double), intent(out) :: defaults(8)
-      character(len=32), intent(out) :: version
-      character(len=48), intent(out) :: commit
-      character(len=256), intent(out) :: statuses, errors
+   subroutine constants(sent)
+      integer(c_int64_t), intent(out) :: sent(5)
       type(solver_type) :: solver
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+
+      call parcel%put('longest_name', longest_name)
+      call parcel%put('fewest_clusters', fewest_clusters)
+      call parcel%put('rtol', solver%rtol)
+      call parcel%put('atol', solver%atol)
+      call parcel%put('edp_limit', solver%edp_limit)
+      call parcel%put('gravity', standard_gravity)
+      call parcel%put('least_share', least_share)
+      call parcel%put('same_level', same_level)
+      call parcel%put('least_ratio', least_ratio)
+      call parcel%put('sum_tolerance', sum_tolerance)
+      call parcel%put('version', dondolo_version_text)
+      call parcel%put('commit', build_commit())
+      call put_words(parcel, 'statuses', fit_status_names)
+      call put_words(parcel, 'fitted', fit_status_names(:statuses_with_curve))
+      call put_words(parcel, 'errors', error_names)
+      call send(parcel, error, sent)
+   end subroutine constants
+
+   !> Put words in under a name
+   subroutine put_words(parcel, name, words)
+      type(parcel_type), intent(inout) :: parcel
+      character(len=*), intent(in) :: name, words(:)
+      type(lines_type) :: lines
       integer :: i
 
-      longest = longest_name
-      fewest = fewest_clusters
-      fitted = statuses_with_curve
-      defaults = [solver%rtol, solver%atol, solver%edp_limit, standard_gravity, least_share, same_level, &
-         & least_ratio, sum_tolerance]
-      version = dondolo_version_text
-      commit = build_commit()
-      statuses = ''
-      do i = 1, size(fit_status_names)
-         statuses = trim(statuses)//' '//fit_status_names(i)
+      do i = 1, size(words)
+         call lines%add(trim(words(i)))
       end do
-      errors = ''
-      do i = 1, size(error_names)
-         errors = trim(errors)//' '//error_names(i)
-      end do
-   end subroutine constants
+      call parcel%put(name, lines)
+   end subroutine put_words
 
    !> The table of properties of a group, one of table_names; a line for each, its entries separated by tabs
    !> (describe_property)

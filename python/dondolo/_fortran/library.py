@@ -13,7 +13,7 @@ import re
 import sys
 import threading
 import warnings
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -36,7 +36,26 @@ _SUPERSCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
 
 class Constants(NamedTuple):
-    """What Fortran says of itself."""
+    """What Fortran says of itself.
+
+    Attributes
+    ----------
+    longest_name, fewest_clusters : int
+        Bytes of a name, and clusters that standard errors need.
+    rtol, atol, edp_limit, gravity : float
+        Defaults.
+    least_share : float
+        Part of a distribution that must be left where it is cut off.
+    same_level : float
+        Part of a level by which another differs.
+    least_ratio : float
+        Likelihood ratio from which on a slope is significant.
+    sum_tolerance : float
+        By how much a sum of probabilities may miss 1.
+    version, commit : str
+    statuses, fitted, errors : tuple of str
+        Statuses of fits, those that have a curve, and kinds of standard errors.
+    """
 
     longest_name: int
     fewest_clusters: int
@@ -119,6 +138,10 @@ class Parcel:
             return found if shape else found[0]
         return found.reshape(lengths) if shape else found[0].item()
 
+    def named(self, names: Iterable[str]) -> dict[str, Any]:
+        """What has these names, by name."""
+        return {name: self[name] for name in names}
+
     def series(self, length: int) -> FloatArray:
         """Its next series, an array of its own; all of them must be taken, each once."""
         values: FloatArray = _core.library.take_series(self.address, length)
@@ -136,28 +159,9 @@ _NOTHING = Parcel(np.empty(0, dtype=np.int32), np.empty(0), [], 0)
 @functools.cache
 def constants() -> Constants:
     """Ask Fortran for its version, defaults and the names of its statuses."""
-    longest, fewest, fitted, defaults, version, commit, statuses, errors = _core.library.constants()
-    names = tuple(statuses.decode().split())
-    rtol, atol, edp_limit, gravity, least_share, same_level, least_ratio, sum_tolerance = (
-        float(value) for value in defaults
-    )
-    return Constants(
-        int(longest),
-        int(fewest),
-        rtol,
-        atol,
-        edp_limit,
-        gravity,
-        least_share,
-        same_level,
-        least_ratio,
-        sum_tolerance,
-        version=version.decode().strip(),
-        commit=commit.decode().strip(),
-        statuses=names,
-        fitted=names[:fitted],
-        errors=tuple(errors.decode().split()),
-    )
+    parcel = receive(_core.library.constants())
+    words: dict[str, Any] = {name: tuple(parcel[name]) for name in ("statuses", "fitted", "errors")}
+    return Constants(**parcel.named(Constants._fields) | words)
 
 
 @functools.cache
@@ -184,6 +188,18 @@ def _property(*entries: str) -> Property:
         meaning,
         None if float(absent) == sys.float_info.max else float(absent),
     )
+
+
+def flat_values(rows: Sequence[Property], values: Mapping[str, Any]) -> tuple[bytes, FloatArray, NDArray[np.int32]]:
+    """Values of a group as Fortran takes them: texts, numbers, and how many values each number has; None is not given.
+
+    All are in the order of the group's table, which Fortran has too.
+    """
+    texts = [row.name for row in rows if row.kind == "text"]
+    lists = [np.atleast_1d(() if values[row.name] is None else values[row.name]) for row in rows if row.kind != "text"]
+    words = b"\n".join(b"" if values[name] is None else as_text(name, values[name]) for name in texts)
+    # f2py takes no empty arrays
+    return words, np.concatenate([*lists, [0.0]]), np.array([len(own) for own in lists], dtype=np.int32)
 
 
 def with_units(group: str, facts: Iterable[tuple[str, str]]) -> list[tuple[str, str]]:

@@ -267,7 +267,7 @@ contains
 
       sent = 0
       if (.not. (allocated(error) .or. allocated(parcel%integers) .or. allocated(parcel%reals) .or. &
-         & parcel%lines%count > 0)) return
+         & parcel%lines%count > 0 .or. parcel%names%count > 0)) return
       allocate (content)
       allocate (content%integers(0), content%reals(0))
       if (allocated(error)) then

@@ -111,7 +111,11 @@ contains
       if (.not. allocated(error)) call new_record(record, acceleration, dt, '', error)
       if (.not. allocated(error)) call check_vertical_motion(vertical, error)
       if (.not. allocated(error)) call record%set_vertical(vertical, vertical_dt, factor, error)
-      if (.not. allocated(error)) parcel%reals = [record%dt, record%acceleration, record%vertical]
+      if (.not. allocated(error)) then
+         call parcel%put('dt', record%dt)
+         call parcel%put('acceleration', record%acceleration)
+         call parcel%put('vertical', record%vertical)
+      end if
       call send(parcel, error, sent)
    end subroutine join_vertical
 
@@ -133,8 +137,8 @@ contains
       call report(error, failure)
    end subroutine check_motions
 
-   !> What metadata say of the earthquake of a record: three lines of text, its name or origin, the label of the cluster, and
-   !> the date, each empty if it is not known
+   !> What metadata say of the earthquake of a record: its name or origin, the label of the cluster, and the date, each empty if
+   !> it is not known
    subroutine labels_of(metadata, n, sent)
       !> Keys and values in turn, one a line, and how many pairs
       character(len=*), intent(in) :: metadata
@@ -153,17 +157,16 @@ contains
          call known%set(key, label)
       end do
       call find_earthquake(known, label)
-      call parcel%lines%add(label)
+      call parcel%put('earthquake', label)
       call cluster_label(known, label)
-      call parcel%lines%add(label)
+      call parcel%put('cluster', label)
       call find_date(known, label)
-      call parcel%lines%add(label)
+      call parcel%put('date', label)
       call send(parcel, error, sent)
    end subroutine labels_of
 
-   !> Name as dondolo writes it, unit of the levels and words of an intensity measure: three lines of text; and the power of a
-   !> record's scale that it grows by: an integer. With of_record = 1 those that records have of themselves, durations too;
-   !> else those that records can be scaled by
+   !> An intensity measure, with of_record = 1 one of those that records have of themselves, durations too; else of those that
+   !> records can be scaled by
    subroutine describe_measure(im, of_record, sent)
       character(len=*), intent(in) :: im
       integer(c_int), intent(in) :: of_record
@@ -180,19 +183,27 @@ contains
       end if
       if (.not. allocated(error)) then
          if (of_record == 1) then
-            call parcel%lines%add(measure%name)
-            call parcel%lines%add(measure%unit())
-            call parcel%lines%add(measure%title())
-            parcel%integers = [measure%power()]
+            call put_measure(parcel, measure%name, measure%unit(), measure%title(), measure%power())
          else
-            call parcel%lines%add(scaling%name)
-            call parcel%lines%add(scaling%unit())
-            call parcel%lines%add(scaling%title())
-            parcel%integers = [scaling%measure%power()]
+            call put_measure(parcel, scaling%name, scaling%unit(), scaling%title(), scaling%measure%power())
          end if
       end if
       call send(parcel, error, sent)
    end subroutine describe_measure
+
+   !> Put an intensity measure
+   subroutine put_measure(parcel, name, unit, title, power)
+      type(parcel_type), intent(inout) :: parcel
+      !> Name as dondolo writes it, unit of its levels, and what it is in words
+      character(len=*), intent(in) :: name, unit, title
+      !> Power of a record's scale that it grows by
+      integer, intent(in) :: power
+
+      call parcel%put('name', name)
+      call parcel%put('unit', unit)
+      call parcel%put('title', title)
+      call parcel%put('power', power)
+   end subroutine put_measure
 
    !> Intensities of the records of a suite, in the unit of the levels
    subroutine intensities(suite, im, r, gravity, threads, values, failure)

@@ -109,8 +109,7 @@ def describe_measure(im: str, of_record: bool = False) -> MeasureData:
 @functools.cache
 def _describe_measure(im: bytes, of_record: bool) -> MeasureData:
     parcel = receive(_core.records.describe_measure(im, int(of_record)))
-    name, unit, title = parcel.lines
-    return MeasureData(name, unit, title, int(parcel.integers[0]))
+    return MeasureData(**parcel.named(MeasureData._fields))
 
 
 def name_of_measure(im: str) -> str:

@@ -93,11 +93,13 @@ contains
    end subroutine pack_table
 
    !> Send a table, as 'table'
-   subroutine send_table(table, error, sent)
+   subroutine send_table(table, error, sent, warnings)
       type(columns_type), intent(inout) :: table
       !> Lack of memory: may be that of the table
       type(error_type), allocatable, intent(inout) :: error
       integer(c_int64_t), intent(out) :: sent(5)
+      !> Warnings that come with it, an object each, as 'warnings'
+      type(lines_type), intent(in), optional :: warnings
 
       type(parcel_type) :: parcel
 
@@ -105,6 +107,7 @@ contains
       if (.not. allocated(error)) then
          call parcel%expect_series(number_columns(table))
          call pack_table(table, 'table', parcel)
+         if (present(warnings)) call parcel%put('warnings', warnings)
       end if
       call send(parcel, error, sent)
    end subroutine send_table

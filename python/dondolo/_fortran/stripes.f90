@@ -3,6 +3,7 @@ module stripes
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_base_error, only : add_place, error_type
    use dondolo_base_interrupt, only : check_interrupt, watch, watched
+   use dondolo_base_lines, only : lines_type
    use dondolo_base_text, only : to_text
    use dondolo_base_threads, only : check_threads, team_of
    use dondolo_base_warning, only : warnings_type
@@ -123,11 +124,10 @@ contains
       call report(error, failure)
    end subroutine runs_of_records
 
-   !> Check what stripes of walls would be, without running them. The parcel's integers are 1 if walls of the same gravity
-   !> and number of sides have the same plan, else 0, and how many warnings are of the walls alone; the histories of each
-   !> wall in a stripe in which every record runs; then of those of the last wall the record (from 0) and the polarity of
-   !> each, and, unless all run at every level, stripe by stripe 1 where it runs, else 0. Its reals are their scales, stripe
-   !> by stripe, its lines the warnings, those of the walls first
+   !> Check what stripes of walls would be, without running them: whether walls of the same gravity and number of sides have
+   !> the same plan; the warnings, those of the walls alone first, and how many these are; the histories of each wall in a
+   !> stripe in which every record runs; of those of the last wall record (from 0) and polarity, the scales, stripe by stripe,
+   !> and, unless all run at every level, which run
    subroutine plan(study, walls, w, sent)
       integer(c_int64_t), intent(in) :: study, walls
       integer(c_int), intent(in) :: w
@@ -138,6 +138,7 @@ contains
       type(scale_warnings_type) :: scales
       type(wall_warnings_type) :: wall_warnings
       type(warnings_type) :: warnings
+      type(lines_type) :: found
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
       integer :: histories(w), i, of_walls
@@ -172,13 +173,16 @@ contains
          ! Histories of one stripe whose level is the factor are points, not counts of clusters
          if (len(chosen%scaling%name) > 0) call warn_of_events(chosen%suite, warnings)
          call scales%warn(warnings)
-         parcel%integers = [merge(0, 1, chosen%scaling%needs_wall()), of_walls, histories, stripes%record - 1, stripes%polarity]
-         if (allocated(chosen%factor)) call parcel%add([merge(1, 0, stripes%ran)])
-         allocate (parcel%reals(size(stripes%scale)))
-         do i = 1, size(stripes%scale, 2)
-            parcel%reals((i - 1)*size(stripes%scale, 1) + 1:i*size(stripes%scale, 1)) = stripes%scale(:, i)
-         end do
-         call warnings%put_objects(parcel%lines)
+         call parcel%put('is_shared', merge(0, 1, chosen%scaling%needs_wall()))
+         call parcel%put('warnings_of_walls', of_walls)
+         call parcel%put('histories', histories)
+         call parcel%put('record', stripes%record - 1)
+         call parcel%put('polarity', stripes%polarity)
+         if (allocated(chosen%factor)) call parcel%put('ran', reshape(merge(1, 0, stripes%ran), [size(stripes%ran)]), &
+            & shape(stripes%ran))
+         call parcel%put('scale', reshape(stripes%scale, [size(stripes%scale)]), shape(stripes%scale))
+         call warnings%put_objects(found)
+         call parcel%put('warnings', found)
       end if
       call send(parcel, error, sent)
    end subroutine plan

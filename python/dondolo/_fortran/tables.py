@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from dondolo._base.arguments import FloatArray
 from dondolo._fortran import _core
-from dondolo._fortran.checks import SiteInput
 from dondolo._fortran.files import INTEGER, REAL, TEXT, Column
 from dondolo._fortran.handles import Handle
 from dondolo._fortran.library import Parcel, constants, receive
@@ -57,7 +56,7 @@ def wall_columns(
     walls: Handle, words: Iterable[tuple[str, str, str, str]], weights: FloatArray, p_occ: FloatArray
 ) -> TableColumns:
     """Columns of ``_walls.csv``; words are group, facade, occurrence and alternative of each wall."""
-    texts = _lines(word for own in words for word in own)
+    texts = text_lines(word for own in words for word in own)
     return _receive(_core.tables.wall_table(walls.number, texts, np.stack([weights, p_occ])))
 
 
@@ -66,7 +65,8 @@ def history_columns(
 ) -> TableColumns:
     """Columns of ``_histories.csv``; texts, numbers and what they have as tables.f90 lists them."""
     flags = np.array(has, dtype=np.int32)
-    return _receive(_core.tables.history_table(_lines(texts), im.encode(), np.array(integers), np.array(reals), flags))
+    numbers = np.array(integers), np.array(reals)
+    return _receive(_core.tables.history_table(text_lines(texts), im.encode(), *numbers, flags))
 
 
 def stripe_columns(
@@ -101,7 +101,7 @@ def fragility_columns(
         for (name, mechanism), im, curve in zip(walls, ims, curves, strict=True)
         for word in (name, mechanism, im, curve.errors)
     )
-    return _receive(_core.tables.fragility_table(_lines(words), *_flat(curves)))
+    return _receive(_core.tables.fragility_table(text_lines(words), *flat_curves(curves)))
 
 
 def typology_columns(
@@ -119,7 +119,7 @@ def typology_columns(
     """
     words = (word for part, curve in zip(parts, curves, strict=True) for word in (*part, curve.errors))
     flat = np.array(sums).T, np.array(means).T
-    return _receive(_core.tables.typology_table(_lines(words), im.encode(), levels, *_flat(curves), *flat))
+    return _receive(_core.tables.typology_table(text_lines(words), im.encode(), levels, *flat_curves(curves), *flat))
 
 
 def union_columns(
@@ -138,7 +138,7 @@ def union_columns(
     words = (word for name, both in zip(names, curves, strict=True) for word in (*name, *(one.errors for one in both)))
     numbers = np.array(mechanisms, dtype=np.int32)
     flat = (*_flat_pairs(curves), np.array(counts).T)
-    return _receive(_core.tables.union_table(_lines(words), im.encode(), levels, numbers, *flat))
+    return _receive(_core.tables.union_table(text_lines(words), im.encode(), levels, numbers, *flat))
 
 
 def tie_columns(
@@ -163,13 +163,8 @@ def design_columns(
 ) -> TableColumns:
     """Columns of ``_designs.csv``; numbers as tables.f90 lists them, NaN for none."""
     words = (word for name, curve in zip(names, curves, strict=True) for word in (name, curve.errors))
-    return _receive(_core.tables.design_table(_lines(words), im.encode(), *_flat(curves), np.nan_to_num(numbers)))
-
-
-def check_columns(walls: Handle, site: SiteInput, im: str, curves: Sequence[FlatCurve]) -> TableColumns:
-    """Columns of ``_checks.csv`` of walls without groups, with their curves of collapse."""
-    kinds = _lines(curve.errors for curve in curves)
-    return _receive(_core.checks.check_table(walls.number, *site, im.encode(), kinds, *_flat(curves)))
+    flat = (*flat_curves(curves), np.nan_to_num(numbers))
+    return _receive(_core.tables.design_table(text_lines(words), im.encode(), *flat))
 
 
 def source_columns(
@@ -185,7 +180,7 @@ def source_columns(
     words = (
         word for names, both in zip(sources, curves, strict=True) for word in (*names, *(one.errors for one in both))
     )
-    return _receive(_core.tables.source_table(_lines(words), values.T, *_flat_pairs(curves), np.array(indices)))
+    return _receive(_core.tables.source_table(text_lines(words), values.T, *_flat_pairs(curves), np.array(indices)))
 
 
 def trace_columns(reals: Sequence[Any], side: Any, after_impact: Any, capacity: float) -> TableColumns:
@@ -211,15 +206,16 @@ def _receive(sent: NDArray[np.int64]) -> TableColumns:
     return unpack_table(receive(sent), "table")
 
 
-def _lines(texts: Iterable[str]) -> bytes:
+def text_lines(texts: Iterable[str]) -> bytes:
+    """Texts as Fortran takes them, a line each."""
     return b"".join(text.encode() + b"\n" for text in texts)
 
 
 def _pairs(walls: Iterable[tuple[str, str]]) -> bytes:
-    return _lines(word for wall in walls for word in wall)
+    return text_lines(word for wall in walls for word in wall)
 
 
-def _flat(curves: Sequence[FlatCurve]) -> tuple[FloatArray, NDArray[np.int32]]:
+def flat_curves(curves: Sequence[FlatCurve]) -> tuple[FloatArray, NDArray[np.int32]]:
     """Numbers (14, curves) and codes (3, curves)."""
     names = constants().statuses
     codes = [(names.index(curve.status) + 1, curve.clusters, curve.deviance_dof) for curve in curves]
@@ -228,5 +224,5 @@ def _flat(curves: Sequence[FlatCurve]) -> tuple[FloatArray, NDArray[np.int32]]:
 
 def _flat_pairs(curves: Sequence[tuple[FlatCurve, FlatCurve]]) -> tuple[FloatArray, NDArray[np.int32]]:
     """The same of pairs: (14, 2, pairs) and (3, 2, pairs)."""
-    numbers, codes = _flat([curve for both in curves for curve in both])
+    numbers, codes = flat_curves([curve for both in curves for curve in both])
     return numbers.reshape(14, -1, 2).transpose(0, 2, 1), codes.reshape(3, -1, 2).transpose(0, 2, 1)

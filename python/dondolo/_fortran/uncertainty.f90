@@ -2,6 +2,7 @@
 module uncertainty
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_base_error, only : error_type
+   use dondolo_base_lines, only : lines_type
    use dondolo_boundary, only : check_room
    use dondolo_interface_handles, only : find_walls
    use dondolo_parcel, only : parcel_type, report, send
@@ -48,18 +49,22 @@ contains
       samples = smallest(int(quantities))
    end subroutine smallest_sample
 
-   !> Published ranges of the factor on restitution: their limits as reals; name and source as lines
+   !> Published ranges of the factor on restitution, as columns
    subroutine published(sent)
       integer(c_int64_t), intent(out) :: sent(5)
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
+      type(lines_type) :: names, sources
       integer :: i
 
       do i = 1, size(published_factors)
-         call parcel%add([published_factors(i)%low, published_factors(i)%high])
-         call parcel%lines%add(trim(published_factors(i)%name))
-         call parcel%lines%add(trim(published_factors(i)%source))
+         call names%add(trim(published_factors(i)%name))
+         call sources%add(trim(published_factors(i)%source))
       end do
+      call parcel%put('name', names)
+      call parcel%put('low', published_factors%low)
+      call parcel%put('high', published_factors%high)
+      call parcel%put('source', sources)
       call send(parcel, error, sent)
    end subroutine published
 

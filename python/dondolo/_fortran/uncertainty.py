@@ -51,12 +51,8 @@ def smallest_sample(quantities: int) -> int:
 def published_factors() -> dict[str, PublishedFactor]:
     """Ranges of restitution_factor from tests, by their names."""
     parcel = receive(_core.uncertainty.published())
-    limits = parcel.reals.reshape(-1, 2).tolist()
-    lines = parcel.lines
-    return {
-        name: PublishedFactor(low, high, source)
-        for name, source, (low, high) in zip(lines[::2], lines[1::2], limits, strict=True)
-    }
+    ranges = map(PublishedFactor, parcel["low"].tolist(), parcel["high"].tolist(), parcel["source"])
+    return dict(zip(parcel["name"], ranges, strict=True))
 
 
 def check_factor(wall: Handle, name: str) -> None:

@@ -527,7 +527,7 @@ def cloud(
         record_index=plan.record,
         polarity=plan.polarity,
         **fit(points, outcome.edp, outcome.collapsed, name, _labels(several, plan.record)),
-        edp_limit=float(settings[2]),
+        edp_limit=settings.edp_limit,
         work=outcome.work,
     )
     if interrupted:

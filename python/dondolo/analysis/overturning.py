@@ -16,6 +16,7 @@ from dondolo._base.arguments import FloatArray, as_array, as_number, instance_of
 from dondolo._base.interrupts import as_event, deferred
 from dondolo._base.shown import Shown
 from dondolo._fortran import _core
+from dondolo._fortran.histories import Settings
 from dondolo._fortran.library import Stoppable, as_text, check
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved, part_of_results
@@ -364,7 +365,7 @@ def _spectrum(
             Boundary(float(frequency[b.place]), float(b.lower), float(b.upper), State(b.below), State(b.above))
             for b in sorted(brackets)
         ),
-        edp_limit=float(runner.settings[2]),
+        edp_limit=runner.settings.edp_limit,
         polarity=polarity,
     )
     return spectrum, stopped
@@ -396,7 +397,7 @@ class _Runner(NamedTuple):
     pulses: tuple[Record, ...]
     sign: float
     engine: bytes
-    settings: FloatArray
+    settings: Settings
     threads: int
     progress: bool
 

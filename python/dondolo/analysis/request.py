@@ -22,6 +22,7 @@ from dondolo._base.arguments import FloatArray, as_count, as_flag
 from dondolo._base.interrupts import deferred
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
+from dondolo._fortran.histories import Settings
 from dondolo._fortran.library import Stoppable, as_text, check, properties, receive, unpack_warnings
 from dondolo._fortran.records import describe_measure
 from dondolo.analysis.solver import Solver, as_solver
@@ -139,7 +140,7 @@ class Request:
     im: str
     polarity: str
     engine: str
-    settings: FloatArray
+    settings: Settings
     threads: int
     rows: LevelRows | None = None
     kept: Kept | None = None
@@ -208,19 +209,16 @@ class Request:
             plan = shared[1]
             # A warning of its own for each caller, who may raise it
             return plan._replace(warnings=of_wall + [one.placed("") for one in plan.warnings])
-        walls, levels = len(self.walls), len(self.levels)
+        walls = len(self.walls)
         parcel = receive(_core.stripes.plan(study.number, people.number, walls))
         # Results may share it, and nobody changes it.
         parcel.integers.flags.writeable = parcel.reals.flags.writeable = False
-        # Histories of each wall; of the last, record and polarity of each, and which run at each level if not all do
-        (is_shared, of_walls), integers = parcel.integers[:2].tolist(), parcel.integers[2:]
-        scale = parcel.reals.reshape(levels, -1)
-        histories, rest = integers[:walls], integers[walls:].reshape(-1, scale.shape[1])
-        ran = _all_run(*scale.shape) if self.rows is None else rest[2:] == 1
-        found = unpack_warnings(parcel.lines)
-        plan = Plan(histories, rest[0], rest[1], scale, ran, found)
-        if is_shared and walls == 1 and self.rows is None:
-            study.shared = like, plan._replace(warnings=[one.placed("") for one in found[of_walls:]])
+        scale, found = parcel["scale"], unpack_warnings(parcel["warnings"])
+        ran = _all_run(*scale.shape) if self.rows is None else parcel["ran"] == 1
+        plan = Plan(parcel["histories"], parcel["record"], parcel["polarity"], scale, ran, found)
+        if parcel["is_shared"] and walls == 1 and self.rows is None:
+            of_all = found[parcel["warnings_of_walls"] :]
+            study.shared = like, plan._replace(warnings=[one.placed("") for one in of_all])
         return plan
 
     def totals(self, histories: IntArray) -> list[int]:

@@ -415,7 +415,8 @@ def simulate(
     instance_of("wall", wall, Wall)
     instance_of("record", record, Record)
     factor = as_number("scale", scale)
-    initial = [as_number("initial_rotation", initial_rotation), as_number("initial_velocity", initial_velocity)]
+    rotation = as_number("initial_rotation", initial_rotation)
+    velocity = as_number("initial_velocity", initial_velocity)
     history, estimate_error = as_flag("history", history), as_flag("estimate_error", estimate_error)
     how = as_solver(solver)
     settings = how._settings(estimate_error)
@@ -428,30 +429,25 @@ def simulate(
             factor,
             as_text("engine", how.engine),
             settings,
-            initial,
+            rotation,
+            velocity,
             int(history),
         )
     check(sent)
-    edp_limit = float(settings[2])
     motion: dict[str, Any] = {}
     # What was sent is received before anything is warned of, since a warning may be an error.
     if history:
         parcel = receive(sent)
-        side, after = parcel.integers.reshape(2, -1)
-        names = ("time", "ground_acceleration", "rotation", "velocity")
-        rows = parcel.reals[: 4 * len(side)]
-        motion = dict(zip(names, rows.reshape(4, -1), strict=True))
-        motion |= {"side": side.astype(np.int8), "after_impact": after == 1}
-        if ties := number_of_ties(wall):
-            times = parcel.reals[-2 * ties :].reshape(2, ties).T
+        motion = {name: parcel[name] for name in ("time", "ground_acceleration", "rotation", "velocity")}
+        motion |= {"side": parcel["side"].astype(np.int8), "after_impact": parcel["after_impact"] == 1}
+        if number_of_ties(wall):
+            times = np.column_stack([parcel["time_of_yield"], parcel["time_of_fracture"]])
             motion["tie_times"] = np.where(times < 0.0, np.nan, times)
     # Each its own: one that is raised as an error keeps what raised it.
-    found = [
-        copy(one)
-        for one in _warnings(wall, (suite.number, place), factor if record.vertical is not None else 1.0, any(initial))
-    ]
+    of_scale, moves = factor if record.vertical is not None else 1.0, (rotation, velocity) != (0.0, 0.0)
+    found = [copy(one) for one in _warnings(wall, (suite.number, place), of_scale, moves)]
     if estimate_error:
-        found += warnings_of_errors(np.array([edp]), np.array([edp_error]), edp_limit)
+        found += warnings_of_errors(np.array([edp]), np.array([edp_error]), settings.edp_limit)
     warn(found)
     return Response(
         wall=wall,
@@ -461,10 +457,10 @@ def simulate(
         collapsed=collapsed == 1,
         impacts=impacts,
         time_of_peak=time_of_peak,
-        edp_limit=edp_limit,
+        edp_limit=settings.edp_limit,
         edp_error=edp_error if estimate_error else None,
-        initial_rotation=initial[0],
-        initial_velocity=initial[1],
+        initial_rotation=rotation,
+        initial_velocity=velocity,
         **motion,
     )
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
-from dondolo._base.arguments import FloatArray, instance_of
-from dondolo._fortran.histories import settings
+from dondolo._base.arguments import instance_of
+from dondolo._fortran.histories import Settings, settings
 from dondolo._fortran.library import build_variant
 
 
@@ -64,7 +64,7 @@ class Solver:
 
     def _settings(
         self, estimate_error: bool = False, collapses_only: bool = False, edp_limit: float | None = None
-    ) -> FloatArray:
+    ) -> Settings:
         """Its numbers as Fortran takes them; edp_limit is the analysis's own, where none is given."""
         limit = edp_limit if self.edp_limit is None else self.edp_limit
         return settings(self.rtol, self.atol, limit, estimate_error, collapses_only)

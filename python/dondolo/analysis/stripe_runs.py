@@ -144,15 +144,21 @@ class Study(Shown):
     def _settings(self) -> dict[str, dict[str, Any]]:
         """The groups &records, &stripes and &solver of a case of this study, but for catalogue and gravity."""
         request = self._request
-        rtol, atol, edp_limit, estimates, _ = request.settings.tolist()
-        errors = {"estimate_error": estimates == 1.0, "certify": self._certify}
+        settings = request.settings
         return {
             "records": {
                 "polarity": request.polarity,
                 "vertical": "none" if all(record.vertical is None for record in self.records) else "recorded",
             },
             "stripes": {"im": self.im, "levels": self.levels.tolist()},
-            "solver": {"engine": request.engine, "rtol": rtol, "atol": atol, "edp_limit": edp_limit, **errors},
+            "solver": {
+                "engine": request.engine,
+                "rtol": settings.rtol,
+                "atol": settings.atol,
+                "edp_limit": settings.edp_limit,
+                "estimate_error": settings.estimate_error,
+                "certify": self._certify,
+            },
         }
 
     def _facts(self) -> list[tuple[str, str]]:
@@ -402,13 +408,13 @@ def _finished(stripes: Stripes, request: Request, certify: bool, progress: bool,
 def _stripes(request: Request, plan: Plan, outcome: Outcome, complete: int) -> Stripes:
     """The stripes up to a level."""
     levels, ran = request.levels[:complete], plan.ran[:complete]
-    rtol, atol, edp_limit, estimated, _ = request.settings.tolist()
+    settings = request.settings
     scale = plan.scale[:complete]
     count = len(outcome.edp) if complete == len(request.levels) else int(ran.sum())
     if count < ran.size:
         scale = np.where(ran, scale, np.nan)
     facts, places = request.facts, np.nonzero(ran)
-    names = ("edp", "collapsed", "impacts", "time_of_peak", *(("edp_error",) if estimated else ()))
+    names = ("edp", "collapsed", "impacts", "time_of_peak", *(("edp_error",) if settings.estimate_error else ()))
     uplift = None
     if facts.falls is not None:
         uplift = ran & (plan.scale[:complete] * facts.falls[plan.record] >= request.walls[0].gravity)
@@ -421,9 +427,9 @@ def _stripes(request: Request, plan: Plan, outcome: Outcome, complete: int) -> S
         record_names=facts.names * (len(plan.record) // len(facts.names)),
         polarity=plan.polarity,
         engine=request.engine,
-        rtol=rtol,
-        atol=atol,
-        edp_limit=edp_limit,
+        rtol=settings.rtol,
+        atol=settings.atol,
+        edp_limit=settings.edp_limit,
         runs=outcome.work._of_run(levels, facts.checksums, plan.polarity, outcome.edp),
         uplift=uplift,
         events=facts.events,

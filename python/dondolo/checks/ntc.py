@@ -22,8 +22,9 @@ from dondolo._fortran.checks import (
     check_notes,
     dynamic_sheet,
     kinematic_sheet,
+    site_input,
 )
-from dondolo._fortran.library import constants
+from dondolo._fortran.library import constants, properties
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved, part_of_results
 from dondolo.analysis.request import Polarity
@@ -314,13 +315,15 @@ class CodeCheck(Shown, Saved):
 
     def _settings(self) -> tuple[dict[str, Any], SiteInput]:
         """The group &check of a case with this site and these factors, and the same as Fortran takes it."""
-        factors = {
-            "knowledge_factor": self.value("mechanism", "", "knowledge_factor"),
-            "behaviour": self.value("linear", "SLV", "behaviour"),
+        knowledge_factor = self.value("mechanism", "", "knowledge_factor")
+        values = self.site._values(knowledge_factor, self.value("linear", "SLV", "behaviour"))
+        lists = {row.name for row in properties("check") if row.kind == "list"}
+        settings = {
+            name: np.atleast_1d(value).tolist() if name in lists else value
+            for name, value in values.items()
+            if value is not None
         }
-        site = self.site
-        hazard = {name: np.atleast_1d(getattr(site, name)).tolist() for name in ("ag", "f0", "tc_star")}
-        return {**hazard, "soil": site.soil, "topography": site.topography, **factors}, site._input(**factors)
+        return settings, site_input(values)
 
     def _table(self) -> tables.Table:
         return {name: [getattr(row, name) for row in self.rows] for name in SheetRow._fields}

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import Any
 
-from dondolo._fortran.checks import SheetRow
+from dondolo._fortran.checks import SheetRow, sheet_rows
 from dondolo._storage.columns import Columns
 from dondolo._storage.run_file import RunFile
 from dondolo.checks.ntc import CodeCheck, check_ntc
@@ -60,6 +60,5 @@ def complete_checks(checks: Iterable[CodeCheck | None]) -> tuple[CodeCheck, ...]
 def stored_check(table: Columns, run: RunFile, wall: Wall) -> CodeCheck:
     """The check of a wall, ``_check.csv``."""
     columns: dict[str, Any] = {name: table.texts(name) for name in SheetRow._fields}
-    columns["value"] = table.numbers("value").tolist()
-    rows = tuple(SheetRow(*row) for row in zip(*columns.values(), strict=True))
-    return CodeCheck(wall=wall, site=site_of(run), rows=rows)
+    columns["value"] = table.numbers("value")
+    return CodeCheck(wall=wall, site=site_of(run), rows=sheet_rows(columns))

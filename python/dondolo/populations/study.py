@@ -107,7 +107,7 @@ def typology(
     people = population if isinstance(population, Population) else Population(population)  # type: ignore[arg-type]
     if executor is not None and threads == 0:
         threads = 1
-    limit = float(as_solver(solver)._settings()[2])
+    limit = as_solver(solver)._settings().edp_limit
     states = states_of(edp_thresholds, limit)
     alone = len(states) == 1
     request = new_request(people.walls, records, levels, im, polarity, solver, threads, collapses_only=alone)

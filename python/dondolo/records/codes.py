@@ -19,10 +19,18 @@ from typing import Any, Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, as_number, increasing, one_of
+from dondolo._base.arguments import as_array, as_number, increasing, one_of
 from dondolo._base.shown import Shown
-from dondolo._fortran.checks import STATES, SiteInput, code_spectrum, ntc_parameters
-from dondolo._fortran.library import as_text
+from dondolo._fortran.checks import (
+    NO_MODES,
+    STATES,
+    CodeParameters,
+    Modes,
+    SiteInput,
+    code_spectrum,
+    ntc_parameters,
+    site_input,
+)
 from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
 from dondolo.records.building import Building
@@ -39,8 +47,6 @@ LimitState = Literal["SLD", "SLV", "SLC"]
 _PERIODS = np.geomspace(0.05, 4.0, 60)
 
 # Period, damping ratio and participation of each mode of a building: those of the ground
-_NO_MODES = np.empty((0, 3))
-
 # EN 1998-1, tables 3.2 and 3.3: S, T_B, T_C, T_D
 _EC8_SOILS = {
     1: {
@@ -115,17 +121,18 @@ class Site(Shown):
             object.__setattr__(self, "exceedance", tuple(as_array("exceedance", self.exceedance).tolist()))
         self._parameters("SLV")
 
+    def _values(self, knowledge_factor: float = 1.35, behaviour: float = 2.0) -> dict[str, Any]:
+        """Values of ``&check``: the site, and what a check needs besides; None for what is not given."""
+        factors = {"knowledge_factor": knowledge_factor, "behaviour": behaviour}
+        return {**vars(self), **{name: as_number(name, value) for name, value in factors.items()}}
+
     def _input(self, knowledge_factor: float = 1.35, behaviour: float = 2.0) -> SiteInput:
-        """The site as Fortran takes it, with what a check needs besides."""
-        words = b"\n".join(as_text(name, getattr(self, name)) for name in ("soil", "topography"))
-        lists = [np.atleast_1d(values) for values in (self.ag, self.f0, self.tc_star, self.exceedance or ())]
-        factors = as_number("knowledge_factor", knowledge_factor), as_number("behaviour", behaviour)
-        a, b, c, d = map(len, lists)
-        return SiteInput(words, np.concatenate([*lists, factors, (self.reference_life or 0.0,)]), (a, b, c, d))
+        """The same as Fortran takes it."""
+        return site_input(self._values(knowledge_factor, behaviour))
 
     def pga(self, *, limit_state: LimitState = "SLV") -> float:
         """Peak acceleration at the site a_g S [g] in a limit state."""
-        return float(self._parameters(limit_state)[0])
+        return self._parameters(limit_state).pga
 
     def spectrum(
         self,
@@ -163,15 +170,15 @@ class Site(Shown):
         NTC 2018, 3.2.3.2.1: S_S and C_C of table 3.2.IV, S_T of table 3.2.V, T_C = C_C T_C*, T_B = T_C/3,
         T_D = 4 a_g/g + 1.6 s. Floors: Circolare 7/2019, C7.2.3 (docs/code_checks.md).
         """
-        modes = _NO_MODES
+        modes = NO_MODES
         if building is not None:
             own = building._understood
-            modes = np.array([np.atleast_1d(building.period), own.damping, own.participation]).T
-            if not modes[:, 1].all():
+            modes = Modes(*map(np.atleast_1d, (building.period, own.damping, own.participation)))
+            if not modes.damping.all():
                 raise InputError("damping = 0: must be positive for the spectrum of a floor of the code")
         return _spectrum(self._parameters(limit_state), damping, periods, modes)
 
-    def _parameters(self, limit_state: str) -> FloatArray:
+    def _parameters(self, limit_state: str) -> CodeParameters:
         one_of("limit_state", limit_state, STATES)
         return ntc_parameters(self._input(), limit_state)
 
@@ -205,11 +212,11 @@ def ec8_spectrum(
     if kind not in tuple(_EC8_SOILS):
         raise InputError(f"kind = {kind!r}: must be 1 or 2")
     amplified, *corners = _EC8_SOILS[kind][soil]
-    return _spectrum(np.array([a * amplified, 2.5, *corners]), damping, periods)
+    return _spectrum(CodeParameters(a * amplified, 2.5, np.array(corners)), damping, periods)
 
 
 def _spectrum(
-    parameters: FloatArray, damping: float, periods: ArrayLike | None, modes: FloatArray = _NO_MODES
+    parameters: CodeParameters, damping: float, periods: ArrayLike | None, modes: Modes = NO_MODES
 ) -> TargetSpectrum:
     """Spectrum of the form that both codes have, or of a floor above it."""
     ratio = as_number("damping", damping)

@@ -172,10 +172,10 @@ class Record:
             up = _as_record(vertical)
             joined = receive(
                 _core.records.join_vertical(values, dt, up.acceleration, up.dt, as_number("factor", factor))
-            ).reals
-            values, samples = np.split(joined[1:], 2)
-            if joined[0] != dt:
-                dt = float(joined[0])
+            )
+            values, samples = joined["acceleration"], joined["vertical"]
+            if joined["dt"] != dt:
+                dt = joined["dt"]
                 steps = (*steps, f"samples every {dt:g} s, with those of a vertical component of {up.dt:g} s")
         return Record(values, dt, self.name, processing=steps, metadata=self.metadata, vertical=samples)
 

@@ -196,7 +196,8 @@ def labels_of(metadata: Mapping[str, str]) -> Labels:
     if not known:
         return Labels("", "", "")
     text = "\n".join(line for pair in known.items() for line in pair).encode()
-    return Labels(*receive(_core.records.labels_of(text, len(known))).lines)
+    parcel = receive(_core.records.labels_of(text, len(known)))
+    return Labels(**parcel.named(Labels._fields))
 
 
 def _label_lines(record: Motion) -> tuple[str, str, str]:

@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_number, instance_of, tails
+from dondolo._fortran.checks import check_columns
 from dondolo._fortran.records import blank_unit
-from dondolo._fortran.tables import TableColumns, check_columns, design_columns, plain
+from dondolo._fortran.tables import TableColumns, design_columns, plain
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.request import Polarity

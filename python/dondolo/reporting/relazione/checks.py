@@ -278,7 +278,8 @@ def _nonlinear(document: Document, one: Subject, state: str) -> list[Block]:
 
 def _ordinate(one: Subject, state: str, period: float, damping: float, ordinate: float) -> list[Block]:
     """The ordinate of the elastic spectrum of the ground, with the numbers put in."""
-    pga, amplified, tb, tc, td = ntc_parameters(one.check.site._input(), state).tolist()
+    pga, amplified, corners = ntc_parameters(one.check.site._input(), state)
+    tb, tc, td = corners.tolist()
     eta = max(math.sqrt(10.0 / (5.0 + damping)), 0.55)
     common = (symbol_of("a_g S"), " η ", symbol_of("F_0"))
     values = (shown(pga), " · ", shown(eta), " · ", shown(amplified))

@@ -188,9 +188,9 @@ def site(document: Document) -> list[Block]:
     exceedance = check.site.exceedance
     has_periods = exceedance is not None and len(states) > 1
     for state in states:
-        pga, _amplified, tb, tc, td = ntc_parameters(check.site._input(), state).tolist()
+        spectrum = ntc_parameters(check.site._input(), state)
         names = ("ag", "f0", "tc_star", "soil_factor")
-        rows.append([*(check.value("site", state, name) for name in names), tb, tc, td, pga])
+        rows.append([*(check.value("site", state, name) for name in names), *spectrum.corners.tolist(), spectrum.pga])
         if exceedance is not None and has_periods:
             rows[-1] += [exceedance[len(rows) - 1], check.value("site", state, "return_period_demand")]
     if has_periods:
