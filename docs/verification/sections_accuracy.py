@@ -128,14 +128,13 @@ def defaults(study):
     demand(far > 1.2 and farther > 1.8, f"beyond the default accuracy costs time: {percent(far)}, {percent(farther)}")
     demand(gain > 10.0, f"beyond the default errors fall: {gain:.2g}-fold at {power(TIGHT)}")
     return paragraph(
-        f"**Why rtol = {power(DEFAULT)} and atol = {power(DEFAULT / 100.0)} are the defaults.** No step crosses a "
-        "sample, and one step from sample to sample is already so accurate that looser tolerances have almost no "
-        f"effect: from {power(loosest)} to {power(DEFAULT)} no median error changes by more than a factor "
-        f"{change:.1f}, and the time of all histories changes by {percent(near)}. Tighter tolerances are more "
-        f"expensive: {power(tighter)} costs {percent(far)} time, and {power(TIGHT)} {percent(farther)}, for median "
-        f"errors that are at least {gain:.0f} times smaller. The default is the knee of this curve: the tightest "
-        "tolerance at almost no cost. It matters if the samples do not limit the step: for accelerograms with "
-        "coarser samples than these (0.005 s), and for smaller, faster walls."
+        f"**Why rtol = {power(DEFAULT)} and atol = {power(DEFAULT / 100.0)} are the defaults.** One step from sample "
+        "to sample is already so accurate that looser tolerances have almost no effect: from "
+        f"{power(loosest)} on, no median error changes by more than a factor {change:.1f}. Against the loosest, the "
+        f"default costs {percent(near)} time; {power(tighter)} costs {percent(far)} more, and {power(TIGHT)} "
+        f"{percent(farther)}. Median errors of the last are at least {gain:.0f} times smaller. The default matters if "
+        "the samples do not limit the step: for accelerograms with coarser samples than these (0.005 s), and for "
+        "smaller, faster walls."
     )
 
 

@@ -252,9 +252,8 @@ def dense_grid(study):
         )
     return [
         *paragraph(
-            "Three walls and twenty levels are a sample. On 50 levels from 0.02 to 1 g of the recorded set, and with "
-            f"one more wall, a run at rtol = {power(TIGHTEST)} replaces the reference, although it is itself uncertain "
-            "for the most amplified errors:"
+            "On 50 levels up to 1 g of the recorded set, and with one more wall, a run at "
+            f"rtol = {power(TIGHTEST)} replaces the reference. It is itself uncertain for the most amplified errors:"
         ),
         *table(
             [

@@ -207,9 +207,8 @@ def closing(study, found):
     shift, wall, name = min(hidden)
     return paragraph(
         f"No flag is wrong with {harmless}. These records last until no wall can reach a new peak; the motion after "
-        "the record matters if it was cut short. θ hides many of these errors, because wrong flags of both "
-        f"kinds cancel: the {found[wall][name].flags()} of *{name}* change that of `{wall}` by {shift:.3f} "
-        "standard errors."
+        "the record matters if it was cut short. θ hides many of these errors, because wrong flags of both kinds "
+        f"cancel. The {found[wall][name].flags()} of *{name}* change that of `{wall}` by {shift:.3f} standard errors."
     )
 
 
