@@ -164,6 +164,23 @@ def test_numbers_before_are_hidden_at_once(visit):
     assert "thickness = 0.56" in page.text_content("#text")
 
 
+def test_late_answers_are_given_up(visit):
+    """A newer state ends a question that has taken long; what is shown in the end is the newest."""
+    page = visit()
+    settled(page)
+    page.context.route("**/curve", lambda route: (page.wait_for_timeout(900), route.continue_()))
+    given_up = []
+    page.on("requestfailed", lambda request: given_up.append(request.url))
+    box = page.locator("[data-name='wall.thickness'] input[type=text]")
+    for thickness in ("0,6", "0,7"):
+        box.fill(thickness)
+        box.press("Enter")
+        page.wait_for_timeout(450)
+    settled(page)
+    assert [url.rpartition("/")[2] for url in given_up] == ["curve"]
+    assert "thickness = 0.7 " in page.text_content("#text")
+
+
 @pytest.mark.parametrize("width", [1280, 420])
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_everything_is_named_and_fits(visit, width, scheme):
@@ -265,11 +282,13 @@ def test_a_building_is_drawn_where_there_is_one(visit):
     page = visit()
     settled(page)
     assert page.locator("#wall .behind").count() == 0
+    assert "a sfavore di sicurezza" in page.text_content("#warnings")
     assert "muro trasversale" in page.text_content("#wall")
     page.click("summary:has-text('Edificio')")
     page.click("text=colloca su un edificio")
     settled(page)
     assert page.locator("#wall .behind").count() == 1
+    assert "a sfavore di sicurezza" not in page.text_content("#warnings")
     assert "Edificio" in page.text_content("#wall")
 
 

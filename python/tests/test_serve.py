@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import asyncio
 import copy
 import json
 import os
 import re
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 from typing import get_args
@@ -315,6 +317,40 @@ def _random_state(rng):
     if rng.uniform() < 0.5:
         settings["check"] = {"ag": [rng.uniform(0.02, 0.45)], "f0": [2.5], "tc_star": [0.35], "soil": "C"}
     return settings
+
+
+def test_nobody_waits(bench):
+    """A question that was given up ends between blocks of histories, and leaves nothing; the next one is answered."""
+    here = bench[0]
+    asked = {"settings": {**TIED, "stripes": {"im": "pga", "levels": [0.31, 0.62, 0.93]}}}
+    stop = threading.Event()
+    stop.set()
+    before = list(here._curves)
+    with pytest.raises(dd.errors.Interrupted):
+        here.curve(asked, stop)
+    with pytest.raises(dd.errors.Interrupted):
+        here.curve(asked | {"auto": True}, stop)
+    assert list(here._curves) == before
+    body, sent = json.dumps(asked).encode(), []
+    messages = [{"type": "http.request", "body": body}, {"type": "http.disconnect"}]
+    headers = {"host": f"127.0.0.1:{PORT}", "cookie": f"dondolo-{PORT}={TOKEN}", "content-type": "application/json"}
+    scope = {"type": "http", "method": "POST", "path": "/curve", "raw_path": b"/curve", "query_string": b""}
+    scope["headers"] = [(name.encode(), value.encode()) for name, value in headers.items()]
+
+    async def receive():
+        return messages.pop(0)
+
+    async def send(message):
+        sent.append(message)
+
+    with here._lock:
+        # The work waits here until the page has left.
+        threading.Timer(0.3, here._lock.release).start()
+        asyncio.run(application(*bench, "en", PORT, TOKEN)(scope, receive, send))
+        here._lock.acquire()
+    assert sent[0]["status"] == 503
+    assert list(here._curves) == before
+    assert "theta" in here.curve(asked)
 
 
 @pytest.mark.slow

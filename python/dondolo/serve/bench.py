@@ -6,6 +6,7 @@ differ.
 
 from __future__ import annotations
 
+import functools
 import pickle
 import re
 import threading
@@ -106,21 +107,26 @@ class Bench:
         }
         return case_text(groups, commented=True, meanings=MEANINGS if lang == "it" else None) + "\n"
 
-    def curve(self, asked: Mapping[str, Any]) -> dict[str, Any]:
-        """The curve of a case, its numbers, its drawing, and what it is compared with."""
-        begin, language = time.perf_counter(), Language(asked.get("lang", "en"))
+    def curve(self, asked: Mapping[str, Any], stop: threading.Event | None = None) -> dict[str, Any]:
+        """The curve of a case, its numbers, its drawing, and what it is compared with.
+
+        Once `stop` is set, `Interrupted` is raised after the present block of histories, and nothing is kept.
+        """
+        begin, language = time.perf_counter(), _language(asked.get("lang", "en"))
         settings, is_draft = groups_of(asked.get("settings")), bool(asked.get("draft"))
         with self._lock:
             if asked.get("auto"):
-                settings = self._with_levels(settings)
-            found = self._curve(self.text(settings, language.code), is_draft)
+                settings = self._with_levels(settings, stop)
+            found = self._curve(self.text(settings, language.code), is_draft, stop)
             answer = self._shown(found, language)
             answer |= {"draft": is_draft, "levels": settings["stripes"]["levels"], "text": found.text}
             if not is_draft:
                 if asked.get("b") is not None and found.fragility.has_fit:
-                    answer["comparison"] = self._comparison(found, self.text(groups_of(asked["b"]), language.code))
+                    answer["comparison"] = self._comparison(
+                        found, self.text(groups_of(asked["b"]), language.code), stop
+                    )
                 if isinstance(asked.get("fan"), dict):
-                    answer["fan"] = self._fan(settings, asked["fan"], bool(asked.get("auto")), language.code)
+                    answer["fan"] = self._fan(settings, asked["fan"], bool(asked.get("auto")), language.code, stop)
         answer["ms"] = 1e3 * (time.perf_counter() - begin)
         return answer
 
@@ -140,16 +146,18 @@ class Bench:
             solver = dd.Solver(rtol=case.rtol, atol=case.atol, edp_limit=case.edp_limit)
             return motion_of(dd.simulate(case.population.walls[0], record, scale, solver=solver))
 
-    def _with_levels(self, settings: dict[str, dict[str, Any]]) -> dict[str, dict[str, Any]]:
+    def _with_levels(
+        self, settings: dict[str, dict[str, Any]], stop: threading.Event | None
+    ) -> dict[str, dict[str, Any]]:
         """The case with levels that suit its wall."""
         given = {name: value for name, value in settings.get("stripes", {}).items() if name in ("im", "edp_thresholds")}
         settings = {**settings, "stripes": {**given, "levels": [1.0]}}
         with silent():
-            case = dd.case_from_text(self.text(settings), self.records)
-            levels = chosen_levels(case, self._few, self.threads)
+            case = dd.case_from_text(self.text(settings), self._few)
+            levels = chosen_levels(case, self._few, self.threads, stop)
         return {**settings, "stripes": {**given, "levels": levels}}
 
-    def _curve(self, text: str, is_draft: bool) -> Curve:
+    def _curve(self, text: str, is_draft: bool, stop: threading.Event | None) -> Curve:
         """The curve of the text of a case, computed once; that of a draft has half of the records."""
         key = f"{is_draft}{text}"
         if key in self._curves:
@@ -157,7 +165,8 @@ class Bench:
             return self._curves[key]
         with warnings.catch_warnings(record=True) as heard:
             warnings.simplefilter("always", DondoloWarning)
-            case = dd.case_from_text(text, self.records)
+            # A case copies the records that it is read with, which takes as long as the rest of it.
+            case = dd.case_from_text(text, self._few)
             if case.task != "stripes":
                 raise _other_task(case)
             stripes = dd.multiple_stripe(
@@ -169,6 +178,7 @@ class Bench:
                 solver=dd.Solver(rtol=case.rtol, atol=case.atol, edp_limit=case.edp_limit, engine=case.engine),  # type: ignore[arg-type]
                 threads=self.threads,
                 progress=False,
+                stop=stop,
             )
             fragility = stripes.fit()
         own = tuple(one.message for one in heard if isinstance(one.message, DondoloWarning))
@@ -197,6 +207,7 @@ class Bench:
             ],
             "wall": picture(wall),
             "unchecked": _unchecked(wall),
+            "leans": wall.building is None and wall.mechanism in ("one_sided", "two_block"),
         }
         if fit.has_fit:
             answer |= curve_points(fit, 1.04 * float(stripes.levels[-1]))
@@ -204,9 +215,9 @@ class Bench:
             answer["check"] = _checked(found.case, fit, language)
         return answer
 
-    def _comparison(self, found: Curve, text: str) -> dict[str, Any] | None:
+    def _comparison(self, found: Curve, text: str, stop: threading.Event | None) -> dict[str, Any] | None:
         """The ratio of the medians of B and A with its interval, under the same records."""
-        with_other = self._curve(text, False)
+        with_other = self._curve(text, False, stop)
         second = with_other.fragility
         if not second.has_fit or second.im != found.fragility.im:
             return None
@@ -223,7 +234,12 @@ class Bench:
         }
 
     def _fan(
-        self, settings: dict[str, dict[str, Any]], fan: Mapping[str, Any], is_auto: bool, lang: str
+        self,
+        settings: dict[str, dict[str, Any]],
+        fan: Mapping[str, Any],
+        is_auto: bool,
+        lang: str,
+        stop: threading.Event | None,
     ) -> list[dict[str, Any]]:
         """Curves of the wall where one of its numbers is smaller and larger by a share."""
         group, name = (str(fan.get(what)) for what in ("group", "name"))
@@ -239,12 +255,19 @@ class Bench:
             other = {**settings, group: {**settings[group], name: changed if isinstance(values, list) else changed[0]}}
             try:
                 with silent():
-                    found = self._curve(self.text(self._with_levels(other) if is_auto else other, lang), False)
+                    chosen = self._with_levels(other, stop) if is_auto else other
+                    found = self._curve(self.text(chosen, lang), False, stop)
             except DondoloError as error:
                 curves.append({"factor": factor, "refused": refusal(error)})
                 continue
             curves.append({"factor": factor} | (_line(found) if found.fragility.has_fit else {}))
         return curves
+
+
+@functools.cache
+def _language(code: str) -> Language:
+    """A language, whose catalogue takes longer to read than a curve to fit."""
+    return Language(code)
 
 
 def curve_points(fit: Fragility, last: float) -> dict[str, Any]:

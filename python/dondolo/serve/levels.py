@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import threading
 from collections.abc import Sequence
 
 import numpy as np
@@ -19,7 +20,9 @@ _OF_WALL = ("pga/a0", "p*pgv/a0")
 _TRIAL = 9
 
 
-def chosen_levels(case: Case, few: Sequence[dd.Record], threads: int) -> list[float]:
+def chosen_levels(
+    case: Case, few: Sequence[dd.Record], threads: int, stop: threading.Event | None = None
+) -> list[float]:
     """Levels from that at which no record overturns the wall to that at which all do, by a trial with a few records."""
     wall = case.population.walls[0]
     solver = dd.Solver(rtol=1e-5, atol=1e-7, edp_limit=case.edp_limit)
@@ -43,6 +46,7 @@ def chosen_levels(case: Case, few: Sequence[dd.Record], threads: int) -> list[fl
             solver=solver,
             threads=threads,
             progress=False,
+            stop=stop,
         )
         fractions |= dict(zip(trial, stripes.fraction.tolist(), strict=True))
         high = trial[-1]

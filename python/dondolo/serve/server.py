@@ -6,6 +6,7 @@ The cookie is given for a token that is printed, and passed to the browser in a 
 
 from __future__ import annotations
 
+import asyncio
 import hmac
 import json
 import os
@@ -13,6 +14,7 @@ import secrets
 import socket
 import sys
 import tempfile
+import threading
 import webbrowser
 from collections.abc import Awaitable, Callable, Mapping
 from importlib import resources
@@ -27,7 +29,7 @@ from starlette.routing import Route
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from dondolo._fortran.library import constants, properties
-from dondolo.errors import DondoloError, InputError
+from dondolo.errors import DondoloError, InputError, Interrupted
 from dondolo.reporting.properties_it import MEANINGS
 from dondolo.serve.bench import Bench, groups_of, refusal
 from dondolo.serve.documents import DOCUMENTS, make_document
@@ -56,6 +58,10 @@ _HEADERS = {
     "cross-origin-resource-policy": "same-origin",
     "cache-control": "no-store",
 }
+
+
+# What answers a question, until an event is set
+_Work = Callable[[Mapping[str, Any], threading.Event], Response]
 
 
 class Guard:
@@ -108,7 +114,13 @@ class Guard:
             await PlainTextResponse("too large", 413)(scope, receive, answer)
             return
 
+        is_known = False
+
         async def known() -> Message:
+            nonlocal is_known
+            if is_known:
+                return await receive()
+            is_known = True
             return {"type": "http.request", "body": body, "more_body": False}
 
         await self._app(scope, known, answer)
@@ -175,7 +187,7 @@ def application(bench: Bench, start: Mapping[str, Any], lang: str, port: int, to
     async def begin(request: Request) -> Response:
         return JSONResponse(await run_in_threadpool(_beginning, bench, start, lang))
 
-    def answering(work: Callable[[Mapping[str, Any]], Response]) -> Callable[[Request], Awaitable[Response]]:
+    def answering(work: _Work) -> Callable[[Request], Awaitable[Response]]:
         async def answer(request: Request) -> Response:
             try:
                 asked = json.loads(await request.body(), parse_constant=_no_number)
@@ -183,19 +195,21 @@ def application(bench: Bench, start: Mapping[str, Any], lang: str, port: int, to
                     raise ValueError("no object")
             except (ValueError, RecursionError):
                 return JSONResponse({"error": "the request must be a JSON object", "errors": []}, 422)
+            stop = threading.Event()
+            left = asyncio.create_task(_set_when_left(request, stop))
             try:
-                return await run_in_threadpool(work, asked)
-            except DondoloError as error:
-                return JSONResponse(refusal(error), 422)
+                return await run_in_threadpool(_answered, work, asked, stop)
+            finally:
+                left.cancel()
 
         return answer
 
-    def opened(asked: Mapping[str, Any]) -> Response:
+    def opened(asked: Mapping[str, Any], _: threading.Event) -> Response:
         if not isinstance(asked.get("text"), str):
             raise InputError("text: must be that of a case")
         return JSONResponse({"settings": bench.open(asked["text"])})
 
-    def document(asked: Mapping[str, Any]) -> Response:
+    def document(asked: Mapping[str, Any], _: threading.Event) -> Response:
         kind, lang = str(asked.get("kind")), str(asked.get("lang", "en"))
         made = make_document(bench.text(groups_of(asked.get("settings")), lang), kind, lang)
         return Response(made, media_type=DOCUMENTS[kind])
@@ -203,13 +217,30 @@ def application(bench: Bench, start: Mapping[str, Any], lang: str, port: int, to
     routes = [
         Route("/", file),
         Route("/begin", begin),
-        Route("/curve", answering(lambda asked: JSONResponse(bench.curve(asked))), methods=["POST"]),
-        Route("/motion", answering(lambda asked: JSONResponse(bench.motion(asked))), methods=["POST"]),
+        Route("/curve", answering(lambda asked, stop: JSONResponse(bench.curve(asked, stop))), methods=["POST"]),
+        Route("/motion", answering(lambda asked, _: JSONResponse(bench.motion(asked))), methods=["POST"]),
         Route("/open", answering(opened), methods=["POST"]),
         Route("/document", answering(document), methods=["POST"]),
         Route("/{name}", file),
     ]
     return Guard(Starlette(routes=routes), port, token)
+
+
+async def _set_when_left(request: Request, stop: threading.Event) -> None:
+    """Set an event when nobody waits for the answer any more: the page has asked for a newer state, or was closed."""
+    while (await request.receive())["type"] != "http.disconnect":
+        pass
+    stop.set()
+
+
+def _answered(work: _Work, asked: Mapping[str, Any], stop: threading.Event) -> Response:
+    """The answer to what is asked, or a refusal."""
+    try:
+        return work(asked, stop)
+    except Interrupted:
+        return PlainTextResponse("nobody waits for the answer", 503)
+    except DondoloError as error:
+        return JSONResponse(refusal(error), 422)
 
 
 def _no_number(word: str) -> float:

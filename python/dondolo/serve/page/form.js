@@ -78,7 +78,7 @@ function row(group, name, place) {
     if (isWrong) return;
     if (x < Number(range.min)) range.min = x;
     if (x > Number(range.max)) range.max = x;
-    put(group, name, place, clean(x / factor)); fill(x); changed(false);
+    box.value = num(x); put(group, name, place, clean(x / factor)); fill(x); changed(false);
   });
   const isFan = () => state.fan && state.fan.group === group && state.fan.name === name && (state.fan.place ?? 0) === (place ?? 0);
   const fan = make("button", { class: "small", type: "button", "aria-pressed": String(Boolean(isFan())), "aria-label": t("fan_button", { what: labelOf(name) }), title: t("fan_button", { what: labelOf(name) }), onclick: () => {

@@ -62,12 +62,12 @@ const say = (text) => { at("said").textContent = text; };
 function refuse(error, isAside = false) {
   const errors = error.answer?.errors || [];
   at("notice").hidden = false;
-  at("notice").replaceChildren(...(isAside ? [] : [make("strong", {}, t("refused")), " "]), sentenceOf(error.answer));
+  at("notice").replaceChildren(...(isAside ? [] : [make("strong", {}, t("refused")), " "]), sentenceOf(error.answer, isAside));
   if (isAside) return;
   markWrong(errors);
   // Nothing of another wall stays.
   at("numbers").replaceChildren(); at("warnings").replaceChildren(); at("check").replaceChildren(); at("under").replaceChildren(); at("text").textContent = "";
-  at("chart").replaceChildren(); at("wall").replaceChildren(); stopFilm();
+  at("chart").replaceChildren(); at("wall").replaceChildren(); stopFilm(); at("film").hidden = true;
 }
 
 function number(key, value, unit, more, kind = "") {
@@ -91,11 +91,11 @@ function show() {
     const isFine = new Map(a.check.verified.map(([method, limit, fine]) => [method + limit, fine]));
     for (const [method, limit, x] of a.check.capacities) if (limit === "SLV") marks.push({ x, label: t("capacity", { method: t(method), state: limit, x: num(x, 3) }), kind: !isFine.get(method + limit) ? "bad" : a.check.open_ties.length ? "" : "good" });
   }
-  at("chart").classList.remove("old");
+  at("chart").classList.remove("old"); at("film").hidden = false;
   const b = state.bAnswer && state.bAnswer.im === a.im ? state.bAnswer : null;
   at("chart").innerHTML = chart(a, b, { width: at("chart").clientWidth || 640, im: nameOf(a.im), marks, fan: a.fan || [] });
   under(a, unit);
-  at("warnings").replaceChildren(...[...(a.unchecked.length ? [t("anchors", { n: a.unchecked.map((n) => t("tie_n", { n })).join(", ") })] : []), ...a.warnings.filter(({ code }) => code !== "note").map(({ sentence }) => sentence), ...(begun.synthetic ? [t("synthetic")] : [])].map((sentence) => make("li", {}, sentence)));
+  at("warnings").replaceChildren(...[...(a.leans ? [t("no_building")] : []), ...(a.unchecked.length ? [t("anchors", { n: a.unchecked.map((n) => t("tie_n", { n })).join(", ") })] : []), ...a.warnings.filter(({ code }) => code !== "note").map(({ sentence }) => sentence), ...(begun.synthetic ? [t("synthetic")] : [])].map((sentence) => make("li", {}, sentence)));
   check(a.check);
   if (film === null) at("wall").innerHTML = drawing(a.wall);
   at("text").textContent = a.text;
@@ -122,7 +122,7 @@ function check(found) {
     return make("tr", {}, make("th", { scope: "row" }, `${t(method)} ${limit}`), make("td", { class: "n" }, capacities.has(key) ? num(capacities.get(key), 3) : "–"), make("td", { class: isOff || isOpen ? "" : fine ? "good" : "bad" }, `${isOff || isOpen ? "" : fine ? "✓ " : "✗ "}${word}`));
   });
   const failed = found.verified.some(([, , fine]) => !fine) && found.probability < 0.01;
-  at("check").replaceChildren(make("div", { class: "scroll" }, make("table", {}, make("caption", {}, `${t("check_title")}, α₀ = ${num(found.alpha_0, 3)}`), make("thead", {}, make("tr", {}, make("th", { scope: "col" }, t("method")), make("th", { scope: "col", class: "n" }, t("capacity_head")), make("th", { scope: "col" }, t("outcome")))), make("tbody", {}, ...rows))), failed ? make("p", { class: "hint" }, t("check_why")) : "", ...found.notes.map((note) => make("p", { class: "hint" }, note)));
+  at("check").replaceChildren(make("div", { class: "scroll" }, make("table", {}, make("caption", {}, `${t("check_title")}, α₀ = ${num(found.alpha_0, 3)}`), make("thead", {}, make("tr", {}, make("th", { scope: "col" }, t("method")), make("th", { scope: "col", class: "n" }, t("capacity_head")), make("th", { scope: "col" }, t("outcome")))), make("tbody", {}, ...rows))), failed ? make("p", { class: "hint" }, t("check_why")) : "", ...found.notes.map((note) => make("p", { class: "hint" }, note.replace(/^alpha_0/, "α₀"))));
 }
 
 // The motion under one record

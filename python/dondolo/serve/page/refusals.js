@@ -32,8 +32,8 @@ function bounds({ low, high, bounds: kind }, value, shown) {
   const from = kind === "positive" ? "maggiore di 0" : low > -HUGE ? `almeno ${shown(low)}` : "", to = high < HUGE ? `${kind === "less" ? "minore di" : "al più"} ${shown(high)}` : "";
   return `deve essere ${[from, to].filter(Boolean).join(" e ")}`;
 }
-function words({ code, variable, group, line }) {
-  const where = line ? ` (riga ${line})` : "";
+function words({ code, variable, group, line }, isFile) {
+  const where = isFile && line ? ` (riga ${line})` : "";
   if (!variable) return `${CODES[code] ?? (group ? `Il gruppo &${group} del caso non è ammesso` : "Il caso non è ammesso")}${where}`;
   const property = state.properties[group]?.[variable] ?? Object.values(state.properties).map((table) => table[variable]).find(Boolean);
   const field = fieldOf(variable), values = [].concat(state.settings[group]?.[variable] ?? []), factor = field?.[3] ?? 1, unit = field ? field[4] : property?.unit ?? "";
@@ -45,9 +45,9 @@ function words({ code, variable, group, line }) {
   return `${labelOf(variable)} (${variable})${value}: ${(allowed || own || CODES[code] || "non ammesso").replace(/\{(\w)\}/g, (_, name) => size[name])}${where}`;
 }
 
-// The sentence of a refusal: what the server answered, or that it did not
-export function sentenceOf(answer) {
+// The sentence of a refusal: what the server answered, or that it did not; lines are those of a file that was opened.
+export function sentenceOf(answer, isFile = false) {
   if (!answer?.error) return t("no_answer");
   if (language() === "en") return answer.error.replace(/^case\.nml: /, "");
-  return answer.errors?.length ? answer.errors.map(words).join(". ") : "Richiesta non riuscita.";
+  return answer.errors?.length ? answer.errors.map((one) => words(one, isFile)).join(". ") : "Richiesta non riuscita.";
 }

@@ -7,12 +7,14 @@ export const state = { settings: {}, auto: true, b: null, fan: null, answer: nul
 const SLOW = 60;
 // Pause after which a drag is over [ms]
 const PAUSE = 180;
-let flying = false, waits = false, dragging = false, slow = 0, later = 0, told = () => {};
+// A question that has taken so long is given up for a newer one; a draft is waited for, so that curves are seen while dragging [ms]
+const LATE = 300;
+let flying = null, waits = false, dragging = false, slow = 0, later = 0, told = () => {};
 
 export const whenTold = (f) => { told = f; };
 
-export async function post(path, body) {
-  const response = await fetch(path, { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(body) });
+export async function post(path, body, signal) {
+  const response = await fetch(path, { method: "POST", headers: { "content-type": "application/json" }, body: JSON.stringify(body), signal });
   if (path === "document" && response.ok) return response.blob();
   const answer = await response.json().catch(() => ({ error: String(response.status) }));
   if (!response.ok) throw Object.assign(new Error(answer.error), { answer });
@@ -23,6 +25,7 @@ export async function post(path, body) {
 export function changed(moving = false) {
   state.version = (state.version || 0) + 1;
   state.isNewest = false;
+  if (flying && !flying.draft && performance.now() - flying.since > LATE) { slow = performance.now() - flying.since; flying.given.abort(); }
   dragging = moving && slow > SLOW;
   clearTimeout(later);
   if (moving) later = setTimeout(() => { dragging = false; if (!flying && (state.answer === null || state.answer.draft)) ask(); }, PAUSE);
@@ -32,15 +35,15 @@ export function changed(moving = false) {
 
 async function ask() {
   if (flying) { waits = true; return; }
-  flying = true;
   do {
     waits = false;
     const version = state.version, draft = dragging;
+    flying = { draft, since: performance.now(), given: new AbortController() };
     const body = { settings: state.settings, auto: state.auto, lang: language(), draft };
     if (state.b && !draft) body.b = state.b;
     if (state.fan && !draft) body.fan = state.fan;
     try {
-      const answer = await post("curve", body);
+      const answer = await post("curve", body, flying.given.signal);
       if (!draft) slow = answer.ms;
       state.answer = answer;
       state.isNewest = version === state.version;
@@ -54,5 +57,5 @@ async function ask() {
       told("refused", error);
     }
   } while (waits);
-  flying = false;
+  flying = null;
 }
