@@ -34,7 +34,9 @@ html_show_sourcelink = False
 html_theme_options = {"navigation_with_keys": False, "show_prev_next": True, "secondary_sidebar_items": ["page-toc"]}
 # Pages without neighbours
 html_sidebars = {"tutorial/first_wall": []}
-html_static_path = ["site/static"]
+# The curve of "In the browser" is drawn as the page of `dondolo serve` draws it.
+page = "../python/dondolo/serve/page"
+html_static_path = ["site/static", f"{page}/chart.js", f"{page}/words.js"]
 html_css_files = ["site.css"]
 copybutton_prompt_text = "$ "
 
