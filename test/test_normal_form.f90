@@ -1,16 +1,18 @@
 !> The normal form against the terms of the mechanism: y'' by the chain rule from q'', the energy, the rotation.
 program test_normal_form
-   use checks, only : check, check_close, finish, suite
+   use checks, only : check, check_close, check_ok, finish, suite
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : to_text
-   use dondolo_motion_normal_form, only : degrees, harmonic_degrees, new_normal_form, normal_form_type, y_limit
+   use dondolo_motion_normal_form, only : degrees, harmonic_degrees, highest_restrained, new_normal_form, normal_form_type, &
+      & restrained_degrees, y_limit
    use dondolo_motion_solver, only : check_limit, solver_type
    use dondolo_record_random, only : new_random, random_type
-   use dondolo_wall, only : wall_type
+   use dondolo_wall, only : new_wall, wall_input_type, wall_type
    use dondolo_wall_mechanism, only : mechanism_type
+   use tied_history, only : new_tied_history
    use motion_inputs, only : a_wall, made
-   use random_history, only : across, between, random_wall
+   use random_history, only : across, between, history_type, random_wall
    implicit none
 
    real(wp), parameter :: eps = epsilon(1.0_wp)
@@ -33,6 +35,7 @@ program test_normal_form
    call test_random_walls()
    call test_degrees()
    call test_existence()
+   call test_ties()
    print '(a, 3es9.1, 2(a, i0), a, *(1x, i0))', 'worst', worst, '; forms ', with_form, ', none ', without_form, &
       & '; of each degree, harmonic ones last', of_degree, harmonic
    call finish()
@@ -257,6 +260,95 @@ contains
       call check(has_form(wall%mechanism, 1.0e-12_wp*wall%mechanism%capacity), 'a small limit')
       call check(.not. has_form(wall%mechanism, tiny(1.0_wp)), 'a limit that would overflow')
    end subroutine test_existence
+
+   !> Walls with ties and friction in any mode, harmonic and not: y'' from the terms, and the bound of the fifth
+   !> derivative, which fifth differences cannot exceed
+   subroutine test_ties()
+      integer, parameter :: n = 20
+      type(history_type) :: history
+      type(normal_form_type) :: form
+      type(wall_type) :: squat_wall
+      class(mechanism_type), allocatable :: wall
+      real(wp), allocatable :: force(:), stiffness(:)
+      real(wp) :: a(0:highest_restrained), fifth_a, value(0:n), scale, difference(0:n), largest
+      integer :: found(4), i, k
+
+      call suite('ties')
+      found = 0
+      largest = 0.0_wp
+      do i = 1, 320
+         history = new_tied_history(50000 + i)
+         wall = history%wall%mechanism
+         if (i > 300) then
+            squat_wall = squat_with_tie(max(0.0_wp, 0.025_wp*(i - 310)))
+            wall = squat_wall%mechanism
+         end if
+         if (allocated(force)) deallocate (force, stiffness)
+         allocate (force(size(wall%restraints)), stiffness(size(wall%restraints)))
+         form = new_normal_form(wall, merge(1.0_wp, across(random, 0.05_wp, 1.5_wp), modulo(i, 2) == 0) &
+            & *merge(2.0_wp, 1.0_wp, i > 310)*wall%capacity)
+         if (.not. form%exists) cycle
+         if (form%is_harmonic) then
+            found(findloc(harmonic_degrees, form%degree, dim=1)) = found(findloc(harmonic_degrees, form%degree, dim=1)) + 1
+         else
+            found(2 + findloc(restrained_degrees, form%degree, dim=1)) = &
+               & found(2 + findloc(restrained_degrees, form%degree, dim=1)) + 1
+         end if
+         do k = 1, size(force)
+            force(k) = between(random, -1.0_wp, 1.0_wp)*wall%restraints(k)%strength
+            stiffness(k) = merge(0.0_wp, wall%restraints(k)%stiffness, modulo(i, 3) == 0)
+            if (wall%restraints(k)%is_friction) stiffness(k) = -wall%restraints(k)%strength/wall%restraints(k)%fracture_travel
+         end do
+         call wall%set_restraints(force, stiffness)
+         call form%restrained(force, stiffness, a, fifth_a)
+         value = [(acceleration_at(form, wall, y_limit*k/n), k=0, n)]
+         scale = maxval(abs(value)) + sum(abs(force)*wall%restraints%f)/(inertia(wall, 0.0_wp)*form%unit)
+         do k = 0, n
+            difference(k) = form%restrained_value(a, y_limit*k/n) - value(k)
+         end do
+         largest = max(largest, maxval(abs(difference))/scale)
+         call check(maxval(abs(difference)) <= 1.0e-12_wp*scale, to_text(i)//': acceleration is off by '// &
+            & to_text(maxval(abs(difference))/scale))
+         difference = value
+         do k = 1, 5
+            difference(:n - k) = difference(1:n - k + 1) - difference(:n - k)
+         end do
+         call check(all(abs(difference(:n - 5)) <= 120.0_wp*fifth_a*(y_limit/n)**5 + 100.0_wp*eps*scale), &
+            & to_text(i)//': fifth derivative')
+      end do
+      call check(all(found > 3), 'forms of every kind: '//to_text(found(1))//', '//to_text(found(2))//', '//to_text(found(3))// &
+         & ' and '//to_text(found(4)))
+      print '(a, es9.1, a, *(1x, i0))', 'worst with ties', largest, ', forms', found
+   end subroutine test_ties
+
+   !> A squat wall with a tie
+   function squat_with_tie(edge_radius) result(wall)
+      real(wp), intent(in) :: edge_radius
+      type(wall_type) :: wall
+      type(wall_input_type) :: input
+      type(error_type), allocatable :: error
+
+      call input%set('mechanism', 'one_sided')
+      call input%set('height', 1.0_wp)
+      call input%set('thickness', 0.9_wp)
+      call input%set('edge_radius', edge_radius)
+      call input%set('tie_height', [0.9_wp])
+      call input%set('tie_area', [5.0e-5_wp])
+      call input%set('tie_length', [8.0_wp])
+      call new_wall(wall, input, error)
+      call check_ok(error, 'squat wall')
+   end function squat_with_tie
+
+   !> y'' of a wall without velocity, over ground at rest
+   real(wp) function acceleration_at(form, mechanism, y)
+      type(normal_form_type), intent(in) :: form
+      class(mechanism_type), intent(in) :: mechanism
+      real(wp), intent(in) :: y
+      real(wp) :: j, c, g, l, load
+
+      call mechanism%terms(form%rotation(y), j, c, g, l, load)
+      acceleration_at = (load - g)/(sqrt(j*inertia(mechanism, 0.0_wp))*form%unit)
+   end function acceleration_at
 
    !> Does it have a form?
    logical function has_form(mechanism, limit)

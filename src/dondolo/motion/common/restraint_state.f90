@@ -39,6 +39,8 @@ module dondolo_motion_restraint_state
       procedure :: turn
       !> The wall strikes its base
       procedure :: strike
+      !> Does a tie become slack there?
+      procedure :: slackens_at_base
       !> Would friction resist a motion outwards that goes on?
       procedure :: rubs_beyond
       !> What the history did to the ties
@@ -143,6 +145,13 @@ contains
       self%changed = .false.
       call self%update(wall)
    end subroutine strike
+
+   !> Does a tie that has stretched become slack where the wall strikes its base? It may be taut until then by rounding
+   pure logical function slackens_at_base(self)
+      class(restraint_state_type), intent(in) :: self
+
+      slackens_at_base = any(self%mode == elastic .and. self%slack_below > 0.0_wp)
+   end function slackens_at_base
 
    !> Would a motion outwards, which has ended at the largest rotation so far, wake friction if it went on?
    pure logical function rubs_beyond(self, wall)

@@ -5,7 +5,8 @@ module dondolo_motion_lane_events
    use dondolo_motion_events, only : no_event, turning
    use dondolo_motion_lane_constants, only : lane_constants_type
    use dondolo_motion_lane_restraints, only : lane_restraints_type
-   use dondolo_motion_lane_series, only : allowed_part, find_first, find_first_level, find_simple, rate, undecided, value
+   use dondolo_motion_lane_series, only : allowed_part, find_first, find_first_level, find_room, find_simple, rate, &
+      & undecided, value
    use dondolo_motion_lane_state, only : lane_width, lanes_type, part_if_restrained, step_taken, step_too_long, whole_vectors
    use dondolo_motion_step_limits, only : shortest_motion, smallest_step
    implicit none
@@ -19,6 +20,8 @@ module dondolo_motion_lane_events
       integer :: n = 0, lane(lane_width) = 0
       !> The series of their motions, the part of the step that is allowed, and their largest y so far
       real(wp) :: d(lane_width, 0:9) = 0.0_wp, last(lane_width) = 1.0_wp, peak(lane_width) = 0.0_wp
+      !> Of walls with ties: the nearest levels, and by how much the motion is certain to stay between them
+      real(wp) :: low(lane_width) = 0.0_wp, high(lane_width) = 0.0_wp, room(lane_width) = 0.0_wp
       !> The first event, or `undecided`
       integer(int64) :: event(lane_width) = no_event
       !> Its place, the coordinate there, and its rate of change
@@ -59,6 +62,10 @@ contains
             if (lanes%released(i) < 0.0_wp) found%d(n, 2) = min(0.0_wp, found%d(n, 2))
          end if
          found%peak(n) = lanes%peak(i)
+         if (constants%form%is_restrained) then
+            found%low(n) = merge(lanes%below(i), -huge(1.0_wp), lanes%below(i) > 0.0_wp)
+            found%high(n) = lanes%above(i)
+         end if
          found%last(n) = 1.0_wp
          if (lanes%flag(i) == step_too_long) then
             associate (part => found%last(n), step => lanes%step(i))
@@ -72,8 +79,10 @@ contains
             end associate
          end if
       end do
-      if (found%n > 0) call find_simple(whole_vectors(found%n), found%d, found%peak, found%last, found%x, found%y, found%v, &
-         & found%event)
+      if (found%n == 0) return
+      call find_simple(whole_vectors(found%n), found%d, found%peak, found%last, found%x, found%y, found%v, found%event)
+      if (constants%form%is_restrained) call find_room(whole_vectors(found%n), found%d, found%last, found%low, &
+         & found%high, found%room)
    end subroutine find_lane_events
 
    !> The first event in the step of a flagged lane, and the motion there
@@ -91,15 +100,17 @@ contains
       integer, intent(out) :: event
 
       real(wp) :: d(0:9)
-      logical :: looks
+      logical :: moves, looks
 
       associate (i => found%lane(n))
          part = found%last(n)
          event = no_event
-         if (part*lanes%step(i) > shortest_motion*lanes%dt(i)) then
+         moves = part*lanes%step(i) > shortest_motion*lanes%dt(i)
+         looks = present(restraints) .and. moves .and. .not. found%room(n) > 0.0_wp
+         if (moves) then
             part = found%x(n)
             event = int(found%event(n))
-            if (event /= undecided .and. .not. present(restraints)) then
+            if (event /= undecided .and. .not. looks) then
                lanes%y(i) = found%y(n)
                lanes%v(i) = found%v(n)/lanes%step(i)
                return
@@ -110,10 +121,8 @@ contains
             part = found%last(n)
             call find_first(d, lanes%peak(i), part, event)
          end if
-         if (present(restraints) .and. found%last(n)*lanes%step(i) > shortest_motion*lanes%dt(i)) then
-            call restraints(i)%looks_for_levels(looks)
-            if (looks) call find_first_level(d, lanes%below(i), lanes%above(i), part, event)
-         end if
+         if (looks) call restraints(i)%looks_for_levels(looks)
+         if (looks) call find_first_level(d, found%low(n), found%high(n), part, event)
          ! A motion that begins where it turns does not turn there again: that is rounding, and would be found forever, since no
          ! time passes. It goes on a little instead.
          if (event == turning .and. d(1) == 0.0_wp .and. part*lanes%step(i) <= shortest_motion*lanes%dt(i)) then

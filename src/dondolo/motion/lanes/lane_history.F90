@@ -10,10 +10,10 @@ module dondolo_motion_lane_history
    use dondolo_motion_history, only : history_type
    use dondolo_motion_lane_constants, only : lane_constants_type
    use dondolo_motion_lane_events, only : find_event, found_type
-   use dondolo_motion_lane_restraints, only : lane_restraints_type, power_series
+   use dondolo_motion_lane_restraints, only : lane_restraints_type
    use dondolo_motion_lane_ground, only : aim, limit_span, next_sample, stop_between
    use dondolo_motion_lane_state, only : event_possible, lane_width, lanes_type
-   use dondolo_motion_normal_form, only : y_limit
+   use dondolo_motion_normal_form, only : power_series, y_limit
    use dondolo_motion_queue, only : queue_type
    use dondolo_motion_response, only : trace_type
    use dondolo_motion_rest, only : rest_type

@@ -33,7 +33,19 @@ contains
       integer :: rounded
 
       rounded = whole_vectors(active)
-      if (form%is_restrained .and. form%is_shaken) then
+      if (form%is_restrained .and. form%is_harmonic .and. form%is_shaken) then
+         if (form%degree == harmonic_degrees(1)) then
+            call shaken_step_restrained_harmonic_10(lanes, rounded, form, samples, verticals, rtol, atol)
+         else
+            call shaken_step_restrained_harmonic_16(lanes, rounded, form, samples, verticals, rtol, atol)
+         end if
+      else if (form%is_restrained .and. form%is_harmonic) then
+         if (form%degree == harmonic_degrees(1)) then
+            call step_restrained_harmonic_10(lanes, rounded, form, samples, rtol, atol)
+         else
+            call step_restrained_harmonic_16(lanes, rounded, form, samples, rtol, atol)
+         end if
+      else if (form%is_restrained .and. form%is_shaken) then
          if (form%degree == restrained_degrees(1)) then
             call shaken_step_restrained_14(lanes, rounded, form, samples, verticals, rtol, atol)
          else
@@ -122,6 +134,13 @@ contains
 #define LANE_DEGREE 14
 #include "lane_step.inc"
 #define LANE_DEGREE 22
+#include "lane_step.inc"
+#undef LANE_KIND
+#define LANE_KIND step_restrained_harmonic_
+#define LANE_HARMONIC
+#define LANE_DEGREE 10
+#include "lane_step.inc"
+#define LANE_DEGREE 16
 #include "lane_step.inc"
 
 end module dondolo_motion_lane_kernel

@@ -17,7 +17,7 @@ module dondolo_motion_lane_restraints
    implicit none
    private
 
-   public :: lane_restraints_type, power_series
+   public :: lane_restraints_type
 
    !> The ties and the friction of a wall in one lane
    type :: lane_restraints_type
@@ -142,13 +142,13 @@ contains
 
       real(wp) :: a(0:highest_restrained), fifth, largest
 
-      back = -power_series(lanes%a(i, :), lanes%y(i) - 1.0_wp)
+      back = -constants%form%restrained_value(lanes%a(i, :), lanes%y(i))
       ! With the friction that a further motion wakes
       largest = self%state%above
       call self%state%cross(self%wall, largest, .true., 0.0_wp)
       call constants%form%restrained(self%state%force, self%state%stiffness, a, fifth)
       call self%state%turn(self%wall, largest)
-      on = -power_series(a, lanes%y(i) - 1.0_wp)
+      on = -constants%form%restrained_value(a, lanes%y(i))
    end subroutine held_between
 
    !> Go on outwards, against friction
@@ -178,6 +178,7 @@ contains
       logical :: changed
 
       self%stalled = 0
+      if (.not. (self%state%flows .or. self%state%changed .or. self%state%slackens_at_base())) return
       ! Rounding may end a motion outwards unseen.
       if (self%state%flows) call self%state%turn(self%wall, constants%form%rotation(lanes%peak(i)))
       changed = self%state%changed
@@ -225,27 +226,12 @@ contains
       real(wp) :: a(0:highest_restrained)
 
       call constants%form%restrained(self%state%force, self%state%stiffness, a, lanes%fifth_a(i))
-      lanes%a(i, :) = a
+      lanes%a(i, :constants%form%last) = a(:constants%form%last)
       lanes%above(i) = constants%form%coordinate(self%state%above)
       lanes%below(i) = 0.0_wp
       if (self%state%below > 0.0_wp) lanes%below(i) = constants%form%coordinate(self%state%below)
       ! A tie flows outwards only; rounding may end such a motion unseen.
       if (self%state%flows) lanes%below(i) = max(lanes%below(i), lanes%y(i))
    end subroutine update
-
-   !> Value of a polynomial
-   pure real(wp) function power_series(c, z) result(value)
-      !> Coefficients of 1, z, z^2, ...
-      real(wp), intent(in) :: c(0:)
-      !> Argument
-      real(wp), intent(in) :: z
-
-      integer :: k
-
-      value = c(ubound(c, 1))
-      do k = ubound(c, 1) - 1, 0, -1
-         value = value*z + c(k)
-      end do
-   end function power_series
 
 end module dondolo_motion_lane_restraints

@@ -9,7 +9,7 @@ module dondolo_motion_lane_series
    implicit none
    private
 
-   public :: allowed_part, find_first, find_first_level, find_simple, rate, undecided, value
+   public :: allowed_part, find_first, find_first_level, find_room, find_simple, rate, undecided, value
 
    !> Not an event: the motion is not of a shape that find_simple knows
    integer, parameter :: undecided = -1
@@ -140,6 +140,40 @@ contains
       end do
    end subroutine find_simple
 
+   !> By how much several motions are certain to stay between two levels, negative if they are not: the cubic through both ends
+   !> does, and the higher terms add little to it, as in the loop over lanes
+   pure subroutine find_room(n, d, last_part, low, high, room)
+      !> Steps, in whole vectors
+      integer, intent(in) :: n
+      !> The series of their motions
+      real(wp), intent(in) :: d(lane_width, 0:9)
+      !> Where the steps end
+      real(wp), intent(in) :: last_part(lane_width)
+      !> The levels y; -huge and huge: there is none
+      real(wp), intent(in) :: low(lane_width), high(lane_width)
+      !> The least distance from them
+      real(wp), intent(inout) :: room(lane_width)
+
+      real(wp) :: last, zz, z4, y_end, third, late_third, margin
+      integer :: i
+
+      !$omp simd
+      do i = 1, n
+         last = last_part(i)
+         zz = last*last
+         z4 = zz*zz
+         y_end = (d(i, 0) + last*d(i, 1)) + zz*(d(i, 2) + last*d(i, 3)) &
+            & + z4*((d(i, 4) + last*d(i, 5)) + zz*(d(i, 6) + last*d(i, 7)) + z4*(d(i, 8) + last*d(i, 9)))
+         third = d(i, 0) + last*d(i, 1)*(1.0_wp/3.0_wp)
+         late_third = y_end - last*((d(i, 1) + 2.0_wp*d(i, 2)*last) + zz*(3.0_wp*d(i, 3) + 4.0_wp*d(i, 4)*last) &
+            & + z4*((5.0_wp*d(i, 5) + 6.0_wp*d(i, 6)*last) + zz*(7.0_wp*d(i, 7) + 8.0_wp*d(i, 8)*last) &
+            & + z4*(9.0_wp*d(i, 9))))*(1.0_wp/3.0_wp)
+         margin = 2.0_wp*z4*((abs(d(i, 4)) + last*abs(d(i, 5))) + zz*(abs(d(i, 6)) + last*abs(d(i, 7))))
+         room(i) = min(min(min(third, late_third), y_end) - low(i), high(i) - max(max(third, late_third), max(d(i, 0), y_end))) &
+            & - margin
+      end do
+   end subroutine find_room
+
    !> The first event of a step that find_simple leaves undecided: at once where the motion rises, else from its Bernstein form
    pure subroutine find_first(d, peak, x, event)
       !> The series of the motion
@@ -177,7 +211,7 @@ contains
    pure subroutine find_first_level(d, low, high, x, event)
       !> The series of the motion
       real(wp), intent(in) :: d(0:9)
-      !> The levels y; 0 and huge: there is none
+      !> The levels y; -huge and huge: there is none
       real(wp), intent(in) :: low, high
       !> In: the place of that event, or where the step ends; out: that of the level, if it comes before it
       real(wp), intent(inout) :: x
@@ -197,12 +231,12 @@ contains
          event = level_above
       else if (rises_throughout(-d, -v, x) .or. (most_bent < 0.0_wp .and. d(1) <= 0.0_wp)) then
          ! It falls all the way.
-         if (y > low .or. .not. low > 0.0_wp) return
+         if (y > low) return
          x = place_of_level(-d, -low, x)
          event = level_below
       else
          place = nowhere
-         call find_level(bernstein(d, x), high, merge(low, -huge(low), low > 0.0_wp), event, place)
+         call find_level(bernstein(d, x), high, low, event, place)
          if (place < nowhere) x = place*x
       end if
    end subroutine find_first_level

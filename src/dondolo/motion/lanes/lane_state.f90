@@ -55,8 +55,8 @@ module dondolo_motion_lane_state
       real(wp) :: step(lane_width) = 0.0_wp, series(lane_width, 2:9) = 0.0_wp
       !> What became of the last step
       integer(lane_integer) :: flag(lane_width) = step_taken
-      !> Of walls with ties: coefficients of a with the forces that they have at present, the bound of its fifth derivative,
-      !> and the nearest y above and below at which these forces change
+      !> Of walls with ties: coefficients of a with the forces that they have at present (dondolo_motion_normal_form), the bound of
+      !> its fifth derivative, and the nearest y above and below at which these forces change
       real(wp) :: a(lane_width, 0:highest_restrained) = 0.0_wp, fifth_a(lane_width) = 0.0_wp
       real(wp) :: above(lane_width) = huge(1.0_wp), below(lane_width) = 0.0_wp
       !> Of walls that friction has held and the ground releases: 1 if they go on outwards, -1 if they fall back; 0 after their

@@ -11,11 +11,12 @@
 !> A, B and D are smooth: polynomials in z, which runs from -1 at rest to 1 at the limit rotation, hold them to rounding,
 !> and one branch-free loop serves every mechanism. Lengths are in halves of x at the limit, y = z + 1.
 !>
-!> Ties and friction add -(force + stiffness D) D'/sqrt(J J(0)) to A, with constants that change in the course of a history: two
-!> more polynomials for each of them, from which `restrained` makes the A of the moment.
-!>
 !> Those of one rigid body that turns about a fixed point are harmonic: e cos(w z) + f sin(w z), with w the rotation at
 !> z = 1 less that at z = 0. Two short polynomials in z^2 then serve all of them and all their derivatives.
+!>
+!> Ties and friction add -(force + stiffness D) D'/sqrt(J J(0)) to A, with constants that change in the course of a history: two
+!> more functions for each of them, from which `restrained` makes the A of the moment. They are polynomials, or harmonic with w
+!> and 2 w.
 module dondolo_motion_normal_form
    use dondolo_base_chebyshev, only : as_powers, chebyshev_integral, chebyshev_nodes, chebyshev_series, chebyshev_value
    use dondolo_base_kinds, only : wp
@@ -24,7 +25,7 @@ module dondolo_motion_normal_form
    implicit none
    private
 
-   public :: normal_form_type, new_normal_form
+   public :: normal_form_type, new_normal_form, power_series
    public :: degrees, highest_degree, harmonic_degrees, highest_harmonic, restrained_degrees, highest_restrained
 
    !> Degrees of the polynomials to choose from: a slender block, most walls, stocky ones, walls that lift heavy masses
@@ -38,6 +39,9 @@ module dondolo_motion_normal_form
    !> Degrees of the polynomials of walls with ties
    integer, parameter :: restrained_degrees(2) = [14, 22]
    integer, parameter :: highest_restrained = restrained_degrees(2)
+
+   !> Last of the coefficients of a harmonic A with ties: of cos(w z), sin(w z), cos(2 w z) and sin(2 w z), from 0
+   integer, parameter :: last_amplitude = 3
 
    !> Highest degree whose powers keep the rounding of the series that they are made of
    integer, parameter :: highest_full = degrees(5)
@@ -62,7 +66,7 @@ module dondolo_motion_normal_form
       logical :: is_restrained = .false.
       !> Are its terms harmonic?
       logical :: is_harmonic = .false.
-      !> Degree of the polynomials: one of `harmonic_degrees`, else of `degrees`
+      !> Degree of the polynomials: one of `harmonic_degrees`, else of `restrained_degrees` or `degrees`
       integer :: degree = 0
       !> y'' = a(z) + b(z) u: coefficients of 1, z, z^2, ... [1/s2] and [1/m]
       real(wp) :: a(0:highest_degree) = 0.0_wp, b(0:highest_degree) = 0.0_wp
@@ -75,8 +79,10 @@ module dondolo_motion_normal_form
       !> 1, z^2, z^4, ... in cos(w z) and in sin(w z)/z
       real(wp) :: even(3) = 0.0_wp, odd(3) = 0.0_wp
       real(wp) :: cosine(0:highest_harmonic/2) = 0.0_wp, sine(0:highest_harmonic/2 - 1) = 0.0_wp
-      !> For each tie what a force of 1 and a stiffness of 1 add to a, with the same bounds
-      real(wp), allocatable, private :: by_force(:, :), by_stiffness(:, :), fifth_by_force(:), fifth_by_stiffness(:)
+      !> Last coefficient of a with ties; those of a without them, and for each tie what a force of 1 and a stiffness of 1 add to
+      !> them and, of polynomials, to the bound
+      integer :: last = 0
+      real(wp), allocatable, private :: free(:), by_force(:, :), by_stiffness(:, :), fifth_by_force(:), fifth_by_stiffness(:)
       !> x at y = 1 [rad]; w of a harmonic form
       real(wp) :: unit = 0.0_wp
       !> Are x and q the same?
@@ -90,8 +96,10 @@ module dondolo_motion_normal_form
       procedure :: rotation
       !> Coordinate y
       procedure :: coordinate
-      !> The polynomial a with the forces of the ties
+      !> The coefficients of a with the forces of the ties
       procedure :: restrained
+      !> a from these
+      procedure :: restrained_value
       !> Bound of the fifth derivative
       procedure :: fifth
    end type normal_form_type
@@ -150,7 +158,8 @@ contains
       a = a/form%unit
       b = b/form%unit
       d = d/form%unit
-      if (form%is_identity .and. .not. form%is_restrained) call fit_harmonic_form(form, z, a, b, d)
+      if (form%is_identity) call fit_harmonic_form(form, z, a, b, d)
+      if (form%is_harmonic .and. form%is_restrained) call add_harmonic_ties(form, wall, z, inertia)
       if (form%is_harmonic) return
       needed = max(degree_of(chebyshev_series(a)), degree_of(chebyshev_series(b)))
       if (form%is_shaken) needed = max(needed, degree_of(chebyshev_series(d)))
@@ -168,9 +177,73 @@ contains
       call expand(a, kept, form%a, form%fifth_a)
       call expand(b, kept, form%b, form%fifth_b)
       if (form%is_shaken) call expand(d, kept, form%d, form%fifth_d)
+      if (form%is_restrained) form%free = form%a(:form%last)
    end function new_normal_form
 
-   !> What the ties add to a
+   !> What the ties of a harmonic form add to a, harmonic too unless the wall rolls on an edge: with D = f sin q + e (1 - cos q)
+   !> and q = w (1 + z), D' = f cos q + e sin q and D D' = e f (cos q - cos 2q) + e^2 sin q + (f^2 - e^2)/2 sin 2q
+   pure subroutine add_harmonic_ties(form, wall, z, inertia)
+      !> The form; harmonic no more if the ties are not
+      type(normal_form_type), intent(inout) :: form
+      class(mechanism_type), intent(in) :: wall
+      !> Nodes
+      real(wp), intent(in) :: z(:)
+      !> Inertia [kg m2]
+      real(wp), intent(in) :: inertia
+
+      integer :: i, ties
+
+      ties = size(wall%restraints)
+      form%last = last_amplitude
+      form%free = [form%even(1), form%odd(1), 0.0_wp, 0.0_wp]
+      allocate (form%by_force(0:last_amplitude, ties), form%by_stiffness(0:last_amplitude, ties), source=0.0_wp)
+      associate (w => form%unit)
+         do i = 1, ties
+            associate (edge => wall%restraints(i)%edge, e => wall%restraints(i)%e, f => wall%restraints(i)%f, &
+               & force => form%by_force(:, i), stiffness => form%by_stiffness(:, i))
+               force(1:2) = turned(f, e, w)
+               stiffness(1:2) = turned(e*f, e**2, w)
+               stiffness(3:4) = turned(-e*f, 0.5_wp*(f**2 - e**2), 2.0_wp*w)
+               force = -force/(inertia*w)
+               stiffness = -stiffness/(inertia*w)
+               form%is_harmonic = form%is_harmonic .and. is_one(lever(edge, e, f, w*(1.0_wp + z)), force) &
+                  & .and. is_one(lever(edge, e, f, w*(1.0_wp + z))*travel(edge, e, f, w*(1.0_wp + z)), stiffness)
+            end associate
+         end do
+      end associate
+      if (form%is_harmonic) return
+      form%exists = .false.
+      deallocate (form%by_force, form%by_stiffness)
+
+   contains
+
+      !> Amplitudes of the cosine and the sine of the angle from the middle of those of the angle from the beginning
+      pure function turned(even, odd, angle)
+         !> The amplitudes
+         real(wp), intent(in) :: even, odd
+         !> The angle to the middle [rad]
+         real(wp), intent(in) :: angle
+         real(wp) :: turned(2)
+
+         turned = [even*cos(angle) + odd*sin(angle), odd*cos(angle) - even*sin(angle)]
+      end function turned
+
+      !> Do amplitudes give a function?
+      pure logical function is_one(values, amplitudes)
+         !> The function at the nodes, without its factor
+         real(wp), intent(in) :: values(:)
+         !> The amplitudes
+         real(wp), intent(in) :: amplitudes(:)
+
+         integer :: k
+
+         is_one = all(abs([(form%restrained_value(amplitudes, 1.0_wp + z(k)), k=1, size(z))] &
+            & + values/(inertia*form%unit)) <= noise*maxval(abs(values))/(inertia*form%unit))
+      end function is_one
+
+   end subroutine add_harmonic_ties
+
+   !> What the ties add to a polynomial a
    pure subroutine add_ties(form, wall, q, inertia, least)
       !> The form; its unit is given
       type(normal_form_type), intent(inout) :: form
@@ -195,7 +268,8 @@ contains
       form%exists = needed <= highest_restrained
       if (.not. form%exists) return
       form%degree = minval(restrained_degrees, restrained_degrees >= needed)
-      allocate (form%by_force(0:highest_restrained, ties), form%by_stiffness(0:highest_restrained, ties))
+      form%last = form%degree
+      allocate (form%by_force(0:form%last, ties), form%by_stiffness(0:form%last, ties))
       allocate (form%fifth_by_force(ties), form%fifth_by_stiffness(ties))
       do i = 1, ties
          call expand(force(:, i), form%degree, form%by_force(:, i), form%fifth_by_force(i))
@@ -328,23 +402,58 @@ contains
       end do
    end subroutine expand
 
-   !> The polynomial a with the forces of the ties
+   !> The coefficients of a with the forces of the ties
    pure subroutine restrained(self, force, stiffness, a, fifth_a)
       class(normal_form_type), intent(in) :: self
       !> Of each tie: T = force + stiffness D [N/m] and [N/m per m]
       real(wp), intent(in) :: force(:), stiffness(:)
-      !> Coefficients of 1, z, z^2, ... [1/s2], and the bound of its fifth derivative / 5!
+      !> Coefficients up to `last` [1/s2], and the bound of the fifth derivative of a / 5!
       real(wp), intent(out) :: a(0:highest_restrained), fifth_a
 
       integer :: i
 
-      a = self%a(:highest_restrained)
+      a(:self%last) = self%free
       fifth_a = self%fifth_a
       do i = 1, size(force)
-         a = a + (force(i)*self%by_force(:, i) + stiffness(i)*self%by_stiffness(:, i))
-         fifth_a = fifth_a + abs(force(i))*self%fifth_by_force(i) + abs(stiffness(i))*self%fifth_by_stiffness(i)
+         a(:self%last) = a(:self%last) + (force(i)*self%by_force(:, i) + stiffness(i)*self%by_stiffness(:, i))
+         if (.not. self%is_harmonic) fifth_a = fifth_a &
+            & + abs(force(i))*self%fifth_by_force(i) + abs(stiffness(i))*self%fifth_by_stiffness(i)
       end do
+      if (self%is_harmonic) fifth_a = (hypot(a(0), a(1)) + 32.0_wp*hypot(a(2), a(3)))*self%unit**5/120.0_wp
    end subroutine restrained
+
+   !> a of a wall with ties [1/s2]
+   pure real(wp) function restrained_value(self, a, y) result(value)
+      class(normal_form_type), intent(in) :: self
+      !> Its coefficients, from `restrained` [1/s2]
+      real(wp), intent(in) :: a(0:)
+      !> Coordinate
+      real(wp), intent(in) :: y
+
+      real(wp) :: angle
+
+      if (self%is_harmonic) then
+         angle = self%unit*(y - 1.0_wp)
+         value = (a(0)*cos(angle) + a(1)*sin(angle)) + (a(2)*cos(2.0_wp*angle) + a(3)*sin(2.0_wp*angle))
+      else
+         value = power_series(a(:self%last), y - 1.0_wp)
+      end if
+   end function restrained_value
+
+   !> Value of a polynomial
+   pure real(wp) function power_series(c, z) result(value)
+      !> Coefficients of 1, z, z^2, ...
+      real(wp), intent(in) :: c(0:)
+      !> Argument
+      real(wp), intent(in) :: z
+
+      integer :: k
+
+      value = c(ubound(c, 1))
+      do k = ubound(c, 1) - 1, 0, -1
+         value = value*z + c(k)
+      end do
+   end function power_series
 
    !> Bound of the fifth derivative of y''/5! by y [1/s2]
    elemental real(wp) function fifth(self, fifth_a, u, heavier)
