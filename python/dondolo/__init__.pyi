@@ -24,7 +24,6 @@ from dondolo.exchange.cases import read_case as read_case
 from dondolo.exchange.citing import cite as cite
 from dondolo.exchange.reading import read_results as read_results
 from dondolo.exchange.running import run_case as run_case
-from dondolo.exchange.workbook import write_workbook as write_workbook
 from dondolo.figures.themes import style as style
 from dondolo.hazard.hazard import HazardCurve as HazardCurve
 from dondolo.populations.study import typology as typology
@@ -43,6 +42,7 @@ from dondolo.records.synthetic import synthetic_records as synthetic_records
 from dondolo.records.target import TargetSpectrum as TargetSpectrum
 from dondolo.reporting.page import report as report
 from dondolo.reporting.relazione.writing import calculation_report as calculation_report
+from dondolo.reporting.workbook import write_workbook as write_workbook
 from dondolo.retrofit.designs import compare_designs as compare_designs
 from dondolo.walls import distributions as distributions
 from dondolo.walls.mechanisms import FreeStandingWall as FreeStandingWall

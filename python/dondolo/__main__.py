@@ -158,6 +158,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     workbook.add_argument("prefix", help="prefix of the result files, for example out/parapet", metavar="PREFIX")
     workbook.add_argument("-o", "--output", help="path of the workbook, PREFIX_tables.xlsx by default", metavar="FILE")
+    workbook.add_argument("--lang", help="en or it; DONDOLO_LANG by default, or en", metavar="LANGUAGE")
     workbook.set_defaults(run=_workbook)
     nrml = commands.add_parser(
         "nrml",
@@ -268,7 +269,7 @@ def _relazione(options: argparse.Namespace) -> None:
 def _workbook(options: argparse.Namespace) -> None:
     """Write the tables of a run into a workbook."""
     path = options.output or f"{options.prefix}_tables.xlsx"
-    dd.write_workbook(options.prefix, path)
+    dd.write_workbook(options.prefix, path, lang=options.lang)
     _report_done("written", path)
 
 

@@ -1,5 +1,6 @@
 """What offices work with: tables with decimal commas, workbooks, reports as PDF; installed examples and commands."""
 
+import re
 import shutil
 import subprocess
 import sys
@@ -85,6 +86,44 @@ def test_workbook(run):
     path.write_text("notes of the office")
     with pytest.raises(dd.errors.InputError, match="is not a workbook of dondolo"):
         dd.write_workbook(run, path)
+
+
+# What no sheet of an Italian workbook may have
+ENGLISH = (
+    "the of and with from wall walls check not is are tie load section hinge record records year years mass level unit"
+    " value histories collapse collapses at by for on yes height thickness weight status mechanism median"
+)
+
+
+@pytest.mark.parametrize("case", ["tied_facade", "uncertain_strip", "designs", "facade_hinges", "history"])
+def test_an_italian_workbook(case, executable, root, tmp_path):
+    """The same numbers under Italian heads: no word is left in English but names, identifiers and messages."""
+    openpyxl = pytest.importorskip("openpyxl")
+    text = (root / f"data/cases/{case}.nml").read_text()
+    (tmp_path / "case.nml").write_text(re.sub("'\\.\\./", f"'{root}/data/", text).replace(f"'out/{case}'", "'out'"))
+    subprocess.run([executable, "--quiet", "case.nml"], cwd=tmp_path, check=True, capture_output=True)
+    books = []
+    for lang in ("en", "it"):
+        dd.write_workbook(tmp_path / "out", tmp_path / f"{lang}.xlsx", lang=lang)
+        books.append(openpyxl.load_workbook(tmp_path / f"{lang}.xlsx"))
+    english, italian = books
+    assert len(english.sheetnames) == len(italian.sheetnames)
+    assert not set(italian.sheetnames) & set(english.sheetnames)
+    for name, its in zip(english.sheetnames, italian.sheetnames, strict=True):
+        names, *rows = english[name].iter_rows(values_only=True)
+        heads, *theirs = italian[its].iter_rows(values_only=True)
+        assert [head for head, one in zip(heads, names, strict=True) if "_" in head.replace("_E", "").replace("_R", "")
+                .replace("a_g", "")] == []  # fmt: skip
+        numbers = [[[x for x in row if isinstance(x, int | float)] for row in some] for some in (rows, theirs)]
+        assert numbers[0] == numbers[1]
+        words = set(re.findall(r"(?<![\w./-])[a-z]+(?![\w./-])", " ".join(heads).lower()))
+        if "item" in names or "meaning" in names:
+            cells = [row[i] for row in theirs for i, one in enumerate(names) if one in ("item", "meaning", "method")]
+            words |= set(re.findall(r"(?<![\w./-])[a-z]+(?![\w./-])", " ".join(map(str, cells)).lower()))
+        assert words & set(ENGLISH.split()) == set()
+    sheet = italian[italian.sheetnames[1]]
+    assert all(column.width >= 9 for column in sheet.column_dimensions.values())
+    assert any(cell.number_format != "General" for row in sheet.iter_rows(min_row=2) for cell in row)
 
 
 def test_a_workbook_has_its_suffix(run):

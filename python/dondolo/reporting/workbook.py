@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import math
 import os
 import re
 import zipfile
-from collections.abc import Iterable
+from collections.abc import Sequence
 from typing import Any
 
 from dondolo._base.files import as_file
@@ -14,6 +15,9 @@ from dondolo._fortran.origins import check_replaced, derived_mark
 from dondolo._storage.run_file import RunFile, read_run_file
 from dondolo.errors import DondoloError, InputError, visible
 from dondolo.exchange.result_file import ResultFile
+from dondolo.reporting import headings
+from dondolo.reporting.language import Language
+from dondolo.reporting.relazione.terms import warning
 
 # Numbers as tables have them; 007 is a name.
 _NUMBER = re.compile(r"[+-]?(0|[1-9]\d*)(\.\d*)?(E[+-]?\d+)?")
@@ -27,11 +31,14 @@ _SHEET = re.compile(r"[A-Za-z0-9_-]{1,31}")
 _LARGEST = 9.99999999999999e307
 _LONGEST = 32767
 
-# Titles and rows
-_Sheet = tuple[list[str], Iterable[Iterable[Any]]]
+# Narrowest and widest column, in letters, rows that its width is made for, and letters of a line of a title
+_WIDTHS, _LOOKED_AT, _HEAD = (9, 48), 200, 18
+
+# Titles and columns
+_Sheet = tuple[list[str], Sequence[Sequence[Any]]]
 
 
-def write_workbook(prefix: str | os.PathLike[str], path: str | os.PathLike[str]) -> None:
+def write_workbook(prefix: str | os.PathLike[str], path: str | os.PathLike[str], *, lang: str | None = None) -> None:
     """Write all tables of a run into one workbook: a sheet a table, and one of the case.
 
     Parameters
@@ -41,6 +48,10 @@ def write_workbook(prefix: str | os.PathLike[str], path: str | os.PathLike[str])
     path : path
         The workbook, ``*.xlsx``. An earlier one is replaced as dondolo wrote it; one that another program has saved
         since, and any other file, is not.
+    lang : {'en', 'it'}, optional
+        Language of sheets, titles and words; that of the environment variable ``DONDOLO_LANG`` if left out, or English,
+        which has the names of the files. Names, identifiers of the case and messages of the library are not translated.
+        Numbers are those of the files, in units of the SI, in both languages.
 
     Raises
     ------
@@ -65,11 +76,13 @@ def write_workbook(prefix: str | os.PathLike[str], path: str | os.PathLike[str])
         raise DondoloError(
             "openpyxl is not installed: pip install 'dondolo[spreadsheets]'; spreadsheets open the CSV files too"
         ) from None
+    language = Language(lang)
     target = as_file("path", path, ".xlsx")
     check_replaced(target, "workbook")
     run = read_run_file(os.fspath(prefix) + RUN_FILE)
     # All tables before the workbook: one that is left unfinished makes openpyxl complain at the end.
-    sheets: dict[str, _Sheet] = {"case": (["group", "variable", "value"], _case(run))}
+    case = [list(column) for column in zip(*_case(run, language), strict=True)]
+    sheets: dict[str, _Sheet] = {"case": (["group", "variable", "value"], case)}
     for written in run.files:
         table = ResultFile(os.fspath(prefix) + written.name, run)
         table.check()
@@ -79,11 +92,15 @@ def write_workbook(prefix: str | os.PathLike[str], path: str | os.PathLike[str])
         name = written.name.removeprefix("_").removesuffix(".csv")
         if not _SHEET.fullmatch(name) or name in sheets:
             raise InputError(f"{run.path}: files: '{written.name}' is not the name of a table")
-        sheets[name] = (list(table), zip(*columns, strict=True))
+        sheets[name] = (list(table), columns)
     book = openpyxl.Workbook(write_only=True)
     book.properties.creator = "dondolo"
-    for name, (titles, rows) in sheets.items():
-        _add_sheet(book, name, titles, rows)
+    for name, (titles, cells) in sheets.items():
+        if language.code == "it":
+            heads = [headings.heading(title) for title in titles]
+            _add_sheet(book, headings.SHEETS.get(name, name), heads, _in_italian(titles, cells))
+        else:
+            _add_sheet(book, name, titles, cells)
     with whole_file(target) as part, _Archive(part, "w", zipfile.ZIP_DEFLATED, strict_timestamps=False) as archive:
         # Spreadsheets drop it when they save the workbook, which is the user's own from then on.
         archive.comment = derived_mark("workbook", run.run).encode()
@@ -105,7 +122,20 @@ class _Archive(zipfile.ZipFile):
         super().writestr(member, data, *given, **more)
 
 
-def _case(run: RunFile) -> list[list[Any]]:
+def _in_italian(titles: list[str], columns: Sequence[Sequence[Any]]) -> Sequence[Sequence[Any]]:
+    """Columns whose words are Italian."""
+    known = dict(zip(titles, columns, strict=True))
+    made: list[Sequence[Any]] = []
+    for title, cells in known.items():
+        if title == "meaning":
+            cells = [headings.meaning(*pair) for pair in zip(known["quantity"], cells, strict=True)]
+        elif title not in ("wall", "group", "value"):
+            cells = [headings.in_words(title, one) if isinstance(one, str) else one for one in cells]
+        made.append(cells)
+    return made
+
+
+def _case(run: RunFile, language: Language) -> list[list[Any]]:
     """Rows of the case: version, settings and warnings."""
     rows: list[list[Any]] = [["", "dondolo", run.version]]
     for group, settings in run.settings.items():
@@ -114,7 +144,8 @@ def _case(run: RunFile) -> list[list[Any]]:
                 value = " ".join(map(str, value))
             is_plain = value is None or isinstance(value, (bool, str)) or _is_number(value)
             rows.append([group, name, value if is_plain else str(value)])
-    return rows + [["", "warning", str(warning)] for warning in run.warnings]
+    word = "avvertenza" if language.code == "it" else "warning"
+    return rows + [["", word, warning(language, one)] for one in run.warnings]
 
 
 def _values(cells: list[str]) -> list[Any]:
@@ -131,22 +162,56 @@ def _is_number(value: Any) -> bool:
     return isinstance(value, (int, float)) and abs(value) < _LARGEST
 
 
-def _add_sheet(book: Any, name: str, titles: list[str], rows: Iterable[Iterable[Any]]) -> None:
-    """Add a sheet, whose titles stay in sight."""
+def _format(cells: Sequence[Any]) -> str:
+    """How the numbers of a column are shown: alike, the greatest with four figures; what cells hold has all of them."""
+    numbers = [abs(one) for one in cells if isinstance(one, float) and math.isfinite(one) and one]
+    if not numbers:
+        return "General"
+    power = math.floor(math.log10(max(numbers)))
+    # Numbers of very different sizes, as fits of tails are, have powers of ten
+    if not -4 <= power <= 8 or min(numbers) < 1e-3 * 10.0 ** min(power, 0):
+        return "General" if -4 <= power <= 8 else "0.000E+00"
+    return "0" if power >= 4 else f"0.{'0' * max(1, 3 - power)}"
+
+
+def _width(title: str, cells: Sequence[Any], shown: str) -> int:
+    """Width of a column: its cells, and its title in lines, fit."""
+    texts = [
+        len(one) if isinstance(one, str) else 11 if isinstance(one, float) and shown == "General" else 9
+        for one in cells[:_LOOKED_AT]
+        if one is not None
+    ]
+    words = [*map(len, title.split()), min(len(title), _HEAD)]
+    return 2 + min(_WIDTHS[1], max(_WIDTHS[0], *words, *texts))
+
+
+def _add_sheet(book: Any, name: str, titles: list[str], columns: Sequence[Sequence[Any]]) -> None:
+    """Add a sheet, whose titles stay in sight; columns are as wide as what they hold, numbers are numbers."""
     from openpyxl.cell import WriteOnlyCell
+    from openpyxl.styles import Alignment, Font
+    from openpyxl.utils import get_column_letter
 
     sheet = book.create_sheet(name)
     sheet.freeze_panes = "A2"
+    formats = [_format(cells) for cells in columns]
+    for place, (title, cells, shown) in enumerate(zip(titles, columns, formats, strict=True), 1):
+        sheet.column_dimensions[get_column_letter(place)].width = _width(title, cells, shown)
+    strong, lines = Font(bold=True), Alignment(wrap_text=True, vertical="top")
 
-    def cell(value: Any) -> Any:
+    def cell(value: Any, shown: str = "General") -> Any:
         if isinstance(value, str):
             value = visible(value)[:_LONGEST]
         made = WriteOnlyCell(sheet, value=value)
         if isinstance(value, str):
             # A name that begins with = is no formula.
             made.data_type = "s"
+        elif isinstance(value, float) and shown != "General":
+            made.number_format = shown
         return made
 
-    sheet.append([cell(title) for title in titles])
-    for row in rows:
-        sheet.append([cell(value) for value in row])
+    head = [cell(title) for title in titles]
+    for one in head:
+        one.font, one.alignment = strong, lines
+    sheet.append(head)
+    for row in zip(*columns, strict=True):
+        sheet.append([cell(value, shown) for value, shown in zip(row, formats, strict=True)])
