@@ -100,7 +100,8 @@ def end_of(document: Document, one: Subject) -> list[Block]:
     tangent = (sums.weights - sums.thrusts) / sums.lowered
     sine = tangent / math.hypot(1.0, tangent)
     if not math.isclose(sine * sums.second / sums.first, d0, rel_tol=_SAME):
-        return [document.say(_("{d0} = {value} m is that of the code: springs or a rounded edge of the hinge have terms that the sums lack."),
+        return [document.say(_("{d0} = {value} m is that of the code: springs or a rounded edge of the hinge have"
+                               " terms that the sums lack."),
                              d0=symbol_of("d_0*"), value=shown(d0))]  # fmt: skip
     moment = UNITS["N m/m"]
     top: list[Any] = [symbol_of("M_stab,P"), " - ", symbol_of("M_rib")]
@@ -164,8 +165,8 @@ def capacity_of(document: Document, one: Subject, state: str) -> list[Block]:
     words = (symbol_of("a(d_C)"), (symbol_of("alpha(d_C)"), " ", symbol_of("g"), "/(", symbol_of("e*"), " FC)"))
     if held is None:
         text = _(
-            "{a} = {value} m/s² is that of the capacity curve, with friction of interlocking, springs, a rounded edge of"
-            " the hinge or ties of which some have broken, which the sums of the table do not have."
+            "{a} = {value} m/s² is that of the capacity curve, with friction of interlocking, springs, a rounded edge"
+            " of the hinge or ties of which some have broken, which the sums of the table do not have."
         )  # fmt: skip
         return [*blocks, document.say(text, a=symbol_of("a(d_C)"), value=shown(a))]
     moment = UNITS["N m/m"]
