@@ -1,6 +1,6 @@
 // Words of the page, English and Italian, and numbers as the language writes them.
 const WORDS = {
-  open: ["Open case…", "Apri caso…"], save: ["Case (.nml)", "Caso (.nml)"], report: ["Report", "Rapporto"],
+  open: ["Open case…", "Apri caso…"], save: ["Case (.nml)", "Caso (.nml)"], report: ["Report", "Rapporto (in inglese)"],
   relazione: ["Calculation report", "Relazione di calcolo"], figure: ["Figure (SVG)", "Figura (SVG)"], other_language: ["Italiano", "English"],
   case_title: ["Title of the case", "Titolo del caso"], untitled: ["Untitled wall", "Parete senza titolo"],
   one_sided: ["overturns outwards", "ribaltamento semplice"], free_standing: ["free on both sides", "libera sui due lati"],
@@ -23,7 +23,7 @@ const WORDS = {
   check_title: ["NTC 2018, local mechanism", "NTC 2018, meccanismo locale"], method: ["Check", "Verifica"], capacity_head: ["Capacity a_g S [g]", "Capacità a_g S [g]"], outcome: ["Outcome", "Esito"],
   verified: ["satisfied", "soddisfatta"], with_anchors: ["satisfied, if the anchors of its ties are", "soddisfatta, se lo sono gli ancoraggi delle catene"], not_verified: ["not satisfied", "non soddisfatta"], not_applicable: ["not applicable", "non applicabile"],
   check_why: ["A check can fail although collapse is improbable: its capacity is a share of the wall’s, by the code’s factors.", "Una verifica può non essere soddisfatta anche se il crollo è improbabile: la sua capacità è una quota di quella della parete, per i coefficienti della norma."],
-  pin: ["Keep as B", "Fissa come B"], unpin: ["Remove B", "Togli B"], back: ["Return to B", "Torna a B"],
+  pin: ["Keep as B, to compare", "Fissa come B, per confronto"], unpin: ["Remove B", "Togli B"], back: ["Return to B", "Torna a B"],
   better: ["θ of A is {x} of B (95 %: {a}–{b}), same records", "θ di A è {x} di B (95 %: {a}–{b}), stessi accelerogrammi"], better_if: ["If the anchors of the ties hold, which is not checked, θ of A is {x} of B (95 %: {a}–{b}), same records", "Se tengono gli ancoraggi delle catene, non verificati, θ di A è {x} di B (95 %: {a}–{b}), stessi accelerogrammi"],
   no_building: ["Without a building: unconservative for a wall that a floor or a roof holds, or that stands on one.", "Senza edificio: a sfavore di sicurezza per una parete trattenuta da un solaio o un tetto, o che vi poggia."],
   anchors: ["The anchors of {n} are not checked, and the curve takes them to hold: give their plates or the force at which they give way.", "Ancoraggi di {n} non verificati: la curva li suppone resistenti. Assegnare i capochiave o la resistenza dell’ancoraggio."], fan: ["{what} {low} and {high}: θ {x} to {y} g", "{what} {low} e {high}: θ da {x} a {y} g"], fan_button: ["Uncertainty of {what}", "Incertezza di {what}"],
