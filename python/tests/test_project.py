@@ -224,6 +224,14 @@ def test_files_are_opened_by_c(root):
     assert {path.name for path in sources if by_name.search(path.read_text())} == ours
 
 
+def test_texts_have_the_line_ends_of_their_checksums(root):
+    """Python would write other bytes on Windows than those whose checksum a catalogue states."""
+    sources = "".join(path.read_text() for path in (root / "python/dondolo").rglob("*.py"))
+    calls = re.findall(r"^ *part\.write_text\(.*$", sources, re.MULTILINE)
+    assert len(calls) >= 4
+    assert [call for call in calls if not call.endswith('newline="\\n")')] == []
+
+
 def test_rooms_are_documented(root):
     """The map of the sources names every room."""
     page = (root / "docs/architecture.md").read_text()

@@ -107,7 +107,7 @@ def csv_lines(
 def write_lines(path: str | os.PathLike[str], lines: Sequence[str]) -> None:
     """Write a text file; it appears whole or not at all."""
     with whole_file(path) as part:
-        part.write_text("\n".join(lines) + "\n", encoding="utf-8")
+        part.write_text("\n".join(lines) + "\n", encoding="utf-8", newline="\n")
 
 
 def frame(table: Table) -> Any:

@@ -81,7 +81,7 @@ def write_case(
         settings["check"] = instance_of("check", check, CodeCheck)._settings()[0]
     text = case_text(settings, commented=True) + "\n"
     with whole_file(target) as part:
-        part.write_text(text, encoding="utf-8")
+        part.write_text(text, encoding="utf-8", newline="\n")
         try:
             with silent():
                 written = read_case(part)

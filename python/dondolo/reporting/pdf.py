@@ -62,7 +62,7 @@ def _write_page(path: Path, html: str) -> None:
     """Write the page where a program reads it."""
     # Browsers before 2025 leave out what is folded up, whatever the style of print says.
     with whole_file(path) as part:
-        part.write_text(html.replace("<details>", "<details open>"), encoding="utf-8")
+        part.write_text(html.replace("<details>", "<details open>"), encoding="utf-8", newline="\n")
 
 
 def _print_by_browser(browser: str, page: Path, part: Path) -> None:

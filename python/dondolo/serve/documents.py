@@ -49,7 +49,7 @@ def make_document(text: str, kind: str, lang: str) -> bytes:
             Path(folder) / f"{kind}.{'docx' if kind == 'relazione_word' else 'html'}",
         )
         with whole_file(case) as part:
-            part.write_text(text, encoding="utf-8")
+            part.write_text(text, encoding="utf-8", newline="\n")
         command = [sys.executable, "-W", "ignore", "-m", "dondolo.serve.documents", str(case), str(made), lang]
         try:
             done = subprocess.run(command, capture_output=True, text=True, timeout=_LONGEST, check=False)
