@@ -2,7 +2,7 @@
 
 from dondolo.analysis.certificate import Certified as Certified
 from dondolo.analysis.cloud import Cloud as Cloud
-from dondolo.analysis.cloud import CloudFragility as CloudFragility
+from dondolo.analysis.cloud_fragility import CloudFragility as CloudFragility
 from dondolo.analysis.efficiency import IntensityComparison as IntensityComparison
 from dondolo.analysis.incremental import FirstCollapseFragility as FirstCollapseFragility
 from dondolo.analysis.incremental import Incremental as Incremental

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from dondolo.records.record_set import scaled_records
+from dondolo.records.level_rows import scaled_records
 from dondolo.records.target import correlation
 
 import dondolo as dd

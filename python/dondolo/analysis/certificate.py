@@ -16,8 +16,8 @@ from dondolo._fortran.histories import is_doubtful
 from dondolo._fortran.library import Stoppable, check
 from dondolo.analysis.request import check_threads, progress_bar
 from dondolo.errors import DondoloError, InputError, Interrupted
+from dondolo.records.level_rows import records_at_levels
 from dondolo.records.record import Record
-from dondolo.records.record_set import records_at_levels
 from dondolo.records.suite import upload
 from dondolo.walls.wall import upload as upload_walls
 

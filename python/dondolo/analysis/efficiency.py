@@ -20,8 +20,8 @@ from dondolo.curves import fitting
 from dondolo.curves.bootstrap import draw_records, resample
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloError, InputError, Interrupted
+from dondolo.records.level_rows import plain_records
 from dondolo.records.record import Record
-from dondolo.records.record_set import plain_records
 from dondolo.walls.wall import Wall
 
 if TYPE_CHECKING:

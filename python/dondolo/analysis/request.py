@@ -28,8 +28,8 @@ from dondolo._fortran.records import describe_measure
 from dondolo.analysis.solver import Solver, as_solver
 from dondolo.analysis.work import Work
 from dondolo.errors import DondoloError, DondoloWarning
+from dondolo.records.level_rows import LevelRows, records_at_levels
 from dondolo.records.record import Record
-from dondolo.records.record_set import LevelRows, records_at_levels
 from dondolo.records.suite import Facts, Suite
 from dondolo.records.suite import upload as upload_records
 from dondolo.walls.wall import Wall

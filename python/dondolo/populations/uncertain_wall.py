@@ -32,8 +32,8 @@ from dondolo.populations.curve import PopulationCurve
 from dondolo.populations.study import typology
 from dondolo.populations.typology import Typology
 from dondolo.records.building import Building
+from dondolo.records.level_rows import lasting
 from dondolo.records.record import Record
-from dondolo.records.record_set import lasting
 from dondolo.walls.distributions import Distribution, Uniform, no_distribution
 from dondolo.walls.population import Population
 from dondolo.walls.sampling import draw, in_words, make_walls

@@ -154,8 +154,8 @@ class Building:
             Medians over the records of both, and the spectra of each floor, against period; the periods of the modes
             are dotted.
         """
+        from dondolo.records.level_rows import scaled_records
         from dondolo.records.plots import draw_floor
-        from dondolo.records.record_set import scaled_records
 
         return draw_floor(self, scaled_records(records), periods, damping, ax=ax, site=site, given=options)
 

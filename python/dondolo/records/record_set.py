@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, NamedTuple, overload
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -31,24 +31,6 @@ if TYPE_CHECKING:
 # Measures that a table shows unless told otherwise, beside metadata and alone
 _MEASURES = ("pga", "pgv", "arias", "d5-95")
 _TABLE = ("pga", "pgv", "pgd", "arias", "cav", "d5-75", "d5-95", "hi", "sa(0.5)", "sa(1)", "saavg(0.2:2)")
-
-
-class LevelRows(NamedTuple):
-    """Which records run at which levels, one row each.
-
-    Attributes
-    ----------
-    record : ndarray of int
-        Place of the record, from 1.
-    level : ndarray
-        In the unit of the measure; 0: every level.
-    factor : ndarray
-        Factor on the record; 0: computed from the measure.
-    """
-
-    record: NDArray[np.int32]
-    level: FloatArray
-    factor: FloatArray
 
 
 @dataclass(frozen=True, eq=False, repr=False, init=False)
@@ -338,7 +320,7 @@ class RecordSet(Shown, Saved):
         >>> list(records.intensity_table(["pga", "d5-95"]).columns)
         ['record', 'pga [g]', 'd5-95 [s]']
         """
-        factors = factors_of(self)
+        factors = self._factors()
         table: tables.Table = {"record": self._column("record")}
         for im in as_measures(ims):
             measure = describe_measure(im, of_record=True)
@@ -498,6 +480,21 @@ class RecordSet(Shown, Saved):
         level, factor = (None if values is None else values[rows] for values in (self.level, self.factor))
         return RecordSet([self.records[i] for i in rows], level=level, factor=factor)
 
+    def _factors(self) -> FloatArray | None:
+        """Factors on the rows where there are no levels to find them from; None for records as they stand."""
+        if self.level is None and self.factor is None:
+            return None
+        factor = np.full(len(self), np.nan) if self.factor is None else self.factor
+        level = np.full(len(self), np.nan) if self.level is None else self.level
+        unknown = np.isnan(factor) & ~np.isnan(level)
+        if unknown.any():
+            name = self.records[int(np.argmax(unknown))].name
+            raise InputError(
+                f"records: '{name}' has a level and no factor: must have a factor, or no level (the attribute records"
+                " of the set)"
+            )
+        return np.nan_to_num(factor, nan=1.0)
+
     def _facts(self) -> list[tuple[str, str]]:
         facts = [("rows", str(len(self)))]
         if self.level is not None:
@@ -506,95 +503,6 @@ class RecordSet(Shown, Saved):
         if self.factor is not None:
             facts.append(("factors", f"{np.nanmin(self.factor):.3g} to {np.nanmax(self.factor):.3g}"))
         return facts
-
-
-def records_at_levels(
-    records: Any, levels: ArrayLike | None
-) -> tuple[tuple[Record, ...], FloatArray, LevelRows | None]:
-    """What an analysis takes for records and levels: each record once, the levels, and the rows of each level.
-
-    Parameters
-    ----------
-    records : Record, iterable of Record, RecordSet or mapping
-        A set with levels, or a mapping of levels to records, chooses the records of each level.
-    levels : array_like or None
-        Left out where the records have levels.
-
-    Returns
-    -------
-    records : tuple of Record
-    levels : ndarray
-    rows : LevelRows or None
-        None: every record runs at every level.
-    """
-    if isinstance(records, Mapping):
-        records = RecordSet.of_levels(records)
-    if not isinstance(records, RecordSet) or (records.level is None and records.factor is None):
-        if levels is None:
-            raise InputError("levels: must be given")
-        return as_records(records), as_array("levels", levels).copy(), None
-    if records.level is None:
-        raise InputError(
-            "records: have factors and no levels: must be given as {level: records}, or without factors (the attribute"
-            " records of the set)"
-        )
-    each = tuple(dict.fromkeys(records.records))
-    place = {id(record): i + 1 for i, record in enumerate(each)}
-    level = np.nan_to_num(records.level, nan=0.0)
-    factor = np.zeros(len(records)) if records.factor is None else np.nan_to_num(records.factor, nan=0.0)
-    if levels is None:
-        levels = np.unique(level[level > 0.0])
-        if not len(levels):
-            raise InputError("levels: must be given")
-    number = np.array([place[id(record)] for record in records.records], dtype=np.int32)
-    return each, as_array("levels", levels).copy(), LevelRows(number, level, factor)
-
-
-def scaled_records(records: Record | Iterable[Record]) -> tuple[Record, ...]:
-    """What an analysis without levels takes for records: those of a set times their factors, one for each row."""
-    factors = factors_of(records)
-    several = as_records(records)
-    if factors is None:
-        return several
-    found: dict[tuple[int, float], Record] = {}
-    for record, factor in zip(several, factors.tolist(), strict=True):
-        if (id(record), factor) not in found:
-            found[id(record), factor] = record if factor == 1.0 else _times(record, factor)
-    return tuple(found[id(record), factor] for record, factor in zip(several, factors.tolist(), strict=True))
-
-
-def _times(record: Record, factor: float) -> Record:
-    """A record times a factor."""
-    upwards = None if record.vertical is None else factor * record.vertical
-    return record.processed(factor * record.acceleration, f"times {factor:.6g}", vertical=upwards)
-
-
-def factors_of(records: Any) -> FloatArray | None:
-    """Factors on the rows of a set where there are no levels to find them from; None for records as they stand."""
-    if not isinstance(records, RecordSet) or (records.level is None and records.factor is None):
-        return None
-    factor = np.full(len(records), np.nan) if records.factor is None else records.factor
-    level = np.full(len(records), np.nan) if records.level is None else records.level
-    unknown = np.isnan(factor) & ~np.isnan(level)
-    if unknown.any():
-        raise InputError(
-            f"records: '{records[int(np.argmax(unknown))].name}' has a level and no factor: must have a factor, or no"
-            " level (the attribute records of the set)"
-        )
-    return np.nan_to_num(factor, nan=1.0)
-
-
-def plain_records(records: Any) -> tuple[Record, ...]:
-    """What chooses levels or factors by itself takes for records: no set that has them."""
-    for what in ("level", "factor"):
-        if isinstance(records, RecordSet) and getattr(records, what) is not None:
-            raise InputError(f"records: have {what}s of their own: must be without (the attribute records of the set)")
-    return as_records(records)
-
-
-def lasting(records: Any) -> Any:
-    """Records that are taken more than once: sets and mappings as they are, all others as a tuple."""
-    return records if isinstance(records, (Mapping, RecordSet)) else as_records(records)
 
 
 def _positive(name: str, given: ArrayLike, length: int) -> FloatArray:

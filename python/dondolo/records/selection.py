@@ -28,8 +28,9 @@ from dondolo._base.arguments import FloatArray, as_count, as_generator, as_numbe
 from dondolo._base.shown import Shown
 from dondolo._storage.saved import Saved
 from dondolo.errors import InputError
+from dondolo.records.level_rows import plain_records
 from dondolo.records.record import Record
-from dondolo.records.record_set import RecordSet, plain_records
+from dondolo.records.record_set import RecordSet
 from dondolo.records.suite import check_motions
 from dondolo.records.target import TargetSpectrum
 

@@ -30,8 +30,8 @@ from dondolo.populations.combination import combine_rows
 from dondolo.populations.flags import Flags
 from dondolo.populations.typology import Typology
 from dondolo.records.codes import Site
+from dondolo.records.level_rows import lasting
 from dondolo.records.record import Record
-from dondolo.records.record_set import lasting
 from dondolo.walls.parts import parts_of
 from dondolo.walls.population import Population
 from dondolo.walls.wall import Wall, upload

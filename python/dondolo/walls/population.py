@@ -14,12 +14,11 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dondolo._base.arguments import FloatArray, as_array, instance_of, one_of
+from dondolo._base.arguments import FloatArray, instance_of, one_of
 from dondolo._base.shown import Shown, html_of
-from dondolo._fortran.library import as_text, constants
+from dondolo._fortran.library import as_text
 from dondolo._fortran.tables import TableColumns, plain
 from dondolo._fortran.walls import (
-    EXCLUSIVE,
     INDEPENDENT,
     OCCURRENCE,
     WALL_LISTS,
@@ -31,6 +30,16 @@ from dondolo._storage import tables
 from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
 from dondolo.walls.mechanisms import wall_from
+from dondolo.walls.rows import (
+    UNNAMED,
+    check_names,
+    named_walls,
+    numbered_alternatives,
+    occurrence_of_rows,
+    several,
+    shares_of_rows,
+    words_of_rows,
+)
 from dondolo.walls.table import occurrence_columns, property_columns
 from dondolo.walls.wall import MasonryWall, Wall, property_of, walls_table
 
@@ -40,9 +49,6 @@ if TYPE_CHECKING:
     from dondolo.walls.distributions import Distribution
     from dondolo.walls.mechanisms import OneSidedWall
     from dondolo.walls.sampling import Property
-
-# Name that Fortran gives a wall without one
-_UNNAMED = "wall"
 
 # Words of each row
 _OF_ROWS = ("groups", "facades", "occurrence", "alternatives")
@@ -125,30 +131,30 @@ class Population(Shown):
     origin: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        walls = (self.walls,) if isinstance(self.walls, Wall) else _several("walls", self.walls, "walls")
+        walls = (self.walls,) if isinstance(self.walls, Wall) else several("walls", self.walls, "walls")
         if not walls:
             raise InputError("walls: must be given")
         for wall in walls:
             instance_of("walls", wall, Wall)
         if len(walls) > 1:
-            walls = _named(walls)
-        weights = _shares("weight", self.weights, walls, math.inf)
+            walls = named_walls(walls)
+        weights = shares_of_rows("weight", self.weights, walls, math.inf)
         if not np.any(weights > 0.0):
             raise InputError("weight: must be positive for at least one wall")
-        p_occ = _shares("p_occ", self.p_occ, walls, 1.0)
+        p_occ = shares_of_rows("p_occ", self.p_occ, walls, 1.0)
         names = ("groups", "facades", "alternatives")
-        groups, facades, alternatives = (_words(name, getattr(self, name), walls) for name in names)
-        occurrence = _occurrence(self.occurrence, walls)
-        origin = _several("origin", self.origin, "lines")
+        groups, facades, alternatives = (words_of_rows(name, getattr(self, name), walls) for name in names)
+        occurrence = occurrence_of_rows(self.occurrence, walls)
+        origin = several("origin", self.origin, "lines")
         for line in origin:
             as_text("origin", line)
         of_rows = list(zip(weights.tolist(), groups, occurrence, strict=True))
-        _check_names(walls, of_rows, facades, alternatives)
+        check_names(walls, of_rows, facades, alternatives)
         filled = {"walls": walls, "weights": weights, "groups": groups, "p_occ": p_occ, "facades": facades}
         filled |= {"occurrence": occurrence, "alternatives": alternatives, "origin": origin}
         for name, value in filled.items():
             object.__setattr__(self, name, value)
-        _numbered(self.wholes, p_occ.tolist(), occurrence, alternatives)
+        numbered_alternatives(self.wholes, p_occ.tolist(), occurrence, alternatives)
 
     @classmethod
     def from_csv(
@@ -379,7 +385,7 @@ class Population(Shown):
     @functools.cached_property
     def alternative_numbers(self) -> NDArray[np.int32]:
         """Number of the alternative of each row among those of its wall; 0: its mechanisms are independent."""
-        numbers = _numbered(self.wholes, self.p_occ.tolist(), self.occurrence, self.alternatives)
+        numbers = numbered_alternatives(self.wholes, self.p_occ.tolist(), self.occurrence, self.alternatives)
         numbers.flags.writeable = False
         return numbers
 
@@ -474,7 +480,7 @@ class Population(Shown):
         """
         if not isinstance(other, Population):
             return NotImplemented
-        names = {wall.name for wall in self.walls} - {_UNNAMED}
+        names = {wall.name for wall in self.walls} - {UNNAMED}
         for wall, facade in zip(other.walls, other.facades, strict=True):
             if wall.name in names:
                 raise InputError(f"name = {wall.name!r}: both populations have a wall of this name")
@@ -621,140 +627,6 @@ class Population(Shown):
     def _table(self) -> TableColumns:
         words = zip(self.groups, self.facades, self.occurrence, self.alternatives, strict=True)
         return walls_table(self.walls, words, self.weights, self.p_occ)
-
-
-def _several(name: str, values: Any, what: str) -> tuple[Any, ...]:
-    """Turn what a user gives for several things into a tuple of them; a text is not several."""
-    if isinstance(values, (str, bytes)) or not isinstance(values, Iterable):
-        raise InputError(f"{name} = {values!r}: must be {what}")
-    return tuple(values)
-
-
-def _words(name: str, given: Any, walls: Sequence[Wall]) -> tuple[str, ...]:
-    """Names of groups or facades, one for each wall; empty where there is none."""
-    words = ("",) * len(walls) if given is None else _several(name, given, "a name for each wall")
-    if len(words) != len(walls):
-        raise InputError(f"{len(walls)} walls, {len(words)} {name}: must be as many")
-    for wall, word in zip(walls, words, strict=True):
-        _on_one_line(name.removesuffix("s"), word, wall)
-    # A table cannot tell blanks from nothing.
-    return tuple(word if word.strip(" ") else "" for word in words)
-
-
-def _named(walls: Sequence[Wall]) -> tuple[Wall, ...]:
-    """Walls of which each that was given no name has one of its own."""
-    taken = {wall.name for wall in walls}
-    named, number = [], 0
-    for i, wall in enumerate(walls, 1):
-        if wall.name == _UNNAMED:
-            number = max(number + 1, i)
-            while f"wall {number}" in taken:
-                number += 1
-            wall = wall._renamed(f"wall {number}")
-        named.append(wall)
-    return tuple(named)
-
-
-def _on_one_line(what: str, text: str, wall: Wall) -> None:
-    """Check a text of a wall."""
-    try:
-        as_text(what, text)
-    except InputError as error:
-        raise error.placed(f"wall {wall.name!r}") from None
-
-
-def _shares(name: str, values: ArrayLike | None, walls: Sequence[Wall], largest: float) -> FloatArray:
-    """Numbers of the walls, between 0 and the largest allowed; 1 each if left out."""
-    shares = np.ones(len(walls)) if values is None else as_array(name, values).copy()
-    if len(shares) != len(walls):
-        raise InputError(f"{len(walls)} walls, {len(shares)} values of {name}: must be as many")
-    wrong = ~((shares >= 0.0) & (shares <= largest) & (shares < math.inf))
-    if wrong.any():
-        first = int(np.argmax(wrong))
-        allowed = "must not be negative" if largest == math.inf else f"must lie between 0 and {largest:g}"
-        raise InputError(f"wall {walls[first].name!r}: {name} = {shares[first]}: {allowed}")
-    shares.flags.writeable = False
-    return shares
-
-
-def _occurrence(given: Any, walls: Sequence[Wall]) -> tuple[str, ...]:
-    """How the mechanisms of each wall occur; one word is that of all."""
-    if given is None:
-        given = INDEPENDENT
-    words = (given,) * len(walls) if isinstance(given, str) else _several("occurrence", given, "a word for each wall")
-    if len(words) != len(walls):
-        raise InputError(f"{len(walls)} walls, {len(words)} words of occurrence: must be as many")
-    for word in words:
-        one_of("occurrence", word, OCCURRENCE)
-    return words
-
-
-def _numbered(
-    wholes: Sequence[str], p_occ: Sequence[float], occurrence: Sequence[str], alternatives: Sequence[str]
-) -> NDArray[np.int32]:
-    """Numbers of alternatives, each wall's from 1 on, checked; 0 for independent mechanisms."""
-    numbers = np.zeros(len(wholes), dtype=np.int32)
-    total, known = 0.0, set[str]()
-    for i, (whole, name) in enumerate(zip(wholes, alternatives, strict=True)):
-        if occurrence[i] != EXCLUSIVE:
-            if name:
-                raise InputError(f"wall {whole!r}: alternative = {name!r}: only for occurrence = {EXCLUSIVE!r}")
-            continue
-        begins = i == 0 or wholes[i - 1] != whole
-        if begins:
-            total, known = 0.0, set()
-        if not begins and name and alternatives[i - 1] == name:
-            numbers[i] = numbers[i - 1]
-            if p_occ[i] != p_occ[i - 1]:
-                raise InputError(f"wall {whole!r}: mechanisms of one alternative, {name!r}, must have the same p_occ")
-            continue
-        if name in known:
-            raise InputError(f"wall {whole!r}: alternative = {name!r}: its rows must be consecutive")
-        known |= {name} if name else set()
-        numbers[i] = 1 if begins else numbers[i - 1] + 1
-        total += p_occ[i]
-        if total > 1.0 + constants().sum_tolerance:
-            raise InputError(
-                f"wall {whole!r}: the probabilities p_occ of its exclusive alternatives add up to {total:.6g}, must be"
-                " at most 1"
-            )
-    return numbers
-
-
-def _check_names(
-    walls: Sequence[Wall],
-    of_rows: Sequence[tuple[float, str, str]],
-    facades: Sequence[str],
-    alternatives: Sequence[str],
-) -> None:
-    """Walls with one name must be mechanisms of one wall, and those of one facade must be on consecutive rows.
-
-    Of rows there are the weight, the group and the occurrence, the same for all of a wall.
-    """
-    first: dict[str, int] = {}
-    first_of: dict[str, int] = {}
-    for i, (wall, facade) in enumerate(zip(walls, facades, strict=True)):
-        one, whole = first.setdefault(wall.name, i), "wall"
-        if one != i and (walls[i - 1].name != wall.name or facades[i - 1] != facade):
-            raise InputError(
-                f"name = {wall.name!r}: another wall has this name; mechanisms of one wall must be on consecutive rows"
-            )
-        # Exclusive alternatives may have a mechanism in common, each with a hinge of its own.
-        alone = of_rows[i][-1] == EXCLUSIVE and not alternatives[i]
-        others = [] if alone else [j for j in range(one, i) if alternatives[j] == alternatives[i]]
-        if wall.mechanism in (walls[j].mechanism for j in others):
-            raise InputError(f"name = {wall.name!r}: another wall of this name has the same mechanism")
-        if facade:
-            one, whole = first_of.setdefault(facade, i), "facade"
-            if one != i and facades[i - 1] != facade:
-                wrong = f"facade = {facade!r}: another facade has this name"
-                raise InputError(f"{wrong}; walls of one facade must be on consecutive rows")
-        if of_rows[i] != of_rows[one]:
-            same = "weight and group" if of_rows[i][:2] != of_rows[one][:2] else "occurrence"
-            raise InputError(f"name = {wall.name!r}: mechanisms of one {whole} must have the same {same}")
-    for facade in first_of:
-        if facade in first and facades[first[facade]] != facade:
-            raise InputError(f"facade = {facade!r}: a wall that is no part of it has this name")
 
 
 def population_table(population: Population) -> tables.Table:
