@@ -3,6 +3,7 @@ module dondolo_check_lines
    use, intrinsic :: iso_fortran_env, only : output_unit
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
+   use dondolo_base_probability, only : probability_text
    use dondolo_base_text, only : counted, right, rounded, to_text
    use dondolo_base_warning, only : warnings_type
    use dondolo_case_check_rows, only : check_methods, check_states, verdicts_type
@@ -13,7 +14,7 @@ module dondolo_check_lines
    implicit none
    private
 
-   public :: print_check, print_verdicts, chance
+   public :: print_check, print_verdicts
 
 contains
 
@@ -54,7 +55,7 @@ contains
          end if
       end do
       if (sheet%value('site', 'SLV', 'probability') >= 0.0_wp) write (output_unit, '(a)') 'probability of collapse at a_g S = '// &
-         & rounded(sheet%value('site', 'SLV', 'pga'))//' g: '//trim(chance(sheet%value('site', 'SLV', 'probability')))// &
+         & rounded(sheet%value('site', 'SLV', 'pga'))//' g: '//trim(probability_text(sheet%value('site', 'SLV', 'probability')))// &
          & '; P(collapse) above is that at what the wall withstands by each formula'
       if (sheet%value('dynamic', 'SLV', 'histories') > 0.0_wp) then
          write (output_unit, '(a)') 'note: NTC 2018, 3.2.3.6 asks for records that are compatible with the spectrum of the '// &
@@ -84,7 +85,7 @@ contains
          value = sheet%value(method, check_states(i), name)
          cell = right('-', len(cell))
          if (value >= 0.0_wp) cell = right(rounded(value), len(cell))
-         if (name == 'probability' .and. value >= 0.0_wp) cell = right(trim(chance(value)), len(cell))
+         if (name == 'probability' .and. value >= 0.0_wp) cell = right(trim(probability_text(value)), len(cell))
       end function cell
 
    end subroutine print_check
@@ -115,24 +116,6 @@ contains
          item = 'tie '//to_text(i)
       end do
    end subroutine print_ties
-
-   !> A probability with four decimals, as reports have it; of tails of a fitted curve no more is known than that they are small
-   pure function chance(value) result(text)
-      !> Probability
-      real(wp), intent(in) :: value
-      !> Text, filled up with blanks
-      character(len=24) :: text
-
-      if (value > 0.0_wp .and. value < 5.0e-5_wp) then
-         text = '< 0.0001'
-      else if (value < 1.0_wp .and. value >= 0.99995_wp) then
-         text = '> 0.9999'
-      else if (value > 0.0_wp .and. value < 1.0_wp) then
-         write (text, '(f6.4)') value
-      else
-         text = rounded(value)
-      end if
-   end function chance
 
    !> Print the checks of a population at a glance; those of each row are in their table
    subroutine print_verdicts(verdicts, input)

@@ -2,11 +2,11 @@
 module dondolo_union_lines
    use, intrinsic :: iso_fortran_env, only : output_unit
    use dondolo_base_kinds, only : wp
+   use dondolo_base_probability, only : probability_text
    use dondolo_base_text, only : counted, left, right, rounded, to_text
    use dondolo_case, only : case_type
    use dondolo_case_check_rows, only : check_methods, check_states, shown_verdicts
    use dondolo_case_results, only : results_type, shown_rows
-   use dondolo_check_lines, only : chance
    use dondolo_fit_lines, only : bar, fractiles, make_head, name_width, print_fit
    use dondolo_fragility, only : fit_status_names, fragility_type
    use dondolo_population, only : population_type
@@ -207,7 +207,7 @@ contains
          character(len=13) :: cell
 
          cell = right('-', len(cell))
-         if (probability >= 0.0_wp) cell = right(trim(chance(probability)), len(cell))
+         if (probability >= 0.0_wp) cell = right(trim(probability_text(probability)), len(cell))
       end function in_column
 
       !> Print the probability that a facade collapses at the peak acceleration of the site. Its curve is fitted on its own,
@@ -235,8 +235,8 @@ contains
          end associate
          whole = wall_probability(p_occ, alternative, chances)
          write (output_unit, '(a)') ''''//union%name//''': probability of collapse at a_g S = '//rounded(pga)//' g: '// &
-            & trim(chance(max(union%saturation*union%curve(last)%probability(pga), maxval(p_occ*chances(1, :)))))// &
-            & '; taken as independent '//trim(chance(whole(1)))
+            & trim(probability_text(max(union%saturation*union%curve(last)%probability(pga), maxval(p_occ*chances(1, :)))))// &
+            & '; taken as independent '//trim(probability_text(whole(1)))
       end subroutine print_chance
 
    end subroutine print_verdict_rows

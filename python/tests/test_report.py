@@ -20,6 +20,7 @@ import pytest
 from dondolo.reporting import content, numerals
 from dondolo.reporting.language import Language
 from dondolo.reporting.page import environment
+from dondolo.reporting.run import run_of
 from refusals import refused
 
 import dondolo as dd
@@ -265,6 +266,16 @@ def test_numbers_of_a_wall(stripes, pages):
     assert table["pga unscaled [g]"][0] == f"{stripes.levels[2] / stripes.scale[2, 0]:.4g}"
     large = 100.0 * np.mean(stripes.scale > 10.0)
     assert f"{large:.3g} % of the histories, the largest {stripes.scale.max():.4g}" in page.text
+
+
+def test_large_scale_factors_are_warned_of_in_the_words_of_the_run(wall, few):
+    """A report of stripes has the warning that their run gave, record and level included."""
+    with pytest.warns(dd.errors.DondoloWarning, match="scale factors above 10") as caught:
+        stripes = dd.multiple_stripe(wall, few, levels=[0.1, 40.0], progress=False)
+    (given,) = [one.message for one in caught if getattr(one.message, "code", "") == "scale_factors_large"]
+    run = run_of(stripes)
+    assert given in run.warnings
+    assert (run.scales.many, run.scales.largest) == (np.sum(stripes.scale > 10.0), stripes.scale.max())
 
 
 def test_risk_is_that_of_the_curves(people, stripes, hazard, pages):

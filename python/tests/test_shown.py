@@ -9,9 +9,27 @@ matplotlib.use("agg")
 
 import numpy as np
 import pytest
+from dondolo._fortran.library import shown_probability
 from public import public_things
 
 import dondolo as dd
+
+
+@pytest.mark.parametrize(
+    ("value", "text"),
+    [
+        (0.0, "0"),
+        (4.9e-5, "< 0.0001"),
+        (5e-5, "0.0001"),
+        (0.25, "0.2500"),
+        (0.99994, "0.9999"),
+        (0.99996, "> 0.9999"),
+        (1.0, "1"),
+    ],
+)
+def test_probabilities(value, text):
+    """What is not quite 0 or 1 is distinguished from it."""
+    assert shown_probability(value) == text
 
 
 class Rows(html.parser.HTMLParser):

@@ -16,15 +16,6 @@ def shown_dispersion(value: float) -> float:
     return 0.0 if abs(value) < _ROUNDING else value
 
 
-def shown_probability(value: float) -> str:
-    """A probability with four decimals, as the executable prints it; what is not quite 0 or 1 is told from it."""
-    if 0.0 < value < 5e-5:
-        return "< 0.0001"
-    if 0.99995 <= value < 1.0:
-        return "> 0.9999"
-    return f"{value:.4f}" if 0.0 < value < 1.0 else f"{value:.0f}"
-
-
 def span(counts: NDArray[np.integer]) -> str:
     """Counts in words: one number, or the least and the most."""
     few, many = int(counts.min()), int(counts.max())

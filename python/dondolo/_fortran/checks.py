@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from dondolo._base.arguments import FloatArray
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
-from dondolo._fortran.library import check, flat_values, properties, receive, unpack_warnings, warn
-from dondolo._fortran.tables import FlatCurve, TableColumns, flat_curves, plain, text_lines, unpack_table
+from dondolo._fortran.library import check, flat_values, properties, receive, text_lines, unpack_warnings, warn
+from dondolo._fortran.tables import FlatCurve, TableColumns, flat_curves, plain, unpack_table
 from dondolo.errors import DondoloWarning
 
 #: Limit states: damage, life safety, collapse

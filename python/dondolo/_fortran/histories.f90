@@ -3,10 +3,11 @@ module histories
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_base_error, only : error_type
    use dondolo_base_interrupt, only : check_interrupt
+   use dondolo_base_lines, only : lines_type
    use dondolo_base_memory, only : check_memory => check_room
    use dondolo_base_threads, only : check_threads
    use dondolo_base_warning, only : warnings_type
-   use dondolo_boundary, only : as_solver, check_room, unpack_response
+   use dondolo_boundary, only : as_solver, check_room, split_lines, unpack_response
    use dondolo_building_floors, only : floors_type
    use dondolo_case_motion_warnings, only : scale_warnings_type, warn_of_fall, warn_of_records
    use dondolo_case_result_warnings, only : sentence => warn_of_error, sentences => warn_of_errors
@@ -27,7 +28,7 @@ module histories
    implicit none
    private
 
-   public :: certify, is_doubtful, simulate, run_scaled, warn_of_motion, warn_of_levels, warn_of_errors
+   public :: certify, is_doubtful, simulate, run_scaled, warn_of_motion, warn_of_levels, warn_of_scales, warn_of_errors
 
    !> Memory that sending a row of a time history takes: six columns, twice [bytes]
    real(c_double), parameter :: bytes_of_row = 96.0_c_double
@@ -247,6 +248,35 @@ contains
       call warnings%put_objects(parcel%lines)
       call send(parcel, error, sent)
    end subroutine warn_of_levels
+
+   !> What the executable would warn of, of the factors of n histories at k levels, 0 where one does not run; the names of their
+   !> records are lines
+   subroutine warn_of_scales(levels, k, scale, n, names, sent)
+      integer(c_int), intent(in) :: k, n
+      real(c_double), intent(in) :: levels(k), scale(n, k)
+      character(len=*), intent(in) :: names
+      integer(c_int64_t), intent(out) :: sent(5)
+      type(scale_warnings_type) :: scales
+      type(stripes_type) :: stripes
+      type(lines_type) :: records
+      type(warnings_type) :: warnings
+      type(parcel_type) :: parcel
+      type(error_type), allocatable :: error
+      integer :: largest
+
+      call check_room(error, histories=real(n, c_double)*k)
+      if (.not. allocated(error)) then
+         stripes%levels = levels
+         stripes%scale = scale
+         stripes%ran = scale > 0.0_c_double
+         call split_lines(names, records)
+         call scales%look_at_factors(stripes, largest)
+         if (largest > 0) scales%record = records%line(largest)%text
+         call scales%warn(warnings)
+         call warnings%put_objects(parcel%lines)
+      end if
+      call send(parcel, error, sent)
+   end subroutine warn_of_scales
 
    !> What the executable would warn of, of estimated errors; record and level are those of the largest, without a record
    !> it is one history

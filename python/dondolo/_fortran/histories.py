@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -10,7 +11,7 @@ from numpy.typing import NDArray
 from dondolo._base.arguments import FloatArray, as_flag, as_number
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
-from dondolo._fortran.library import check, constants, receive, unpack_warnings
+from dondolo._fortran.library import check, constants, receive, text_lines, unpack_warnings
 from dondolo.errors import DondoloWarning
 
 
@@ -60,6 +61,12 @@ def warnings_of_motion(wall: Handle, record: tuple[int, int], scale: float, move
 def warnings_of_levels(im: str, levels: FloatArray) -> list[DondoloWarning]:
     """What the executable would warn of, of levels of a measure."""
     return unpack_warnings(receive(_core.histories.warn_of_levels(im.encode(), levels)).lines)
+
+
+def warnings_of_scales(levels: FloatArray, scale: FloatArray, names: Iterable[str]) -> list[DondoloWarning]:
+    """What the executable would warn of, of factors (levels, histories) on records, NaN where one does not run."""
+    factors = np.nan_to_num(scale, nan=0.0)
+    return unpack_warnings(receive(_core.histories.warn_of_scales(levels, factors.T, text_lines(names))).lines)
 
 
 def warnings_of_errors(

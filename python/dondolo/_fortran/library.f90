@@ -13,6 +13,7 @@ module library
    use dondolo_base_limits, only : longest_name
    use dondolo_base_lines, only : lines_type
    use dondolo_base_plain, only : name_problem, shown
+   use dondolo_base_probability, only : probability_text
    use dondolo_base_property, only : describe_property, property_type
    use dondolo_base_references, only : list_bibtex, list_keys
    use dondolo_base_text, only : join
@@ -32,8 +33,8 @@ module library
    implicit none
    private
 
-   public :: cite, cite_keys, constants, properties, check_text, variant, available_threads, listen, end_listening, work_alone, &
-      & take_parcel, take_series, free
+   public :: cite, cite_keys, constants, properties, check_text, shown_probability, variant, available_threads, listen, &
+      & end_listening, work_alone, take_parcel, take_series, free
 
 contains
 
@@ -94,6 +95,14 @@ contains
       if (size(table) == 0) call raise_input(error, 'group = '''//group//''': must be one of '//join(table_names))
       call send(parcel, error, sent)
    end subroutine properties
+
+   !> A probability as people read it, filled up with blanks
+   subroutine shown_probability(value, text)
+      real(c_double), intent(in) :: value
+      character(len=24), intent(out) :: text
+
+      text = probability_text(value)
+   end subroutine shown_probability
 
    !> BibTeX of dondolo and of the sources of what was used, said in words that commas separate (dondolo_base_references)
    subroutine cite(words, sent)

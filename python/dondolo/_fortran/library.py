@@ -215,6 +215,11 @@ def _raised(power: re.Match[str]) -> str:
     return "\N{MULTIPLICATION SIGN}10" + str(int(power[1])).translate(_SUPERSCRIPTS)
 
 
+def shown_probability(value: float) -> str:
+    """A probability as the executable prints it."""
+    return str(_core.library.shown_probability(value).decode().strip())
+
+
 def bibtex(used: Iterable[str]) -> list[str]:
     """Lines of BibTeX of dondolo and of the sources of what was used, in the words of dondolo_base_references."""
     return receive(_core.library.cite(",".join(used).encode())).lines
@@ -282,6 +287,11 @@ def as_text(name: str, value: Any) -> bytes:
     if not value.isprintable() or len(text) > constants().longest_name:
         check(_core.library.check_text(name.encode(), text.replace(b"\0", b"\xc0\x80")))
     return text
+
+
+def text_lines(texts: Iterable[str]) -> bytes:
+    """Texts as Fortran takes them, a line each."""
+    return b"".join(text.encode() + b"\n" for text in texts)
 
 
 def receive(sent: NDArray[np.int64]) -> Parcel:

@@ -12,7 +12,7 @@ from dondolo._base.arguments import FloatArray
 from dondolo._fortran import _core
 from dondolo._fortran.files import INTEGER, REAL, TEXT, Column
 from dondolo._fortran.handles import Handle
-from dondolo._fortran.library import Parcel, constants, receive
+from dondolo._fortran.library import Parcel, constants, receive, text_lines
 
 #: A table of results
 TableColumns = dict[str, Column]
@@ -204,11 +204,6 @@ def _plain(kind: int, values: Any) -> Any:
 
 def _receive(sent: NDArray[np.int64]) -> TableColumns:
     return unpack_table(receive(sent), "table")
-
-
-def text_lines(texts: Iterable[str]) -> bytes:
-    """Texts as Fortran takes them, a line each."""
-    return b"".join(text.encode() + b"\n" for text in texts)
 
 
 def _pairs(walls: Iterable[tuple[str, str]]) -> bytes:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from dondolo._base.shown import shown_probability
+from dondolo._fortran.library import shown_probability
 from dondolo.curves.fragility import Fragility
 from dondolo.figures import curves, style
 from dondolo.figures.options import Options

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from dondolo._base.shown import shown_probability
+from dondolo._fortran.library import shown_probability
 
 # Typography, by name: they look like others
 _DASH, _MINUS, _THIN_BLANK = "\N{EN DASH}", "\N{MINUS SIGN}", "\N{NARROW NO-BREAK SPACE}"

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-import numpy as np
 from numpy.typing import ArrayLike
 
+from dondolo._fortran.histories import warnings_of_scales
 from dondolo._storage.run_file import RunFile
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import States, Stripes
@@ -44,23 +44,11 @@ class LargeScales(NamedTuple):
     largest: float
 
     @classmethod
-    def of(cls, stripes: Stripes) -> LargeScales | None:
-        """Those of a wall, if there are any."""
-        many = int(np.sum(stripes.scale > 10.0))
-        return cls(many, int(stripes.ran.sum()), float(np.nanmax(stripes.scale))) if many else None
-
-    @classmethod
     def among(cls, found: Sequence[DondoloWarning]) -> LargeScales | None:
-        """Those that a run of a population warns of, if it does."""
+        """Those that a run warns of, if it does."""
         for numbers in (one.numbers for one in found if one.code == _LARGE_SCALES):
             return cls(int(numbers["histories_beyond"]), int(numbers["histories"]), numbers["largest"])
         return None
-
-    def warning(self) -> DondoloWarning:
-        """The warning that they are worth."""
-        sentence = f"scale factors above 10 in {self.many} of {self.histories} histories"
-        numbers = {"limit": 10.0, "histories_beyond": self.many, "histories": self.histories, "largest": self.largest}
-        return DondoloWarning(f"{sentence}, the largest {self.largest:.4g}", _LARGE_SCALES, numbers=numbers)
 
 
 @dataclass
@@ -180,9 +168,8 @@ def _of_stripes(stripes: Stripes) -> Run:
         warnings.simplefilter("always", DondoloWarning)
         stripes.fit()
     found = [one.message for one in caught if isinstance(one.message, DondoloWarning)]
-    scales = LargeScales.of(stripes)
-    if scales:
-        found.insert(0, scales.warning())
+    of_scales = warnings_of_scales(stripes.levels, stripes.scale, stripes.record_names)
+    found = of_scales + found
     settings: Facts = [
         ("engine", stripes.engine),
         ("rtol, atol", f"{stripes.rtol:g}, {stripes.atol:g}"),
@@ -194,7 +181,7 @@ def _of_stripes(stripes: Stripes) -> Run:
         f"Fragility of {stripes.wall.name}",
         settings=settings,
         warnings=found,
-        scales=scales,
+        scales=LargeScales.among(of_scales),
     )
     _set_states(run, stripes, None, "separate")
     return run

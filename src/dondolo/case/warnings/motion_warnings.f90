@@ -61,8 +61,8 @@ module dondolo_case_motion_warnings
    contains
       !> Look at the levels and factors of a wall
       procedure :: look
-      !> Look at levels alone
-      procedure :: look_at_levels
+      !> Look at levels or factors alone
+      procedure :: look_at_levels, look_at_factors
       !> Warn, if there is reason to
       procedure :: warn
    end type scale_warnings_type
@@ -97,19 +97,34 @@ contains
       type(study_type), intent(in) :: study
       type(wall_type), intent(in) :: wall
 
-      integer :: at(2)
+      integer :: largest
 
-      self%histories = self%histories + count(stripes%ran, kind=int64)
-      self%large = self%large + count(stripes%scale > large_scale, kind=int64)
       call self%look_at_levels(stripes%im, stripes%levels)
       if (allocated(study%factor)) call look_at_given(self, study, wall)
       if (any(study%suite%falls > 0.0_wp)) call look_at_falls(self, stripes, study%suite, wall%gravity)
+      call self%look_at_factors(stripes, largest)
+      if (largest > 0) self%record = study%suite%records(stripes%record(largest))%name
+   end subroutine look
+
+   !> Look at the factors of a wall's histories; the name of the record of the largest is left to the caller
+   subroutine look_at_factors(self, stripes, largest)
+      class(scale_warnings_type), intent(inout) :: self
+      !> Stripes of the wall
+      type(stripes_type), intent(in) :: stripes
+      !> Number of the history whose factor is the largest of all that were looked at, 0 if none of these is
+      integer, intent(out) :: largest
+
+      integer :: at(2)
+
+      largest = 0
+      self%histories = self%histories + count(stripes%ran, kind=int64)
+      self%large = self%large + count(stripes%scale > large_scale, kind=int64)
       at = maxloc(stripes%scale)
       if (.not. stripes%scale(at(1), at(2)) > self%largest) return
       self%largest = stripes%scale(at(1), at(2))
       self%level = stripes%levels(at(2))
-      self%record = study%suite%records(stripes%record(at(1)))%name
-   end subroutine look
+      largest = at(1)
+   end subroutine look_at_factors
 
    !> Look at the factors that are given: do they take the records to their levels?
    subroutine look_at_given(self, study, wall)
