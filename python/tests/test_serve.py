@@ -256,6 +256,7 @@ def test_refusals_are_data(page):
     errors = [(one["code"], one["variable"], one["group"]) for one in refused["errors"]]
     assert ("unknown_name", "thicknes", "wall") in errors
     assert all(isinstance(one["line"], int) for one in refused["errors"])
+    assert "\n".join(one["message"] for one in refused["errors"]) == refused["error"]
     asked = page.post("/open", json={"text": "&job task = 'history' /"}).json()
     assert asked["errors"]
     words = page.get("/refusals.js").text

@@ -284,7 +284,7 @@ def curve_points(fit: Fragility, last: float) -> dict[str, Any]:
 
 
 def refusal(error: DondoloError) -> dict[str, Any]:
-    """An error as data: its sentence, and of each thing that is wrong its code, variable, group and line."""
+    """An error as data: its sentence, and of each thing that is wrong its code, variable, group, line and sentence."""
     errors = []
     for one in error.errors if isinstance(error, InputError) else ():
         group, line = (re.search(pattern, one.place) for pattern in (r"&(\w+)", r"line (\d+)"))
@@ -294,6 +294,7 @@ def refusal(error: DondoloError) -> dict[str, Any]:
                 "variable": one.variable,
                 "group": group[1] if group else "",
                 "line": int(line[1]) if line else None,
+                "message": one.message,
             }
         )
     return {"error": str(error), "errors": errors}

@@ -1,4 +1,5 @@
 // What is wrong with a case, in words: the library's sentence, or in Italian the meaning of its code with the value and its bounds.
+// What has no code keeps the library's sentence, which is better than none.
 import { fieldOf, heightOf, thicknessOf } from "./form.js";
 import { state } from "./state.js";
 import { choiceOf, labelOf, language, num, t } from "./words.js";
@@ -32,9 +33,10 @@ function bounds({ low, high, bounds: kind }, value, shown) {
   const from = kind === "positive" ? "maggiore di 0" : low > -HUGE ? `almeno ${shown(low)}` : "", to = high < HUGE ? `${kind === "less" ? "minore di" : "al più"} ${shown(high)}` : "";
   return `deve essere ${[from, to].filter(Boolean).join(" e ")}`;
 }
-function words({ code, variable, group, line }, isFile) {
+function words({ code, variable, group, line, message }, isFile) {
   const where = isFile && line ? ` (riga ${line})` : "";
-  if (!variable) return `${CODES[code] ?? (group ? `Il gruppo &${group} del caso non è ammesso` : "Il caso non è ammesso")}${where}`;
+  if (!CODES[code]) return `${group ? `Il gruppo &${group} del caso non è ammesso` : "Richiesta non riuscita"}${where}: ${message.replace(/^case\.nml: /, "")}`;
+  if (!variable) return `${CODES[code]}${where}`;
   const property = state.properties[group]?.[variable] ?? Object.values(state.properties).map((table) => table[variable]).find(Boolean);
   const field = fieldOf(variable), values = [].concat(state.settings[group]?.[variable] ?? []), factor = field?.[3] ?? 1, unit = field ? field[4] : property?.unit ?? "";
   const shown = (x) => num(x * factor) + (unit ? ` ${unit}` : "");
@@ -42,12 +44,12 @@ function words({ code, variable, group, line }, isFile) {
   const own = OWN[`${code}.${variable}`] ?? (code === "out_of_range" && WITHIN.find(([name]) => name.test(variable))?.[1]);
   const allowed = code === "out_of_range" && property ? values.filter((x) => typeof x === "number").map((x) => bounds(property, x, shown)).find(Boolean) : code === "not_a_word" && property?.choices.length ? `deve essere una tra ${property.choices.join(", ")}` : "";
   const size = { h: num(heightOf()), t: num(thicknessOf()) };
-  return `${labelOf(variable)} (${variable})${value}: ${(allowed || own || CODES[code] || "non ammesso").replace(/\{(\w)\}/g, (_, name) => size[name])}${where}`;
+  return `${labelOf(variable)} (${variable})${value}: ${(allowed || own || CODES[code]).replace(/\{(\w)\}/g, (_, name) => size[name])}${where}`;
 }
 
 // The sentence of a refusal: what the server answered, or that it did not; lines are those of a file that was opened.
 export function sentenceOf(answer, isFile = false) {
   if (!answer?.error) return t("no_answer");
   if (language() === "en") return answer.error.replace(/^case\.nml: /, "");
-  return answer.errors?.length ? answer.errors.map((one) => words(one, isFile)).join(". ") : "Richiesta non riuscita.";
+  return answer.errors?.length ? answer.errors.map((one) => words(one, isFile)).join(". ") : `Richiesta non riuscita: ${answer.error}`;
 }
