@@ -32,7 +32,7 @@ contains
          & rounded(sheet%value('mechanism', '', 'alpha_0'))//', e* '//rounded(sheet%value('mechanism', '', 'mass_ratio'))// &
          & ', a_0* '//rounded(sheet%value('mechanism', '', 'a_0'))//' m/s2, d_0* '// &
          & rounded(sheet%value('mechanism', '', 'd_0'))//' m'
-      write (output_unit, '(a, 5a14)') 'kinematic    ', 'limit state', 'a_g S, g', 'stands, g', 'ratio', 'P(collapse)'
+      write (output_unit, '(a, 5a14)') 'kinematic    ', 'limit state', 'a_g S, g', 'capacity, g', 'ratio', 'P(collapse)'
       do i = 1, size(check_states)
          write (output_unit, '(a, 2a14)', advance='no') check_methods(i)//'    ', check_states(i), cell('site', 'pga')
          if (sheet%is_all_one(check_methods(i), 'applicable', check_states(i))) then
@@ -56,9 +56,9 @@ contains
       end do
       if (sheet%value('site', 'SLV', 'probability') >= 0.0_wp) write (output_unit, '(a)') 'probability of collapse at a_g S = '// &
          & rounded(sheet%value('site', 'SLV', 'pga'))//' g: '//trim(probability_text(sheet%value('site', 'SLV', 'probability')))// &
-         & '; P(collapse) above is that at what the wall withstands by each formula'
+         & '; P(collapse) above is evaluated at the capacity'
       if (sheet%value('dynamic', 'SLV', 'histories') > 0.0_wp) then
-         write (output_unit, '(a)') 'note: NTC 2018, 3.2.3.6 asks for records that are compatible with the spectrum of the '// &
+         write (output_unit, '(a)') 'note: NTC 2018, 3.2.3.6 requires records that are compatible with the spectrum of the '// &
             & 'site, which is not checked'
       end if
       if (sheet%value('site', 'SLD', 'pga') >= sheet%value('site', 'SLC', 'pga')) then
@@ -126,7 +126,7 @@ contains
 
       write (output_unit, '(a)') 'check by NTC 2018 and Circolare 7/2019, C8.7.1.2.1, of '//counted(verdicts%checked, 'row')
       if (verdicts%others > 0) write (output_unit, '(a)') 'not checked: '//counted(verdicts%others, 'row')// &
-         & '; the table of checks says why'
+         & '; the table of checks gives the reason'
       if (verdicts%checked > 0) then
          write (output_unit, '(a, 4a14)') 'kinematic    ', 'limit state', 'a_g S, g', 'verified', 'least ratio'
          do i = 1, size(check_states)

@@ -10,12 +10,12 @@ module dondolo_fit_lines
    implicit none
    private
 
-   public :: print_fit, print_population_errors, fractiles, bar, make_head, name_width
+   public :: print_fit, print_population_errors, fractiles, occurring, bar, make_head, name_width
 
    !> Widest bar of a table
    integer, parameter :: bar_width = 40
    !> Least and largest width of a column of names
-   integer, parameter :: narrowest = 30, widest = 80
+   integer, parameter :: narrowest = 12, widest = 80
 
 contains
 
@@ -35,7 +35,7 @@ contains
             & ', beta = '//rounded(curve%beta)//', status '//trim(fit_status_names(curve%status))
          call print_errors(curve)
          write (output_unit, '(a)') case%stripes%scaling%name//' at a probability of 16, 50, 84 %: '// &
-            & trim(fractiles(case, curve, share))
+            & trim(fractiles(case, curve, share))//trim(occurring(share))
       else
          write (output_unit, '(a)') 'no fragility curve, status '//trim(fit_status_names(curve%status))
       end if
@@ -69,7 +69,7 @@ contains
       case ('few_clusters')
          text = counted(curve%clusters, 'cluster')//' of records, at least '//to_text(fewest_clusters)//' are needed'
       case ('few_walls')
-         text = counted(curve%clusters, 'wall')//', one or at least '//to_text(fewest_clusters)//' are needed'
+         text = counted(curve%clusters, 'wall')//', either one or at least '//to_text(fewest_clusters)//' are needed'
       case ('one_wall')
          text = 'one wall determines the curve'
       case default
@@ -83,7 +83,7 @@ contains
       type(fragility_type), intent(in) :: curve
       !> Share that can collapse
       real(wp), intent(in) :: saturation
-      !> The levels and their unit; a dash where so many cannot collapse, and why; filled up with blanks
+      !> The levels and their unit; a dash where so many cannot collapse; filled up with blanks
       character(len=160) :: text
 
       real(wp), parameter :: shares(3) = [0.16_wp, 0.50_wp, 0.84_wp]
@@ -98,8 +98,16 @@ contains
          end if
       end do
       text = text(2:len_trim(text) - 1)//case%stripes%scaling%unit_after_blank()
-      if (.not. shares(3) < saturation) text = trim(text)//' (-: only '//rounded(100.0_wp*saturation)//' % can collapse)'
    end function fractiles
+
+   !> The share that can collapse, in brackets after a blank; empty if all can
+   pure function occurring(saturation) result(text)
+      real(wp), intent(in) :: saturation
+      character(len=40) :: text
+
+      text = ''
+      if (saturation < 1.0_wp) text = ' (can occur: '//rounded(100.0_wp*saturation)//' %)'
+   end function occurring
 
    !> Print the standard errors of a curve of the population and their intervals, or why it has none
    subroutine print_population_errors(typology)
@@ -125,7 +133,7 @@ contains
       real(wp), intent(in) :: bound
       character(len=24) :: text
 
-      text = 'no bound'
+      text = 'infinity'
       if (bound < huge(bound)) text = rounded(bound)
    end function upper_end
 

@@ -15,7 +15,7 @@ module dondolo_front_door
 
    !> What an installation without the package is told
    character(len=*), parameter :: needs_package = ' needs the Python package dondolo, which is not installed beside this '// &
-      & 'executable: install its wheel by pip, or call python -m dondolo where it is'
+      & 'executable: install its wheel by pip, or call python -m dondolo where it is installed'
 
    !> What Python runs: the command, or the line above where the package is missing. The current folder, which Python puts first
    !> among those of modules, is a study: a file `numpy.py` or `dondolo.py` in it is no module of the command.

@@ -115,7 +115,7 @@ contains
       write (output_unit, '(a)') to_text(work%histories)//' histories, polarity '//case%records_input%polarity
       write (output_unit, '(a)') 'of them '//to_text(work%still)//' stay below the trigger and never move; '// &
          & to_text(work%histories - work%still)//' will be integrated'
-      if (store%done > 0) write (output_unit, '(a)') 'of these an earlier run has done '// &
+      if (store%done > 0) write (output_unit, '(a)') 'of these an earlier run has completed '// &
          & to_text(store%work%histories)//', '//to_text(store%done)//' of '// &
          & to_text(case%survey%last - case%survey%first + 1)//' rows, in '//visible(store%path)
       write (output_unit, '(a)') 'largest scale factor: '//rounded(scales%largest)// &

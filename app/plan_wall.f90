@@ -32,9 +32,9 @@ contains
       !> Width of the column of names
       integer, intent(in) :: width
 
-      write (output_unit, '(a, a15, 6a11)') left('wall', width), 'mechanism', 'height', 'thickness', 'trigger', &
-         & 'p', 'capacity', 'speed'
-      write (output_unit, '(a, a15, 6a11)') left('', width), '', 'm', 'm', 'g', 'rad/s', 'rad', 'ratio'
+      write (output_unit, '(a, a15, 5a11, a13)') left('wall', width), 'mechanism', 'height', 'thickness', 'trigger', &
+         & 'p', 'capacity', 'restitution'
+      write (output_unit, '(a, a15, 5a11, a13)') left('', width), '', 'm', 'm', 'g', 'rad/s', 'rad', 'e'
    end subroutine print_head
 
    !> Print a wall and its static quantities
@@ -47,7 +47,7 @@ contains
 
       thickness = repeat(' ', len(thickness) - 1)//'-'
       if (wall%input%has('thickness')) write (thickness, '(f11.3)') wall%input%number('thickness')
-      write (output_unit, '(a, a15, f11.3, a, f11.4, f11.4, f11.5, f11.4, a)') left(wall%name(), width), &
+      write (output_unit, '(a, a15, f11.3, a, f11.4, f11.4, f11.5, f13.4, a)') left(wall%name(), width), &
          & wall%mechanism_name(), wall%input%number('height'), thickness, &
          & wall%mechanism%trigger_acceleration()/wall%gravity, wall%mechanism%frequency_parameter(), &
          & wall%mechanism%capacity, wall%mechanism%restitution, trim(load_of(wall))

@@ -40,22 +40,22 @@ contains
       call look_into_store(store, path, has_store, error)
       if (allocated(error)) return
       if (.not. (is_locked .or. is_written .or. has_store .or. len_trim(published_run(output)) > 0)) then
-         call raise_missing(error, output//': nothing is known of it: no lock, no checkpoint and no results')
+         call raise_missing(error, output//': no lock, no checkpoint and no results have this prefix')
          return
       end if
       if (holder%is_alive) then
          call say('running: process '//to_text(holder%pid)//' on '//trim(holder%host)//' since '//trim(holder%since))
       else if (is_locked .or. is_written) then
          call say('interrupted: process '//to_text(holder%pid)//' on '//trim(holder%host)//', begun '// &
-            & trim(holder%since)//', has ended without its results; the same command goes on')
+            & trim(holder%since)//', has ended without its results; the same command resumes it')
       else if (has_store) then
          if (store%is_complete()) then
-            call say('complete; nothing runs')
+            call say('complete; nothing is running')
          else
-            call say('interrupted; nothing runs, and the same command goes on')
+            call say('interrupted; nothing is running, and the same command resumes it')
          end if
       else
-         call say('finished; nothing runs')
+         call say('finished; nothing is running')
       end if
       if (has_store) call print_rows(store, writer)
       if (len_trim(published_run(output)) > 0) call say('results are those of run '//published_run(output))

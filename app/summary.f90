@@ -12,7 +12,7 @@ module dondolo_summary
    use dondolo_case_source_rows, only : make_model_sentence, make_source_sentence
    use dondolo_case_tie_rows, only : make_tie_sentence
    use dondolo_check_lines, only : print_check, print_verdicts
-   use dondolo_fit_lines, only : bar, fractiles, make_head, name_width, print_fit, print_population_errors
+   use dondolo_fit_lines, only : bar, fractiles, make_head, name_width, occurring, print_fit, print_population_errors
    use dondolo_fragility, only : fit_status_names
    use dondolo_fragility_drift_note, only : make_drift_note, share_of
    use dondolo_motion_certificate, only : in_double, in_quadruple, not_computable
@@ -78,7 +78,7 @@ contains
             if (allocated(case%uncertainty)) call print_sources(case, results)
          else
             write (output_unit, '(a)') 'rows '//to_text(case%survey%first)//' to '//to_text(case%survey%last)//' of '// &
-               & to_text(case%survey%rows)//' are complete; when all are, take them together:', &
+               & to_text(case%survey%rows)//' are complete; when all are, merge them:', &
                & '   dondolo --merge '//visible(case%file)//' '//case%job%output//'_walls_*.counts'
          end if
       end select
@@ -87,14 +87,9 @@ contains
          & 'components, scaled as their records'//trim(factor_note(case))
       call find_supports(case, supports)
       call supports%make_notes(notes)
-      if (notes%count > 0) then
-         do i = 1, notes%count
-            write (output_unit, '(a)') 'note: '//notes%line(i)%text
-         end do
-      else if (case%job%task /= typology_task .or. allocated(results%typologies)) then
-         write (output_unit, '(a)') 'note: records are applied at the base of the wall; ground records underestimate '// &
-            & 'the demand on parapets, gables, pinnacles, upper storeys and facades that lean on a building'
-      end if
+      do i = 1, notes%count
+         write (output_unit, '(a)') 'note: '//notes%line(i)%text
+      end do
       write (output_unit, '(a)') ''
       if (case%job%task /= history_task) call print_work(case, results, seconds, threads)
       do i = 1, paths%count
@@ -214,7 +209,7 @@ contains
          end do
          if (case%solver%solver%estimate_error) then
             if (response%collapsed .and. .not. response%edp_error > 0.0_wp) then
-               write (output_unit, '(a)') 'twice more it collapses too'
+               write (output_unit, '(a)') 'it collapses in both repeated runs too'
             else
                write (output_unit, '(a)') 'estimated error of the EDP: '//rounded(response%edp_error)
             end if
@@ -279,8 +274,8 @@ contains
          if (k < size(row%bounds)) state = ' of EDP '//rounded(case%stripes%thresholds(k))
          associate (bounds => row%bounds(k))
             if (min(bounds%theta_lowest, bounds%theta_highest) > 0.0_wp) write (output_unit, '(a)') &
-               & 'whichever way those not computable end, theta'//state//' is between '//rounded(bounds%theta_lowest)// &
-               & ' and '//rounded(bounds%theta_highest)
+               & 'with those not computable as survivals or as collapses, theta'//state//' lies between '// &
+               & rounded(bounds%theta_lowest)//' and '//rounded(bounds%theta_highest)
          end associate
       end do
    end subroutine print_certificates
@@ -347,8 +342,7 @@ contains
                who = 'population, '//typology%mechanism
                if (len(typology%group) > 0) who = 'group '''//typology%group//''', '//typology%mechanism
                if (k < thresholds) who = who//', EDP '//rounded(case%stripes%thresholds(k))
-               if (typology%saturation < 1.0_wp) who = who//' (can occur: '// &
-                  & rounded(100.0_wp*typology%saturation)//' %)'
+               who = who//trim(occurring(typology%saturation))
                if (typology%fit%has_fit()) then
                   write (output_unit, '(a)') who//': theta = '//rounded(typology%fit%theta)// &
                      & case%stripes%scaling%unit_after_blank()//', beta = '//rounded(typology%fit%beta)// &

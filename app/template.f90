@@ -22,8 +22,8 @@ contains
       !> Task
       integer, intent(in) :: task
 
-      call print_line('! A case of dondolo. What is not marked as required may be left out; its default is shown.')
-      call print_line('! Lists of texts are what is allowed. An exclamation mark begins a comment.')
+      call print_line('! A case of dondolo. Variables that are not marked as required may be left out; their defaults are shown.')
+      call print_line('! Quoted words after a colon are the values allowed. An exclamation mark begins a comment.')
       call print_group('job', task)
       if (task == typology_task) then
          call print_group('population', task)
@@ -149,7 +149,7 @@ contains
       character(len=:), allocatable :: name, comment
       integer :: i, k
 
-      call print_line('! Columns of the table of walls, one row a mechanism of a wall. Those with a 1 are the first of a list:')
+      call print_line('! Columns of the table of walls, one row per mechanism of a wall. Those with a 1 are the first of a list:')
       call print_line('! load1, load2 ..., each value in a column of its own.')
       do k = 1, size(tables)
          table = property_table(trim(tables(k)))
@@ -162,7 +162,7 @@ contains
       end do
       call print_line('! Rows with one name are mechanisms of one wall. A row with hinge_at, or hinge1_level, hinge2_level ...,')
       call print_line('! is a facade: a wall for each hinge, in series. One facade alone: &wall with either, not &population.')
-      call print_line('! One wall that is not known for certain: &wall, not &population, and')
+      call print_line('! One wall with uncertain properties: &wall, not &population, and')
       call print_group('uncertainty', typology_task, is_commented=.true.)
    end subroutine print_columns
 

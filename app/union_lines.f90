@@ -7,7 +7,7 @@ module dondolo_union_lines
    use dondolo_case, only : case_type
    use dondolo_case_check_rows, only : check_methods, check_states, shown_verdicts
    use dondolo_case_results, only : results_type, shown_rows
-   use dondolo_fit_lines, only : bar, fractiles, make_head, name_width, print_fit
+   use dondolo_fit_lines, only : bar, fractiles, make_head, name_width, occurring, print_fit
    use dondolo_fragility, only : fit_status_names, fragility_type
    use dondolo_population, only : population_type
    use dondolo_population_occurrence, only : wall_probability
@@ -63,8 +63,8 @@ contains
          if (k == state .and. state > 1) write (output_unit, '(a)', advance='no') 'collapse: '
          call print_fit(case, union%curve(k), union%saturation)
       end do
-      if (results%population%can_coincide(1)) write (output_unit, '(a)') 'taken as independent of each other the '// &
-         & 'mechanisms would give '//trim(parameters(case, union%product(state), union%saturation))
+      if (results%population%can_coincide(1)) write (output_unit, '(a)') 'independent mechanisms would give '// &
+         & trim(parameters(case, union%product(state), union%saturation))
    end subroutine print_facade
 
    !> The one mechanism of a facade as the union of itself
@@ -135,7 +135,8 @@ contains
       else
          who = 'population'
       end if
-      write (output_unit, '(a)') who//': '//trim(parameters(case, union%curve(state), union%saturation))// &
+      write (output_unit, '(a)') who//trim(occurring(union%saturation))//': '// &
+         & trim(parameters(case, union%curve(state), union%saturation))// &
          & '; independent: '//trim(parameters(case, union%product(state), union%saturation))
    end subroutine print_line
 

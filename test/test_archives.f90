@@ -196,7 +196,7 @@ contains
          call check_close(records(2)%dt, 0.01_wp, 1.0e-14_wp, 'dt 2')
       end if
       call read_record(scratch//'/three.v2c', record, error)
-      call check_error(error, 'three.v2c: the file holds 2 channels: channel must be one of ''340 deg'', ''Up''', &
+      call check_error(error, 'three.v2c: the file has 2 channels: channel must be one of ''340 deg'', ''Up''', &
          & 'no channel')
       call read_record(scratch//'/three.v2c', record, error, channel='up')
       call check_ok(error, 'channel Up')

@@ -265,7 +265,7 @@ contains
       call check_error(error, 'load: not with leaves = 2', 'leaves with a load')
       call input%set('leaves', 1.5_wp)
       call new_wall(wall, input, error)
-      call check_error(error, 'leaves = 1.5: must be a whole number', 'one leaf and a half')
+      call check_error(error, 'leaves = 1.5: must be an integer', 'one leaf and a half')
    end subroutine test_leaves
 
    !> What cannot be

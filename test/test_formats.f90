@@ -207,7 +207,7 @@ contains
       call check_values(record, 9.80665_wp, 'by name')
       call write_file(scratch//'/three.txt', columns_content(''))
       call read_record(file, record, error, units='g')
-      call check_error(error, 'three.txt: the file holds 3 channels: channel must be one of ''column 2'', '// &
+      call check_error(error, 'three.txt: the file has 3 channels: channel must be one of ''column 2'', '// &
          & '''column 3'', ''column 4''', 'no channel')
       call read_record(file, record, error, units='g', channel='column 3')
       call check_values(record, -2*9.80665_wp, 'column 3')
@@ -227,7 +227,7 @@ contains
       call check_error(error, 'channel = ''2'': must be one of ''1''', 'no other channel')
       call write_file(scratch//'/three.txt', 'a,b (cm/s)'//lf//'0,1'//lf//'0.01,2'//lf)
       call read_record(file, record, error)
-      call check_error(error, 'three.txt: line 1: channel ''b (cm/s)'' is no acceleration', 'velocities by their title')
+      call check_error(error, 'three.txt: line 1: channel ''b (cm/s)'' is not an acceleration', 'velocities by their title')
       call write_file(file, 't,2,2'//lf//'0,1,4'//lf//'0.01,2,5'//lf)
       call read_record(file, record, error, units='m/s2', channel='2')
       call check_close(record%pga(), 2.0_wp, 0.0_wp, 'a name goes before a number')
@@ -291,9 +291,9 @@ contains
       call check_refused('time (ms),a (g)'//lf//timed, 'line 1: title ''time (ms)'' of the times: they must be in s')
       call check_refused('time_min,a (g)'//lf//timed, 'line 1: title ''time_min'' of the times')
       call check_refused('Period,a (g)'//lf//timed, 'line 1: title ''Period'' of the times')
-      call check_refused('t,Sa (g)'//lf//timed, 'line 1: channel ''Sa (g)'' is no acceleration')
-      call check_refused('t,x (cm)'//lf//timed, 'line 1: channel ''x (cm)'' is no acceleration')
-      call check_refused('t,x (m/sec)'//lf//timed, 'line 1: channel ''x (m/sec)'' is no acceleration')
+      call check_refused('t,Sa (g)'//lf//timed, 'line 1: channel ''Sa (g)'' is not an acceleration')
+      call check_refused('t,x (cm)'//lf//timed, 'line 1: channel ''x (cm)'' is not an acceleration')
+      call check_refused('t,x (m/sec)'//lf//timed, 'line 1: channel ''x (m/sec)'' is not an acceleration')
       call check_refused('t,a (g)'//lf//'0,1'//lf//'2,1'//lf, 'time step 2 s: must be at most 1 s')
       call write_file(file, columns_content('time (s),acceleration (g),velocity (cm/s),displacement'//lf))
       call read_records(file, records, error)
@@ -304,7 +304,7 @@ contains
       call read_record(file, record, error)
       call check_ok(error, 'the only accelerations')
       call read_record(file, record, error, channel='2')
-      call check_error(error, 'line 1: channel ''velocity (cm/s)'' is no acceleration', 'velocities asked for')
+      call check_error(error, 'line 1: channel ''velocity (cm/s)'' is not an acceleration', 'velocities asked for')
    end subroutine test_titles
 
    !> DYNA files
@@ -412,9 +412,9 @@ contains
       call check_refused(replaced(smtk_content(), ': 7', ': 2'), 'line 10: text after value 2 of 2')
       call read_content(replaced(smtk_content(), ': 7', ': 6'), record)
       call check(size(record%acceleration) == 6, 'the six values that are stated')
-      call check_metadata(record, 'reading', '1 sample beyond the 6 that the file states ignored')
+      call check_metadata(record, 'reading', 'ignored 1 sample beyond the 6 stated in the file')
       call read_content(replaced(smtk_content(), ': 7', ': 5'), record)
-      call check_metadata(record, 'reading', '2 samples beyond the 5 that the file states ignored')
+      call check_metadata(record, 'reading', 'ignored 2 samples beyond the 5 stated in the file')
       call check_refused(replaced(smtk_content(), '1.5000000E+00'//lf, '1.6'//lf), 'line 8: peak value 1.6: ')
       call check_refused(replaced(smtk_content(), 'in m/s/s', 'in m/s'), 'units = ''m/s'': must be one of')
    end subroutine test_smtk
@@ -447,7 +447,7 @@ contains
       call check_refused(replaced(knet_content('5'), '0.07', '0.04'), 'more values than the 4')
       call read_content(replaced(replaced(knet_content('5'), '0.07', '0.05'), '0.712', ''), record)
       call check(size(record%acceleration) == 5, 'the five counts that are stated')
-      call check_metadata(record, 'reading', '2 samples beyond the 5 that the file states ignored')
+      call check_metadata(record, 'reading', 'ignored 2 samples beyond the 5 stated in the file')
       call check_refused(replaced(knet_content('5'), '0.07', '1e6'), 'line 12: Duration Time(s) = 1000000: the file is')
       call check_refused(replaced(knet_content('5'), '0.712', '0.731'), &
          & 'line 15: peak value 0.731: the largest value is')
@@ -511,11 +511,11 @@ contains
       call read_records(scratch//'/content.dat', records, error)
       call check_ok(error, 'one more than stated')
       call check(size(records(2)%acceleration) == 6, 'the stated number is read')
-      call check_metadata(records(2), 'reading', '1 sample beyond the 6 that the file states ignored')
+      call check_metadata(records(2), 'reading', 'ignored 1 sample beyond the 6 stated in the file')
       call write_file(scratch//'/content.dat', asa_content('5'))
       call read_records(scratch//'/content.dat', records, error)
       call check_ok(error, 'two more than stated')
-      call check_metadata(records(1), 'reading', '2 samples beyond the 5 that the file states ignored')
+      call check_metadata(records(1), 'reading', 'ignored 2 samples beyond the 5 stated in the file')
       call check_refused(asa_content('4'), '7 rows of values: the header states 4')
       call check_refused(asa_content('8'), '7 rows of values: the header states 8')
       call check_refused(asa_content(''), '7 rows of values: the header states 0')
@@ -563,7 +563,7 @@ contains
       call read_record(file, record, error, units='m/s2')
       call check_ok(error, 'one value more than stated')
       call check(size(record%acceleration) == 6, 'the stated number is read')
-      call check_metadata(record, 'reading', '1 sample beyond the 6 that the file states ignored')
+      call check_metadata(record, 'reading', 'ignored 1 sample beyond the 6 stated in the file')
    end subroutine test_eqsig
 
    !> AFAD files
@@ -751,7 +751,7 @@ contains
       call check_values(records(2), -gal, 'E')
       call write_file(scratch//'/catalogue.csv', 'file,channel'//lf//'three.dat,N'//lf//'three.dat,'//lf)
       call read_catalogue(scratch//'/catalogue.csv', records, error)
-      call check_error(error, 'catalogue.csv: line 3: '//scratch//'/three.dat: the file holds 3 channels', 'no channel')
+      call check_error(error, 'catalogue.csv: line 3: '//scratch//'/three.dat: the file has 3 channels', 'no channel')
       call write_file(scratch//'/catalogue.csv', 'file,channel,format'//lf//'three.dat,N,peer'//lf)
       call read_catalogue(scratch//'/catalogue.csv', records, error)
       call check_error(error, 'catalogue.csv: line 2: '//scratch//'/three.dat: line ', 'wrong format')

@@ -492,7 +492,7 @@ contains
       input = plain_wall()
       call set_thrust(input, 1.0e3_wp)
       call input%set('hinge_depth', 0.02_wp)
-      call refuse(input, 'thrust: the wall does not stand at rest; its weights hold it with 1391 N m per metre, '// &
+      call refuse(input, 'thrust: the wall is not stable at rest; its weights resist with 1391 N m per metre, '// &
          & 'thrusts push it out with 3000')
       input = a_case('dead')
       call input%clear('load_height')

@@ -250,8 +250,8 @@ contains
       call refuse(input, 'overburden_inertia = 1.5: must lie between 0 and 1')
       call input%set('overburden_inertia', 1.0_wp)
       call input%set('restitution', 'sorrentino')
-      call refuse(input, 'restitution = ''sorrentino'': knows no mass of an overburden; with overburden_inertia = 1 use '// &
-         & '''impulse''')
+      call refuse(input, 'restitution = ''sorrentino'': does not include the mass of an overburden; with '// &
+         & 'overburden_inertia = 1 use ''impulse''')
       input = strip(0.125_wp, 0.0_wp, 0.0_wp)
       call refuse(input, 'hinge_depth: puts the hinge at depth 0.125 m, must be less deep than half the thickness, 0.125 m')
       input = strip(0.02_wp, 2.0e4_wp, 1.0_wp)
@@ -266,7 +266,7 @@ contains
       input = strip(0.06_wp, 1.0e6_wp, 1.0_wp)
       call input%set('hinge', 0.9_wp)
       call input%set('eccentricity', -0.125_wp)
-      call refuse(input, 'overburden: the wall does not stand at rest; its own weight holds it with')
+      call refuse(input, 'overburden: the wall is not stable at rest; its own weight resists with')
       input = strip(0.0_wp, 0.0_wp, 0.0_wp)
       call input%set('edge_radius', 0.01_wp)
       call refuse(input, 'edge_radius = 0.01: only for mechanism = ''one_sided'' or ''free_standing''')

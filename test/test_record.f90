@@ -882,7 +882,7 @@ contains
       call check_bad_file('# remark'//lf, ': the format is not known')
       call check_bad_file('', ': the file is empty')
       call check_bad_file(achar(1)//achar(2)//lf//achar(255), ': the format is not known')
-      call check_bad_file(achar(0)//achar(1)//achar(2)//lf//achar(255), ': line 1: byte 1 is NUL: this is no text')
+      call check_bad_file(achar(0)//achar(1)//achar(2)//lf//achar(255), ': line 1: byte 1 is NUL: this is not a text file')
    end subroutine test_unknown
 
    !> Catalogues

@@ -417,7 +417,7 @@ contains
       call check_ok(error, '64 groups')
       call check(size(curves) == 65, 'a curve for each and for all')
       call combine_population(curves, population_of(walls), 1, error)
-      call check_error(error, 'group = ''g65'': is one too many, at most 64 are allowed', '66 groups')
+      call check_error(error, 'group = ''g65'': too many groups, at most 64 are allowed', '66 groups')
    end subroutine test_too_many_groups
 
    !> Fractiles of a few numbers

@@ -1,4 +1,4 @@
-"""What can be done from the shell with Python: ``python -m dondolo``. Analyses are the executable's."""
+"""Commands of the shell: ``python -m dondolo``. Analyses are run by the executable."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _FRAMES, _FILM = 15, 30.0
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run a command and return its exit code: 0 done, 1 failed while running, 2 wrong input."""
+    """Run a command and return its exit code: 0 success, 1 failure while running, 2 invalid input."""
     options = _parser().parse_args(arguments)
     # A warning is one line, as the executable's.
     warnings.showwarning = lambda message, *rest: _tell(f"warning: {message}")
@@ -134,8 +134,8 @@ def _parser() -> argparse.ArgumentParser:
         "relazione",
         help="write a calculation report of checks by NTC 2018: Word, HTML or PDF",
         description="Write the calculation report (relazione di calcolo) of runs with a group &check: a wall as it "
-        "stands and its designs, the designs of a case, or one facade. What only the engineer can write is marked "
-        "[TO BE COMPLETED: ...] or [DA COMPLETARE: ...].",
+        "stands and its designs, the designs of a case, or one facade. Passages that only the engineer can write are "
+        "marked [TO BE COMPLETED: ...] or [DA COMPLETARE: ...].",
     )
     relazione.add_argument(
         "prefixes", nargs="+", help="prefix of the result files; as it stands first", metavar="PREFIX"
@@ -153,8 +153,8 @@ def _parser() -> argparse.ArgumentParser:
     workbook = commands.add_parser(
         "xlsx",
         help="write the tables of a run into a workbook",
-        description="Write all tables of a run into one workbook of Excel or LibreOffice: a sheet a table, and one of "
-        "the case. Needs openpyxl.",
+        description="Write all tables of a run into one workbook of Excel or LibreOffice: one sheet per table, and one "
+        "of the case. Needs openpyxl.",
     )
     workbook.add_argument("prefix", help="prefix of the result files, for example out/parapet", metavar="PREFIX")
     workbook.add_argument("-o", "--output", help="path of the workbook, PREFIX_tables.xlsx by default", metavar="FILE")
@@ -164,7 +164,7 @@ def _parser() -> argparse.ArgumentParser:
         "nrml",
         help="write the curves of a run for OpenQuake",
         description="Write the fragility curves of a run, read from its CSV files, as a fragility model of OpenQuake, "
-        "NRML 0.5: of a population the mean curves, one function a group and mechanism, with its damage states; of a "
+        "NRML 0.5: of a population the mean curves, one function per group and mechanism, with its damage states; of a "
         "wall, a facade and each design its curve. If a mean curve had to be raised, a message on stderr reports it.",
     )
     nrml.add_argument("prefix", help="prefix of the result files, for example out/population", metavar="PREFIX")

@@ -1,4 +1,4 @@
-"""What can go wrong, and what a user should know."""
+"""Exceptions and warnings."""
 
 from __future__ import annotations
 
@@ -59,15 +59,15 @@ class DondoloError(Exception):
 
 
 class Problem(NamedTuple):
-    """One thing that is wrong with what was asked for.
+    """One error of an input.
 
     Attributes
     ----------
     message : str
-        Its sentence, with its place.
+        Message, with its place.
     code : str
-        What is wrong, for programs, which should not read sentences; docs/files.md lists the codes. '' if none of them
-        says it.
+        Kind of error, for programs, which should not parse messages; docs/files.md lists the codes. '' if none
+        applies.
     variable : str
         Name of the argument, property or column as the user writes it, such as ``thickness`` or ``loads[0].force``; ''
         if it is not about one.
@@ -88,12 +88,12 @@ class Problem(NamedTuple):
 
 
 class InputError(DondoloError, ValueError):
-    """What was asked for is wrong; the message is the sentence of the executable.
+    """Wrong input; the message is that of the executable.
 
     Parameters
     ----------
     sentence : str
-        What `str` gives: a sentence, or several, one a line.
+        Message: one sentence, or several, one per line.
     errors : iterable of Problem, optional
         What each of them is about.
 
@@ -119,7 +119,7 @@ class InputError(DondoloError, ValueError):
 
     @property
     def errors(self) -> tuple[Problem, ...]:
-        """Each thing that is wrong; of many, those that the message has room for."""
+        """All errors; of many, those that the message has room for."""
         return self._errors or tuple(map(Problem, str(self).split("\n")))
 
     def placed(self, place: str) -> InputError:
@@ -153,16 +153,16 @@ class MissingFileError(FileNotFoundError, InputError):
 
 
 class DondoloWarning(UserWarning):
-    """Results that are correct but may mislead.
+    """Warning about results that are correct but may mislead.
 
     Parameters
     ----------
     sentence : str
-        What `str` gives.
+        Message.
     code : str
-        What it is, such as ``scale_factors_large``; docs/files.md lists the codes.
+        Kind of warning, such as ``scale_factors_large``; docs/files.md lists the codes.
     subject : mapping
-        What it is about: kind -> name, such as ``{"record": "tolmezzo"}``.
+        Subject: kind -> name, such as ``{"record": "tolmezzo"}``.
     numbers : mapping
         Name -> number.
 

@@ -1,4 +1,4 @@
-"""Types of results: what analyses and readers return, to annotate with and to ask what a thing is.
+"""Types of results that analyses and readers return, for annotations and `isinstance`.
 
 >>> import dondolo as dd
 >>> isinstance(dd.OneSidedWall(1.5, 0.25).terms(0.0), dd.results.Terms)

@@ -54,7 +54,7 @@ def test_afad(tmp_path):
     assert np.allclose(first.acceleration, 0.01 * NS, rtol=1e-9)
     # A rate in place of the interval
     assert _read(tmp_path, _afad(step="SAMPLING RATE (Hz) : 100\n"))[0].dt == 0.01
-    with pytest.warns(dd.errors.DondoloWarning, match="2 samples beyond the 118 that the file states ignored"):
+    with pytest.warns(dd.errors.DondoloWarning, match="ignored 2 samples beyond the 118 stated in the file"):
         records = _read(tmp_path, _afad(rows=N - 2))
     assert len(records[0].acceleration) == N - 2
 
@@ -110,7 +110,7 @@ def test_nied(tmp_path):
         (_nied().replace("2032/12/31 23:59:58.50,", "2032/12/31 23:59:58.57,"), "times must"),
         (_nied().replace("2032/12/31 23:59:58.50,", "2032/12/31 24:59:58.50,"), "must be a time"),
         (_nied()[:-3], "the file is cut off"),
-        (_nied(titles="# Time, N-S(cm/s), E-W(cm/s), U-D(cm/s)\n"), "is no acceleration"),
+        (_nied(titles="# Time, N-S(cm/s), E-W(cm/s), U-D(cm/s)\n"), "is not an acceleration"),
         (_nied() + "2033/01/01 00:00:00.00,1.0\n", "2 values: must be 4"),
     ],
 )

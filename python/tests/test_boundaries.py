@@ -170,7 +170,7 @@ def test_hints(tmp_path):
     (tmp_path / "r.txt").write_text(SAMPLES)
     catalogue = tmp_path / "records.csv"
     catalogue.write_text("file,dt,units\nr.txt,0.01,g\n")
-    with pytest.raises(dd.errors.InputError, match="column 'dt': the time step must stand in the column dt_s"):
+    with pytest.raises(dd.errors.InputError, match="column 'dt': the time step must be in the column dt_s"):
         dd.read_catalogue(catalogue)
     catalogue.write_text("file,units\nr.txt,g\n")
     with pytest.raises(dd.errors.InputError, match="dt must be given, dt_s in a catalogue"):

@@ -380,9 +380,9 @@ def test_warnings(c, error, catalogue, records):
         ("wall", {"height": math.nan}, "height = NaN: must be a number"),
         ("wall", {"load": [1.0, math.inf]}, "load = Infinity: must be a number"),
         ("wall", {"height": "6"}, "height = '6': must be a number"),
-        ("wall", {"mechanism": 1.0}, "mechanism = 1: must be a text"),
+        ("wall", {"mechanism": 1.0}, "mechanism = 1: must be a string"),
         ("wall", {"height": [1.0, 2.0]}, "height: has 2 values, must have 1"),
-        ("wall", {"storeys": 1.5}, "storeys = 1.5: must be a whole number"),
+        ("wall", {"storeys": 1.5}, "storeys = 1.5: must be an integer"),
         ("solver", {"estimate_error": 2}, "estimate_error = 2: must be 0 or 1"),
     ],
 )
@@ -457,7 +457,7 @@ def test_records_that_cannot_be(c, error):
         ((1, one, (ctypes.c_double * 1)(math.nan), zeros, None), "record '1': time step dt = NaN: must lie"),
         ((1, one, dt, (ctypes.c_double * 4)(0.0, math.nan), None), "record '1': sample 2 = NaN"),
         ((2, (ctypes.c_int * 2)(2**31 - 1, 2**31 - 1), (ctypes.c_double * 2)(), zeros, None), "lengths: records of"),
-        ((1, one, dt, zeros, (ctypes.c_char_p * 1)(None)), "names: must be a text, not NULL"),
+        ((1, one, dt, zeros, (ctypes.c_char_p * 1)(None)), "names: must be a string, not NULL"),
     ]:
         assert c.new_records(error, *given) is None
         assert sentence in c.message(error).decode()
@@ -466,7 +466,7 @@ def test_records_that_cannot_be(c, error):
     assert c.status(error) == 3
     c.clear_error(error)
     assert c.read_records(error, None, 0.0) is None
-    assert c.message(error) == b"path: must be a text, not NULL"
+    assert c.message(error) == b"path: must be a string, not NULL"
 
 
 def test_handles_that_cannot_be(c, error, catalogue):
@@ -502,7 +502,7 @@ def test_handles_that_cannot_be(c, error, catalogue):
             assert c.status(error) == 2
             c.clear_error(error)
     assert c.run_stripes(error, wall, records, properties, None, 0) is None
-    assert c.message(error) == b"settings: are of the group 'wall', must be of 'stripes'"
+    assert c.message(error) == b"settings: belong to the group 'wall', must belong to 'stripes'"
 
 
 @pytest.mark.parametrize("wrong", [None, 12345])

@@ -138,6 +138,6 @@ def test_what_a_case_cannot_say_is_refused(catalogue, records, wall, tmp_path):
         dd.write_case(path, wall, study, catalogue="nowhere.csv")
     assert list(tmp_path.iterdir()) == []
     path.write_text("a case")
-    with pytest.raises(dd.errors.InputError, match="exists already"):
+    with pytest.raises(dd.errors.InputError, match="already exists"):
         dd.write_case(path, wall, study, catalogue=catalogue)
     assert path.read_text() == "a case"

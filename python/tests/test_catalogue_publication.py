@@ -98,7 +98,7 @@ def test_a_file_of_another_version_is_refused(tmp_path, executable):
         # One digit of one sample
         file.write_text(re.sub(r"\d\n\Z", lambda last: f"{(int(last[0]) + 1) % 10}\n", text))
         is_vertical = "_vertical_" in file.name
-        sentence = rf"list\.csv: line \d: {re.escape(str(file))}: has the CRC-32 \w{{8}}, and \w{{8}} is stated"
+        sentence = rf"list\.csv: line \d: {re.escape(str(file))}: has the CRC-32 \w{{8}}, but the catalogue has \w{{8}}"
         # Where vertical components are not read they are not compared.
         if is_vertical:
             assert peaks(path)

@@ -193,7 +193,7 @@ def test_refusals(wall, few):
     with pytest.raises(dd.errors.InputError, match="have no estimated errors"):
         plain.certify(few)
     told = dd.multiple_stripe(wall, few, [0.4], estimate_error=True, progress=False)
-    with pytest.raises(dd.errors.InputError, match="is not there, or is another one than in the stripes"):
+    with pytest.raises(dd.errors.InputError, match="is missing, or differs from the one in the stripes"):
         told.certify(few[:1])
     with pytest.raises(dd.errors.InputError, match="only one is certified"):
         _ = told + told.certify(few, progress=False)

@@ -146,5 +146,5 @@ def test_results_name_what_they_used():
     people = dd.Population([wall, dd.TwoBlockWall(3.0, 0.25, hinge=0.6)])
     found = set(entries(dd.cite(dd.typology(people, dd.example_records(), [0.5, 1.0, 1.5], progress=False))))
     assert found >= {"housner1963", "sorrentino2008", "baker2015", "liang1986"}
-    with pytest.raises(dd.errors.InputError, match="nothing that has sources"):
+    with pytest.raises(dd.errors.InputError, match="has no sources to cite"):
         dd.cite(np.pi)

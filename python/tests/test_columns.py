@@ -75,7 +75,7 @@ NUMBERS = "column 1 numbers the samples and is not read"
         ("60\n" + _rows(ACC), {"dt": DT}, ""),
         ("60\n" + _rows(TIME, ACC, sep=" "), {}, ""),
         ("60 0.02\n" + _rows(ACC), {}, ""),
-        ("59\n" + _rows(TIME, ACC, sep=" "), None, "1 sample beyond the 59 that the file states ignored"),
+        ("59\n" + _rows(TIME, ACC, sep=" "), None, "ignored 1 sample beyond the 59 stated in the file"),
         # Steps, rates and numbers in words
         ("# dt: 0.02\n" + _rows(ACC), {}, ""),
         ("dt = 0.02 s\n" + _rows(ACC), {}, ""),
@@ -92,14 +92,14 @@ NUMBERS = "column 1 numbers the samples and is not read"
         ("# Sampling Freq(Hz), 50\n" + _rows(ACC), {}, ""),
         ("Station ABC, record 3\nNPTS=  60, DT= .02 SEC\n" + _rows(ACC), {}, ""),
         ("60   0.02   NPTS, DT\n" + _rows(ACC), None, ""),
-        ("# npts: 58\n# dt: 0.02\n" + _rows(ACC), None, "2 samples beyond the 58 that the file states ignored"),
+        ("# npts: 58\n# dt: 0.02\n" + _rows(ACC), None, "ignored 2 samples beyond the 58 stated in the file"),
     ],
 )
 def test_times_are_times_and_numbers_of_samples_are_none(content, given, note, tmp_path):
     """The same motion out of each, at its own step."""
     records, notes = _read(tmp_path, content, units="m/s2", **(given or {}))
     if given is None and note:
-        count = int(note.split(" that")[0].split()[-1])
+        count = int(note.split(" stated")[0].split()[-1])
         _is(records, ACC[:count])
     else:
         _is(records, ACC)
@@ -143,7 +143,7 @@ def test_units_above_the_values(top, unit, tmp_path):
      "time (s),ground velocity\n", "spostamento in cm\n"],
 )  # fmt: skip
 def test_other_quantities_are_refused_whatever_is_given(top, tmp_path):
-    with pytest.raises(dd.errors.InputError, match="is no acceleration"):
+    with pytest.raises(dd.errors.InputError, match="is not an acceleration"):
         _read(tmp_path, top + _rows(TIME, ACC), units="cm/s2")
 
 

@@ -139,7 +139,7 @@ def test_states_without_a_curve_of_their_own():
     assert [curve.status for curve in falling] == ["decreasing"] * 2
     few = fit_states(samples(np.array([[0, 1], [1, 2], [0, 2]]), levels), [0.4, 1.0])
     assert {curve.errors for curve in few} == {"few_clusters"}
-    with pytest.raises(dd.errors.DondoloError, match="less than three clusters"):
+    with pytest.raises(dd.errors.DondoloError, match="fewer than three clusters"):
         few[0].parameter_interval()
 
 

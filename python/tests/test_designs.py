@@ -129,10 +129,10 @@ def test_a_design_without_a_curve(designs, few):
     [
         ({"designs": {}}, "designs: must be a mapping of names to walls, at least one"),
         ({"designs": {"a": 3}}, r"designs\['a'\]"),
-        ({"steel": {"b": 1.0}}, "steel: 'b' is no design"),
+        ({"steel": {"b": 1.0}}, "steel: 'b' is not a design"),
         ({"steel": {"a": -1.0}}, r"steel\['a'\] = -1: must not be negative"),
         ({"levels": {"b": [1.0]}}, "levels: none for the design 'a'"),
-        ({"levels": {"a": [1.0], "b": [1.0]}}, "levels: 'b' is no design"),
+        ({"levels": {"a": [1.0], "b": [1.0]}}, "levels: 'b' is not a design"),
         ({"confidence": 1.5}, "confidence"),
     ],
 )

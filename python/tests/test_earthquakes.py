@@ -340,7 +340,7 @@ def test_a_run_says_that_earthquakes_are_not_known(wall):
     other = [dd.Record(WAVE * (1.0 + 0.1 * i), 0.01, f"r{i}") for i in range(4)]
     named = [dd.Record(one.acceleration, 0.01, one.name, metadata={"event": one.name}) for one in other]
     unknown = [named[0], other[1], dd.Record(other[2].acceleration, 0.01, "r2", metadata={"event": "unknown"})]
-    sentence = re.escape("the earthquake of 2 of 3 records is not known (the first is 'r1')")
+    sentence = re.escape("no event is given for 2 of 3 records (the first is 'r1')")
 
     def warnings_of(records, **how):
         with warnings.catch_warnings(record=True) as caught:

@@ -187,7 +187,7 @@ def test_a_broken_pool(whole, tmp_path):
     sentence = r"executor: BrokenProcessPool: .*; \d+ of 60 rows are complete, "
     with ProcessPoolExecutor(2, mp_context=SPAWN) as executor:
         disturbed = Disturbed(executor, 20, kill)
-        with pytest.raises(dd.errors.DondoloError, match=sentence + "the same call goes on from there"):
+        with pytest.raises(dd.errors.DondoloError, match=sentence + "the same call resumes from there"):
             dd.typology(**study.arguments(executor=disturbed, block=1, checkpoint=path))
         with pytest.raises(
             dd.errors.DondoloError, match=r"executor: BrokenProcessPool.*; 0 of 60 .*, a checkpoint would"
@@ -197,7 +197,7 @@ def test_a_broken_pool(whole, tmp_path):
 
 
 def test_errors(pool, monkeypatch):
-    with pytest.raises(dd.errors.InputError, match=r"executor: str is no executor of concurrent\.futures"):
+    with pytest.raises(dd.errors.InputError, match=r"executor: must be an executor of concurrent\.futures, not str"):
         dd.typology(**study.arguments(executor="dask"))
     # Workers whose results would differ
     build = crew._build()

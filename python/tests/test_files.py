@@ -157,7 +157,7 @@ def damaged(executable, root, tmp_path_factory):
         ("parapet", "histories", r"^(parapet,.*),", r"\1", r"line \d+: 10 cells: must be 11 as in the header"),
         ("parapet", "histories", r"^parapet,", "p" * 200000 + ",", r"line \d+: field larger than field limit"),
         ("history", "run.json", r'"record": ".*",', "", "record = None: must be of type str"),
-        ("history", "run.json", r'"collapsed": ', '"collapsed": 1 ', "no JSON: .*line"),
+        ("history", "run.json", r'"collapsed": ', '"collapsed": 1 ', "not JSON: .*line"),
         ("history", "run.json", r'"impacts": ', '"impacts": 1.5, "i": ', "impacts = 1.5: must be of type int"),
         ("history", "run.json", r'^  "history": {$', '"none": {', "no 'history'"),
         ("parapet", "run.json", r"dondolo run 2", "dondolo run 0", "not a run file: format must be 'dondolo run 2'"),
@@ -260,7 +260,7 @@ def test_names_stand_on_one_line(character, wall, sine, tmp_path):
     ):
         (tmp_path / table).write_bytes(f"{header}\n{row}\n".encode())
         read = dd.read_catalogue if table == "records.csv" else dd.Population.from_csv
-        refusal = "byte .* is NUL: this is no text" if character == "\0" else "name = .*: must be one line"
+        refusal = "byte .* is NUL: this is not a text file" if character == "\0" else "name = .*: must be one line"
         with pytest.raises(dd.errors.InputError, match=f"{table}: line 2: {refusal}"):
             read(tmp_path / table)
     if character != "\0":
@@ -301,7 +301,7 @@ def test_standard_errors_of_populations_stay_with_their_files(run, root, tmp_pat
     said = run("--threads", 1, case)
     assert said.returncode == 0
     assert "\n  standard errors over records and walls: 0.0" in said.stdout
-    assert "  no standard errors: 2 walls, one or at least 3 are needed" in said.stdout
+    assert "  no standard errors: 2 walls, either one or at least 3 are needed" in said.stdout
     with pytest.warns(dd.errors.DondoloWarning):
         ran = dd.run_case(case, progress=False).typology
     read = dd.read_results(tmp_path / "out/some").typology
@@ -330,7 +330,7 @@ def test_standard_errors_of_populations_stay_with_their_files(run, root, tmp_pat
             assert (stored.errors, stored.clusters) == (curve.errors, curve.clusters)
             np.testing.assert_allclose(stored.covariance, curve.covariance, rtol=1e-9)
     assert read.combined["a"].se_ln_theta > 1.2 * read.combined["a"].naive_covariance[0, 0] ** 0.5
-    with pytest.raises(dd.errors.InputError, match="or of a population that was read back, does not know its records"):
+    with pytest.raises(dd.errors.InputError, match="or of a population read from files, has no records of its own"):
         back["all"].fit.compare(back["all"].fit)
 
 

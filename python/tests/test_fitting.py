@@ -312,10 +312,10 @@ def test_too_few_clusters_have_no_standard_errors(stripes):
     assert (curve.errors, curve.clusters) == ("few_clusters", 2)
     assert np.isnan(curve.covariance).all()
     assert np.isfinite(curve.naive_covariance).all()
-    assert "less than three clusters" in repr(curve)
+    assert "fewer than three clusters" in repr(curve)
     assert "nan" not in repr(curve)
     for use in (lambda: curve.interval(1.0), curve.parameter_interval, lambda: curve.compare(curve)):
-        with pytest.raises(dd.errors.DondoloError, match="no standard errors: less than three clusters of records"):
+        with pytest.raises(dd.errors.DondoloError, match="no standard errors: fewer than three clusters of records"):
             use()
     assert curve.to_frame().loc[0, ["se_ln_theta", "theta_low"]].isna().all()
 
@@ -450,7 +450,7 @@ def test_events_are_drawn_together(wall, few, polarity):
 @pytest.mark.parametrize(
     ("events", "sentence"),
     [
-        (lambda n: [0] * n, "events: two at least are needed to draw from, there is 1"),
+        (lambda n: [0] * n, "events: at least two are needed to draw from, there is 1"),
         (lambda n: ["a"] * (n - 1) + [""], "= '': must be a name or a number"),
         (lambda n: [None] * n, "events: label 1 = None: must be a name or a number"),
         (lambda n: [float("nan")] * n, "events: label 1 = nan: must be a name or a number"),
@@ -466,7 +466,7 @@ def test_wrong_events(stripes, events, sentence):
 
 
 def test_one_record_cannot_be_drawn_from():
-    with pytest.raises(dd.errors.InputError, match="records: two at least are needed to draw from, there is 1"):
+    with pytest.raises(dd.errors.InputError, match="records: at least two are needed to draw from, there is 1"):
         draw_records(["alone"], 5, 0)
 
 
@@ -494,7 +494,7 @@ def test_names_of_measures():
     assert dd.Fragility.of_parameters(0.5, 0.4, im="PGA").im == "pga"
     assert dd.Fragility.of_parameters(0.5, 0.4, im="my measure").im == "my measure"
     assert dd.Fragility.of_parameters(0.5, 0.4).im == ""
-    with pytest.raises(dd.errors.InputError, match="im = 5: must be a text"):
+    with pytest.raises(dd.errors.InputError, match="im = 5: must be a string"):
         dd.fit_fragility([0.2, 0.4], [11, 33], 44, im=5)
 
 

@@ -119,7 +119,7 @@ def test_source(hazard, tmp_path):
     assert hazard.source == ()
     assert hazard.fractile(0.84).source == ("fractile 0.84",)
     assert dataclasses.replace(hazard, source="a study").source == ("a study",)
-    with pytest.raises(dd.errors.InputError, match="source = 3: must be a text"):
+    with pytest.raises(dd.errors.InputError, match="source = 3: must be a string"):
         dataclasses.replace(hazard, source=[3])
     with pytest.raises(dd.errors.InputError, match="source = 3: must be sentences"):
         dataclasses.replace(hazard, source=3)
@@ -257,7 +257,7 @@ def test_openquake_round_trip(hazard, tmp_path):
         dd.HazardCurve([0.1, 0.2], [0.1, 0.01], im="arias").to_openquake(tmp_path, site=(0.0, 0.0))
     with pytest.raises(dd.errors.InputError, match="investigation_time = 0: must be positive"):
         velocity.to_openquake(tmp_path, site=(0.0, 0.0), investigation_time=0.0)
-    with pytest.raises(dd.errors.DondoloError, match="is no folder"):
+    with pytest.raises(dd.errors.DondoloError, match="is not a folder"):
         velocity.to_openquake(tmp_path / "none", site=(0.0, 0.0))
 
 

@@ -149,7 +149,7 @@ def test_wrong_measures(record, wall):
         record.intensity("pga/a0")
     with pytest.raises(dd.errors.InputError, match="gravity = 0: must be positive"):
         record.intensity("pga", gravity=0.0)
-    with pytest.raises(dd.errors.InputError, match="im = 'd5-95': a duration stays as it is"):
+    with pytest.raises(dd.errors.InputError, match="im = 'd5-95': a duration does not change"):
         dd.multiple_stripe(wall, record, [1.0], im="d5-95")
 
 
@@ -288,7 +288,7 @@ def test_wrong_comparisons(wall, few):
         dd.compare_intensities(wall, few, ["sa(0.5)", "sa(0.50)"])
     with pytest.raises(dd.errors.InputError, match="im = 'x': must be one of"):
         dd.compare_intensities(wall, few, ["x"])
-    with pytest.raises(dd.errors.InputError, match="must be a text"):
+    with pytest.raises(dd.errors.InputError, match="must be a string"):
         dd.compare_intensities(wall, few, [["pga"]])
     with pytest.raises(dd.errors.InputError, match="levels = 1: must be"):
         dd.compare_intensities(wall, few, ["pga"], n_levels=1)

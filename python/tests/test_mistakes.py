@@ -95,7 +95,7 @@ def test_message(folder, run, text, message):
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        (case(stripes="levels = 0.5"), "only one level: no curve can be fitted, two at least are needed"),
+        (case(stripes="levels = 0.5"), "only one level: no curve can be fitted, at least two are needed"),
         (case(stripes="levels = 0.002, 0.004"), "every history stays below the trigger"),
         (case(stripes="im = 'pgd', levels = 5, 20"), "more than 5 m: are they in cm?"),
         (case(stripes="levels = 15, 30"), "are they in m/s2, cm/s2 or per cent of g?"),
@@ -121,7 +121,7 @@ def test_records_that_are_too_few(folder, run):
     catalogue.write_text("".join(lines[:3]))
     assert "warning: only 2 clusters of 2 records: standard errors need at least 3" in run("--check", "wall.nml").stdout
     catalogue.write_text("".join(lines[:2]))
-    assert "warning: only one record: its curve says nothing of other earthquakes" in run("--check", "wall.nml").stdout
+    assert "warning: only one record: the curve does not cover other earthquakes" in run("--check", "wall.nml").stdout
 
 
 def test_building(folder, run):
@@ -150,7 +150,7 @@ def test_building(folder, run):
         ),
         (
             "file,dt_s,unit\nr0.txt,0.01,g\n",
-            "column 'unit': the units of the accelerations must stand in the column units",
+            "column 'unit': the units of the accelerations must be in the column units",
         ),
         ("file,dt_s,units\nr0.txt,0.01\u00a0,g\n", "must be a number, has a no-break space (U+00A0)"),
         ("file,dt_s,units\nr0.txt,0.01,g\u00a0\n", "it has a no-break space (U+00A0)"),

@@ -134,7 +134,7 @@ def test_shown():
             {"groups": ["x", "x", "a\nb", ""]},
             "wall 'b, \"the\" #2': group = 'a\\nb': must be one line without control characters and marks of direction",
         ),
-        ({"groups": ["x", "x", 3, ""]}, "wall 'b, \"the\" #2': group = 3: must be a text"),
+        ({"groups": ["x", "x", 3, ""]}, "wall 'b, \"the\" #2': group = 3: must be a string"),
         ({"groups": ["x"]}, "4 walls, 1 groups: must be as many"),
         ({"groups": 5}, "groups = 5: must be a name for each wall"),
         ({"groups": "abcd"}, "groups = 'abcd': must be a name for each wall"),

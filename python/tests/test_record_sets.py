@@ -70,7 +70,7 @@ def test_stripes_are_joined_and_cut(records, parapet):
     assert np.array_equal(whole[whole.levels > 0.7, :4].edp, whole.edp[1:, :4])
     with pytest.raises(dd.errors.InputError, match="runs in both stripes"):
         whole + one
-    with pytest.raises(dd.errors.InputError, match="must be of one"):
+    with pytest.raises(dd.errors.InputError, match="must belong to one"):
         one + dd.multiple_stripe(dd.OneSidedWall(2.0, 0.25), records[:2], [0.6], progress=False)
     # The tables of two floors look alike
     floors = [dd.Building(period, storeys=3, level=6.0, building_height=9.0) for period in (0.3000001, 0.3000004)]
@@ -78,7 +78,7 @@ def test_stripes_are_joined_and_cut(records, parapet):
         dd.multiple_stripe(dd.OneSidedWall(1.5, 0.25, building=floor), records[:2], [level], progress=False)
         for floor, level in zip(floors, (0.5, 0.6), strict=True)
     )
-    with pytest.raises(dd.errors.InputError, match="must be of one"):
+    with pytest.raises(dd.errors.InputError, match="must belong to one"):
         first + second
 
 

@@ -190,7 +190,7 @@ def test_titles_with_blanks_state_their_units(between, tmp_path):
     with pytest.raises(dd.errors.InputError, match="units"):
         dd.read_record(path, units="g")
     path.write_text(f"Tempo (s){between}Velocita (cm/s)\n{values}")
-    with pytest.raises(dd.errors.InputError, match="is no acceleration"):
+    with pytest.raises(dd.errors.InputError, match="is not an acceleration"):
         dd.read_record(path, units="g")
 
 
@@ -199,5 +199,5 @@ def test_titles_with_blanks_state_their_units(between, tmp_path):
 )
 def test_spectra_are_no_records(title, tmp_path):
     (tmp_path / "spectrum.csv").write_text(f"{title}\n0.00;0.2\n0.01;0.3\n0.02;0.4\n")
-    with pytest.raises(dd.errors.InputError, match=r"is no acceleration|must be in s"):
+    with pytest.raises(dd.errors.InputError, match=r"is not an acceleration|must be in s"):
         dd.read_record(tmp_path / "spectrum.csv")

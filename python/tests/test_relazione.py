@@ -304,7 +304,7 @@ def test_what_is_not_written_is_seen_and_counted(both, written, folder):
         ("[project", "project.toml: "),
         ("[projekt]\nwork = 'a'", "must be one of the groups"),
         ("[project]\nwerk = 'a'", "werk: must be one of work, place"),
-        ("[project]\nwork = 1", "work: must be a text"),
+        ("[project]\nwork = 1", "work: must be a string"),
         ("[project]\nnominal_life = '50'", "nominal_life: must be a number"),
         ("[texts]\njudgment = 'a'", "judgment: must be one of description"),
     ],

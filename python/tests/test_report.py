@@ -511,8 +511,8 @@ def test_wrong_input(stripes, wall, sine, hazard, tmp_path):
     with pytest.raises(dd.errors.InputError, match="results: str is nothing"):
         dd.report("out/parapet", path)
     for title, sentence in (
-        (5, "title = 5: must be a text"),
-        ("a\udc80b", r"title = 'a\\udc80b': must be a text"),
+        (5, "title = 5: must be a string"),
+        ("a\udc80b", r"title = 'a\\udc80b': must be a string"),
         ("a\0b", r"title = 'a\\x00b': must be one line"),
     ):
         with pytest.raises(dd.errors.InputError, match=sentence):

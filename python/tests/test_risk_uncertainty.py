@@ -123,7 +123,7 @@ def test_intervals_cover_what_the_hazard_may_be_beyond_its_levels(people, record
 
 def test_what_has_no_uncertainty(hazard):
     for curve, message in (
-        (replace(curve_of(np.full((2, 2), np.nan)), errors="few_clusters"), "no standard errors: less than three"),
+        (replace(curve_of(np.full((2, 2), np.nan)), errors="few_clusters"), "no standard errors: fewer than three"),
         (dd.FunctionFragility(lambda x: np.minimum(x, 1.0)), "no standard errors are known of this curve"),
     ):
         with warnings.catch_warnings():

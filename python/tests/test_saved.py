@@ -328,7 +328,7 @@ def test_paths(results, tmp_path):
     before = path.read_bytes()
     with pytest.raises(dd.errors.InputError, match=r"curve\.npz: exists, and is not a saved result of dondolo$"):
         curve.save(path)
-    with pytest.raises(dd.errors.InputError, match=r"curve\.npz: is no result saved by dondolo$"):
+    with pytest.raises(dd.errors.InputError, match=r"curve\.npz: is not a result saved by dondolo$"):
         dd.load(path)
     assert path.read_bytes() == before
     path.unlink()
@@ -361,7 +361,7 @@ def rewritten(path, change):
             lambda c: c.update(format_version=2, dondolo="9.1"),
             r"was saved by dondolo 9\.1 in format 2; this is \S+, which",
         ),
-        (lambda c: c.update(result={"Tower": {}}), "Tower: is no kind of result of this version"),
+        (lambda c: c.update(result={"Tower": {}}), "Tower: is not a type of result in this version"),
         (lambda c: c["result"]["HazardCurve"].pop("im"), "HazardCurve: has no field 'im'"),
         (lambda c: c["result"]["HazardCurve"].update(more=1), "HazardCurve: has an unknown field 'more'"),
         (lambda c: c["result"]["HazardCurve"].update(im="xyz"), "xyz"),

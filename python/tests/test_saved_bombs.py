@@ -101,7 +101,7 @@ def test_an_archive_in_an_archive(path):
     with zipfile.ZipFile(inner, "w", zipfile.ZIP_DEFLATED) as file:
         file.writestr("0.npy", npy(np.zeros(5_000_000)))
     archive(path, curve("0.npy"), [("0.npy", inner.read_bytes()), GOOD[1]])
-    refused(path, "is damaged: not a whole archive")
+    refused(path, "is damaged: not a complete archive")
 
 
 @pytest.mark.parametrize(

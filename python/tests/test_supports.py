@@ -145,7 +145,7 @@ def test_notes_count_the_walls_of_a_population():
         dd.Population((leaning, facade(house(0.0)), facade(None))), dd.example_records()[:3], [0.3, 0.6], progress=False
     )
     notes = [text for name, text in found._facts() if name == "note"]
-    assert "linear buildings move the walls that have one" in notes[0]
+    assert "linear buildings move the walls on them" in notes[0]
     assert notes[1].startswith("both ends of 1 wall move with one floor; give participation_top")
     assert len(notes) == 2 + (found.work.drifted > 0)
 

@@ -96,7 +96,7 @@ def test_the_end_is_still(many):
         ((3.0, 10.0, "rock"), "magnitude = 3: must be between 4 and 7.5"),
         ((6.0, 200.0, "rock"), "distance = 200 km: must be between 0 and 150"),
         ((6.0, 10.0, "clay"), "site = 'clay': must be one of"),
-        ((6.0, 10.0, 3), "site = 3: must be a text"),
+        ((6.0, 10.0, 3), "site = 3: must be a string"),
         ((6.0, 10.0, "rock", {"n_records": 0}), "n_records = 0: must be an integer, between 1 and"),
         ((6.0, 10.0, "rock", {"seed": 0}), "seed = 0: must be an integer, between 1 and"),
         ((6.0, 10.0, "rock", {"first": -1}), "first = -1: must be an integer, between 0 and"),

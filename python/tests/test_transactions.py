@@ -210,7 +210,12 @@ def checkpoint(tmp_path_factory, few):
 @pytest.mark.parametrize(
     ("left", "lock", "held", "said"),
     [
-        ("some", "", False, ["interrupted; nothing runs, and the same command goes on", "4 of 5 rows in {path}, 80 %"]),
+        (
+            "some",
+            "",
+            False,
+            ["interrupted; nothing is running, and the same command resumes it", "4 of 5 rows in {path}, 80 %"],
+        ),
         (
             "some",
             LOCK,
@@ -223,8 +228,8 @@ def checkpoint(tmp_path_factory, few):
             True,
             ["running: process 4321 on here since {since}", "4 of 5 rows in {path}, 80 %, about 20 s left"],
         ),
-        ("all", "", False, ["complete; nothing runs", "5 of 5 rows in {path}, 100 %"]),
-        ("cut", "", False, ["interrupted; nothing runs", "4 of 5 rows in {path}, 80 %"]),
+        ("all", "", False, ["complete; nothing is running", "5 of 5 rows in {path}, 100 %"]),
+        ("cut", "", False, ["interrupted; nothing is running", "4 of 5 rows in {path}, 80 %"]),
         ("none", LOCK, True, ["running: process 4321 on here"]),
         ("none", "", False, []),
     ],
@@ -253,7 +258,7 @@ def test_status_of_a_checkpoint(left, lock, held, said, checkpoint, run, tmp_pat
                     assert line.startswith(f"{output}: {begin.format(path=name, since=since)}")
             elif not said:
                 assert done.returncode == 2
-                assert f"{output}: nothing is known of it: no lock, no checkpoint and no results" in done.stderr
+                assert f"{output}: no lock, no checkpoint and no results have this prefix" in done.stderr
         assert not content or path.read_bytes() == content
 
 
@@ -261,7 +266,9 @@ def test_status_of_results(executable, folder):
     assert start(executable, folder, "a").wait() == 0
     done = subprocess.run([executable, "--status", "out/x"], cwd=folder, capture_output=True, text=True, check=True)
     name = dd.read_results(folder / "out/x").run.run
-    assert done.stdout.splitlines() == ["out/x: finished; nothing runs", f"out/x: results are those of run {name}"]
+    finished, results = done.stdout.splitlines()
+    assert finished == "out/x: finished; nothing is running"
+    assert results == f"out/x: results are those of run {name}"
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])

@@ -217,7 +217,7 @@ def test_errors(mixed):
         ({"over": ()}, r"over = \(\): must name"),
         ({"over": 3}, "over = 3: must name"),
         ({"seed": "a"}, "seed = 'a': must be an integer"),
-        ({"events": ["a"] * 9}, "events: two at least are needed"),
+        ({"events": ["a"] * 9}, "events: at least two are needed"),
         ({"n_resamples": 0}, "n_resamples = 0: must be an integer, at least 1"),
         ({"group": "west"}, "group = 'west': must be one of '', 'north', 'south'"),
         ({"mechanism": "arch"}, "mechanism = 'arch': must be one of 'one_sided', 'two_block', 'all'"),
@@ -232,7 +232,7 @@ def test_one_wall_is_not_drawn_from_itself(mixed):
     both = resample_population(one, own, LEVELS, 200, 3)
     assert both.over == ("records",)
     np.testing.assert_array_equal(both.theta, resample_population(one, own, LEVELS, 200, 3, "records").theta)
-    with pytest.raises(dd.errors.InputError, match="walls: two at least are needed to draw from, there is 1"):
+    with pytest.raises(dd.errors.InputError, match="walls: at least two are needed to draw from, there is 1"):
         resample_population(one, own, LEVELS, 200, 3, "walls")
 
 

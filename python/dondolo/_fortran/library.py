@@ -278,11 +278,11 @@ if sys.platform != "win32":
 def as_text(name: str, value: Any) -> bytes:
     """Turn what a user gives for a name or a word into the bytes Fortran takes, which says what they may be."""
     if not isinstance(value, str):
-        raise InputError(f"{name} = {value!r}: must be a text")
+        raise InputError(f"{name} = {value!r}: must be a string")
     try:
         text = value.encode()
     except UnicodeEncodeError:
-        raise InputError(f"{name} = {value!r}: must be a text") from None
+        raise InputError(f"{name} = {value!r}: must be a string") from None
     # What Python prints has no character that Fortran refuses. A text of f2py would end at NUL.
     if not value.isprintable() or len(text) > constants().longest_name:
         check(_core.library.check_text(name.encode(), text.replace(b"\0", b"\xc0\x80")))

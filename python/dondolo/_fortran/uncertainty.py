@@ -35,7 +35,7 @@ class PublishedFactor(NamedTuple):
 def sensitivity(values: FloatArray, outcome: FloatArray) -> Sensitivity:
     """Which of several independent quantities (samples, quantities) an outcome (samples,) owes its scatter to."""
     if len(outcome) == 0:
-        raise DondoloError("no sample has a curve: there is nothing to tell its scatter from")
+        raise DondoloError("no sample has a curve, so that its scatter cannot be apportioned")
     indices, rest, failure = _core.uncertainty.sensitivity(np.asfortranarray(values), outcome)
     check(failure)
     rows = indices.T.copy()

@@ -35,7 +35,7 @@ def write_set(
     Warns
     -----
     DondoloWarning
-        Whose results are replaced, and which reports, workbooks and figures are out of date.
+        Earlier results are replaced; reports, workbooks or figures are out of date.
     """
     start, is_safe = as_file("prefix", prefix), as_flag("spreadsheet_safe", spreadsheet_safe)
     check_replaced(f"{start}{RUN_FILE}", "run")

@@ -225,7 +225,7 @@ def parse_run_file(text: str, path: str, written: datetime | None = None) -> Run
     try:
         content = json.loads(text)
     except (ValueError, RecursionError) as error:
-        raise InputError(f"{path}: no JSON: {error}") from error
+        raise InputError(f"{path}: not JSON: {error}") from error
     if not isinstance(content, dict) or content.get("format") != FORMAT:
         raise InputError(f"{path}: not a run file: format must be '{FORMAT}'")
     try:

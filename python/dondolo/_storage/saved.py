@@ -182,7 +182,7 @@ def load(path: str | os.PathLike[str]) -> Any:
     except MemoryError as error:
         raise InputError(f"{source}: cannot be read: it does not fit in memory") from error
     if not is_saved:
-        raise InputError(f"{source}: is no result saved by dondolo")
+        raise InputError(f"{source}: is not a result saved by dondolo")
     result, origin, arrays = _unpack(data, source)
     try:
         loaded = _decode(result, arrays)
@@ -223,7 +223,7 @@ def _unpack(data: bytes, source: Path) -> tuple[Any, str, dict[str, _Array]]:
         raise error.placed(f"{source}: is damaged") from None
     # Bytes that are wrong raise a dozen kinds of errors in zipfile and its decoders.
     except Exception as error:
-        raise InputError(f"{source}: is damaged: not a whole archive of a result") from error
+        raise InputError(f"{source}: is damaged: not a complete archive of a result") from error
     if version > _VERSION:
         raise InputError(
             f"{source}: was saved by dondolo {origin} in format {version};"
@@ -323,7 +323,7 @@ def _decode(tree: Any, arrays: Mapping[str, _Array]) -> Any:
     if what in plain:
         return plain[what]()
     if what not in _TYPES:
-        raise InputError(f"{what}: is no kind of result of this version, {constants().version}")
+        raise InputError(f"{what}: is not a type of result in this version, {constants().version}")
     kind = _TYPES[what]
     if issubclass(kind, Enum):
         return kind(inner)

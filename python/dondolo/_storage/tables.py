@@ -80,7 +80,7 @@ def write_csv(
     comments : iterable of str
         Lines for the head of the file.
     spreadsheet_safe : bool
-        Guard texts that a spreadsheet would take for formulas.
+        Guard strings that a spreadsheet would read as formulas.
     """
     write_lines(path, result_lines(table, comments, spreadsheet_safe))
 
@@ -153,7 +153,7 @@ class Tabular(Shown):
         path : path
             The file; its folder must exist.
         spreadsheet_safe : bool
-            Put an apostrophe before names that a spreadsheet would take for formulas.
+            Put an apostrophe before names that a spreadsheet would read as formulas.
 
         Raises
         ------

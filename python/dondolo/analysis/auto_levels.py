@@ -1,6 +1,6 @@
-"""Where the next stripe tells most of a fragility curve.
+"""Choice of the next level of stripes: where it adds most information on the fragility curve.
 
-A record is taken for one with a capacity, lognormal with the curve's theta and beta, of which a stripe tells whether it
+A record is taken for one with a capacity, lognormal with the curve's theta and beta, of which a stripe shows whether it
 lies below its level. Stripes so far then leave each capacity between two levels, and the information on (ln theta,
 ln beta) is that of grouped data (Kulldorff 1961): running the same records again at a level already run adds none. The
 next level is where the determinant of that information, and with it the area of the joint confidence region, gains most
@@ -41,7 +41,7 @@ def next_level(levels: FloatArray, collapses: FloatArray, histories: FloatArray)
     Returns
     -------
     float or None
-        Of three digits; None if no level is left that would tell more.
+        Of three digits; None if no further level would add information.
     """
     low, high = float(levels[0]), float(levels[-1])
     if not collapses.any():

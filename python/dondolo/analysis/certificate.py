@@ -1,4 +1,4 @@
-"""Certified stripes: histories that double precision may not tell, run again in 33 digits."""
+"""Certified stripes: histories that double precision may not decide, rerun in 33 digits."""
 
 from __future__ import annotations
 
@@ -125,6 +125,6 @@ def records_of(stripes: Stripes, records: Any) -> list[Record]:
     several = []
     for key in zip(stripes.record_names[: stripes.n_records], stripes.checksums, strict=True):
         if key not in found:
-            raise InputError(f"records: '{key[0]}' is not there, or is another one than in the stripes")
+            raise InputError(f"records: '{key[0]}' is missing, or differs from the one in the stripes")
         several.append(found[key])
     return several

@@ -1,4 +1,4 @@
-"""Cloud analysis: fragility from records as they are, without scaling them to levels.
+"""Cloud analysis: fragility from unscaled records.
 
 Every record runs once and is a point (IM, EDP). Three models are fitted to the cloud of points, each to the histories
 that it is about (Jalayer and others 2017, who have the first and the third):
@@ -81,7 +81,7 @@ _REACH = 10.0
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Cloud(tables.Tabular, Saved):
-    """Points (IM, EDP) of records as they are, and what is fitted to them.
+    """Result of a cloud analysis: points (IM, EDP), and the models fitted to them.
 
     Attributes
     ----------
@@ -110,7 +110,7 @@ class Cloud(tables.Tabular, Saved):
     edp_limit : float
         Rotation / capacity that counts as collapse.
     work : Work
-        What was computed, and what was not.
+        Work done and skipped.
     """
 
     # Its facts have commas.
@@ -341,7 +341,7 @@ def cloud(
     threads: int = 0,
     progress: bool = True,
 ) -> Cloud:
-    """Cloud analysis: run records as they are, and fit EDP and collapse to the intensity.
+    """Cloud analysis: run unscaled records, and fit EDP and collapse to the intensity.
 
     Parameters
     ----------
@@ -365,8 +365,8 @@ def cloud(
     Raises
     ------
     InputError
-        What cannot be run; a record without motion, whose intensity has no logarithm; a row of a set with a level and
-        no factor.
+        Input that cannot be run; a record without motion, whose intensity has no logarithm; a row of a set with a level
+        and no factor.
     Interrupted
         Ctrl-C; its `partial` is the result if all histories were complete, else None.
 

@@ -1,4 +1,4 @@
-"""Which intensity measure tells best whether a wall collapses?"""
+"""Comparison of intensity measures by how well they predict the collapse of a wall."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class IntensityComparison(tables.Tabular, Saved):
     curves : tuple of Fragility
         Their curves.
     dispersion : ndarray, shape (measures,)
-        Of the scale factor at which a record brings the wall down: beta, halved for the Arias intensity, which grows
+        Of the scale factor at which a record makes the wall collapse: beta, halved for the Arias intensity, which grows
         with the square of the scale. By beta alone a measure and its square would seem to differ.
     se_dispersion : ndarray, shape (measures,)
         Its standard errors.

@@ -35,7 +35,7 @@ _COLUMNS = (
     "uplift",
     "ran",
 )
-# Texts of each record; results that were read back may lack them
+# Texts of each record; results read from files may lack them
 _OF_RECORDS = ("record_names", "events", "checksums")
 # What must be the same for stripes to be joined
 _SHARED = ("im", "engine", "rtol", "atol", "edp_limit")
@@ -76,13 +76,13 @@ def join(one: Stripes, other: Stripes) -> Stripes:
     if type(other) is not type(one):
         raise InputError(f"stripes: cannot be joined with {type(other).__name__}")
     if one.wall != other.wall:
-        raise InputError(f"stripes: are of the walls '{one.wall.name}' and '{other.wall.name}': must be of one")
+        raise InputError(f"stripes: belong to the walls '{one.wall.name}' and '{other.wall.name}': must belong to one")
     for name in _SHARED:
         first, second = getattr(one, name), getattr(other, name)
         if first != second:
             raise InputError(f"stripes: {name} = {first!r} and {second!r}: must be the same")
     if not np.array_equal(np.unique(one.polarity), np.unique(other.polarity)):
-        raise InputError("stripes: were run with other polarities: must be the same")
+        raise InputError("stripes: were run with different polarities: must be the same")
     for name, what in _OPTIONAL.items():
         if (getattr(one, name) is None) != (getattr(other, name) is None):
             raise InputError(f"stripes: only one {what}")

@@ -259,7 +259,7 @@ class Incremental(Shown, Saved):
     ) -> None:
         """Write one of the tables 'records' and 'fractiles'; what is infinite is empty.
 
-        With `spreadsheet_safe` an apostrophe stands before names that a spreadsheet would take for formulas.
+        With `spreadsheet_safe`, names that a spreadsheet would read as formulas get an apostrophe.
         """
         comments = [repr(self.stripes.wall), f"unit of the levels: {unit_of(self.stripes.im) or '1'}"]
         tables.write_csv(path, tables.choose(self._tables(), table), comments, spreadsheet_safe=spreadsheet_safe)

@@ -1,4 +1,4 @@
-"""Overturning spectra: which amplitudes of a pulse overturn a wall, at every frequency of the pulse."""
+"""Overturning spectra: the amplitudes of a pulse that overturn a wall, at every frequency of the pulse."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ _LONGEST_FALL = 10.0
 
 @part_of_results
 class State(IntEnum):
-    """What a pulse does to a wall; ordered as amplitudes often are."""
+    """Outcome of a pulse, in the order in which it usually changes with the amplitude."""
 
     AT_REST = 0
     SAFE = 1
@@ -78,7 +78,7 @@ class Window(NamedTuple):
     lower, upper : float
         From and to, each the middle of a boundary's bracket or the end of the scan [g].
     state : State
-        What the pulse does.
+        Outcome of the pulse.
     """
 
     lower: float
@@ -91,7 +91,7 @@ _Table = Literal["map", "boundaries"]
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class OverturningSpectrum(Shown, Saved):
-    """What pulses of many frequencies and amplitudes do to a wall.
+    """Result of a scan over frequencies and amplitudes of a pulse.
 
     Attributes
     ----------
@@ -280,7 +280,7 @@ def overturning_spectrum(
     Raises
     ------
     InputError
-        What cannot be run.
+        Input that cannot be run.
     Interrupted
         Ctrl-C or `stop`; its `partial` has the frequencies whose scan is complete, with the brackets that were reached.
 

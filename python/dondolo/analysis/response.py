@@ -36,7 +36,7 @@ _TIE = ("plastic_elongation_m", "energy_j_m", "broken", "time_of_yield_s", "time
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Response(Shown, Saved):
-    """What a motion leaves.
+    """Result of one time-history analysis.
 
     Attributes
     ----------
@@ -50,7 +50,7 @@ class Response(Shown, Saved):
         Engineering demand parameter: largest rotation / capacity (equation (6) of Nale et al.); edp_limit for a
         collapse.
     collapsed : bool
-        Did it reach the limit?
+        Whether the rotation reached `edp_limit`.
     impacts : int
         Impacts located before the end of the record; chains of bounces that are closed at once are not counted.
     time_of_peak : float
@@ -102,7 +102,7 @@ class Response(Shown, Saved):
 
     @property
     def ties(self) -> TieStates:
-        """What the motion leaves of the ties: plastic elongation, energy, whether broken, each of shape (ties,)."""
+        """State of the ties after the motion: plastic elongation, energy, whether broken, each of shape (ties,)."""
         return states_of_ties(self.wall, self.edp)
 
     @property
@@ -369,9 +369,9 @@ def simulate(
     solver : Solver, optional
         How the motion is integrated.
     history : bool
-        Keep the time history?
+        Whether to keep the time history.
     estimate_error : bool
-        Run it twice more, to estimate the error of the EDP?
+        Whether to run it twice more, to estimate the error of the EDP.
 
     Returns
     -------
@@ -380,7 +380,7 @@ def simulate(
     Raises
     ------
     InputError
-        A setting that makes no sense, with the sentence of the executable.
+        An invalid setting; the message is that of the executable.
 
     Warns
     -----

@@ -12,7 +12,7 @@ from dondolo._fortran.library import build_variant
 
 @dataclass(frozen=True, kw_only=True)
 class Solver:
-    """How motions are integrated.
+    """Settings of the integration of motions.
 
     Parameters
     ----------
@@ -21,11 +21,11 @@ class Solver:
     edp_limit : float, optional
         Rotation / capacity that counts as collapse; 1 if left out, and 5 for `overturning_spectrum`.
     engine : {'auto', 'lanes', 'rk45'}
-        'lanes' integrates several histories at a time, 'rk45' one; 'auto' chooses.
+        'lanes' integrates several histories at a time, 'rk45' one; 'auto' selects the one that suits the task.
 
     Notes
     -----
-    An analysis refuses values that make no sense, with the sentence of the executable.
+    An analysis refuses invalid values; the message is that of the executable.
 
     Examples
     --------

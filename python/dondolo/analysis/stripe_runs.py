@@ -31,7 +31,7 @@ _TRIAL = 1e-3
 
 
 class Study(Shown):
-    """Records, levels and how motions are integrated, prepared once for walls that are tried one after the other.
+    """Records, levels and solver, prepared once for several walls.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ class Study(Shown):
     Raises
     ------
     InputError
-        What cannot be run with any wall.
+        Input that cannot be run with any wall.
 
     Notes
     -----
@@ -205,9 +205,9 @@ def multiple_stripe(
     solver : Solver, optional
         How the motions are integrated.
     estimate_error : bool
-        Run every history twice more, to estimate the error of its EDP?
+        Whether to run every history twice more, to estimate the error of its EDP.
     certify : bool
-        Estimate errors, and run every history that they leave in doubt again in 33 digits? See `Stripes.certify`.
+        Whether to estimate errors and rerun every doubtful history in 33 digits: see `Stripes.certify`.
     threads : int
         Number of threads; 0: all (OMP_NUM_THREADS is honoured). Results do not depend on it.
     progress : bool
@@ -222,11 +222,11 @@ def multiple_stripe(
     Raises
     ------
     InputError
-        What cannot be run, with the sentence of the executable; a record without motion, which no factor brings to a
-        level.
+        Input that cannot be run; the message is that of the executable; a record without motion, which no factor brings
+        to a level.
     Interrupted
         Ctrl-C or `stop`; its `partial` has the stripes that are complete; while histories are certified all stripes,
-        with which `certify` goes on.
+        with which `certify` resumes.
 
     Warns
     -----
@@ -285,7 +285,7 @@ def adaptive_stripes(
     progress: bool = True,
     stop: threading.Event | None = None,
 ) -> Stripes:
-    """Run records at levels that are chosen one after the other, each where it tells most of the curve of collapse.
+    """Run records at levels chosen one by one, each where it adds most information on the curve of collapse.
 
     Parameters
     ----------
@@ -294,8 +294,8 @@ def adaptive_stripes(
     records : Record or iterable of Record
         The accelerograms, without levels or factors of their own.
     budget : int
-        How many histories to run at most, enough for three stripes of all records. What does not suffice for a stripe
-        is not spent.
+        Largest number of histories to run, enough for at least three stripes of all records. A remainder that does not
+        suffice for a stripe is not used.
     im, polarity, solver, estimate_error, certify, threads, progress, stop
         As for `multiple_stripe`.
 
@@ -307,7 +307,7 @@ def adaptive_stripes(
     Raises
     ------
     InputError
-        What cannot be run; records with levels of their own; a budget that is too small.
+        Input that cannot be run; records with levels of their own; a budget that is too small.
     Interrupted
         Ctrl-C or `stop`; its `partial` has the stripes that are complete.
 

@@ -1,4 +1,4 @@
-"""Stripes of one wall: what its histories came to at each level, and the curves that follow."""
+"""Stripes of one wall: the outcomes of its histories at each level, and the curves fitted to them."""
 
 from __future__ import annotations
 
@@ -52,11 +52,11 @@ _SHARES = (0.1, 0.4, 1.0)
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Stripes(Shown, Saved):
-    """Records at levels of intensity, and who collapses.
+    """Result of a multiple stripe analysis: the outcome of every record at every level of intensity.
 
-    Stripes of one wall are joined by ``+``, and cut by indexing: ``stripes[:5]`` are the five lowest,
-    ``stripes[stripes.levels < 1.0]`` those of a mask, and a second index chooses among the records. What is left has
-    the records that run at one of its levels.
+    Stripes of one wall are joined by ``+`` and indexed by level: ``stripes[:5]`` are the five lowest,
+    ``stripes[stripes.levels < 1.0]`` those of a mask; a second index selects records. The result has the records that
+    run at one of its levels.
 
     Attributes
     ----------
@@ -83,13 +83,13 @@ class Stripes(Shown, Saved):
     engine, edp_limit, rtol, atol
         How it was computed.
     runs : dict of str to Work
-        What was computed, and what was not, by each of the runs that the stripes come from, whole even where they have
-        a part of its histories; runs are told apart by a checksum of their histories.
+        Work done and skipped by each of the runs that the stripes come from, also by histories that are no longer among
+        them; the keys are checksums of the histories.
     edp_error : ndarray, shape (levels, histories), or None
         Estimated errors of `edp`; None unless asked for.
     status : ndarray of int, shape (levels, histories), or None
-        How each history is certified, a `Certified`; None unless asked for. 0 for one that was not run, or whose doubt
-        an interrupted run has left.
+        How each history is certified, a `Certified`; None unless asked for. 0 for one that was not run, or that an
+        interrupted run left in doubt.
     edp_lowest, edp_highest : ndarray, shape (levels, histories), or None
         EDPs between which the last digit of the input decides, equal but for `Certified.NOT_COMPUTABLE`; None unless
         certified.
@@ -161,7 +161,7 @@ class Stripes(Shown, Saved):
 
     @property
     def work(self) -> Work:
-        """What was computed, and what was not, by all of `runs`, each counted once."""
+        """Work done and skipped by all of `runs`, each counted once."""
         return Work.total(self.runs.values())
 
     @property
@@ -202,7 +202,7 @@ class Stripes(Shown, Saved):
 
     @property
     def theta_bounds(self) -> tuple[float, float]:
-        """Theta if all histories collapse that are not computable and may, and if none of them does.
+        """Theta with every history whose outcome is not computable counted as a collapse, and with none.
 
         NaN where there is no curve; only of certified stripes.
         """
@@ -213,7 +213,7 @@ class Stripes(Shown, Saved):
     def state_bounds(
         self, edp_thresholds: ArrayLike | None = None, *, states: States = "separate"
     ) -> tuple[tuple[float, float], ...]:
-        """Bounds of theta of damage states, since some histories are not computable from their input.
+        """Bounds of theta of damage states, from the histories that are not computable.
 
         Parameters
         ----------
@@ -223,8 +223,8 @@ class Stripes(Shown, Saved):
         Returns
         -------
         tuple of (float, float)
-            Of each state: theta if all histories reach it that are not computable and may, and if none of them does;
-            NaN where there is no curve.
+            Of each state: theta with every history whose outcome is not computable counted as reaching it, and with
+            none; NaN where there is no curve.
 
         Raises
         ------
@@ -242,7 +242,7 @@ class Stripes(Shown, Saved):
         return tuple((one.theta, other.theta) for one, other in zip(low, high, strict=True))
 
     def exceedance_bounds(self, edp_threshold: float) -> tuple[_Counts, _Counts]:
-        """Histories of each stripe that reach a threshold: bounds, since some are not computable from their input.
+        """Bounds of the number of histories of each stripe that reach a threshold.
 
         Parameters
         ----------
@@ -252,7 +252,7 @@ class Stripes(Shown, Saved):
         Returns
         -------
         fewest, most : ndarray of int, shape (levels,)
-            Without those that are not computable and may, and with all of them.
+            With every history whose outcome is not computable counted as not reaching it, and as reaching it.
 
         Raises
         ------
@@ -271,7 +271,7 @@ class Stripes(Shown, Saved):
 
     @property
     def ties(self) -> TieCounts:
-        """What the histories of each stripe do to the ties of the wall."""
+        """Effect of the histories of each stripe on the ties of the wall."""
         return tallies_of_ties(self.wall, self.edp, self.ran)
 
     @property
@@ -318,7 +318,7 @@ class Stripes(Shown, Saved):
         Parameters
         ----------
         edp_threshold : float, optional
-            Rotation / capacity that makes a damage state; collapse if left out.
+            Rotation / capacity that defines a damage state; collapse if left out.
         events : sequence, optional
             A label for each record, such as its recording or its earthquake, in place of `events`: records with the
             same label depend on each other.
@@ -326,12 +326,12 @@ class Stripes(Shown, Saved):
         Returns
         -------
         Fragility
-            Its status says whether there is a curve.
+            `status` states whether there is a curve.
 
         Warns
         -----
         DondoloWarning
-            With the sentence of the executable, where there is no curve or it extrapolates.
+            There is no curve, or it extrapolates; the message is that of the executable.
         """
         state = self if edp_threshold is None else self._state(edp_threshold)
         curve = fit(
@@ -429,7 +429,7 @@ class Stripes(Shown, Saved):
         threads: int = 0,
         progress: bool = True,
     ) -> Stripes:
-        """Run every history whose estimated error leaves a doubt again in 33 digits.
+        """Rerun in 33 digits every history whose estimated error leaves its outcome in doubt.
 
         Parameters
         ----------
@@ -451,8 +451,8 @@ class Stripes(Shown, Saved):
         InputError
             Stripes without estimated errors, other records, or a build without quadruple precision.
         Interrupted
-            Ctrl-C; its `partial` has all stripes, with a status of 0 for the histories in doubt that were not run again
-            yet. Its own `certify` goes on there. At most 16 histories that were at work are lost.
+            Ctrl-C; its `partial` has all stripes, with a status of 0 for the doubtful histories that were not yet
+            rerun. Its own `certify` resumes there. At most 16 histories in progress are lost.
 
         Notes
         -----
@@ -653,7 +653,7 @@ class Stripes(Shown, Saved):
     ) -> None:
         """Write one of the tables 'histories', 'stripes' and 'walls' as the executable does.
 
-        With `spreadsheet_safe` an apostrophe stands before names that a spreadsheet would take for formulas.
+        With `spreadsheet_safe`, names that a spreadsheet would read as formulas get an apostrophe.
         """
         comments = [
             repr(self.wall),
@@ -678,13 +678,13 @@ class Stripes(Shown, Saved):
         Parameters
         ----------
         prefix : path
-            What the names begin with, such as ``out/parapet`` for ``out/parapet_histories.csv``; folders are made.
+            Prefix of the files, such as ``out/parapet`` for ``out/parapet_histories.csv``; folders are made.
         edp_thresholds : array_like, optional
             Damage states [rotation / capacity], increasing; collapse alone if left out.
         states : {'separate', 'ordinal'}
             As for `fit_damage_states`.
         spreadsheet_safe : bool
-            Put an apostrophe before names that a spreadsheet would take for formulas; `read_results` takes it away.
+            Put an apostrophe before names that a spreadsheet would read as formulas; `read_results` removes it.
 
         Raises
         ------
@@ -696,7 +696,7 @@ class Stripes(Shown, Saved):
         Warns
         -----
         DondoloWarning
-            Whose results are replaced, and which reports, workbooks and figures are out of date.
+            Earlier results are replaced; reports, workbooks or figures are out of date.
         """
         levels = [self.edp_limit] if edp_thresholds is None else self._thresholds(edp_thresholds)
         with silent():

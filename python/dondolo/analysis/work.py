@@ -1,4 +1,4 @@
-"""What was computed, and what was not."""
+"""Counts of the work that an analysis did and skipped."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from dondolo._storage.saved import part_of_results
 
 @part_of_results
 class Work(NamedTuple):
-    """Counts that show that nothing is integrated that a result does not need.
+    """Counts of the work done and skipped: only what a result needs is integrated.
 
     They do not depend on the number of threads. With estimated errors every history is run and counts three times;
     after Ctrl-C they are those of all that was computed.

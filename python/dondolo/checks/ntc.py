@@ -88,7 +88,7 @@ class CodeCheck(Shown, Saved):
         quantity : str
             Its name, such as 'alpha_0', 'd_0' or 'capacity_pga'.
         item : str, optional
-            What of the wall it is of, such as 'tie 2'; the first that has the number if left out.
+            Part of the wall that it belongs to, such as 'tie 2'; the first that has the number if left out.
 
         Returns
         -------
@@ -153,7 +153,7 @@ class CodeCheck(Shown, Saved):
 
     @property
     def notes(self) -> tuple[DondoloWarning, ...]:
-        """What a reader should know: a strip whose hinge is not the weakest, a period beyond those of the spectrum.
+        """Remarks: a strip whose hinge is not the weakest, a period beyond those of the spectrum.
 
         `str` of each is its sentence, and its code, subject and numbers are those of a warning.
         """
@@ -161,7 +161,7 @@ class CodeCheck(Shown, Saved):
 
     @property
     def capacities(self) -> dict[tuple[str, str], float]:
-        """Peak acceleration at the site that the wall withstands [g] by each kinematic check: (method, limit state)."""
+        """Capacity by each kinematic check, as peak acceleration at the site [g]: (method, limit state)."""
         return self._of("capacity_pga")
 
     @property
@@ -171,12 +171,12 @@ class CodeCheck(Shown, Saved):
 
     @property
     def not_applicable(self) -> tuple[tuple[str, str], ...]:
-        """Checks that are not for the wall: linear SLV with q > 1 where an anchor gives way before its bar yields."""
+        """Checks that are not applicable: linear SLV with q > 1 where an anchor gives way before its bar yields."""
         return tuple(self._of("applicable"))
 
     @property
     def open_ties(self) -> dict[str, tuple[str, ...]]:
-        """Ties of which something is not satisfied: {'tie 1': ('hierarchy', 'plate_verified', 'anchor_checked')}."""
+        """Ties with unsatisfied requirements: {'tie 1': ('hierarchy', 'plate_verified', 'anchor_checked')}."""
         found: dict[str, tuple[str, ...]] = {}
         for row in self.rows:
             if (
@@ -198,7 +198,7 @@ class CodeCheck(Shown, Saved):
         Returns
         -------
         dict
-            (method, limit state): at what the wall withstands by each kinematic check, and at a_g S of the site.
+            (method, limit state): at the capacity by each kinematic check, and at a_g S of the site.
 
         Raises
         ------

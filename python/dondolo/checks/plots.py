@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def draw_check(check: CodeCheck, curve: Fragility, ax: Axes | None, given: dict[str, Any]) -> Axes:
-    """Draw a curve, the peak acceleration of the site, and what the wall withstands by each formula."""
+    """Draw a curve, the peak acceleration of the site, and the capacity of the wall by each formula."""
     options = Options(given, "band", "bars", "points")
     chances = {key: value for key, value in check.probabilities(curve).items() if key not in check.not_applicable}
     ax = curve.plot(curves.axes(ax), **given | {"legend": False})

@@ -126,7 +126,7 @@ def draw_records(labels: Sequence[Any], n_resamples: int, seed: Any) -> FloatArr
     place = [places.setdefault(label, len(places)) for label in labels]
     if len(places) < 2:
         what = "records" if len(labels) < 2 else "events"
-        raise InputError(f"{what}: two at least are needed to draw from, there is {len(places)}")
+        raise InputError(f"{what}: at least two are needed to draw from, there is {len(places)}")
     drawn = generator.multinomial(len(places), np.full(len(places), 1.0 / len(places)), size=n_resamples)[:, place]
     # Events with many records must not make a sample count for more histories than there are.
     times: FloatArray = drawn * (len(labels) / drawn.sum(axis=1, keepdims=True))

@@ -1,4 +1,4 @@
-"""Are two fragility curves the same?"""
+"""Comparison of two fragility curves."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Interval = tuple[float, float]
 
 @dataclass(frozen=True, repr=False, kw_only=True)
 class Comparison(Shown, Saved):
-    """Two curves compared.
+    """Result of the comparison of two curves.
 
     Attributes
     ----------
@@ -83,8 +83,8 @@ def compare(one: Curve, other: Curve, *, confidence: float = 0.95) -> Comparison
         curve._quantile(confidence)
         if curve.errors == "clustered" and not curve.parts:
             raise InputError(
-                "curves: that of one wall of a population, or of a population that was read back, does not know its"
-                " records: compare curves of Stripes.fit or of a typology that was run"
+                "curves: that of one wall of a population, or of a population read from files, has no records of its"
+                " own: compare curves of Stripes.fit or of a typology computed in Python"
             )
     if first.errors != second.errors:
         raise InputError(f"standard errors: {first.errors} and {second.errors}: both must be of one kind")

@@ -1,4 +1,4 @@
-"""What every fragility curve can do, wherever it comes from."""
+"""Methods that all fragility curves share."""
 
 from __future__ import annotations
 
@@ -147,7 +147,7 @@ class Curve(ABC):
         Returns
         -------
         Comparison
-            `pairing` says what the curves share.
+            `pairing` states which records the curves share.
 
         Raises
         ------
@@ -177,14 +177,14 @@ class Curve(ABC):
         path : path
             The file, as for `write_nrml`.
         taxonomy, state : str
-            What it is the curve of.
+            Names in the model.
         **model
-            What `write_nrml` takes besides: id, description, limits ...
+            Other arguments of `write_nrml`: id, description, limits ...
 
         Raises
         ------
         InputError
-            What the format does not hold.
+            The curve cannot be stored in the format.
         DondoloError
             There is no curve; the file cannot be written.
 

@@ -45,7 +45,7 @@ class DiscreteFragility(Curve, Shown, Saved):
     Raises
     ------
     InputError
-        Levels and probabilities that are not a curve; a measure that is not known.
+        Levels and probabilities that are not a curve; an unknown measure.
 
     Examples
     --------
@@ -108,7 +108,7 @@ class DiscreteFragility(Curve, Shown, Saved):
         Raises
         ------
         InputError
-            A level that is negative or no number.
+            A level that is negative or not a number.
         """
         values = as_levels(x)
         flat = values.ravel()

@@ -38,7 +38,7 @@ def fit_fragility(
     levels : array_like, shape (levels,)
         Levels of intensity, positive.
     collapses : array_like, shape (levels,) or (histories, levels)
-        Collapses at each level, which need not be whole numbers (weighted counts); or whether each history collapses at
+        Collapses at each level, which need not be integers (weighted counts); or whether each history collapses at
         each level, 1 or 0, or NaN where it was not run: of any program, or of a shaking table.
     histories : array_like, shape (levels,) or scalar, optional
         Histories at each level, with counts.
@@ -60,8 +60,7 @@ def fit_fragility(
     Raises
     ------
     InputError
-        Counts or outcomes that cannot be, a measure that is no text, as many records or labels as histories are not
-        there.
+        Impossible counts or outcomes, a measure that is not a string, records or labels that are not one per history.
 
     Warns
     -----

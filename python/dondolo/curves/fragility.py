@@ -38,9 +38,9 @@ Interval = tuple[float, float]
 
 _WHY = {
     "naive": "as if all histories were independent",
-    "few_clusters": "less than three clusters of records",
+    "few_clusters": "fewer than three clusters of records",
     "one_cluster": "one cluster of records determines the curve",
-    "few_walls": "two walls are too few to tell how much walls differ: it takes one, or at least three",
+    "few_walls": "two walls: either one or at least three are needed",
     "one_wall": "one wall determines the curve",
     "given": "the parameters were given",
 }
@@ -48,7 +48,7 @@ _WHY = {
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Fragility(Curve, Shown, Saved):
-    """A fragility curve P(C | IM = x) = Phi(ln(x/theta)/beta), equation (5) of Nale et al., or why there is none.
+    """Lognormal fragility curve P(C | IM = x) = Phi(ln(x/theta)/beta), equation (5) of Nale et al.
 
     Attributes
     ----------
@@ -71,7 +71,7 @@ class Fragility(Curve, Shown, Saved):
     bracket : (float, float)
         Levels between which half of the histories begin to collapse; 0 or inf where a side is open.
     levels, collapses, histories : ndarray, shape (levels,)
-        What it was fitted to.
+        Counts that it was fitted to.
     im : str
         Intensity measure.
     edp_threshold : float or None
@@ -147,7 +147,7 @@ class Fragility(Curve, Shown, Saved):
         Raises
         ------
         InputError
-            Parameters that are not positive, a measure that is no text.
+            Parameters that are not positive, a measure that is not a string.
         """
         for what, value in (("theta", theta), ("beta", beta)):
             if not 0.0 < as_number(what, value) < np.inf:
@@ -169,12 +169,12 @@ class Fragility(Curve, Shown, Saved):
 
     @property
     def has_fit(self) -> bool:
-        """Is there a curve?"""
+        """Whether there is a curve."""
         return self.status in constants().fitted
 
     @property
     def has_errors(self) -> bool:
-        """Are there standard errors?"""
+        """Whether there are standard errors."""
         return self.has_fit and self.errors in ("naive", "clustered")
 
     @property
@@ -204,7 +204,7 @@ class Fragility(Curve, Shown, Saved):
         DondoloError
             There is no curve.
         InputError
-            A level that is negative or no number.
+            A level that is negative or not a number.
         """
         self._need_fit()
         values = as_levels(x)
@@ -231,7 +231,7 @@ class Fragility(Curve, Shown, Saved):
         DondoloError
             There is no curve, or it has no standard errors.
         InputError
-            Levels that are not positive, a confidence beyond 0 and 1.
+            Levels that are not positive, a confidence that is not between 0 and 1.
         """
         quantile = self._quantile(confidence)
         values = positive_levels(x)
@@ -289,7 +289,7 @@ class Fragility(Curve, Shown, Saved):
         DondoloError
             There is no curve, or it has no standard errors.
         InputError
-            A probability at which there is no level, a confidence beyond 0 and 1.
+            A probability at which there is no level, a confidence that is not between 0 and 1.
 
         Examples
         --------
@@ -328,7 +328,7 @@ class Fragility(Curve, Shown, Saved):
         DondoloError
             There is no curve, or it has no standard errors.
         InputError
-            A confidence beyond 0 and 1.
+            A confidence that is not between 0 and 1.
         """
         quantile = self._quantile(confidence)
         width = np.exp(quantile * self.se_ln_theta)
@@ -363,12 +363,13 @@ class Fragility(Curve, Shown, Saved):
         Returns
         -------
         Bootstrap
-            Of less than some ten records or events its intervals are too narrow; of two they are those of three curves.
+            With fewer than about ten records or events its intervals are too narrow; with two there are only three
+            curves.
 
         Raises
         ------
         InputError
-            As many labels as records are needed, and two records or events to draw from.
+            If `events` does not have one label per record, or there are fewer than two records or events.
         DondoloError
             The curve does not come from stripes.
 
@@ -390,11 +391,11 @@ class Fragility(Curve, Shown, Saved):
         return resample(self.sample, draw_records(labels, n_resamples, seed))
 
     def goodness_of_fit(self, *, n_resamples: int = 0, seed: int | np.random.Generator | None = 0) -> GoodnessOfFit:
-        """How well the lognormal fits: deviance, residuals, and on demand the p-value of a bootstrap under the curve.
+        """Goodness of fit of the lognormal: deviance, residuals and, on request, the p-value of a bootstrap.
 
         The same records run at every level, so that the deviance is not distributed as chi-square: its p-value by that
         is close to 1 whatever the curve. The bootstrap draws whole records or events from histories of which the curve
-        is true; `dondolo.curves.goodness` has the method, docs/goodness_of_fit.md what it finds.
+        is true; `dondolo.curves.goodness` describes the method, docs/goodness_of_fit.md its results.
 
         Parameters
         ----------
@@ -410,7 +411,7 @@ class Fragility(Curve, Shown, Saved):
         Raises
         ------
         DondoloError
-            There is no curve, it was not fitted to levels, or its counts cannot be drawn.
+            There is no curve, it was not fitted to levels, or its counts cannot be resampled.
         InputError
             Samples of a single record or event.
 
@@ -514,7 +515,7 @@ class Fragility(Curve, Shown, Saved):
         Raises
         ------
         InputError
-            A confidence beyond 0 and 1.
+            A confidence that is not between 0 and 1.
         """
         from dondolo.curves.plots import draw_fragility
 
@@ -529,7 +530,7 @@ class Fragility(Curve, Shown, Saved):
     def to_csv(self, path: str | os.PathLike[str], *, spreadsheet_safe: bool = False) -> None:
         """Write the curve as the executable's ``_fragility.csv``.
 
-        With `spreadsheet_safe` an apostrophe stands before names that a spreadsheet would take for formulas.
+        With `spreadsheet_safe`, names that a spreadsheet would read as formulas get an apostrophe.
         """
         from dondolo.curves.table import fragility_table
 

@@ -210,7 +210,7 @@ class _Tree(ElementTree.TreeBuilder):
 
     def doctype(self, name: str, public: str | None, system: str | None) -> None:
         """Refuse entities, which may refer to other files, and expand to any length."""
-        raise InputError("has a document type declaration (DOCTYPE), which NRML has not")
+        raise InputError("has a document type declaration (DOCTYPE), which NRML does not have")
 
 
 def _parsed(text: str) -> ElementTree.Element:
@@ -227,7 +227,7 @@ def _model(root: ElementTree.Element) -> tuple[FragilityModel, list[DondoloWarni
     """The model, and what is doubtful about it."""
     version = re.fullmatch(r"\{http://openquake\.org/xmlns/nrml/([\d.]+)\}nrml", str(root.tag))
     if not version:
-        raise InputError("is no NRML: must begin with the element nrml of OpenQuake")
+        raise InputError("is not NRML: must begin with the element nrml of OpenQuake")
     if version.group(1) != "0.5":
         raise InputError(f"is NRML {version.group(1)}: must be 0.5, into which 'oq upgrade_nrml' turns it")
     models = _children(root, "fragilityModel")

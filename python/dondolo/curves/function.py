@@ -21,7 +21,7 @@ _ENDS = (1e-9, 1e9)
 
 @dataclass(frozen=True, eq=False, repr=False)
 class FunctionFragility(Curve, Shown):
-    """A fragility curve that is a function of yours.
+    """A fragility curve given by a function.
 
     Parameters
     ----------
@@ -33,11 +33,11 @@ class FunctionFragility(Curve, Shown):
     Raises
     ------
     InputError
-        What is given is no function; a measure that is not known.
+        The argument is not a function; an unknown measure.
 
     Notes
     -----
-    How many walls are behind it is not known: risks take it for the curve of one. Neither it nor its risks can be
+    The number of walls behind it is unknown: risks treat it as the curve of one wall. Neither it nor its risks can be
     saved.
 
     Examples
@@ -75,7 +75,7 @@ class FunctionFragility(Curve, Shown):
         Raises
         ------
         InputError
-            A level that is negative or no number; the function gives no probabilities.
+            A level that is negative or not a number; the function gives no probabilities.
         """
         values = as_levels(x)
         flat = values.ravel()

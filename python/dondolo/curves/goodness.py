@@ -41,7 +41,7 @@ _DEVIANCE = 8
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class GoodnessOfFit(Shown, Saved):
-    """How well a fragility curve fits the histories: `Fragility.goodness_of_fit`.
+    """Goodness of fit of a fragility curve: `Fragility.goodness_of_fit`.
 
     Attributes
     ----------
@@ -50,8 +50,8 @@ class GoodnessOfFit(Shown, Saved):
     degrees_of_freedom : int
         Levels less parameters.
     p_value : float
-        Part of the samples of the bootstrap with at least this deviance; NaN if none were asked for. Small values speak
-        against the lognormal.
+        Part of the samples of the bootstrap with at least this deviance; NaN if none were asked for. Small values are
+        evidence against the lognormal.
     independent_p_value : float
         The same by chi-square, as if all histories were independent: close to 1 for stripes of the same records,
         whatever the curve.
@@ -114,7 +114,7 @@ def goodness_of_fit(curve: Fragility, n_resamples: int, seed: Any) -> GoodnessOf
         counts, what = _draw_clusters(curve, curve.sample, number, generator), "clusters"
     else:
         if np.any(collapses % 1.0) or np.any(histories % 1.0):
-            raise DondoloError("n_resamples: weighted counts cannot be drawn, whole numbers of histories can")
+            raise DondoloError("n_resamples: weighted counts cannot be resampled: counts of histories must be integers")
         drawn = generator.binomial(histories.astype(np.int64), chance, size=(number, len(levels))).astype(np.float64)
         counts, what = (levels, drawn, np.broadcast_to(histories, drawn.shape)), "histories"
     numbers, statuses = fit_curves(*counts)
@@ -136,7 +136,7 @@ def _draw_clusters(
     """Levels, collapses and histories (samples, levels) of samples of clusters of which the curve is true."""
     labels = tuple(dict.fromkeys(sample.clusters))
     if len(labels) < 2:
-        raise InputError("n_resamples: two records or events at least are needed to draw from")
+        raise InputError("n_resamples: at least two records or events are needed to draw from")
     chance = _true_outcomes(sample, _chances(curve, sample.levels), generator)
     places = {label: place for place, label in enumerate(labels)}
     of_record = np.array([places[label] for label in sample.clusters])

@@ -40,7 +40,7 @@ class MeanCurve(Curve):
     @property
     @abstractmethod
     def knows_records(self) -> bool:
-        """Is it known which record brings which wall down?"""
+        """Whether it is known which record makes which wall collapse."""
 
     @property
     @abstractmethod
@@ -91,7 +91,7 @@ class MeanCurve(Curve):
         Raises
         ------
         InputError
-            A level that is negative or no number.
+            A level that is negative or not a number.
         """
         values = as_levels(x)
         _, _, probabilities = self._at(values.ravel(), np.zeros(0), members=True)

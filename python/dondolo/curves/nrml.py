@@ -119,7 +119,7 @@ def write_nrml(
     Raises
     ------
     InputError
-        What the format does not hold: names, measures, curves that cross; a file that is no model of dondolo.
+        Names, measures or crossing curves that the format does not allow; a file that is no model of dondolo.
     DondoloError
         A curve without a fit; the file cannot be written.
 
@@ -178,20 +178,20 @@ def _words(name: str, text: Any) -> str:
     """A text as the format takes it, and XML."""
     words = " ".join(text.split()) if isinstance(text, str) else ""
     if not words or not words.isascii() or not words.isprintable():
-        raise InputError(f"{name} = {text!r}: must be a text in printable ASCII")
+        raise InputError(f"{name} = {text!r}: must be a string in printable ASCII")
     return words
 
 
 def _states(functions: Mapping[str, Mapping[str, Function]]) -> tuple[str, ...]:
     """The limit states, the same for all taxonomies."""
     if not isinstance(functions, Mapping) or not functions:
-        raise InputError("functions: must be a mapping of taxonomies, one at least")
+        raise InputError("functions: must be a mapping of taxonomies, at least one")
     states: tuple[str, ...] = ()
     for taxonomy, curves in functions.items():
         if not isinstance(taxonomy, str) or not _TAXONOMY.fullmatch(taxonomy):
             raise InputError(f"taxonomy {taxonomy!r}: must be ASCII without blanks, quotes and #, at most 100")
         if not isinstance(curves, Mapping) or not curves:
-            raise InputError(f"taxonomy '{taxonomy}': must be a mapping of limit states, one at least")
+            raise InputError(f"taxonomy '{taxonomy}': must be a mapping of limit states, at least one")
         states = states or tuple(curves)
         if tuple(curves) != states:
             raise InputError(

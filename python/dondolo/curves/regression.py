@@ -140,7 +140,7 @@ class Logistic(Curve):
         DondoloError
             There is no curve, or it has no standard errors.
         InputError
-            Intensities that are not positive, a confidence beyond 0 and 1.
+            Intensities that are not positive, a confidence that is not between 0 and 1.
 
         Examples
         --------
@@ -177,7 +177,7 @@ class Logistic(Curve):
         Raises
         ------
         InputError
-            Intensities that are negative or no numbers.
+            Intensities that are negative or not numbers.
         """
         values = as_levels(x)
         return shaped(self._at(values.ravel()), values)

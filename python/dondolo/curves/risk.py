@@ -90,7 +90,7 @@ _POINTS = 801
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class Risk(Shown, Saved):
-    """Mean annual frequency of collapse, and where it comes from.
+    """Mean annual frequency of collapse, with its bounds and deaggregation.
 
     Attributes
     ----------
@@ -134,14 +134,14 @@ class Risk(Shown, Saved):
 
     @property
     def annual_frequency(self) -> float:
-        """Mean annual frequency of collapse, its lower bound [1/year]: the end that is not on the safe side."""
+        """Mean annual frequency of collapse, its lower, unconservative bound [1/year]."""
         return self.bounds[0]
 
     @property
     def return_period(self) -> float:
         """Mean time between collapses of one wall [year], that of `annual_frequency`; inf where nothing collapses.
 
-        The longest that is possible, which is not on the safe side: `return_period_bounds` has both ends. Of a
+        The longest possible, hence unconservative: `return_period_bounds` has both bounds. Of a
         population it is no more than the inverse of the share lost a year.
         """
         return self.return_period_bounds[1]
@@ -155,7 +155,7 @@ class Risk(Shown, Saved):
     def probability(self, years: float) -> float:
         """Probability that a wall collapses within some years, its lower bound.
 
-        The end that is not on the safe side: `probability_bounds` has both.
+        The unconservative bound: `probability_bounds` has both.
 
         Parameters
         ----------
@@ -169,12 +169,12 @@ class Risk(Shown, Saved):
         Raises
         ------
         InputError
-            Years that are negative or no number.
+            Years that are negative or not a number.
 
         Warns
         -----
         DondoloWarning
-            The curve is a function, which is taken for that of one wall.
+            The curve is a function, which is treated as that of one wall.
         """
         return self.probability_bounds(years)[0]
 
@@ -193,12 +193,12 @@ class Risk(Shown, Saved):
         Raises
         ------
         InputError
-            Years that are negative or no number.
+            Years that are negative or not a number.
 
         Warns
         -----
         DondoloWarning
-            The curve is a function, which is taken for that of one wall.
+            The curve is a function, which is treated as that of one wall.
 
         Notes
         -----
@@ -245,7 +245,7 @@ class Risk(Shown, Saved):
         Raises
         ------
         InputError
-            Intensities that are not positive or no numbers.
+            Intensities that are not positive or not numbers.
         """
         values = as_levels(x)
         if not np.all(values > 0.0):
@@ -297,7 +297,7 @@ class Risk(Shown, Saved):
         Raises
         ------
         InputError
-            Edges that are less than two, not positive or do not increase.
+            Fewer than two edges, edges that are not positive or do not increase.
         """
         x = increasing("edges", edges)
         levels = self.hazard.levels
@@ -363,7 +363,7 @@ class Risk(Shown, Saved):
 
         Notes
         -----
-        The docstring of the module dondolo.curves.risk_uncertainty tells what is drawn.
+        The docstring of the module dondolo.curves.risk_uncertainty describes what is drawn.
 
         Examples
         --------

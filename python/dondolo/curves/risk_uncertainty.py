@@ -1,4 +1,4 @@
-"""How uncertain an annual frequency of collapse is: that of the fragility, beside that of the hazard.
+"""Uncertainty of an annual frequency of collapse: that of the fragility, beside that of the hazard.
 
 One curve
     ln theta and 1/beta, the slope of the probit regression, are drawn from the distribution that the intervals of the
@@ -17,7 +17,7 @@ Hazard
     reach from the lower end for the least that it may be there to the upper end for the most; what levels below the
     lowest may add is that of the estimate, for the tail of a drawn curve there says nothing.
 
-What an interval covers is told in docs/uncertainty.md: the choice of the records, and of the walls.
+docs/uncertainty.md explains what an interval covers: the choice of the records, and of the walls.
 """
 
 from __future__ import annotations
@@ -105,7 +105,7 @@ class RiskUncertainty(Shown, Saved):
         Raises
         ------
         InputError
-            A confidence beyond 0 and 1, a fractile that the hazard has not.
+            A confidence that is not between 0 and 1, a fractile that the hazard does not have.
         """
         if hazard is not None:
             self.risk.hazard.fractile(hazard)

@@ -1,4 +1,4 @@
-"""Which histories a curve was fitted to: what its standard errors and a bootstrap follow from."""
+"""Histories that a curve was fitted to, for its standard errors and bootstrap."""
 
 from __future__ import annotations
 

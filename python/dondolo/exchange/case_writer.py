@@ -32,7 +32,7 @@ def write_case(
 ) -> None:
     """Write a case that the executable runs to the results of ``study.run(wall)``, with units and meanings as comments.
 
-    The case is read again before it takes its place: what it does not say of the wall and the study is refused.
+    The case is read back before it is put in place: a wall or study that it cannot represent is refused.
 
     Parameters
     ----------
@@ -45,14 +45,15 @@ def write_case(
     catalogue : path
         Catalogue of the records of the study, from the folder of the case.
     title, output : str
-        Title, and what the names of the result files begin with; ``out/`` and the name of the case if left out.
+        Title, and prefix of the result files; ``out/`` and the name of the case if left out.
     check : CodeCheck, optional
         A check of the wall, whose site and factors the case gets.
 
     Raises
     ------
     InputError
-        There is a file of this name; the catalogue has other records than the study; the case would say something else.
+        There is a file of this name; the catalogue has other records than the study; the case cannot represent the
+        study.
 
     Examples
     --------
@@ -68,10 +69,10 @@ def write_case(
     instance_of("wall", wall, Wall)
     instance_of("study", study, Study)
     if target.exists() or target.is_symlink():
-        raise InputError(f"{target}: exists already: a case is not written over")
+        raise InputError(f"{target}: already exists: remove it, or choose another path")
     if study._request.rows is not None:
         raise InputError(
-            "study: its records run at levels of their own, which the catalogue must say: write it by hand"
+            "study: its records have levels of their own, which belong in a catalogue: write the case by hand"
         )
     job = {"task": "stripes", "title": title, "output": output or f"out/{target.stem}"}
     settings: dict[str, dict[str, Any]] = {"job": job, **wall_settings(wall), **study._settings()}
@@ -113,17 +114,17 @@ def _compare(case: Case, wall: Wall, study: Study) -> None:
     known = found._properties()
     differs = [name for name, value in wall._properties().items() if not _same(known[name], value)]
     if differs or found.gravity != wall.gravity:
-        raise InputError(f"wall '{wall.name}': a case cannot say its {', '.join(differs) or 'gravity'}")
+        raise InputError(f"wall '{wall.name}': a case cannot contain its {', '.join(differs) or 'gravity'}")
     sums = [[record.checksum for record in records] for records in (case.records, study.records)]
     if sums[0] != sums[1]:
         raise InputError(f"catalogue: has {len(sums[0])} records, others than the {len(sums[1])} of the study")
     verticals = ([record.vertical for record in records] for records in (case.records, study.records))
     if not all(_same(*pair) for pair in zip(*verticals, strict=True)):
-        raise InputError("records: a case cannot say the factors on their vertical components")
+        raise InputError("records: a case cannot contain the factors on their vertical components")
     for group, values in study._settings().items():
         for name, value in values.items():
             if not _same(case.settings[group][name], value):
-                raise InputError(f"study: a case cannot say its {name} = {value}")
+                raise InputError(f"study: a case cannot contain its {name} = {value}")
 
 
 def _same(one: Any, other: Any) -> bool:

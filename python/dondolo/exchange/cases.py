@@ -64,7 +64,7 @@ class Case(Shown):
     designs : bool
         Whether the walls are designs of one wall, each to be compared with the first.
     settings : mapping
-        Its groups, each a mapping of variables to values: all that are in force, defaults included.
+        Its groups, each a mapping of variables to values, defaults included.
     """
 
     task: str
@@ -107,7 +107,7 @@ class Case(Shown):
 
 
 def read_case(path: str | os.PathLike[str]) -> Case:
-    """Read a case file and all it names, and check everything.
+    """Read a case file and all files that it names, and check them.
 
     Parameters
     ----------
@@ -121,7 +121,8 @@ def read_case(path: str | os.PathLike[str]) -> Case:
     Raises
     ------
     InputError
-        What is wrong, with the sentence of the executable; of the table of a population everything, a line each.
+        Errors of the case; of the table of a population all of them, one per line. Messages are those of the
+        executable.
 
     Examples
     --------
@@ -149,11 +150,11 @@ def case_from_text(text: str, records: Iterable[Record], *, name: str = "case.nm
     Parameters
     ----------
     text : str
-        What a case file has in it.
+        Contents of a case file.
     records : iterable of Record
         The accelerograms, in place of those of its catalogue; of a `RecordSet` without levels.
     name : str
-        What messages call it.
+        Name of the case in messages.
 
     Returns
     -------
@@ -181,7 +182,7 @@ def case_from_text(text: str, records: Iterable[Record], *, name: str = "case.nm
     if not isinstance(text, str):
         raise wrong_type("text", text, "a string")
     if isinstance(records, RecordSet) and records.level is not None:
-        raise InputError("records: run at levels of their own, which a case takes from its catalogue alone")
+        raise InputError("records: have levels of their own, which a case takes from its catalogue only")
     several = tuple(as_records(records))
     suite = upload(several)
     # A text of f2py would end at NUL

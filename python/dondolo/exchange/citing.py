@@ -1,4 +1,4 @@
-"""What to cite: BibTeX of dondolo and of the sources of what results have used."""
+"""BibTeX of dondolo and of the sources of the methods that results have used."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class Citation(str):
 
 
 def cite(*results: Any) -> Citation:
-    """BibTeX entries of dondolo, of the paper that it follows, and of the sources of what results have used.
+    """BibTeX entries of dondolo, of the paper that it follows, and of the sources of the methods that results used.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ def cite(*results: Any) -> Citation:
     Raises
     ------
     InputError
-        Something that has no results, such as a number.
+        An argument that is not a result, such as a number.
 
     Examples
     --------
@@ -74,7 +74,7 @@ def cite(*results: Any) -> Citation:
     """
     for one in results:
         if not is_dataclass(one) and not isinstance(one, (list, tuple)):
-            raise InputError(f"results: {type(one).__name__} is nothing that has sources")
+            raise InputError(f"results: {type(one).__name__} has no sources to cite")
     return Citation("\n".join(bibtex(words_of(*results))))
 
 

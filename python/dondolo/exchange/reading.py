@@ -25,18 +25,18 @@ def read_results(prefix: str | os.PathLike[str]) -> Results:
     Parameters
     ----------
     prefix : path
-        What their names begin with: `output` of the case, for example ``out/parapet``.
+        Prefix of the files: `output` of the case, for example ``out/parapet``.
 
     Returns
     -------
     Results
         The same as those of `run_case`; curves are fitted again, to the same counts. Those of a typology cannot be
-        compared: the files do not tell which record brings which wall down.
+        compared: the files do not contain which record makes which wall collapse.
 
     Raises
     ------
     InputError
-        They are not result files of dondolo, are not all of one run, or not as their run has written them; the file is
+        They are not result files of dondolo, do not belong to one run, or were changed after the run; the file is
         named, and the line if there is one.
     MissingFileError
         There are no such files.

@@ -38,7 +38,7 @@ def _text_of(path: str, run: RunFile) -> str:
             if other == run.run:
                 return text
     if other:
-        raise MixedError(f"{path}: is of run {other}, {run.path} of run {run.run}: they are not of one set")
+        raise MixedError(f"{path}: is of run {other}, {run.path} of run {run.run}: they do not belong to one set")
     raise MissingFileError(f"{path}: cannot be read: no such file")
 
 

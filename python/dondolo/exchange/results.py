@@ -60,7 +60,7 @@ _LIST_COLUMNS = {column: name for column, name in _COLUMNS.items() if name in WA
 
 @dataclass(frozen=True, repr=False, kw_only=True)
 class Results(Shown):
-    """Results of a case, whether it was run here or its files were read; what its task does not make is None.
+    """Results of a case, run here or read from files; those of other tasks are None.
 
     Attributes
     ----------
@@ -73,7 +73,7 @@ class Results(Shown):
     typology : Typology or None
         Task 'typology'; of designs their curves alone, with nothing over them (`Typology.are_alternatives`).
     uncertain : UncertainWall or None
-        Of a case with a group &uncertainty: its typology, and what that owes to each source. Its `numbers` and `rest`
+        Of a case with a group &uncertainty: its typology, and its variance by source. Its `numbers` and `rest`
         are NaN, since a case does not have them.
     designs : DesignComparison or None
         Of a case with ``designs = .true.``, without `stripes`; read back it has the ratios of the medians alone in its
@@ -81,9 +81,9 @@ class Results(Shown):
     check : CodeCheck or None
         Of a case with a group &check.
     run : RunFile
-        What ran: version, settings, inputs with checksums, counts of the work, warnings.
+        Record of the run: version, settings, inputs with checksums, counts of the work, warnings.
     case : Case or None
-        What `run_case` was given, with its records; None for results that were read back.
+        The case that `run_case` ran, with its records; None for results read from files.
     edp_thresholds : list of float
         Damage states that the case names [rotation / capacity], if there are several.
     """
@@ -109,9 +109,9 @@ class Results(Shown):
         Parameters
         ----------
         prefix : path
-            What the names begin with, such as ``out/centre`` for ``out/centre_typology.csv``; folders are made.
+            Prefix of the files, such as ``out/centre`` for ``out/centre_typology.csv``; folders are made.
         spreadsheet_safe : bool
-            Put an apostrophe before names that a spreadsheet would take for formulas; `read_results` takes it away.
+            Put an apostrophe before names that a spreadsheet would read as formulas; `read_results` removes it.
 
         Raises
         ------
@@ -123,7 +123,7 @@ class Results(Shown):
         Warns
         -----
         DondoloWarning
-            Whose results are replaced, and which reports, workbooks and figures are out of date.
+            Earlier results are replaced; reports, workbooks or figures are out of date.
         """
         names = [name for name in TABLES if name in self._source.names]
         tables = {name: {one: self._source[name].column(one) for one in self._source[name]} for name in names}

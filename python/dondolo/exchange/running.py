@@ -1,4 +1,4 @@
-"""The executable's job from Python: a case file in, its results out, and no file written."""
+"""Running a case file in Python, without writing files."""
 
 from __future__ import annotations
 
@@ -43,22 +43,22 @@ def run_case(path: str | os.PathLike[str], *, progress: bool = True) -> Results:
     Returns
     -------
     Results
-        What `read_results` gives of the files of the executable, to the bit, and what those do not tell: which record
-        brings which wall of a population down, and the records.
+        The same as `read_results` gives for the files of the executable, to the bit, and in addition which record makes
+        which wall of a population collapse, and the records.
 
     Raises
     ------
     InputError
-        The case is wrong, with the sentence of the executable.
+        The case is wrong; the message is that of the executable.
     DondoloError
-        It cannot be run to its end.
+        The run failed.
     Interrupted
         Ctrl-C; its `partial` is the typology of the walls that are complete, None for one wall.
 
     Warns
     -----
     DondoloWarning
-        What the executable warns of.
+        Warnings of the executable.
 
     Examples
     --------

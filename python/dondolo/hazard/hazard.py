@@ -75,9 +75,9 @@ class HazardCurve(Shown, Saved):
     fractiles : mapping of float to array_like, shape (levels,), optional
         Share q, between 0 and 1 -> annual frequency of the fractile q, not increasing with the level [1/year].
     endless : bool
-        Does the power law through two levels go on beyond them? See `power_law`.
+        Whether the power law through two levels continues beyond them: see `power_law`.
     source : iterable of str, optional
-        Where the curve is from and what was done to it, a sentence each, for reports; `from_csv` and `from_openquake`
+        Origin of the curve and changes to it, one sentence each, for reports; `from_csv` and `from_openquake`
         name their files and how they were read.
     rigid_ground : bool
         Whether the levels are accelerations of rigid, level ground, without the factors of soil and topography of the
@@ -87,7 +87,7 @@ class HazardCurve(Shown, Saved):
     Raises
     ------
     InputError
-        Levels and frequencies that are no hazard curve; a measure that is not known; fractiles that cross.
+        Levels and frequencies that are not a hazard curve; an unknown measure; fractiles that cross.
 
     Attributes
     ----------
@@ -177,7 +177,7 @@ class HazardCurve(Shown, Saved):
         Raises
         ------
         InputError
-            k0 or k is not positive; a measure that is not known.
+            k0 or k is not positive; an unknown measure.
         """
         for what, value in (("k0", k0), ("k", k)):
             if not 0.0 < as_number(what, value) < np.inf:
@@ -211,12 +211,12 @@ class HazardCurve(Shown, Saved):
         Raises
         ------
         InputError
-            The file cannot be read, or is no such table; a cell is no number; what it holds is no hazard curve.
+            The file cannot be read, or is no such table; a cell is not a number; the values are not a hazard curve.
 
         Warns
         -----
         DondoloWarning
-            Levels that no ground motion has, which may be in another unit; ag, and columns that are not used.
+            Levels that no ground motion reaches, which may be in another unit; ag, and columns that are not used.
 
         Notes
         -----
@@ -324,7 +324,7 @@ class HazardCurve(Shown, Saved):
         Raises
         ------
         InputError
-            A measure that OpenQuake has not; a time that is not positive; a site that is none.
+            A measure that OpenQuake does not have; a time that is not positive; an invalid site.
         DondoloError
             A file cannot be written.
         """
@@ -350,7 +350,7 @@ class HazardCurve(Shown, Saved):
         Raises
         ------
         InputError
-            Intensities that are negative or no numbers.
+            Intensities that are negative or not numbers.
         """
         values = as_levels(x)
         flat = values.ravel()
@@ -376,7 +376,7 @@ class HazardCurve(Shown, Saved):
         Raises
         ------
         InputError
-            A share that is not there; fewer than two levels that are exceeded.
+            A share that the curve does not have; fewer than two levels that are exceeded.
 
         Examples
         --------
@@ -393,7 +393,7 @@ class HazardCurve(Shown, Saved):
         exceeded = h > 0.0
         if exceeded.sum() < _FEWEST:
             raise InputError(
-                f"fractile {share:g} of the hazard curve: must be exceeded at {_FEWEST} levels at least, not at"
+                f"fractile {share:g} of the hazard curve: must be exceeded at {_FEWEST} levels or more, not at"
                 f" {exceeded.sum()}"
             )
         source = (*self.source, f"fractile {share:g}")
@@ -421,11 +421,11 @@ class HazardCurve(Shown, Saved):
         Raises
         ------
         InputError
-            Steps that are no positive integer.
+            Steps that are not a positive integer.
 
         Notes
         -----
-        The docstring of the module dondolo.hazard.hazard tells how much that changes annual frequencies.
+        The docstring of the module dondolo.hazard.hazard states by how much that changes annual frequencies.
 
         Examples
         --------

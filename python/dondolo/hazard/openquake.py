@@ -106,13 +106,13 @@ def read_curves(
     """
     files = [_read(path) for path in paths]
     if not files:
-        raise InputError("paths: must be one file at least")
+        raise InputError("paths: must be at least one file")
     first = files[0]
     for other in files[1:]:
         for what in ("imt", "time", "levels"):
             if getattr(other, what) != getattr(first, what):
                 shown = f"{what} differs" if what == "levels" else f"{getattr(other, what)} and {getattr(first, what)}"
-                raise InputError(f"{other.path}: is not of the calculation of {first.path}: {shown}")
+                raise InputError(f"{other.path}: does not belong to the calculation of {first.path}: {shown}")
         if not np.array_equal(other.sites, first.sites):
             raise InputError(f"{other.path}: has other sites than {first.path}")
     row = _row(first, site)
@@ -125,7 +125,7 @@ def read_curves(
     means = [one for one in files if one not in quantiles.values()]
     if len(means) != 1 or len(quantiles) != len(files) - 1:
         kinds = ", ".join(repr(one.kind or Path(one.path).name) for one in files)
-        raise InputError(f"paths: must be one mean and its quantiles, each once; there are {kinds}")
+        raise InputError(f"paths: must be one mean and its quantiles, each once; these are {kinds}")
     poe = np.stack([means[0].poe[row], *(one.poe[row] for one in quantiles.values())])
     curves = [levelled(curve) for curve in poe]
     poe = np.stack([curve for curve, _ in curves])
@@ -157,7 +157,7 @@ def write_curves(
     imt, unit = imt_of(im)
     longitude, latitude = _coordinates(site)
     if not Path(folder).is_dir():
-        raise DondoloError(f"{os.fspath(folder)}: is no folder")
+        raise DondoloError(f"{os.fspath(folder)}: is not a folder")
     titles = ["lon", "lat", "depth", *(_LEVEL + times(level, unit) for level in levels)]
     written = []
     for kind, frequency in curves.items():

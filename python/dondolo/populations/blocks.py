@@ -100,7 +100,7 @@ def run_walls(
             # What is complete is in the store.
             pass
         except CrewError as error:
-            later = "a checkpoint would keep them" if checkpoint is None else "the same call goes on from there"
+            later = "a checkpoint would keep them" if checkpoint is None else "the same call resumes from there"
             raise DondoloError(
                 f"executor: {error}; {store.complete().sum()} of {len(histories)} rows are complete, {later}"
             ) from error.__cause__
@@ -205,6 +205,6 @@ def _check(executor: Executor | None, block: int | None) -> None:
     from concurrent.futures import Executor
 
     if executor is not None and not isinstance(executor, Executor):
-        raise InputError(f"executor: {type(executor).__name__} is no executor of concurrent.futures")
+        raise InputError(f"executor: must be an executor of concurrent.futures, not {type(executor).__name__}")
     if block is not None:
         as_count("block", block, 1)

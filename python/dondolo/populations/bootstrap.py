@@ -144,7 +144,7 @@ def resample_population(
     if rows.walls == 1 and "walls" in kinds:
         # Drawn from itself a wall would look certain.
         if "records" not in kinds:
-            raise InputError("walls: two at least are needed to draw from, there is 1")
+            raise InputError("walls: at least two are needed to draw from, there is 1")
         kinds = ("records",)
     records = np.ones((n_resamples, flags.records))
     if "records" in kinds:

@@ -1,4 +1,4 @@
-"""The curve of a population or of a part of it: an object that knows the walls behind it."""
+"""Curve of a population or of a part of it, with the walls behind it."""
 
 from __future__ import annotations
 
@@ -54,14 +54,14 @@ def flat_population(people: Population, levels: FloatArray, counts: IntArray, hi
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Group(Saved):
-    """What Fortran says of a curve of a population, or of one of its groups: of one mechanism, or of all together.
+    """Numbers of a curve of a population or of one of its groups: of one mechanism, or of all together.
 
     Attributes
     ----------
     group : str
         '' for the whole population.
     mechanism : str
-        'all' for whatever makes the walls collapse: all mechanisms that can occur, with their probabilities.
+        'all' for all mechanisms that can occur, with their probabilities.
     n_walls : int
         How many walls, those of no weight left out.
     weight : float
@@ -173,7 +173,7 @@ class PopulationCurve(Shown, Group, MeanCurve):
 
     @property
     def knows_records(self) -> bool:
-        """Is it known which record brings which wall down? Not of results that were read back."""
+        """Whether it is known which record makes which wall collapse; not for results read from files."""
         return self._source.flags is not None
 
     def changes(self, x: FloatArray, weights: FloatArray) -> dict[str, FloatArray]:
@@ -192,7 +192,7 @@ class PopulationCurve(Shown, Group, MeanCurve):
         flags = self._source.flags
         if flags is None:
             raise DondoloError(
-                "uncertainty: results that were read back hold counts, and not which records they are of"
+                "uncertainty: results read from files contain counts, but not the records they belong to"
             )
         return changes(self.members, flags, np.flatnonzero(self._chosen), x, weights)
 
@@ -274,8 +274,8 @@ class PopulationCurve(Shown, Group, MeanCurve):
         if flags is None:
             if over not in ("walls", ("walls",), ["walls"]):
                 raise DondoloError(
-                    f"over = {over!r}: must be 'walls' for results that were read back: their files hold counts,"
-                    " and not which records they are of"
+                    f"over = {over!r}: must be 'walls' for results read from files, which have counts,"
+                    " but not the records they belong to"
                 )
             flags = Flags.of_counts(source.exceedances, source.histories)
         mechanism, group = self.mechanism, self.group

@@ -44,7 +44,7 @@ def changes(
     """
     labels = flags.labels
     if len(labels) < (fewest := constants().fewest_clusters):
-        raise DondoloError(f"no standard errors: less than {fewest} clusters of records")
+        raise DondoloError(f"no standard errors: fewer than {fewest} clusters of records")
     member = flags._members
     part = member @ flags.runs / flags.records
     share = members.weights / members.weights.sum()

@@ -58,14 +58,14 @@ def typology(
     edp_thresholds : array_like, optional
         Rotations / capacity from which on a history is in a state of damage, increasing and at most `edp_limit`;
         collapse is always the last state. All states come from the same histories. Without thresholds only collapses
-        are asked for, which takes less time.
+        are counted, which takes less time.
     executor : concurrent.futures.Executor, optional
         Where blocks of walls are run (a pool of processes started by "spawn", Dask, MPI); each block then takes one
         thread unless `threads` says otherwise. Without it OpenMP runs the histories of this process. A process that is
         made by a fork works on one thread, whatever `threads` says: OpenMP's other threads do not survive it.
     checkpoint : path, optional
-        File that keeps the blocks that are finished: the same call goes on from there after whatever ended it, and its
-        results are the same to the bit. It stays when all is done.
+        File that keeps the finished blocks: the same call resumes from it after an interruption, with the same results
+        to the bit. It is kept at the end.
     block : int, optional
         Rows of a block (a row is one mechanism of a wall), the unit of checkpoints and executors; as many as take one
         to two seconds if left out. Results do not depend on it.
@@ -79,7 +79,7 @@ def typology(
     Raises
     ------
     InputError
-        What cannot be run, with the sentence of the executable; a checkpoint of another study.
+        Input that cannot be run; the message is that of the executable; a checkpoint of another study.
     DondoloError
         The executor failed, or the checkpoint cannot be written.
     Interrupted

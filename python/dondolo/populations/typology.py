@@ -46,13 +46,13 @@ _MISSING = "unions: the results were read back from files without *_unions.csv"
 class Typology(Shown, Saved):
     """Fragility of a population of walls.
 
-    A damage state is reached where rotation / capacity comes to a threshold; collapse is the last. Whatever names no
-    state is that of collapse; `at` gives the others.
+    A damage state is reached where rotation / capacity reaches a threshold; collapse is the last. Attributes are those
+    of collapse unless stated otherwise; `at` gives the other states.
 
     Attributes
     ----------
     population : Population
-        The walls, one row a mechanism.
+        The walls, one row per mechanism.
     im : str
         Intensity measure.
     levels : ndarray, shape (levels,)
@@ -72,14 +72,14 @@ class Typology(Shown, Saved):
         mechanism, and the last for all, if there are several or one that may not occur. Empty for the designs of a
         case, which are alternatives: there is no mean over them.
     work : Work
-        What was computed for all walls, and what was not.
+        Work done and skipped for all walls.
     flags : Flags
         The states that every history reaches, packed, which `bootstrap` over records needs; None for results that were
         read back.
     warnings : tuple of DondoloWarning
-        What was warned of: by the run, and of the curves of this state.
+        Warnings of the run, and of the curves of this state.
     stored_curves : StoredCurves
-        What files know of the curves of results that were read back, in place of the flags; None for results of a run.
+        Contents of the files on the curves, in place of the flags; None for results of a run.
     union_curves, group_union_curves : dict of str to Fragility
         `unions` and `group_unions`; None if they are not known.
     union_counts : dict of str to ndarray
@@ -181,7 +181,7 @@ class Typology(Shown, Saved):
         Parameters
         ----------
         key : str or (str, str)
-            Mechanism, 'all' for whatever makes the walls collapse; group, '' for the whole population.
+            Mechanism, 'all' for all that can occur; group, '' for the whole population.
 
         Returns
         -------
@@ -279,7 +279,7 @@ class Typology(Shown, Saved):
         """Curve of each facade, or wall with several mechanisms, counted in the same histories.
 
         A history, of a record, polarity and level, counts if any of the mechanisms reaches the state in it; `combined`
-        takes them as independent of each other. Mechanisms that may not occur count with the probability that one that
+        treats them as independent. Mechanisms that may not occur count with the probability that one that
         reaches the state can, exclusive alternatives with the sum of their probabilities. Standard errors are clustered
         by record.
 
@@ -312,11 +312,11 @@ class Typology(Shown, Saved):
 
     @property
     def knows_unions(self) -> bool:
-        """Are `unions` known? Not of results that were read back from files without them."""
+        """Whether `unions` are known; they are not if the results were read from files without them."""
         return self.union_curves is not None
 
     def nrml_functions(self) -> tuple[dict[str, dict[str, Function]], list[str]]:
-        """Fragility functions of a population for `write_nrml`, one a group and mechanism, with its damage states.
+        """Fragility functions of a population for `write_nrml`, one per group and mechanism, with damage states.
 
         Of one facade, or one wall with several mechanisms, there is one function by its name: the curve of the same
         histories, `Typology.unions`. Designs have one function each by their names. Where collapse is the only state
@@ -551,7 +551,7 @@ class Typology(Shown, Saved):
         There is one of unions if any wall has several mechanisms, one of ties if any has ties, and none of 'typology'
         for designs.
 
-        With `spreadsheet_safe` an apostrophe stands before names that a spreadsheet would take for formulas.
+        With `spreadsheet_safe`, names that a spreadsheet would read as formulas get an apostrophe.
         """
         chosen = plain(tables.choose(self._tables(), table))
         tables.write_csv(path, chosen, self._comments(), spreadsheet_safe=spreadsheet_safe)
@@ -591,9 +591,9 @@ class Typology(Shown, Saved):
         Parameters
         ----------
         prefix : path
-            What the names begin with, such as ``out/centre`` for ``out/centre_typology.csv``; folders are made.
+            Prefix of the files, such as ``out/centre`` for ``out/centre_typology.csv``; folders are made.
         spreadsheet_safe : bool
-            Put an apostrophe before names that a spreadsheet would take for formulas; `read_results` takes it away.
+            Put an apostrophe before names that a spreadsheet would read as formulas; `read_results` removes it.
 
         Raises
         ------
@@ -606,7 +606,7 @@ class Typology(Shown, Saved):
         Warns
         -----
         DondoloWarning
-            Whose results are replaced, and which reports, workbooks and figures are out of date.
+            Earlier results are replaced; reports, workbooks or figures are out of date.
         """
         self._write(prefix, spreadsheet_safe)
 

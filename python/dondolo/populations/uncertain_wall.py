@@ -1,4 +1,4 @@
-"""How sure the curve of one wall is: its uncertain properties sampled, all variants under the same records."""
+"""Curve of one wall with uncertain properties, sampled, all variants under the same records."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ _SAFETY, _SATURATED = 2.0, 1e-2
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class UncertainWall(tables.Tabular, Saved):
-    """A wall whose properties are not known for certain, and what that makes of its curve.
+    """Result of the analysis of a wall with uncertain properties.
 
     Attributes
     ----------
@@ -77,8 +77,8 @@ class UncertainWall(tables.Tabular, Saved):
     rest : float
         Part of that variance that no polynomial of the sources explains: theta as a count of a few records is rough.
     numbers : (float, float)
-        Medians of the wall with its sources at their medians if all histories whose estimated error could change the
-        outcome collapse, and if none of them does.
+        Medians of the wall with its sources at their medians, with every doubtful history counted as a collapse, and
+        with none.
     """
 
     sources: tuple[str, ...]
@@ -109,7 +109,7 @@ class UncertainWall(tables.Tabular, Saved):
 
     @property
     def curve(self) -> PopulationCurve:
-        """The mean curve of the sample, which takes in records and model: the probability of collapse to work with."""
+        """The mean curve of the sample, which includes records and model: the curve to use."""
         return self.typology["all"]
 
     @property
@@ -246,7 +246,7 @@ def uncertain_wall(
     executor: Executor | None = None,
     progress: bool = True,
 ) -> UncertainWall:
-    """Sample the uncertain properties of a wall and tell what they make of its curve.
+    """Sample the uncertain properties of a wall, and apportion the variance of its median among them.
 
     The sample is a Latin hypercube of independent properties. All its walls are shaken by the same records, so that the
     scatter of their medians is that of the model alone.
@@ -254,7 +254,7 @@ def uncertain_wall(
     Parameters
     ----------
     wall : Wall
-        The wall; what is no source stays as it is.
+        The wall; properties that are not sources keep their values.
     records, levels, im, polarity, solver, threads, executor, progress
         As for `typology`.
     sources : mapping of str to distribution
@@ -275,8 +275,8 @@ def uncertain_wall(
     Raises
     ------
     InputError
-        A source that is no number of the wall, a sampled wall that cannot be, too small a sample, and what `typology`
-        refuses.
+        A source that is not a number of the wall, a sampled wall that is impossible, too small a sample, and errors of
+        `typology`.
     DondoloError
         Fewer walls with a curve than the indices need: the levels do not reach up or down to their medians.
     Interrupted
@@ -285,7 +285,7 @@ def uncertain_wall(
     Warns
     -----
     DondoloWarning
-        What `typology` warns of; variants without a fit, which theta, dispersions and indices leave out.
+        Warnings of `typology`; variants without a fit, which theta, dispersions and indices leave out.
 
     Notes
     -----

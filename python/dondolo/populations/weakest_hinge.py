@@ -1,4 +1,4 @@
-"""At which height does a wall of two blocks fold first? Curves for a range of hinge heights under the same records."""
+"""Weakest hinge of a wall of two blocks: curves for a range of hinge heights under the same records."""
 
 from __future__ import annotations
 
@@ -141,11 +141,11 @@ def weakest_hinge(
     Parameters
     ----------
     wall : TwoBlockWall
-        The wall; its own hinge plays no part.
+        The wall; its own hinge is not used.
     records, levels, im, polarity, solver, threads, progress
         As for `typology`.
     hinges : array_like
-        Heights that are tried / height of the wall, increasing; 0.4 to 0.9 in steps of 0.02 if left out.
+        Heights of the hinge / height of the wall, increasing; 0.4 to 0.9 in steps of 0.02 if left out.
 
     Returns
     -------
@@ -154,14 +154,14 @@ def weakest_hinge(
     Raises
     ------
     InputError
-        A height that the wall cannot have, and what `typology` refuses.
+        A height that the wall cannot have, and errors of `typology`.
     DondoloError
         No height has a curve, or one without may be the weakest: the levels do not reach its median.
 
     Warns
     -----
     DondoloWarning
-        What `typology` warns of; the lowest median is at an end of the heights, beyond which it may fall further.
+        Warnings of `typology`; the lowest median is at an end of the heights, beyond which it may fall further.
 
     Notes
     -----

@@ -58,7 +58,7 @@ class Building:
     Raises
     ------
     InputError
-        A value that makes no sense, lists of different lengths, a level above the building.
+        An invalid value, lists of different lengths, a level above the building.
 
     Notes
     -----

@@ -55,7 +55,7 @@ def build_catalogue(
     units: str | None = None,
     vertical: bool = False,
 ) -> Catalogue:
-    """Write a catalogue of all accelerogram files in a folder and the folders in it, one row a channel.
+    """Write a catalogue of all accelerogram files in a folder and the folders in it, one row per channel.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def build_catalogue(
         raise InputError(f"{root}: no such folder")
     target = root / "catalogue.csv" if file is None else Path(file)
     if file is None and target.exists():
-        raise InputError(f"{target}: already exists: name the catalogue with -o, which replaces it if it is one")
+        raise InputError(f"{target}: already exists: to replace it, name it: -o {target}")
     columns = ("file", "channel", "dt_s", "units", *_KEYS)
     check_replaced(target, "catalogue")
     table: dict[str, list[str]] = {column: [] for column in columns}
@@ -99,7 +99,7 @@ def build_catalogue(
         try:
             place.encode()
             if is_search_result(path):
-                raise InputError(f"{path}: a list of search results of PEER, no accelerogram")
+                raise InputError(f"{path}: a list of search results of PEER, not an accelerogram")
             records, given_units = _read(path, dt, units)
         except UnicodeEncodeError:
             problems.append(f"{path}: a name that UTF-8 does not know")

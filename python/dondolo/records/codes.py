@@ -69,7 +69,7 @@ _EC8_SOILS = {
 @part_of_results
 @dataclass(frozen=True, repr=False)
 class Site(Shown):
-    """The hazard of a site by NTC 2018: what the map of the code gives for it, and its ground.
+    """Hazard and ground of a site by NTC 2018.
 
     Parameters
     ----------

@@ -98,10 +98,10 @@ def evaluate(expression: str, column: Callable[[str], NDArray[Any]], length: int
         found = value(node)
         if isinstance(found, list):
             text = "commas make a list, decimals have a point"
-            raise InputError(f"expression = {expression!r}: is no condition on the records: {text}")
+            raise InputError(f"expression = {expression!r}: is not a condition on the records: {text}")
         found = np.asarray(found)
         if found.dtype != bool or found.shape != (length,):
-            raise InputError(f"expression = {expression!r}: {ast.unparse(node)} is no condition on the records")
+            raise InputError(f"expression = {expression!r}: {ast.unparse(node)} is not a condition on the records")
         return found
 
     try:

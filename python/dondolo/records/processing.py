@@ -26,7 +26,7 @@ _MOST_SAMPLES = 100_000_000
 
 
 def correct_baseline(record: Motion, kind: Baseline, order: int | None) -> tuple[FloatArray, str]:
-    """Take off a baseline."""
+    """Correct the baseline."""
     values, count = record.acceleration, len(record)
     one_of("kind", kind, get_args(Baseline))
     if kind != "velocity" and order is not None:

@@ -32,7 +32,7 @@ def read_record(
     units : str, optional
         Units of the values such as 'm/s2', 'gal' or 'g', needed where the file does not state them.
     channel : str or int, optional
-        Name of the channel or its number from 1, needed where the file holds several. A name goes before a number.
+        Name of the channel or its number from 1, needed where the file has several. A name goes before a number.
     format : str, optional
         Name of the format, as docs/ground_motions.md lists them, needed where it is not recognised.
 
@@ -43,7 +43,7 @@ def read_record(
     Raises
     ------
     InputError
-        The file is missing, unknown, wrong, or says less than is needed; it has no such channel.
+        The file is missing, of an unknown format, wrong or incomplete; it has no such channel.
 
     Examples
     --------
@@ -83,7 +83,7 @@ def read_records(
     Raises
     ------
     InputError
-        The file is missing, unknown, wrong, or says less than is needed.
+        The file is missing, of an unknown format, wrong or incomplete.
 
     Examples
     --------

@@ -46,22 +46,22 @@ class Record:
     name : str, optional
         Name in tables and figures.
     processing : iterable of str, optional
-        What was done to the record since it was read, a sentence a step; the methods that process it add theirs.
+        Processing since the record was read, one sentence per step; the methods that process it add theirs.
     metadata : mapping of str to str, optional
-        What is known of the record.
+        Metadata of the record.
     vertical : array_like, shape (samples,), optional
         Vertical ground acceleration at the same times, positive upwards [m/s2].
 
     Attributes
     ----------
     acceleration : ndarray of float64, read-only
-        A copy of what was given.
+        A copy of the argument.
     vertical : ndarray of float64, read-only, or None
-        A copy of what was given. A wall is moved by both components; measures are those of the horizontal one.
+        A copy of the argument. A wall is moved by both components; measures are those of the horizontal one.
     processing : tuple of str
         Steps of processing, the first first; () for a record as it was read.
     metadata : mapping of str to str, read-only
-        What the header of its file says, in its order. Keys that mean the same in every format are event, date,
+        Header of its file, in its order. Keys that mean the same in every format are event, date,
         station, network, component, magnitude, latitude, longitude (of the station), processing, format,
         quantity and units; all others are as the file names them.
     peak_acceleration : float
@@ -70,7 +70,8 @@ class Record:
     Raises
     ------
     InputError
-        A step that is not positive, a sample that is no acceleration, too few samples; more or fewer vertical samples.
+        A step that is not positive, a sample that is not an acceleration, too few samples; more or fewer vertical
+        samples.
 
     Examples
     --------
@@ -140,8 +141,8 @@ class Record:
         Parameters
         ----------
         vertical : Record or None
-            The vertical component, as long as the record; None: none. If its step is another one, both are put on the
-            grid of the samples of both, on which they are the same functions of time.
+            The vertical component, as long as the record; None: none. If its step differs, both are put on a common
+            grid, on which they are the same functions of time.
         factor : float
             Factor on it, beside that of the record in analyses; -1 for a component that is positive downwards.
 
@@ -152,7 +153,7 @@ class Record:
         Raises
         ------
         InputError
-            Another length; steps that are not to each other as two whole numbers up to 50; a factor that is not
+            Another length; steps whose ratio is not one of integers up to 50; a factor that is not
             finite.
 
         Notes
@@ -189,7 +190,7 @@ class Record:
         acceleration : array_like, shape (samples,)
             The new samples [m/s2].
         step : str
-            What was done, for `processing`.
+            Description of the step, for `processing`.
         dt : float, optional
             The new time step [s], that of this record if left out.
         vertical : array_like, shape (samples,), optional
@@ -245,7 +246,7 @@ class Record:
         return time
 
     def intensity(self, im: str, *, gravity: float | None = None) -> float:
-        """An intensity measure of the record as it stands.
+        """An intensity measure of the unscaled record.
 
         Parameters
         ----------
@@ -254,7 +255,7 @@ class Record:
             'd5-95' [s]; T, T1 and T2 are periods [s], as in 'sa(0.5)'. 'arias-trapz' and 'cav-trapz' [m/s] are by the
             trapezoidal rule, as other programs have them.
         gravity : float, optional
-            What g is [m/s2]; 9.81 if left out.
+            Acceleration of gravity [m/s2]; 9.81 if left out.
 
         Returns
         -------
@@ -338,13 +339,14 @@ class Record:
         return suite.significant_times(self, low, high)
 
     def correct_baseline(self, kind: Baseline = "constant", *, order: int | None = None) -> Record:
-        """Take off a baseline.
+        """Correct the baseline.
 
         Parameters
         ----------
         kind : {'constant', 'linear', 'velocity'}
             'constant': the mean of the samples; 'linear': their straight line of least squares; 'velocity': a
-            polynomial is fitted to the velocity, from 0 at the start, and its derivative taken off the acceleration.
+            polynomial is fitted to the velocity, from 0 at the start, and its derivative is subtracted from the
+            acceleration.
         order : int, optional
             Degree of the polynomial of 'velocity', 1 to 8; 2 if left out.
 
@@ -355,12 +357,12 @@ class Record:
         Raises
         ------
         InputError
-            An unknown kind, an order where there is none.
+            An unknown kind, or an order with a kind other than 'velocity'.
 
         Notes
         -----
         The first step of ITACA and ESM is the constant (Paolucci et al. 2011). Of a digital record whose zero has
-        shifted, a polynomial of the velocity takes off what integrates to a drift (Boore 2001; Chiu 1997 fits a
+        shifted, a polynomial of the velocity removes what integrates to a drift (Boore 2001; Chiu 1997 fits a
         straight line).
         """
         return self._filtered(lambda record: process.correct_baseline(record, kind, order))
@@ -387,7 +389,7 @@ class Record:
         taper : float
             Part of the record at either end, 0 to 0.5, that half a cosine brings to zero before the filter.
         keep_padding : bool
-            Keep the zeros that the filter needs at both ends, with what it leaves in them?
+            Whether to keep the zeros that the filter needs at both ends, with the filtered motion in them.
 
         Returns
         -------
@@ -420,13 +422,13 @@ class Record:
         Returns
         -------
         Record
-            It says which of the two ways was taken.
+            Its `processing` states which of the two methods was used.
 
         Raises
         ------
         InputError
-            The steps have no ratio of whole numbers up to 1000, the new one is too long for the record, or there would
-            be more than 100 million samples.
+            The ratio of the steps is not one of integers up to 1000, the new one is too long for the record, or there
+            would be more than 100 million samples.
 
         Notes
         -----
@@ -520,7 +522,7 @@ class Record:
         Raises
         ------
         InputError
-            What is given is no wall, or a wall without a building.
+            What is given is not a wall, or is a wall without a building.
 
         Notes
         -----
@@ -578,7 +580,7 @@ class Record:
         ------
         InputError
             Records that do not belong together (steps, lengths, stations or dates differ), a vertical component, an
-            angle that is none.
+            angle that is not a number.
         """
         check_components(self, _as_record(other))
         direction = as_number("angle", angle)

@@ -57,16 +57,16 @@ class RecordSet(Shown, Saved):
     Raises
     ------
     InputError
-        No records; as many levels or factors as records are needed; values that are not positive.
+        No records; levels or factors that are not one per record; values that are not positive.
 
     Notes
     -----
-    What takes records heeds the levels and factors of a set, or refuses them. Analyses at levels (`multiple_stripe`,
-    `typology`, `compare_designs` ...) run each row at its level, with its factor; factors without levels they refuse.
-    What has no levels (`cloud`, `RecordSet.intensity_table`, `Building.plot`) takes each record times its factor, and
-    refuses a row whose factor would follow from its level. What chooses levels or factors by itself
-    (`compare_intensities`, `RecordSet.select`, `adaptive_stripes`) refuses both. The attribute `records` has the
-    records as they stand.
+    The levels and factors of a set are used or refused, never ignored. Analyses at levels (`multiple_stripe`,
+    `typology`, `compare_designs` ...) run each row at its level, with its factor; factors without levels are refused.
+    Analyses without levels (`cloud`, `RecordSet.intensity_table`, `Building.plot`) take each record times its factor,
+    and refuse a row whose factor would follow from its level. Functions that choose levels or factors themselves
+    (`compare_intensities`, `RecordSet.select`, `adaptive_stripes`) refuse both. The attribute `records` has the
+    unscaled records.
 
     Examples
     --------
@@ -137,7 +137,7 @@ class RecordSet(Shown, Saved):
         [0.4, 0.4, 0.8, 0.8, 0.8]
         """
         if not isinstance(sets, Mapping) or not sets:
-            raise InputError("records: must be a mapping of levels to records, one level at least")
+            raise InputError("records: must be a mapping of levels to records, at least one level")
         parts = []
         levels = sorted(sets, key=lambda one: as_number("levels", one))
         for one, other in pairwise(levels):
@@ -228,7 +228,7 @@ class RecordSet(Shown, Saved):
         by : str
             A column or an intensity measure.
         descending : bool
-            The largest first?
+            Whether to put the largest first.
 
         Returns
         -------
@@ -279,7 +279,7 @@ class RecordSet(Shown, Saved):
         return factor[:, None] * np.stack([found[id(record)] for record in self.records])
 
     def to_frame(self, ims: str | Iterable[str] = _MEASURES) -> Any:
-        """The table as a pandas DataFrame, with intensity measures of the records as they stand.
+        """The table as a pandas DataFrame, with intensity measures of the unscaled records.
 
         Parameters
         ----------
@@ -300,13 +300,13 @@ class RecordSet(Shown, Saved):
         ims : str or iterable of str
             Intensity measures, as for `Record.intensity`.
         gravity : float, optional
-            What g is [m/s2]; 9.81 if left out.
+            Acceleration of gravity [m/s2]; 9.81 if left out.
 
         Returns
         -------
         pandas.DataFrame
             A row for each record; the columns are the record's name and the measures with their units, as 'pga [g]'.
-            pandas is no dependency of dondolo: the extra 'tables' installs it.
+            pandas is not a dependency of dondolo: the extra 'tables' installs it.
 
         Raises
         ------
@@ -403,8 +403,8 @@ class RecordSet(Shown, Saved):
         Notes
         -----
         Nothing of an earlier catalogue is replaced but its table, at once and last, so that it is the old or the new
-        one whatever fails. The table states the CRC-32 of each file, and whoever reads it, the executable too, refuses
-        a file of another. Files that only the earlier catalogue named are removed, unless they were changed since.
+        one whatever fails. The table contains the CRC-32 of each file; readers, the executable included, refuse a file
+        with another one. Files that only the earlier catalogue named are removed, unless they were changed since.
 
         Examples
         --------
@@ -468,7 +468,7 @@ class RecordSet(Shown, Saved):
             ) from None
 
     def _intensities(self, im: str, gravity: float | None = None) -> FloatArray:
-        """An intensity measure of the records as they stand."""
+        """An intensity measure of the unscaled records."""
         # A record may have several rows, and a suite must not hold it twice.
         each = tuple(dict.fromkeys(self.records))
         places = {id(record): i for i, record in enumerate(each)}
@@ -496,7 +496,11 @@ class RecordSet(Shown, Saved):
         return np.nan_to_num(factor, nan=1.0)
 
     def _facts(self) -> list[tuple[str, str]]:
+        peaks = [record.peak_acceleration for record in self.records]
         facts = [("rows", str(len(self)))]
+        if events := {record.event for record in self.records if record.event}:
+            facts.append(("events", str(len(events))))
+        facts.append(("PGA", f"{min(peaks):.3g} to {max(peaks):.3g} m/s2"))
         if self.level is not None:
             levels = np.unique(self.level[~np.isnan(self.level)])
             facts.append(("levels", " ".join(f"{level:g}" for level in levels)))

@@ -46,17 +46,17 @@ def synthetic_records(
     -------
     list of Record
         With a time step of 0.005 s, named after the arguments, which their metadata hold too: magnitude,
-        distance_km, site, seed, realisation, deviations and format ('synthetic'). They are synthetic: say so where you
-        show them. Realisations are independent of each other, so that each is an event of its own, of its name.
+        distance_km, site, seed, realisation, deviations and format ('synthetic'). State that they are synthetic where
+        you show them. Realisations are independent: each is an event of its own, named after the record.
 
     Raises
     ------
     InputError
-        An argument outside its range, with the sentence of the library.
+        An argument outside its range.
 
     Notes
     -----
-    The generator of ``dondolo-synthetic44``, with one stream of random numbers a realisation; the phases alone are
+    The generator of ``dondolo-synthetic44``, with one stream of random numbers per realisation; only the phases are
     random, so that two realisations differ less than two recorded motions of a magnitude and distance.
     docs/processing.md shows what the model gives and how it differs from recordings.
 

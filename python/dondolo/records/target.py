@@ -159,7 +159,7 @@ class TargetSpectrum(Shown, Saved):
         return np.asarray(np.sqrt(np.diag(self.covariance)))
 
     def conditional(self, period: float, sa: float) -> TargetSpectrum:
-        """The conditional spectrum: what this one becomes where the ordinate at a period is known.
+        """The conditional spectrum, given the ordinate at a period.
 
         Parameters
         ----------

@@ -78,15 +78,15 @@ def report(
     Raises
     ------
     InputError
-        Nothing that a report can be made of; a hazard curve of another intensity measure; another suffix; a file that
-        is no report.
+        Results that a report cannot show; a hazard curve of another intensity measure; another suffix; an existing file
+        that is not a report.
     DondoloError
         The file cannot be written; with a hazard curve, there is no fragility curve; for PDF, neither Chromium nor
-        WeasyPrint is here.
+        WeasyPrint is installed.
 
     Notes
     -----
-    What the run and the fits warn of stands in the report, and is not given as a warning again.
+    Warnings of the run and of the fits are in the report, and are not issued again.
 
     Examples
     --------

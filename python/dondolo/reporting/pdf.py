@@ -44,7 +44,7 @@ def write_pdf(path: str | os.PathLike[str], html: str, mark: str) -> None:
         else:
             _print_by_weasyprint(page, part)
         if not part.read_bytes().startswith(b"%PDF"):
-            raise DondoloError(f"{os.fspath(path)}: {browser or 'WeasyPrint'} has not printed the report as PDF")
+            raise DondoloError(f"{os.fspath(path)}: {browser or 'WeasyPrint'} failed to print the report as PDF")
         with part.open("a", encoding="ascii") as file:
             file.write(f"% {mark}\n")
 
@@ -90,7 +90,7 @@ def _print_by_weasyprint(page: Path, part: Path) -> None:
         import weasyprint
     except (ImportError, OSError):
         raise DondoloError(
-            "a report as PDF needs Chromium or WeasyPrint (pip install weasyprint), and neither is here: write it as "
-            "HTML, and print that in any browser"
+            "a report as PDF needs Chromium or WeasyPrint (pip install weasyprint), and neither is installed: write it "
+            "as HTML, and print that in any browser"
         ) from None
     weasyprint.HTML(filename=str(page)).write_pdf(str(part))

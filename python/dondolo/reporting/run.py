@@ -134,7 +134,7 @@ def run_of(results: Any) -> Run:
     if isinstance(results, Response):
         title = f"{results.wall.name} in {results.record.name}"
         return Run(results, Population((results.wall,)), title, records=(results.record,))
-    raise InputError(f"results: {type(results).__name__} is nothing that a report can be made of")
+    raise InputError(f"results: must be results of an analysis, such as Stripes, not {type(results).__name__}")
 
 
 def _of_results(results: Results) -> Run:

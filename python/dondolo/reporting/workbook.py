@@ -39,15 +39,15 @@ _Sheet = tuple[list[str], Sequence[Sequence[Any]]]
 
 
 def write_workbook(prefix: str | os.PathLike[str], path: str | os.PathLike[str], *, lang: str | None = None) -> None:
-    """Write all tables of a run into one workbook: a sheet a table, and one of the case.
+    """Write all tables of a run into one workbook: one sheet per table, and one of the case.
 
     Parameters
     ----------
     prefix : path
-        What the names of the result files begin with, for example ``out/parapet``.
+        Prefix of the result files, for example ``out/parapet``.
     path : path
-        The workbook, ``*.xlsx``. An earlier one is replaced as dondolo wrote it; one that another program has saved
-        since, and any other file, is not.
+        The workbook, ``*.xlsx``. An earlier workbook of dondolo is replaced unless another program has saved it
+        since; any other file is not.
     lang : {'en', 'it'}, optional
         Language of sheets, titles and words; that of the environment variable ``DONDOLO_LANG`` if left out, or English,
         which has the names of the files. Names, identifiers of the case and messages of the library are not translated.
@@ -79,6 +79,7 @@ def write_workbook(prefix: str | os.PathLike[str], path: str | os.PathLike[str],
     language = Language(lang)
     target = as_file("path", path, ".xlsx")
     check_replaced(target, "workbook")
+    as_file("prefix", prefix)
     run = read_run_file(os.fspath(prefix) + RUN_FILE)
     # All tables before the workbook: one that is left unfinished makes openpyxl complain at the end.
     case = [list(column) for column in zip(*_case(run, language), strict=True)]

@@ -1,1 +1,1 @@
-"""What a strengthening of a wall gains."""
+"""Effect of strengthening a wall."""

@@ -1,4 +1,4 @@
-"""Designs of one wall compared on the same records: which strengthening gains how much, for how much steel?"""
+"""Designs of one wall compared on the same records: the gain of each, and its mass of steel."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class DesignComparison(tables.Tabular, Saved):
     names : tuple of str
         The designs.
     stripes : tuple of Stripes
-        The analysis of each; empty for results that were read back.
+        The analysis of each; empty for results read from files.
     curves : tuple of Fragility
         Their curves.
     comparisons : tuple of Comparison or None
@@ -66,8 +66,8 @@ class DesignComparison(tables.Tabular, Saved):
     steel : ndarray, shape (designs,)
         Mass of steel in each [kg per m of wall].
     alpha_0 : ndarray, shape (designs,)
-        Acceleration that each withstands statically with its ties at yield [g]: what the linear kinematic check of the
-        Italian code is proportional to.
+        Static acceleration that each resists with its ties at yield [g], to which the linear kinematic check of the
+        Italian code is proportional.
     confidence : float
         Of the intervals.
     checks : tuple of CodeCheck
@@ -111,7 +111,7 @@ class DesignComparison(tables.Tabular, Saved):
 
     @property
     def static_ratio(self) -> FloatArray:
-        """Static acceleration `alpha_0` of each / that of the first: what a check by forces says of a design."""
+        """Static acceleration `alpha_0` of each / that of the first: the gain by a check of forces."""
         ratio: FloatArray = self.alpha_0 / self.alpha_0[0]
         return ratio
 
@@ -129,7 +129,7 @@ class DesignComparison(tables.Tabular, Saved):
         Returns
         -------
         Axes
-            The first of the figure's: probability of collapse against intensity, with what each withstands by the
+            The first of the figure's: probability of collapse against intensity, with the capacity of each by the
             nonlinear check of SLV where there is one and the measure is PGA; and the ratios with their intervals,
             beside those of the static accelerations.
         """
@@ -247,14 +247,14 @@ def compare_designs(
     Raises
     ------
     InputError
-        No designs, names without a design, and what `multiple_stripe` and, with a site, `check_ntc` refuse.
+        No designs, names without a design, and errors of `multiple_stripe` and, with a site, `check_ntc`.
     Interrupted
         Ctrl-C.
 
     Warns
     -----
     DondoloWarning
-        What `multiple_stripe` warns of, and of curves that were not fitted: their ratios are not known.
+        Warnings of `multiple_stripe`; curves that were not fitted, whose ratios are unknown.
 
     Examples
     --------
@@ -322,7 +322,7 @@ def _known(designs: Mapping[str, Wall], given: object, what: str) -> Iterable[st
                 raise InputError(f"{what}: none for the design {name!r}")
         for name in given:
             if name not in designs:
-                raise InputError(f"{what}: {name!r} is no design")
+                raise InputError(f"{what}: {name!r} is not a design")
     return designs
 
 
@@ -331,7 +331,7 @@ def _masses(designs: Mapping[str, Wall], steel: Mapping[str, float] | None) -> F
     given = steel or {}
     for name in given:
         if name not in designs:
-            raise InputError(f"steel: {name!r} is no design")
+            raise InputError(f"steel: {name!r} is not a design")
     masses = np.array([as_number(f"steel[{name!r}]", given.get(name, _steel(wall))) for name, wall in designs.items()])
     for name, mass in zip(designs, masses, strict=True):
         if name in given and not 0.0 <= mass < np.inf:

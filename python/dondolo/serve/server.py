@@ -192,7 +192,7 @@ def application(bench: Bench, start: Mapping[str, Any], lang: str, port: int, to
             try:
                 asked = json.loads(await request.body(), parse_constant=_no_number)
                 if not isinstance(asked, dict):
-                    raise ValueError("no object")
+                    raise ValueError("not an object")
             except (ValueError, RecursionError):
                 return JSONResponse({"error": "the request must be a JSON object", "errors": []}, 422)
             stop = threading.Event()

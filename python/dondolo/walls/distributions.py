@@ -42,7 +42,7 @@ class Distribution(Protocol):
 
 @dataclass(frozen=True)
 class Uniform:
-    """All values between two alike.
+    """Uniform distribution on [low, high].
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ class Uniform:
     Raises
     ------
     InputError
-        A parameter is no finite number, or `high` not greater than `low`.
+        A parameter is not a finite number, or `high` not greater than `low`.
 
     Examples
     --------
@@ -75,7 +75,7 @@ class Uniform:
 
 @dataclass(frozen=True)
 class Triangular:
-    """What is known where an expert gives the smallest, the most likely and the largest value.
+    """Triangular distribution defined by its minimum, mode and maximum.
 
     Parameters
     ----------
@@ -85,7 +85,7 @@ class Triangular:
     Raises
     ------
     InputError
-        A parameter is no finite number, `high` not greater than `low`, or `mode` not between them.
+        A parameter is not a finite number, `high` not greater than `low`, or `mode` not between them.
 
     Examples
     --------
@@ -125,20 +125,20 @@ class _CutOff:
 
 @dataclass(frozen=True)
 class Normal(_CutOff):
-    """The normal distribution, whole or cut off.
+    """Normal distribution, optionally truncated.
 
     Parameters
     ----------
     mean, sd : float
-        Mean and standard deviation, of the whole distribution.
+        Mean and standard deviation, before truncation.
     low, high : float, optional
-        Where it is cut off: what lies beyond is spread over what is left in proportion, so that the distribution keeps
-        its shape and no samples gather at the ends.
+        Bounds of the truncated distribution: the probability beyond is redistributed in proportion, so that the
+        distribution keeps its shape and no samples gather at the bounds.
 
     Raises
     ------
     InputError
-        A parameter is no finite number, `sd` not positive, `high` not greater than `low`, or next to nothing of the
+        A parameter is not a finite number, `sd` not positive, `high` not greater than `low`, or next to nothing of the
         distribution between them.
 
     Examples
@@ -173,22 +173,22 @@ class Normal(_CutOff):
 
 @dataclass(frozen=True)
 class Lognormal(_CutOff):
-    """The lognormal distribution, whole or cut off.
+    """Lognormal distribution, optionally truncated.
 
     Parameters
     ----------
     theta : float
-        Median, of the whole distribution.
+        Median, before truncation.
     beta : float
-        Standard deviation of the logarithm, of the whole distribution.
+        Standard deviation of the logarithm, before truncation.
     low, high : float, optional
-        Where it is cut off, as for `Normal`.
+        Bounds of the truncated distribution, as for `Normal`.
 
     Raises
     ------
     InputError
-        A parameter is no positive finite number, `high` not greater than `low`, or next to nothing of the distribution
-        between them.
+        A parameter is not a positive finite number, `high` not greater than `low`, or next to nothing of the
+        distribution between them.
 
     Examples
     --------
@@ -224,19 +224,19 @@ class Lognormal(_CutOff):
 
 @dataclass(frozen=True)
 class Choice:
-    """One of some values.
+    """Discrete distribution over some values.
 
     Parameters
     ----------
     values : sequence of float
-        The values, rising.
+        The values, increasing.
     probabilities : sequence of float, optional
-        Their probabilities, with the sum 1; all alike if left out.
+        Their probabilities, with the sum 1; equal if left out.
 
     Raises
     ------
     InputError
-        The values do not rise, or there are not as many probabilities, not negative and with the sum 1.
+        The values do not increase, or there are not as many probabilities, not negative and with the sum 1.
 
     Examples
     --------

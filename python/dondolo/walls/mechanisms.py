@@ -22,7 +22,7 @@ __all__ = ["FreeStandingWall", "OneSidedWall", "TabulatedWall", "Terms", "TwoBlo
 
 @dataclass(frozen=True, repr=False, kw_only=True)
 class BlockWall(MasonryWall):
-    """What walls of one block share: storeys, the hinge, and what they carry."""
+    """Base class of walls of one block: storeys, hinge, and loads."""
 
     sections: Sequence[Section] = ()
     mass: float | None = None
@@ -66,7 +66,7 @@ class OneSidedWall(BlockWall):
     name : str, optional
         Name in the results, 'wall' if left out.
     building : Building, optional
-        What the wall stands on, where that is not the ground: its floor moves as the building makes it.
+        Building that the wall stands on, if not on the ground: it moves the wall's floor.
     sections : sequence of Section, optional
         Storeys from the bottom, instead of height and thickness.
     leaves : float, optional
@@ -122,7 +122,7 @@ class OneSidedWall(BlockWall):
     Raises
     ------
     InputError
-        A value that makes no sense, with the sentence of the executable.
+        An invalid value; the message is that of the executable.
 
     Notes
     -----
@@ -194,7 +194,7 @@ class TwoBlockWall(MasonryWall):
 
     Parameters are those of a bare `OneSidedWall`, its hinge_depth, compressive_strength and stress_block, the models
     of restitution 'default', 'sorrentino' and 'impulse', and those below. 'default' is 'sorrentino', or
-    'impulse' where the wall lifts the mass of an overburden, which 'sorrentino' does not know.
+    'impulse' where the wall lifts the mass of an overburden, which 'sorrentino' does not include.
 
     Parameters
     ----------

@@ -272,7 +272,7 @@ class Tie(Part):
 
     @property
     def section(self) -> float:
-        """Section per metre of wall [m2/m], whichever way it is given."""
+        """Section per metre of wall [m2/m], whether given by its area or by its bars."""
         if self.bar and self.spacing:
             return float(0.25 * np.pi * self.bar**2 / self.spacing)
         return self.area or 0.0

@@ -1,4 +1,4 @@
-"""Populations: walls, how many of the kind each stands for, and the table they are read from."""
+"""Populations: walls, their weights, and the table they are read from."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ Kind = Literal["mechanism", "group"]
 @part_of_results
 @dataclass(frozen=True, eq=False, repr=False)
 class Population(Shown):
-    """Walls and how many of the kind each stands for.
+    """Walls with their weights: the number of similar walls that each represents.
 
     Walls with the same name, one after the other, are mechanisms of one wall; those of the same facade are mechanisms
     of the facade, which collapses if any of its walls does (`Population.of_facade` makes them). Walls that were given
@@ -86,12 +86,12 @@ class Population(Shown):
         Name of the alternative of the wall that each mechanism belongs to; those of one alternative occur together.
         Empty if left out: exclusive mechanisms are alternatives each.
     origin : tuple of str
-        Where the walls come from, in lines for the head of a file.
+        Origin of the walls, in lines for the header of a file.
 
     Raises
     ------
     InputError
-        The walls, or what is said of them, do not go together.
+        The walls and their weights, groups or probabilities are inconsistent.
 
     Examples
     --------
@@ -165,9 +165,9 @@ class Population(Shown):
         Parameters
         ----------
         path : path
-            A CSV table: one row a mechanism of a wall, columns named as the parameters of the walls, and weight, group,
-            p_occ, occurrence, alternative and facade. A row with hinge levels becomes a wall for each, all of one
-            facade.
+            A CSV table: one row per mechanism of a wall, columns named as the parameters of the walls, and weight,
+            group, p_occ, occurrence, alternative and facade. A row with hinge levels becomes a wall for each, all of
+            one facade.
         gravity : float, optional
             [m/s2], 9.81 if left out.
         occurrence : {'independent', 'exclusive'}
@@ -229,7 +229,7 @@ class Population(Shown):
         seed : int
             Seed of the random numbers; the same seed gives the same walls.
         variables : mapping, optional
-            Distributions of what is no property of a wall, but properties are functions of (the number of storeys).
+            Distributions of variables that are not properties of a wall, but that properties are functions of.
         correlation : mapping, optional
             Pairs of names of sampled properties and variables, and the correlation of each pair; a property of one
             mechanism is named as in "two_block.hinge". Pairs that are not named have none. Takes more walls than there
@@ -249,13 +249,13 @@ class Population(Shown):
         Returns
         -------
         Population
-            Its rows go wall by wall, the mechanisms of a wall in their order; `origin` says what was sampled.
+            Its rows go wall by wall, the mechanisms of a wall in their order; `origin` describes the sample.
 
         Raises
         ------
         InputError
-            What was asked for makes no sense; or a sample that no wall can have, with the names of the wall and the
-            property. Nothing is left out or moved: cut the distribution off, or make the property a function of the
+            Inconsistent arguments; or a sampled value that no wall can have, with the names of the wall and the
+            property. Nothing is left out or moved: truncate the distribution, or make the property a function of the
             others.
 
         Notes
@@ -334,7 +334,7 @@ class Population(Shown):
         Raises
         ------
         InputError
-            A hinge that the wall does not have, or a wall that does not stand.
+            A hinge that the wall does not have, or a wall that is not stable at rest.
 
         Notes
         -----
@@ -449,7 +449,7 @@ class Population(Shown):
         IndexError
             There is no such row.
         InputError
-            None are left of several, or what is given does not choose rows.
+            No rows are selected, or the index does not select rows.
         """
         if isinstance(index, (int, np.integer)):
             return self.walls[index]
@@ -591,7 +591,7 @@ class Population(Shown):
         Returns
         -------
         pandas.DataFrame
-            The columns of the executable's ``*_walls.csv``, with units in their names: one row a mechanism of a wall.
+            The columns of the executable's ``*_walls.csv``, with units in their names: one row per mechanism of a wall.
 
         Raises
         ------
@@ -608,7 +608,7 @@ class Population(Shown):
         path : path
             The file; its folder must exist.
         spreadsheet_safe : bool
-            Put an apostrophe before names that a spreadsheet would take for formulas; `Population.from_csv` takes it
+            Put an apostrophe before names that a spreadsheet would read as formulas; `Population.from_csv` takes it
             away.
 
         Raises
@@ -618,8 +618,8 @@ class Population(Shown):
 
         Notes
         -----
-        What is read back is the same to the bit. Gravity is no column: it is given again when the table is read. The
-        lines of `origin` stand at the head.
+        What is read back is the same to the bit. Gravity is not a column: it is given again when the table is read.
+        The lines of `origin` are the header.
         """
         lines = tables.csv_lines(population_table(self), self.origin, tables.shortest, spreadsheet_safe)
         tables.write_lines(path, lines)

@@ -150,4 +150,4 @@ def check_names(
             raise InputError(f"name = {wall.name!r}: mechanisms of one {whole} must have the same {same}")
     for facade in first_of:
         if facade in first and facades[first[facade]] != facade:
-            raise InputError(f"facade = {facade!r}: a wall that is no part of it has this name")
+            raise InputError(f"facade = {facade!r}: a wall that is not part of it has this name")

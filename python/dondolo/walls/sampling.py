@@ -123,7 +123,7 @@ def _check_properties(own: Mapping[str, Mapping[str, Property]], properties: Map
             if what == "weight" and mechanism:
                 raise InputError("weight: belongs to the wall, not to one of its mechanisms")
             if what not in WALL_LISTS and isinstance(value, str) != (what in _TEXTS):
-                raise InputError(f"{what} = {value!r}: must be a {'text' if what in _TEXTS else 'number'}")
+                raise InputError(f"{what} = {value!r}: must be a {'string' if what in _TEXTS else 'number'}")
         for kind in [mechanism] if mechanism else own:
             for what in extra:
                 if kind not in _OWNERS.get(what, (kind,)):

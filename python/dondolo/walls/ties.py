@@ -1,4 +1,4 @@
-"""What motions leave of the ties of a wall: all of it follows from the largest rotation."""
+"""State of the ties of a wall after a motion: it follows from the largest rotation."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ IntArray = NDArray[np.int32]
 
 
 class TieStates(NamedTuple):
-    """What motions leave of ties, each an array whose last axis is that of the ties.
+    """State of ties after motions, each an array whose last axis is that of the ties.
 
     Attributes
     ----------
@@ -38,12 +38,12 @@ class TieStates(NamedTuple):
 
 @part_of_results
 class TieCounts(NamedTuple):
-    """What the histories of the stripes of a wall do to its ties, each of shape (levels, ties).
+    """Counts of what the histories of stripes do to the ties of a wall, each of shape (levels, ties).
 
     Attributes
     ----------
     yielded, broken : ndarray of int
-        How many histories stretch a tie for good, and break it.
+        Number of histories that yield a tie, and that break it.
     mean_elongation, largest_elongation : ndarray
         Plastic elongation: mean of the histories of a stripe, and the largest [m].
     """
@@ -70,7 +70,7 @@ def number_of_ties(wall: Wall) -> int:
 
 
 def states_of_ties(wall: Wall, edp: ArrayLike) -> TieStates:
-    """What motions leave of the ties of a wall.
+    """State of the ties of a wall after motions.
 
     Parameters
     ----------

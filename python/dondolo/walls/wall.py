@@ -1,4 +1,4 @@
-"""What all walls share: their fields, checked by Fortran, and what follows from them."""
+"""Fields that all walls share, checked by Fortran, and the quantities that follow from them."""
 
 from __future__ import annotations
 
@@ -73,10 +73,10 @@ class Terms(NamedTuple):
 
 @dataclass(frozen=True, repr=False)
 class Wall:
-    """What all walls share. Use `OneSidedWall`, `FreeStandingWall`, `TwoBlockWall` or
+    """Base class of all walls. Use `OneSidedWall`, `FreeStandingWall`, `TwoBlockWall` or
     `TabulatedWall`.
 
-    Every number that is left out (None) gets its default from the Fortran library, and stands in the wall afterwards.
+    Every number that is left out (None) gets its default from the Fortran library and is then an attribute of the wall.
 
     Examples
     --------
@@ -209,7 +209,7 @@ class Wall:
 
     @property
     def greatest_acceleration(self) -> float:
-        """Greatest static acceleration that a wall with ties withstands [m/s2]; without ties the trigger."""
+        """Greatest static acceleration that a wall with ties resists [m/s2]; without ties the trigger."""
         return self._static(7)
 
     @property
@@ -233,7 +233,7 @@ class Wall:
 
     @property
     def two_sided(self) -> bool:
-        """Does it rock to both sides?"""
+        """Whether the wall rocks to both sides."""
         return bool(self.__dict__["_two_sided"])
 
     def terms(self, rotation: ArrayLike) -> Terms:
@@ -372,7 +372,7 @@ class Wall:
 
 @dataclass(frozen=True, repr=False)
 class MasonryWall(Wall):
-    """What walls of one or two blocks share: a section of masonry."""
+    """Base class of walls of one or two blocks, which have a section of masonry."""
 
     thickness: float = DEFAULT
     _: KW_ONLY
@@ -420,9 +420,7 @@ def walls_table(
 
 
 def notes_on_supports(walls: tuple[Wall, ...]) -> list[tuple[str, str]]:
-    """What there is to say of the supports that move walls, as facts, as the executable prints it."""
-    if all(wall.building is None for wall in walls):
-        return []
+    """Notes on the motion of the bases and supports of walls, as facts, as the executable prints them."""
     return [("note", note) for note in support_notes(upload(walls))]
 
 

@@ -98,7 +98,7 @@ contains
 
          associate (number => input%number(name))
             if (abs(number - anint(number)) > 0.0_wp) call problems%note(name//' = '//to_text(number)// &
-               & ': must be a whole number', not_an_integer, name)
+               & ': must be an integer', not_an_integer, name)
          end associate
       end subroutine check_whole
 

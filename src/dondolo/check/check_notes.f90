@@ -41,8 +41,9 @@ contains
          call note%with('weakest_alpha_0', least)
          call note%with('weakest_hinge', hinge)
          if (hinge > highest_hinge) then
-            call notes%add(note, 'alpha_0 falls the higher the hinge of the strip is, down to '//rounded(least)// &
-               & ' at hinge = '//rounded(hinge)//'; so high a hinge is rather a wall that overturns from the floor below')
+            call notes%add(note, 'alpha_0 decreases with the height of the hinge of the strip, down to '//rounded(least)// &
+               & ' at hinge = '//rounded(hinge)//'; with so high a hinge the strip rather overturns as a wall from the floor '// &
+               & 'below')
          else
             call notes%add(note, 'the check is not at the weakest hinge of the strip: alpha_0 is least, '//rounded(least)// &
                & ', at hinge = '//rounded(hinge))
@@ -84,7 +85,7 @@ contains
             case ('plate_verified')
                call begin(plate_too_thin, [character(len=18) :: 'plate_thickness', 'plate_needed'])
                call notes%add(note, 'the plate of '//trim(item)//' is too thin: '//trim(of_tie('plate_thickness'))// &
-                  & ' m, it needs '//trim(of_tie('plate_needed'))//' m; the check takes its pressure on the masonry to be even')
+                  & ' m, must be '//trim(of_tie('plate_needed'))//' m; the check assumes a uniform pressure on the masonry')
             case ('anchor_checked')
                if (sheet%value('tie', '', 'anchor_force', item) > 0.0_wp) then
                   call begin(anchor_factor_differs, [character(len=18) :: 'anchor_knowledge'])

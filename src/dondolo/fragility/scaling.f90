@@ -62,7 +62,7 @@ contains
       if (allocated(error)) then
          call refuse_measure(typed, scaling_names, error)
       else if (scaling%measure%power() == 0) then
-         call raise_input(error, 'im = '''//typed//''': a duration stays as it is when a record is scaled; '// &
+         call raise_input(error, 'im = '''//typed//''': a duration does not change when a record is scaled; '// &
             & 'must be one of '//join(scaling_names)//im_help, not_a_word, 'im')
       else
          scaling%name = scaling%measure%name

@@ -111,8 +111,8 @@ contains
          return
       end select
       if (.not. present(group)) return
-      if (settings%group /= group) call raise_input(error, 'settings: are of the group '''//settings%group// &
-         & ''', must be of '''//group//'''', out_of_range, 'settings')
+      if (settings%group /= group) call raise_input(error, 'settings: belong to the group '''//settings%group// &
+         & ''', must belong to '''//group//'''', out_of_range, 'settings')
    end subroutine find_settings
 
    !> Find the settings of a handle, and the row of a name in their table
@@ -224,7 +224,7 @@ contains
       name = trim(property%name)
       select case (property%kind)
       case (is_text, is_words)
-         call raise_input(error, name//' = '//to_text(real(numbers(1), wp))//': must be a text', not_a_text, name)
+         call raise_input(error, name//' = '//to_text(real(numbers(1), wp))//': must be a string', not_a_text, name)
       case (is_list)
          call check_finite(numbers, name, error)
       case default
@@ -245,7 +245,7 @@ contains
          if (property%kind == is_logical .and. all(abs(number - [0.0_c_double, 1.0_c_double]) > 0.0_c_double)) then
             call raise_input(error, name//' = '//to_text(real(number, wp))//': must be 0 or 1', not_a_flag, name)
          else if (property%kind == is_integer .and. abs(number - anint(number)) > 0.0_c_double) then
-            call raise_input(error, name//' = '//to_text(real(number, wp))//': must be a whole number', not_an_integer, name)
+            call raise_input(error, name//' = '//to_text(real(number, wp))//': must be an integer', not_an_integer, name)
          end if
       end subroutine check_whole
 

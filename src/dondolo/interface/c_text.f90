@@ -50,7 +50,7 @@ contains
 
       text = ''
       if (.not. c_associated(given)) then
-         call raise_input(error, what//': must be a text, not NULL')
+         call raise_input(error, what//': must be a string, not NULL')
          return
       end if
       call c_f_pointer(given, characters, [strlen(given)])

@@ -309,7 +309,7 @@ contains
       if (handle == 0) then
          call raise_input(error, name//': handle is not valid: it is NULL')
       else
-         call raise_input(error, name//': handle is not valid: it is that of something else, or was freed')
+         call raise_input(error, name//': handle is not valid: it belongs to something else, or was freed')
       end if
    end subroutine refuse_handle
 

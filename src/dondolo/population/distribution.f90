@@ -16,7 +16,7 @@ module dondolo_population_distribution
 
    !> How they are called, for messages
    character(len=*), parameter :: help = 'must be ''uniform(low, high)'', ''triangular(low, mode, high)'', '// &
-      & '''normal(mean, sd)'' or ''lognormal(theta, beta)'', the last two also with low, high where they are cut off'
+      & '''normal(mean, sd)'' or ''lognormal(theta, beta)'', the last two optionally with the bounds low, high'
 
    !> Part of a distribution that must be left where it is cut off: less is a slip of the pen, and loses digits
    real(wp), parameter :: least_share = 1.0e-6_wp

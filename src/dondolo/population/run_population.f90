@@ -60,7 +60,7 @@ contains
                & to_text(store%identity%last - store%identity%first + 1)//' rows are '
             if (len(store%path) == 0) error%message = error%message//'complete'
             if (len(store%path) > 0) error%message = error%message//'kept in '//store%path// &
-               & '; the same command goes on from there'
+               & '; the same command resumes from there'
             exit
          end if
          results%row = numbers

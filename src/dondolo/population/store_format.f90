@@ -150,7 +150,7 @@ contains
          call identity%key%settings%add(head(at + 1:ends - 1))
          at = ends
       end do
-      if (bits /= storage_size(1.0_wp)) call raise_input(error, path//': was made in real'//to_text(bits)// &
+      if (bits /= storage_size(1.0_wp)) call raise_input(error, path//': was written in real'//to_text(bits)// &
          & ', not in real'//to_text(storage_size(1.0_wp)))
 
    contains

@@ -106,7 +106,7 @@ contains
             if (row%group > 0 .and. all(groups(1:last) /= row%group)) then
                if (last == most_groups) then
                   call raise_input(error, 'group = '''//population%groups%line(row%group)%text// &
-                     & ''': is one too many, at most '//to_text(most_groups)//' are allowed', out_of_range, 'group')
+                     & ''': too many groups, at most '//to_text(most_groups)//' are allowed', out_of_range, 'group')
                   return
                end if
                last = last + 1

@@ -241,9 +241,9 @@ contains
          call raise_input(error, table%file//': no column ''file'': must have file, and dt_s and units '// &
             & 'where the files do not state them')
       else if (table%column('dt') > 0 .and. table%column('dt_s') == 0) then
-         call raise_input(error, table%file//': column ''dt'': the time step must stand in the column dt_s, in seconds')
+         call raise_input(error, table%file//': column ''dt'': the time step must be in the column dt_s, in seconds')
       else if (table%column('unit') > 0 .and. table%column('units') == 0) then
-         call raise_input(error, table%file//': column ''unit'': the units of the accelerations must stand in the column units')
+         call raise_input(error, table%file//': column ''unit'': the units of the accelerations must be in the column units')
       else
          do
             call table%next(row, found, error)

@@ -204,8 +204,8 @@ contains
       call read_record(path, record, error, source%dt, source%units, channel, source%format)
       if (.not. allocated(error) .and. len(checksum) > 0) then
          call crc32_of_file(path, found, bytes, ok)
-         if (.not. ok .or. found /= checksum) call raise_input(error, path//': has the CRC-32 '//found//', and '//checksum// &
-            & ' is stated: the file was changed, or is of another version of the catalogue')
+         if (.not. ok .or. found /= checksum) call raise_input(error, path//': has the CRC-32 '//found// &
+            & ', but the catalogue has '//checksum//': the file was changed, or belongs to another version of the catalogue')
       end if
       call add_place(error, source%place)
    end subroutine read_component

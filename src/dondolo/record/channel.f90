@@ -117,7 +117,7 @@ contains
          if (size(ground) == 1) number = ground(1)
          if (size(ground) < 2) return
          call list_names(samples%channels(ground), names)
-         call raise_input(error, 'the file holds '//to_text(size(ground))//' channels: channel must be one of '//names)
+         call raise_input(error, 'the file has '//to_text(size(ground))//' channels: channel must be one of '//names)
          return
       end if
       do i = 1, size(samples%channels)

@@ -207,8 +207,8 @@ contains
 
       call compute_parts(self%dt, dt, parts, other_parts)
       if (parts == 0) then
-         call raise_input(error, 'vertical: has a time step of '//to_text(dt)//' s, which must be to '//to_text(self%dt)// &
-            & ' s of the record as two whole numbers of up to '//to_text(most_parts), out_of_range, 'vertical')
+         call raise_input(error, 'vertical: has a time step of '//to_text(dt)//' s, whose ratio to '//to_text(self%dt)// &
+            & ' s of the record must be a ratio of integers up to '//to_text(most_parts), out_of_range, 'vertical')
          return
       else if (real(size(self%acceleration), wp)*real(parts, wp) > real(most_samples, wp)) then
          call raise_input(error, 'vertical: has a time step of '//to_text(dt)//' s, which makes more than '// &

@@ -273,9 +273,9 @@ contains
 
       note = ''
       if (extra < 1) return
-      note = to_text(extra)//' sample'
+      note = 'ignored '//to_text(extra)//' sample'
       if (extra > 1) note = note//'s'
-      note = note//' beyond the '//to_text(count)//' that the file states ignored'
+      note = note//' beyond the '//to_text(count)//' stated in the file'
    end subroutine describe_extra
 
    !> The last number of a file must be printed like the others: a file that is cut inside it is not whole

@@ -377,8 +377,8 @@ contains
       if (mechanism%moment(0.0_wp) > 0.0_wp) return
       associate (carried => actions%carried, thrusts => actions%thrusts)
          holds = mechanism%gravity*body%mass*mechanism%e + sum(carried%weight*(carried%depth - actions%hinge))
-         call raise_input(error, 'thrust: the wall does not stand at rest'//trim(merge(' without its ties', '                 ', &
-            & size(actions%restraints) > 0))//'; its weights hold it with '//rounded(holds)// &
+         call raise_input(error, 'thrust: the wall is not stable at rest'//trim(merge(' without its ties', '                 ', &
+            & size(actions%restraints) > 0))//'; its weights resist with '//rounded(holds)// &
             & ' N m per metre, thrusts push it out with '//rounded(sum(thrusts%force*thrusts%height)), not_at_rest, 'thrust')
       end associate
    end subroutine check_rest

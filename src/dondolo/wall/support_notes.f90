@@ -48,22 +48,24 @@ contains
       end if
    end subroutine look
 
-   !> Make the sentences: none where no wall has a building
+   !> Make the sentences
    subroutine make_notes(self, notes)
       class(supports_type), intent(in) :: self
       type(lines_type), intent(out) :: notes
 
-      if (self%on_buildings == 0) return
-      if (self%walls > 1) then
-         call notes%add('records are of the ground; linear buildings move the walls that have one, at their bases and at what '// &
+      if (self%on_buildings == 0) then
+         call notes%add('records are applied at the base of the wall; ground records underestimate the demand on parapets, '// &
+            & 'gables, pinnacles, upper storeys and facades that lean on a building')
+      else if (self%walls > 1) then
+         call notes%add('records are ground motions; linear buildings move the walls on them, at their bases and at what '// &
             & 'they lean on')
       else if (self%leaning > 0) then
-         call notes%add('records are of the ground; a linear building moves both supports of the wall')
+         call notes%add('records are ground motions; a linear building moves both supports of the wall')
       else
-         call notes%add('records are of the ground; a linear building moves the base of the wall')
+         call notes%add('records are ground motions; a linear building moves the base of the wall')
       end if
       if (self%of_one_floor > 0) call notes%add('both ends of '//trim(walls(self%of_one_floor))//' move with one floor; give '// &
-         & 'participation_top if the top moves otherwise')
+         & 'participation_top if the top moves differently')
       if (self%tied_to_building > 0) call notes%add('the ties of '//trim(walls(self%tied_to_building))//' are anchored to the '// &
          & 'building, and move with it')
       if (self%tied_to_base > 0) call notes%add('the ties of '//trim(walls(self%tied_to_base))//' are anchored to what the '// &

@@ -126,8 +126,8 @@ contains
       moment = [(mechanism%moment(mechanism%last*real(i, wp)/real(places, wp)), i=0, places)]
       largest = maxval(abs(moment))
       if (.not. moment(0) > 0.0_wp) then
-         call raise_input(error, 'moment: is '//rounded(moment(0))//' N m at rotation 0, must be positive: else the wall does '// &
-            & 'not stand at rest', not_at_rest, 'moment')
+         call raise_input(error, 'moment: is '//rounded(moment(0))//' N m at rotation 0, must be positive: else the wall is '// &
+            & 'not stable at rest', not_at_rest, 'moment')
          return
       end if
       first = findloc(moment <= 0.0_wp, .true., dim=1) - 1
@@ -137,7 +137,7 @@ contains
          return
       else if (first < 0) then
          call raise_input(error, 'moment: is '//rounded(moment(places))//' N m at the last rotation, '// &
-            & rounded(mechanism%last)//' rad, must fall to 0: the table has to go on to the rotation at which the wall falls', &
+            & rounded(mechanism%last)//' rad, must fall to 0: the table must extend to the rotation at which the wall falls', &
             & out_of_range, 'moment')
          return
       end if
@@ -148,7 +148,7 @@ contains
       mechanism%capacity = bracket%middle()
       i = findloc(moment(first + 1:) > max(least_moment, misfit)*largest, .true., dim=1)
       if (i > 0) call raise_input(error, 'moment: vanishes at '//rounded(mechanism%capacity)//' rad and is positive again at '// &
-         & rounded(mechanism%last*real(first + i, wp)/real(places, wp))//' rad: the table has to end before', &
+         & rounded(mechanism%last*real(first + i, wp)/real(places, wp))//' rad: the table must end before that', &
          & out_of_range, 'moment')
    end subroutine find_capacity
 

@@ -111,7 +111,7 @@ contains
          call tested_range(wall, i, low, high, is_known)
          if (model == tests%model) then
             line = line//'; tests on two-block walls gave '//to_text(tests%low)//' to '//to_text(tests%high)// &
-               & ' times it, and &uncertainty says what that makes of theta'
+               & ' times it; use &uncertainty to see its effect on theta'
             return
          end if
          line = line//' '''//trim(model)//'''; tests on two-block walls gave '//to_text(tests%low)//' to '// &

@@ -213,7 +213,7 @@ contains
       bare%overburden = overburden_type()
       call bare%terms(0.0_wp, j, c, own, l, load)
       call mechanism%terms(0.0_wp, j, c, total, l, load)
-      call raise_input(error, 'overburden: the wall does not stand at rest; its own weight holds it with '//rounded(own)// &
+      call raise_input(error, 'overburden: the wall is not stable at rest; its own weight resists with '//rounded(own)// &
          & ' N m per metre, the overburden folds it with '//rounded(own - total + load), not_at_rest, 'overburden')
    end subroutine check_rest
 

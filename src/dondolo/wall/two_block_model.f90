@@ -219,7 +219,7 @@ contains
          & 'that the wall lifts, as of a storey above)', not_given, 'overburden_inertia')
       if (input%number('overburden')*input%number('overburden_inertia') > 0.0_wp &
          & .and. input%word('restitution') == 'sorrentino') call problems%note( &
-         & 'restitution = ''sorrentino'': knows no mass of an overburden; with overburden_inertia = '// &
+         & 'restitution = ''sorrentino'': does not include the mass of an overburden; with overburden_inertia = '// &
          & to_text(input%number('overburden_inertia'))//' use ''impulse''', not_together, 'restitution')
       thickness = input%number('thickness')
       half = 0.5_wp*thickness

@@ -162,7 +162,7 @@ contains
 
       leaves = leaves_of(input)
       if (abs(leaves - anint(leaves)) > 0.0_wp) call problems%note('leaves = '//to_text(leaves)// &
-         & ': must be a whole number', not_an_integer, 'leaves')
+         & ': must be an integer', not_an_integer, 'leaves')
       if (.not. leaves > 1.0_wp) return
       do i = 1, size(names)
          if (input%has(trim(names(i)))) call problems%note(trim(names(i))//': not with leaves = '//to_text(leaves)// &

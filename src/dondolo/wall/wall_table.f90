@@ -191,7 +191,7 @@ contains
          return
       else if (any(values(at(0), :) < 0.0_wp .or. abs(values(at(0), :) - anint(values(at(0), :))) > 0.0_wp &
          & .or. values(at(0), :) > 100.0_wp)) then
-         call raise_input(error, 'column ''power'': must be whole numbers from 0 to 100')
+         call raise_input(error, 'column ''power'': must be integers from 0 to 100')
          return
       end if
       ! Places of Chebyshev, with both ends

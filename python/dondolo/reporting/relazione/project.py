@@ -75,7 +75,7 @@ def read_project(path: str | os.PathLike[str] | None) -> Project:
             if name in NUMBERS and not is_number:
                 raise InputError(f"{os.fspath(path)}: [{group}] {name}: must be a number")
             if name not in NUMBERS and not isinstance(value, str):
-                raise InputError(f"{os.fspath(path)}: [{group}] {name}: must be a text in quotes")
+                raise InputError(f"{os.fspath(path)}: [{group}] {name}: must be a string in quotes")
     given, texts = content.get("project", {}), content.get("texts", {})
     return Project(
         {name: given[name].strip() for name in WORDS if given.get(name, "").strip()},

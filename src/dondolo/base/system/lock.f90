@@ -120,7 +120,7 @@ contains
          call raise_failure(error, self%path//': cannot be written')
       else if (stat == 3 .or. (text(1:1) /= c_null_char .and. index(text, mark) /= 1)) then
          if (stat == 0) call c_give_back(self%descriptor)
-         call raise_input(error, self%path//': exists, and is no lock of dondolo')
+         call raise_input(error, self%path//': exists, and is not a lock of dondolo')
       end if
       if (allocated(error)) then
          self%descriptor = -1

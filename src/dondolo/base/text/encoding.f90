@@ -124,7 +124,7 @@ contains
       at = max(first_wrong(line), 1)
       write (place, '(a, i0)') 'byte ', at
       if (line(at:at) == achar(0)) then
-         problem = trim(place)//' is NUL: this is no text, or UTF-16 without a byte order mark'
+         problem = trim(place)//' is NUL: this is not a text file, or it is UTF-16 without a byte order mark'
       else
          write (place, '(a, i0, a, z2.2, a)') 'byte ', at, ' (', iachar(line(at:at)), ')'
          problem = trim(place)//' is not UTF-8 (Windows-1252?)'

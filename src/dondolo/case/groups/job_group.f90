@@ -25,13 +25,13 @@ module dondolo_case_job_group
    !> Variables of the group
    type(property_type), target, protected :: job_properties(6) = [ &
       & property_type('task', is_text, word=task_names(stripes_task), choices=reshape(task_names, [most_choices], pad=blank), &
-      &   meaning='what is to be done'), &
+      &   meaning='analysis to run'), &
       & property_type('title', is_text, changes_results=.false., meaning='any text'), &
-      & property_type('output', is_text, word='dondolo', changes_results=.false., meaning='what the names of the '// &
-      &   'result files begin with, relative to the current folder'), &
-      & property_type('histories', is_logical, owners=typology, meaning='write the table of all histories too?'), &
+      & property_type('output', is_text, word='dondolo', changes_results=.false., meaning='prefix of the '// &
+      &   'result files, relative to the current folder'), &
+      & property_type('histories', is_logical, owners=typology, meaning='also write the table of all histories'), &
       & property_type('spreadsheet_safe', is_logical, changes_results=.false., meaning='put an apostrophe before names '// &
-      &   'that a spreadsheet would take for formulas?'), &
+      &   'that a spreadsheet would read as formulas'), &
       & property_type('threads', is_integer, smallest=0.0_wp, largest=real(largest_threads, wp), zero='all', &
       &   changes_results=.false., meaning='number of threads; 0: all, or OMP_NUM_THREADS')]
 

@@ -15,13 +15,13 @@ module dondolo_case_population_group
 
    !> Variables of the group
    type(property_type), target, protected :: population_properties(3) = [ &
-      & property_type('file', is_text, required=.true., names='a CSV table with one row a wall', changes_results=.false., &
-      &   example='data/walls/population.csv', meaning='table with one row a wall, from the folder of this file'), &
+      & property_type('file', is_text, required=.true., names='a CSV table with one row per wall', changes_results=.false., &
+      &   example='data/walls/population.csv', meaning='table with one row per wall, from the folder of this file'), &
       & property_type('occurrence', is_text, word=occurrence_names(independent), changes_results=.false., &
       &   choices=reshape(occurrence_names, [most_choices], pad=blank), meaning='whether the mechanisms of a wall can occur '// &
       &   'together, or exclude each other, where the table has no column occurrence'), &
       & property_type('designs', is_logical, changes_results=.false., &
-      &   meaning='are the walls designs of one wall, each to be compared with the first?')]
+      &   meaning='whether the walls are designs of one wall, each compared with the first')]
 
 contains
 

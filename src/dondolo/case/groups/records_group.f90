@@ -21,8 +21,8 @@ module dondolo_case_records_group
 
    !> Variables of the group
    type(property_type), target, protected :: records_properties(4) = [ &
-      & property_type('catalogue', is_text, required=.true., names='a CSV table with one row a record', &
-      &   changes_results=.false., example='data/records/synthetic44.csv', meaning='table with one row a record, from '// &
+      & property_type('catalogue', is_text, required=.true., names='a CSV table with one row per record', &
+      &   changes_results=.false., example='data/records/synthetic44.csv', meaning='table with one row per record, from '// &
       &   'the folder of this file; its columns: file, dt_s, units, channel, format, vertical, and any others'), &
       & property_type('polarity', is_text, word='as_recorded', meaning='polarity of the records; ''both'' not for a '// &
       &   'time history', choices=reshape([character(len=choices_length) :: polarity_names], [most_choices], pad=blank)), &

@@ -24,25 +24,26 @@ module dondolo_case_uncertainty_group
       &   meaning='walls of the sample; of k properties at least 2 + 6 k + k (k - 1): 8 of one, 38 of four'), &
       & property_type('seed', is_integer, default=1.0_wp, smallest=1.0_wp, largest=1.0e6_wp, &
       &   meaning='seed of the random numbers; the same seed gives the same walls'), &
-      & property_type('restitution_factor', is_text, optional=.true., example='graziotti_2016', meaning='distribution of '// &
-      &   'it, or a published range: ''graziotti_2016'' (two_block, model ''sorrentino''), ''elgawady_2010'' (free_standing)'), &
-      & property_type('hinge', is_text, optional=.true., example='triangular(0.5, 0.6, 0.75)', meaning='distribution of it'), &
+      & property_type('restitution_factor', is_text, optional=.true., example='graziotti_2016', meaning='its '// &
+      &   'distribution, or a published range: ''graziotti_2016'' (two_block, model ''sorrentino''), ''elgawady_2010'' '// &
+      &   '(free_standing)'), &
+      & property_type('hinge', is_text, optional=.true., example='triangular(0.5, 0.6, 0.75)', meaning='its distribution'), &
       & property_type('hinge_depth', is_text, optional=.true., example='lognormal(0.01, 0.4)', &
-      &   meaning='distribution of it, m'), &
+      &   meaning='its distribution, m'), &
       & property_type('compressive_strength', is_text, optional=.true., example='lognormal(2.0e6, 0.3)', &
-      &   meaning='distribution of it, Pa'), &
+      &   meaning='its distribution, Pa'), &
       & property_type('density', is_text, optional=.true., example='normal(1800.0, 90.0)', &
-      &   meaning='distribution of it, kg/m3'), &
-      & property_type('height', is_text, optional=.true., example='uniform(2.9, 3.1)', meaning='distribution of it, m'), &
-      & property_type('thickness', is_text, optional=.true., example='normal(0.25, 0.01)', meaning='distribution of it, m'), &
+      &   meaning='its distribution, kg/m3'), &
+      & property_type('height', is_text, optional=.true., example='uniform(2.9, 3.1)', meaning='its distribution, m'), &
+      & property_type('thickness', is_text, optional=.true., example='normal(0.25, 0.01)', meaning='its distribution, m'), &
       & property_type('overburden', is_text, optional=.true., example='uniform(4.0e3, 8.0e3)', &
-      &   meaning='distribution of it, N/m'), &
+      &   meaning='its distribution, N/m'), &
       & property_type('eccentricity', is_text, optional=.true., example='uniform(-0.05, 0.05)', &
-      &   meaning='distribution of it, m'), &
+      &   meaning='its distribution, m'), &
       & property_type('period', is_text, optional=.true., example='uniform(0.30, 0.45)', &
       &   meaning='distribution of the period of a building of one mode, s'), &
       & property_type('damping', is_text, optional=.true., example='uniform(0.05, 0.15)', &
-      &   meaning='distribution of its damping ratio'), &
+      &   meaning='its distributions damping ratio'), &
       & property_type('participation', is_text, optional=.true., example='uniform(0.8, 1.0)', &
       &   meaning='distribution of that of its mode at the base of the wall'), &
       & property_type('participation_top', is_text, optional=.true., example='uniform(1.2, 1.4)', &

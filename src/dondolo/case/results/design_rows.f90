@@ -97,7 +97,7 @@ contains
 
       associate (safety => design%safety, other => first%safety)
          if (.not. safety%is_known) then
-            line = design%name//': not checked; the table of checks says why'
+            line = design%name//': not checked; the table of checks gives the reason'
             return
          end if
          line = design%name//': alpha_0 '//rounded(safety%multiplier)//trim(change(safety%multiplier, other%multiplier))// &

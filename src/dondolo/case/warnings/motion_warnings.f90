@@ -273,7 +273,7 @@ contains
       call warning%with('factors', self%given)
       call warning%with('value', self%farthest*self%missed)
       call warning%with('level', self%missed)
-      call warnings%add(warning, 'factors that are given take records more than '//rounded(limit)//' % off their levels: '// &
+      call warnings%add(warning, 'given factors scale records more than '//rounded(limit)//' % off their levels: '// &
          & to_text(self%off)//' of '//to_text(self%given)//'; record '''//self%off_record//''' has '//self%im//' = '// &
          & rounded(self%farthest*self%missed)//' at level '//rounded(self%missed))
    end subroutine warn_of_given
@@ -394,9 +394,9 @@ contains
          call warning%about('record', first%name)
          call warning%with('records_beyond', beyond)
          call warning%with('records', records)
-         call warnings%add(warning, 'the earthquake of '//to_text(beyond)//' of '//to_text(records)//' records is not known '// &
-            & '(the first is '''//first%name//'''): standard errors take them as independent, and are too small if several are '// &
-            & 'of one earthquake. The key, or the column of the catalogue, event names it')
+         call warnings%add(warning, 'no event is given for '//to_text(beyond)//' of '//to_text(records)//' records '// &
+            & '(the first is '''//first%name//'''): standard errors treat them as independent, and are too small if several '// &
+            & 'belong to one earthquake; name it in the column event of the catalogue, or the metadata')
       end associate
    end subroutine warn_of_events
 

@@ -32,7 +32,7 @@ module dondolo_case_result_warnings
    character(len=*), parameter :: no_curve = ', no curve is fitted: ', &
       & outside = ', lies outside the levels: the fit extrapolates', &
       & unreliable = ', is not reliable: the probability of collapse hardly increases with the level', &
-      & in_doubt = 'collapse or not is in doubt, by the estimated error'
+      & in_doubt = 'outcome uncertain within the estimated error'
 
    !> Statuses of a fit in the order in which populations warn of them
    integer, parameter :: warned(8) = [fit_no_collapse, fit_all_collapse, fit_separated, fit_single_level, fit_decreasing, &
@@ -73,12 +73,12 @@ contains
 
       type(warning_type) :: warning
 
-      if (levels == 1) call warnings%add(warning_type(one_level), 'only one level: no curve can be fitted, two at least are '// &
+      if (levels == 1) call warnings%add(warning_type(one_level), 'only one level: no curve can be fitted, at least two are '// &
          & 'needed')
       if (work%histories > 0 .and. work%still >= work%histories) call warnings%add(warning_type(all_below_trigger), &
          & 'every history stays below the trigger: nothing moves, higher levels are needed')
       if (size(clusters) == 1) then
-         call warnings%add(warning_type(one_record), 'only one record: its curve says nothing of other earthquakes and has no '// &
+         call warnings%add(warning_type(one_record), 'only one record: the curve does not cover other earthquakes and has no '// &
             & 'standard errors')
       else if (maxval(clusters) < fewest_clusters) then
          warning = warning_type(few_clusters)
@@ -128,7 +128,7 @@ contains
       case (fit_all_collapse)
          text = 'every history collapses at levels '//levels//no_curve//'lower levels are needed'
       case (fit_single_level)
-         text = 'only one level, '//levels//no_curve//'two at least are needed'
+         text = 'only one level, '//levels//no_curve//'at least two are needed'
       case (fit_decreasing)
          text = 'collapses do not become more frequent with the level'//no_curve//'their trend is flat or falling'
       case (fit_not_converged)
@@ -144,8 +144,8 @@ contains
                text = 'above '//to_text(low)
             end if
          end associate
-         text = 'all collapses lie at levels above the survivals, or share one level with them'//no_curve//'the median lies '// &
-            & text//', more levels there are needed'
+         text = 'collapses and survivals do not overlap over two or more levels'//no_curve//'the median lies '//text// &
+            & ', more levels there are needed'
       case (fit_extrapolated)
          call warning%with('theta', fragility%theta)
          text = 'theta = '//rounded(fragility%theta)//' lies outside the levels '//levels//': the fit extrapolates'

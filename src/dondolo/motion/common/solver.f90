@@ -51,7 +51,7 @@ module dondolo_motion_solver
 
    !> What a user can set; gravity, which walls have, stands among it for all walls of a case
    type(property_type), target, protected :: solver_properties(7) = [ &
-      & property_type('engine', is_text, word=standard%engine, meaning='engine; ''auto'' takes the one that suits the task', &
+      & property_type('engine', is_text, word=standard%engine, meaning='engine; ''auto'' selects the one that suits the task', &
       &   choices=reshape(engine_names, [most_choices], pad=blank)), &
       & property_type('rtol', default=standard%rtol, smallest=10.0_wp*epsilon(1.0_wp), largest=1.0e-2_wp, &
       &   meaning='relative error of a step'), &
@@ -60,9 +60,9 @@ module dondolo_motion_solver
       & property_type('edp_limit', default=standard%edp_limit, positive=.true., &
       &   meaning='rotation / capacity rotation that counts as collapse'), &
       & property_type('estimate_error', is_logical, owners=with_edps, changes_results=.false., &
-      &   meaning='how far is each EDP off? Takes about three times as long'), &
+      &   meaning='estimate the error of each EDP; takes about three times as long'), &
       & property_type('certify', is_logical, owners=stripes_only, changes_results=.false., &
-      &   meaning='estimate errors, and run every history that they leave in doubt again in 33 digits?'), &
+      &   meaning='estimate errors, and rerun every history that they leave in doubt in 33 digits'), &
       & gravity_property]
 
 contains

@@ -136,7 +136,7 @@ contains
          return
       end if
       if (is_other_quantity(title, units)) top%refusal = text%place(line)//': channel '''//shown(title)// &
-         & ''' is no acceleration'
+         & ''' is not an acceleration'
       ! Of a time and a channel the last units are the channel's, known or not
       if (len(units) > 0 .and. top%statements%units_line == 0) then
          top%statements%units = units

@@ -220,9 +220,9 @@ contains
             if (size(samples%channels) > 1 .and. len(top%titles(k)%text) > 0) channel%name = top%titles(k)%text
             if (len(top%units(k)%text) > 0) channel%units = top%units(k)%text
             if (is_other_quantity(top%titles(k)%text, top%units(k)%text)) channel%refusal = &
-               & text%place(top%title_line)//': channel '''//shown(top%titles(k)%text)//''' is no acceleration'
+               & text%place(top%title_line)//': channel '''//shown(top%titles(k)%text)//''' is not an acceleration'
             if (statements%other_line > 0 .and. .not. statements%has_acceleration) channel%refusal = &
-               & text%place(statements%other_line)//': '''//shown(statements%other)//''' is no acceleration'
+               & text%place(statements%other_line)//': '''//shown(statements%other)//''' is not an acceleration'
             if (allocated(top%refusal)) channel%refusal = top%refusal
             if (statements%units_line == 0 .or. allocated(channel%refusal)) cycle
             if (.not. allocated(channel%units)) then

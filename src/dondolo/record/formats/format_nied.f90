@@ -99,7 +99,7 @@ contains
             channel%name = stripped(title(:scan(title//'(', '([') - 1))
             channel%units = units
             if (is_other_quantity(title, units)) channel%refusal = text%place(titles)//': channel '''//shown(title)// &
-               & ''' is no acceleration'
+               & ''' is not an acceleration'
             allocate (channel%values(rows))
             call channel%metadata%set('component', channel%name)
          end associate
