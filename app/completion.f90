@@ -17,7 +17,7 @@ contains
       !> One of `shell_names`
       character(len=*), intent(in) :: shell
 
-      ! Zsh understands the functions of bash once it is told to.
+      ! Zsh understands the functions of bash after bashcompinit.
       if (shell == 'zsh') call print_line('autoload -Uz compinit bashcompinit && compinit && bashcompinit')
       call print_line('_dondolo() {')
       call print_line('   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD-1]} words=')

@@ -145,7 +145,7 @@ contains
          if (spent >= seconds) exit
       end do
       rate_of_one = 2.0_wp*real(length, wp)*real(size(x), wp)*real(passes, wp)*real(rounds, wp)/spent
-      ! The compiler must not find out that nobody asks for the values.
+      ! Keep the compiler from removing the computation of values that are not used.
       if (.not. all(x > 0.0_wp)) rate_of_one = 0.0_wp
    end function rate_of_one
 

@@ -1,4 +1,4 @@
-!> How far supports of a wall may drift apart, and what a run says of histories in which they drift further.
+!> Limit of the relative drift of the supports of a wall, and the note of a run on histories that exceed it.
 module dondolo_fragility_drift_note
    use, intrinsic :: iso_fortran_env, only : int64
    use dondolo_base_kinds, only : wp

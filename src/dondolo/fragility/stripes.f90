@@ -1,4 +1,4 @@
-!> Multiple stripe analysis: records at levels of intensity, and who collapses. Every record runs at every level, unless
+!> Multiple stripe analysis: the outcome of records at levels of intensity. Every record runs at every level, unless
 !> each level has records of its own.
 !>
 !> Section 3.3 of Nale et al. The histories of a wall run together, on several threads (dondolo_motion_ensemble).
@@ -108,7 +108,7 @@ contains
       end associate
    end subroutine plan_stripes
 
-   !> What can be told of a plan's work before it is run: histories, sample intervals, and which histories never move
+   !> Work of a plan, as far as it is known before the run: histories, sample intervals, and which histories never move
    function planned_work(stripes, wall, study) result(work)
       type(stripes_type), intent(in) :: stripes
       type(wall_type), intent(in) :: wall

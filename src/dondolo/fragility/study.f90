@@ -1,6 +1,6 @@
-!> A study: the accelerograms, and how every wall is tried under them.
+!> A study: the accelerograms, levels and settings under which walls are analysed.
 !>
-!> It is the same for all walls of a population, and for one wall alone: who runs many walls makes it once.
+!> It is the same for all walls of a population and for a single wall: code that runs many walls makes it once.
 module dondolo_fragility_study
    use dondolo_base_error, only : error_type, not_a_word, not_given, not_increasing, out_of_range, raise_input
    use dondolo_base_kinds, only : wp

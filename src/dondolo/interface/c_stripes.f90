@@ -217,7 +217,7 @@ contains
       if (.not. allocated(problem)) call fit_fragility(fragility, real(x, wp), real(z, wp), real(n, wp), problem)
       if (.not. allocated(problem)) then
          stripes%levels = x
-         ! Why there is no curve, its status says: the sentence would be of EDPs, which are not known
+         ! The status gives the reason for a missing curve: the sentence would refer to EDPs, which are not known
          if (fragility%has_fit()) call warn_of_fit(stripes=stripes, fragility=fragility, warnings=warnings)
          call keep_curve(fragility, warnings, made)
       end if

@@ -1,8 +1,8 @@
-!> What programs in other languages have made: records, walls, studies, stores and results live here, and a program knows each
-!> by its handle, a number to Python and a pointer to C.
+!> Objects of programs in other languages: records, walls, studies, stores and results are kept here, and a program refers to
+!> each by its handle, a number to Python and a pointer to C.
 !>
-!> A handle is the number of a slot and, above it, how often the slot was used: no address, so that one that was freed is never
-!> valid again, and one of something else is told apart. One thread at a time fills or empties a slot; procedures that look one up
+!> A handle is the number of a slot and, above it, how often the slot was used, not an address: one that was freed is never valid
+!> again, and one of another kind of object is detected. One thread at a time fills or empties a slot; procedures that look one up
 !> need no lock, since slots never move. Python's lock is held meanwhile too, so that no fork comes in between.
 module dondolo_interface_handles
    use, intrinsic :: iso_c_binding, only : c_int64_t

@@ -1,4 +1,4 @@
-!> Certificates: histories that double precision may not tell, run again in 33 digits until two tolerances agree, and with
+!> Certificates: histories that double precision may not decide are rerun in 33 digits until two tolerances agree, and with
 !> the record one unit in the last place stronger and weaker (docs/certification.md).
 module dondolo_motion_certificate
    use, intrinsic :: iso_c_binding, only : c_int
@@ -194,7 +194,7 @@ contains
             highest = max(highest, response%edp, wider%edp)
          end if
          if (.not. is_whole) then
-            ! One that was given up may have come to anything.
+            ! The outcome of a run that was given up is unknown.
             lowest = 0.0_wp
             highest = edp_limit
          end if

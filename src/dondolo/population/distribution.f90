@@ -1,4 +1,4 @@
-!> Distributions of an uncertain property, as a case says them: 'triangular(0.5, 0.6, 0.75)'.
+!> Distributions of an uncertain property, as written in a case: 'triangular(0.5, 0.6, 0.75)'.
 module dondolo_population_distribution
    use dondolo_base_error, only : error_type, not_a_word, out_of_range, raise_input
    use dondolo_base_kinds, only : wp
@@ -18,7 +18,7 @@ module dondolo_population_distribution
    character(len=*), parameter :: help = 'must be ''uniform(low, high)'', ''triangular(low, mode, high)'', '// &
       & '''normal(mean, sd)'' or ''lognormal(theta, beta)'', the last two optionally with the bounds low, high'
 
-   !> Part of a distribution that must be left where it is cut off: less is a slip of the pen, and loses digits
+   !> Least probability between the bounds of a truncated distribution: less is probably a mistake, and loses digits
    real(wp), parameter :: least_share = 1.0e-6_wp
 
    !> A distribution

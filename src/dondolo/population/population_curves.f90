@@ -1,5 +1,5 @@
 !> The curves of a population, of its groups, and of walls in which several mechanisms are counted in the same histories, with
-!> their standard errors: out of the flags of its rows, which come by one after the other (docs/theory.md, section 6).
+!> their standard errors: from the flags of its rows, streamed one by one (docs/theory.md, section 6).
 module dondolo_population_curves
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp

@@ -178,7 +178,7 @@ contains
          block = block + 1
          if (block > block_1 + (n - 1)/block_size) return
          if (.not. (is_outside(self%lowest_left(block)) .or. is_outside(self%highest_left(block)))) return
-         ! There is one: no search for it ends in vain.
+         ! There is one: the search always succeeds.
          do while (.not. (is_outside(self%lowest(block)) .or. is_outside(self%highest(block))))
             block = block + 1
          end do

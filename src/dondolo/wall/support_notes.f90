@@ -1,4 +1,4 @@
-!> What a run says of the supports that move its walls on buildings.
+!> Notes of a run on the motion of the bases and supports of its walls.
 module dondolo_wall_support_notes
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type

@@ -1,8 +1,8 @@
-!> Signals while histories run: what takes long looks now and then whether it is to end early.
+!> Signals while histories run: long loops check now and then whether they should end early.
 !>
-!> Only a thread that listens is told, and those that work for it, and what it gets then are no results: it must look too,
-!> and drop them. Python's main thread listens to Ctrl-C while a call runs, and the executable to what ends it from its
-!> first history on; a program that does not listen dies of the signal.
+!> Only a thread that listens, and the threads that work for it, see a signal. What it returns then are not results: the
+!> listener must check too, and discard them. Python's main thread listens to Ctrl-C during a call, the executable to signals
+!> that end it from its first history on; a program that does not listen is ended by the signal.
 module dondolo_base_interrupt
    use, intrinsic :: iso_c_binding, only : c_int
    use dondolo_base_error, only : error_type, raise_failure

@@ -1,6 +1,6 @@
-!> Locks: one run at a time writes an output or a store. The lock of `out/city` is the file `out/city.lock`, which says who
-!> has it; the kernel holds the lock itself (flock), and gives it back however the process ends. A file that a killed run
-!> has left is therefore no lock, but says which run that was.
+!> Locks: one run at a time writes an output or a store. The lock of `out/city` is the file `out/city.lock`, which names its
+!> holder; the kernel holds the lock itself (flock), and gives it back however the process ends. A file that a killed run
+!> has left is therefore not a lock, but names that run.
 module dondolo_base_lock
    use, intrinsic :: iso_c_binding, only : c_char, c_double, c_int, c_null_char, c_size_t
    use dondolo_base_error, only : error_type, raise_failure, raise_input
@@ -187,7 +187,7 @@ contains
       if (self%descriptor < 0) return
       is_kept = .false.
       if (present(keep_file)) is_kept = keep_file
-      ! Removed while it is held: who waits for it sees that the file is gone, and makes another.
+      ! Removed while it is held: a waiting process sees that the file is gone, and makes another.
       if (.not. is_kept) call remove_file(self%path)
       call c_give_back(self%descriptor)
       self%descriptor = -1

@@ -1,10 +1,10 @@
-!> Whose a file is: dondolo replaces and removes the regular files that it has written itself, and no others.
+!> Owner of a file: dondolo replaces and removes the regular files that it has written itself, and no others.
 !>
 !> Each kind of file that dondolo writes has a mark in its first or last bytes, by which it is recognised wherever it lies and
 !> whatever its name. A table begins with `# dondolo VERSION`, the file of a run with its format, a lock, a file of counts and a
 !> saved result with theirs; catalogues of records are tables whose first two lines say so. What is made of results - reports,
 !> workbooks, figures, animations, models of other programs - has the mark of `derived_mark` in its metadata, which names the run
-!> whose results it shows. A symbolic link, a pipe, a device or an empty file is nobody's that dondolo knows.
+!> whose results it shows. A symbolic link, a pipe, a device or an empty file has no known owner.
 module dondolo_base_origin
    use, intrinsic :: iso_c_binding, only : c_char, c_int, c_null_char, c_size_t
    use dondolo_base_error, only : error_type, raise_input
@@ -211,8 +211,8 @@ contains
       end do
    end function noun
 
-   !> Refuse what is no regular file: a pipe would be waited for, and a device has no end. A folder cannot be opened as a file, and
-   !> whoever tries it says so
+   !> Refuse what is no regular file: a pipe would be waited for, and a device has no end. A folder cannot be
+   !> opened as a file, which the attempt reports
    subroutine check_regular(path, follows, error)
       !> Path
       character(len=*), intent(in) :: path

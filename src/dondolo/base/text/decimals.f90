@@ -1,8 +1,8 @@
 !> Significant digits of numbers, rounded correctly, by arithmetic: a WRITE takes six times as long, so that tables of many
 !> histories would take longer to write than to compute.
 !>
-!> A number in double precision, times a power of ten, is known to 112 bits in real128, and 17 digits are 57 of them. What
-!> these do not tell for sure, as a tie, is left to a WRITE, and so are numbers with three digits in their exponent.
+!> A number in double precision, times a power of ten, is known to 112 bits in real128, and 17 digits are 57 of them. Cases
+!> that these do not decide, such as ties, are left to a WRITE, and so are numbers with three digits in their exponent.
 module dondolo_base_decimals
    use, intrinsic :: iso_fortran_env, only : int64, real128
    use dondolo_base_kinds, only : dp, wp

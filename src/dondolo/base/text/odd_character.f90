@@ -1,5 +1,5 @@
 !> Characters of print that look like a space, a sign or nothing, and that word processors and web pages put in their place:
-!> messages name them, since nobody sees them.
+!> messages name them, since they are invisible.
 module dondolo_base_odd_character
    use dondolo_base_encoding, only : next_character
    implicit none

@@ -1,4 +1,4 @@
-!> Which name somebody may have meant who has written another.
+!> Suggestions for a misspelt name.
 module dondolo_base_spelling
    use dondolo_base_text, only : join
    implicit none

@@ -86,7 +86,7 @@ contains
       end select
    end subroutine run_case
 
-   !> What can be told of the work of a case before it is run
+   !> Work of a case, as far as it is known before the run
    subroutine plan_case(case, work, scales, error)
       !> The case, its task 'stripes' or 'typology'
       type(case_type), intent(in), target :: case

@@ -1,10 +1,10 @@
-!> How far the result of a history can be trusted: what two more runs of it tell.
+!> Estimated error of a history, from two more runs of it.
 !>
 !> One has halved steps and a slightly stronger record, the other the same steps and a record as much weaker. What is linear
 !> in the strength cancels in the second difference of the three: it shows the error of the steps, which halving reduces to a
-!> 32nd, and whatever turns the motion within that change of the record - an impact that grazes, a start on the edge, a
-!> collapse that hangs in the balance - at its full size. The first difference is the condition of the history: scaled down
-!> to the rounding of double precision it shows what that may have come to (docs/theory.md, section 5).
+!> 32nd, and, at full size, any change of outcome within that change of the record: a grazing impact, a start at the trigger, a
+!> collapse at the limit. The first difference is the condition of the history: scaled down to the rounding of double
+!> precision, it estimates the effect of rounding (docs/theory.md, section 5).
 module dondolo_motion_error_estimate
    use dondolo_base_kinds, only : wp
    use dondolo_motion_response, only : response_type
@@ -20,7 +20,7 @@ module dondolo_motion_error_estimate
    !> Shift of a rotation / capacity at a collapse below which the collapse is certain
    real(wp), parameter :: certain = 1.0e-4_wp
 
-   !> Change of the record, and what all rounding of a history comes to as a change of it, both relative
+   !> Change of the record, and the change of it that is equivalent to all rounding of a history, both relative
    real(wp), parameter :: change = 512.0_wp*epsilon(1.0_wp), rounding = 8.0_wp*epsilon(1.0_wp)
 
 contains
@@ -45,9 +45,9 @@ contains
       end if
    end subroutine other_run
 
-   !> Estimated error of the EDP. Where all three runs collapse, how they come to it tells: after other impacts anything may
-   !> happen; and past its capacity a wall falls as exp(p t), so that a shift by dt is one of p dt in the rotation. If that
-   !> is small the collapse is certain and its EDP exact
+   !> Estimated error of the EDP. Where all three runs collapse, their impacts and times are compared: with different
+   !> impacts the outcome is uncertain; and beyond its capacity a wall falls as exp(p t), so that a shift by dt changes the
+   !> rotation by p dt. If that is small, the collapse is certain and its EDP exact
    elemental real(wp) function estimated_error(one, stronger, weaker, rate, edp_limit) result(error)
       !> The history
       type(response_type), intent(in) :: one
@@ -64,13 +64,13 @@ contains
          if (stronger%impacts /= one%impacts .or. weaker%impacts /= one%impacts) error = 1.0_wp
          error = merge(error*edp_limit, 0.0_wp, error > certain)
       else
-         ! No EDP is off by more than all that there is, though the second difference may be.
+         ! The error of an EDP cannot exceed its range, although the second difference may.
          error = min(edp_limit, of_changes(stronger%edp - one%edp, one%edp - weaker%edp))
       end if
 
    contains
 
-      !> Error that two changes of a result tell
+      !> Error estimated from two changes of a result
       pure real(wp) function of_changes(rise, fall)
          !> From the history to the stronger one, from the weaker one to the history
          real(wp), intent(in) :: rise, fall

@@ -242,7 +242,7 @@ contains
       response%impacts = self%impacts
       response%time_of_peak = self%time_of_peak
       if (self%given_up) then
-         ! Its callers report it; to those that do not look it is no survivor.
+         ! Its callers report it; those that do not check must not count it as a survivor.
          response%is_whole = .false.
          response%collapsed = .true.
          response%edp = constants%solver%edp_limit

@@ -1,4 +1,4 @@
-!> What a motion leaves: the peak and what happened, and the time history where it was asked for.
+!> Result of a motion: its peak and outcome, and its time history on request.
 module dondolo_motion_response
    use dondolo_base_kinds, only : wp
    use dondolo_motion_work, only : work_type
@@ -11,8 +11,8 @@ module dondolo_motion_response
    !> A history whose EDP has a larger estimated error than this is called ill-conditioned
    real(wp), parameter :: largest_sure_error = 1.0e-6_wp
 
-   !> Error that must be reckoned with / estimated error, where a collapse is at stake; and the estimated error
-   !> beyond which nothing is sure, since errors have grown to the size of the motion
+   !> Safety factor on the estimated error where a collapse is at stake; and the estimated error beyond which no outcome
+   !> is certain, since errors have grown to the size of the motion
    real(wp), parameter :: safety = 2.0_wp, saturated = 1.0e-2_wp
 
    !> Result of one history

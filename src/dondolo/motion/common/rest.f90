@@ -66,11 +66,11 @@ module dondolo_motion_rest
    !> Largest relative change of the terms within the height of a chain
    real(wp), parameter :: largest_slack = 4.0e-3_wp
 
-   !> What the bounds of a chain leave in hand for the change of the terms within its height; it covers moments
-   !> that rise up to tenfold
+   !> Margin of the bounds of a chain for the change of the terms within its height; it covers moments that rise up to
+   !> tenfold
    real(wp), parameter :: margin = 1.03_wp, largest_growth = 10.0_wp
 
-   !> Parts of q_c that bounces rise in still ground which are low, and lowest: these are nothing beside any tolerance
+   !> Parts of q_c that bounces rise in still ground which are low, and lowest: the latter are negligible beside any tolerance
    real(wp), parameter :: low_heights(2) = [1.0e-12_wp, 1.0e-24_wp]
 
    !> The guard waits for so many of the lowest, and until low bounces have become so, but for no more than most: those of walls
@@ -287,8 +287,8 @@ contains
    !> one-sided wall). If the moments stay positive for that long the wall ends at rest, and cannot start before.
    !>
    !> A sample at which a moment is not positive stops any chain, whatever its side and speed. It is kept, since most
-   !> looks at a chain fail at the same sample: the next one need not go there again. Where ties change it stays true, since
-   !> they only lose force at rest; and a look that fails in vain costs time alone.
+   !> looks at a chain fail at the same sample: the next one need not go there again. It remains valid when ties
+   !> change, since they only lose force at rest; a look that fails needlessly costs only time.
    pure subroutine chain_ends(self, record, scale, bounce, stopper, ends)
       class(rest_type), intent(in) :: self
       !> The accelerogram; zero after its last sample

@@ -28,9 +28,9 @@ module dondolo_motion_solver
       real(wp) :: atol = 1.0e-10_wp
       !> Rotation / capacity at which the wall has collapsed
       real(wp) :: edp_limit = 1.0_wp
-      !> Run every history twice more, to estimate the error of its EDP?
+      !> Whether to run every history twice more, to estimate the error of its EDP
       logical :: estimate_error = .false.
-      !> Are histories whose error leaves a doubt to be run again in 33 digits?
+      !> Whether to rerun in 33 digits the histories whose error leaves their outcome in doubt
       logical :: certify = .false.
       !> Are only collapses wanted, and no EDPs? The engine lanes then leaves out what only peaks need
       logical :: collapses_only = .false.
@@ -49,7 +49,7 @@ module dondolo_motion_solver
    character(len=choices_length), parameter :: stripes_only(most_choices) = &
       & reshape([character(len=choices_length) :: 'stripes'], [most_choices], pad=blank)
 
-   !> What a user can set; gravity, which walls have, stands among it for all walls of a case
+   !> Settings of a user; they include gravity, which belongs to walls, for all walls of a case
    type(property_type), target, protected :: solver_properties(7) = [ &
       & property_type('engine', is_text, word=standard%engine, meaning='engine; ''auto'' selects the one that suits the task', &
       &   choices=reshape(engine_names, [most_choices], pad=blank)), &
@@ -67,7 +67,7 @@ module dondolo_motion_solver
 
 contains
 
-   !> Take settings from what a user has said
+   !> Read the settings of a user
    subroutine take_solver(solver, settings)
       !> Settings of the computation
       type(solver_type), intent(out) :: solver
@@ -82,7 +82,7 @@ contains
       solver%estimate_error = solver%certify .or. settings%holds('estimate_error')
    end subroutine take_solver
 
-   !> Say settings as a user would
+   !> Write settings as a user would
    subroutine put_solver(solver, settings)
       !> Settings of the computation
       type(solver_type), intent(in) :: solver
