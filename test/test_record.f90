@@ -537,8 +537,8 @@ contains
       end do
       call check_csv('a,b'//lf//'1,2'//lf//'x'//achar(224)//',y'//achar(224)//lf//achar(224)//',1'//lf, &
          & ': line 3: byte 2 (E0) is not UTF-8 (Windows-1252?)'//remedy)
-      call check_csv('a'//achar(0)//','//achar(0)//'b'//achar(0)//lf//achar(0), ': line 1: byte 2 is NUL: this is no '// &
-         & 'text, or UTF-16 without a byte order mark'//remedy)
+      call check_csv('a'//achar(0)//','//achar(0)//'b'//achar(0)//lf//achar(0), ': line 1: byte 2 is NUL: this is not '// &
+         & 'a text file, or it is UTF-16 without a byte order mark'//remedy)
       call check_numbers(achar(255)//achar(254)//wide('a,b'//cr//lf//'1.5,2'), [1.5_wp, 2.0_wp], '')
       call check_numbers(achar(254)//achar(255)//achar(0)//wide('a,b'//cr//lf//'1.5,2'//lf)//' ', [1.5_wp, 2.0_wp], '')
       call check_numbers('a,b'//cr//'1.5,2'//cr, [1.5_wp, 2.0_wp], '')

@@ -174,7 +174,7 @@ def test_vertical_components_and_velocities(tmp_path):
         assert ("a vertical component, by its component 'HNZ'" in err) is not bool(option)
         assert ("a vertical component, by its name 'GMN_V.txt'" in err) is not bool(option)
         assert "RSN6_A000.VT2: no acceleration, by 'vt2' in its name; it does not state its units" in err
-        assert "_SearchResults.csv: a list of search results of PEER, no accelerogram" in err
+        assert "_SearchResults.csv: a list of search results of PEER, not an accelerogram" in err
 
 
 def test_vertical_channels(tmp_path):

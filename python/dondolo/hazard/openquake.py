@@ -125,7 +125,7 @@ def read_curves(
     means = [one for one in files if one not in quantiles.values()]
     if len(means) != 1 or len(quantiles) != len(files) - 1:
         kinds = ", ".join(repr(one.kind or Path(one.path).name) for one in files)
-        raise InputError(f"paths: must be one mean and its quantiles, each once; these are {kinds}")
+        raise InputError(f"paths: must be one mean and its quantiles, each once; there are {kinds}")
     poe = np.stack([means[0].poe[row], *(one.poe[row] for one in quantiles.values())])
     curves = [levelled(curve) for curve in poe]
     poe = np.stack([curve for curve, _ in curves])
