@@ -226,10 +226,10 @@ sed 's/place$/event/' records/records.csv >records/events.csv
 sed 's/records.csv/events.csv/' calm.nml >events.nml
 run --check events.nml
 check "check: records of two events" contains stdout '4 records in 2 clusters by event, or by station and date'
-check "check: nothing to warn of" equal "$(grep -c 'the earthquake of' stdout)" 0
+check "check: nothing to warn of" equal "$(grep -c 'no event is given' stdout)" 0
 for case in good events; do
    run $case.nml
-   check "records that name no event, $case: one warning" equal "$(grep -c '^dondolo: warning: the earthquake of' stderr)" \
+   check "records that name no event, $case: one warning" equal "$(grep -c '^dondolo: warning: no event is given for' stderr)" \
       "$([ $case = good ] && echo 1 || echo 0)"
 done
 sed "s/levels = .*/levels = 0.01, 0.02/; /0.6, 1.0/d" good.nml >calm.nml
@@ -976,7 +976,7 @@ good_case | sed 's/records.csv/bad.csv/; s/thickness/density = 18 thickness/; s/
 run --check warn.nml
 check "check: problems of a record" grep -qE ' strong .*  a PGA of 899.7 g, more than 3 g: wrong units\?; ' stdout
 check "check: warnings last" equal "$(tail -n 6 stdout | cut -c 1-24 | tr '\n' ';')" \
-   ";warning: wall 'wall, one;warning: record 'strong';warning: the earthquake ;warning: levels up to 5 ;warning: scale factors a;"
+   ";warning: wall 'wall, one;warning: record 'strong';warning: no event is giv;warning: levels up to 5 ;warning: scale factors a;"
 warned 's/height = 3.0/height = 0.2/' "wall 'wall, one': the height is less than the thickness: are they swapped?"
 warned 's/thickness/interlock_overlap = 0.4 interlock_course = 0.1 interlock_thickness = 0.3 interlock_spacing = 5 thickness/' \
    "wall 'wall, one': interlock_overlap is more than the thickness of the wall: is it the length of a stone?"
