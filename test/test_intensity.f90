@@ -290,7 +290,7 @@ contains
          call check(len(measure%title()) > 0 .and. len(measure%unit()) > 0, names(i)//' has words and a unit')
          call new_scaling(scaling, trim(names(i)), error)
          if (names(i) (1:2) == 'd5') then
-            call check_error(error, 'im = '''//trim(names(i))//''': a duration stays', names(i))
+            call check_error(error, 'im = '''//trim(names(i))//''': a duration does not change', names(i))
          else
             call check_ok(error, names(i))
          end if

@@ -241,7 +241,7 @@ contains
       call record%set_vertical([1.0_wp, 2.0_wp, 3.0_wp], 0.02_wp, 1.0_wp, error)
       call check_error(error, 'vertical: lasts 0.04 s, must last 0.02 s as the record, or by less than a step', 'duration')
       call record%set_vertical([1.0_wp, 2.0_wp, 3.0_wp], 0.01001_wp, 1.0_wp, error)
-      call check_error(error, 'vertical: has a time step of 0.01001 s, which must be to 0.01 s of the record as two', 'steps')
+      call check_error(error, 'vertical: has a time step of 0.01001 s, whose ratio to 0.01 s of the record must be', 'steps')
       call record%set_vertical([1.0_wp, 2000.0_wp, 3.0_wp], 0.01_wp, 10.0_wp, error)
       call check_error(error, 'vertical: sample 2 = 20000 m/s2: must be a number between', 'size')
       call record%set_vertical([1.0_wp, 2.0_wp, -3.0_wp], 0.01_wp, 2.0_wp, error)

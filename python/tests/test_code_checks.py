@@ -419,5 +419,5 @@ def test_notes():
     assert "diaphragm at the top moves the strip" in notes(soft)
     assert dd.check_ntc(soft, SITE).value("mechanism", "", "diaphragm_period") == 0.4
     assert "not at the weakest hinge" in notes(dd.TwoBlockWall(3.0, 0.25, **{**loaded, "hinge": 0.8}))
-    assert "falls the higher the hinge" in notes(dd.TwoBlockWall(3.0, 0.25))
+    assert "decreases with the height of the hinge" in notes(dd.TwoBlockWall(3.0, 0.25))
     assert "beyond T_E" in notes(dd.OneSidedWall(20.0, 0.4))

@@ -496,7 +496,7 @@ def test_the_engine_reads_it(path):
 def test_a_curve_of_parameters(tmp_path):
     curve = dd.Fragility.of_parameters(0.6, 0.4, im="pga")
     assert curve(0.6) == 0.5
-    assert "standard errors the parameters were given" in repr(curve)
+    assert "standard errors none: the parameters were given" in repr(curve)
     with pytest.raises(dd.errors.DondoloError, match="no standard errors: the parameters were given"):
         curve.interval(0.6)
     line = curve.plot().lines[0]

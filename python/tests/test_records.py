@@ -136,7 +136,7 @@ def test_several_channels(tmp_path):
     for channel in (2, "2", "E-W", "e-w"):
         record = dd.read_record(file, units="g", channel=channel)
         assert np.array_equal(record.acceleration, second.acceleration)
-    with pytest.raises(dd.errors.InputError, match=r"holds 2 channels: channel must be one of 'N-S', 'E-W'"):
+    with pytest.raises(dd.errors.InputError, match=r"has 2 channels: channel must be one of 'N-S', 'E-W'"):
         dd.read_record(file, units="g")
     with pytest.raises(dd.errors.InputError, match="format = 'excel': must be one of 'peer'"):
         dd.read_records(file, units="g", format="excel")

@@ -336,7 +336,7 @@ def test_a_hazard_in_another_unit_is_warned_of(stripes, tmp_path):
     dd.report(stripes, tmp_path / "report.html", hazard=dd.HazardCurve(levels, 1e-3 * np.power(levels, -2.5)))
     text = (tmp_path / "report.html").read_text()
     assert "hazard: levels up to 5 of pga, more than 4 g: are they in m/s2 or cm/s2?" in text
-    assert "as it was given, from 0.5 g to 5 g" in " ".join(text.split())
+    assert "as given, from 0.5 g to 5 g" in " ".join(text.split())
 
 
 def test_the_source_of_the_hazard_is_told(stripes, hazard, tmp_path):
@@ -508,7 +508,7 @@ def test_only_reports_are_replaced(stripes, tmp_path):
 
 def test_wrong_input(stripes, wall, sine, hazard, tmp_path):
     path = tmp_path / "report.html"
-    with pytest.raises(dd.errors.InputError, match="results: str is nothing"):
+    with pytest.raises(dd.errors.InputError, match="results: must be results of an analysis"):
         dd.report("out/parapet", path)
     for title, sentence in (
         (5, "title = 5: must be a string"),

@@ -130,7 +130,7 @@ def test_files_of_two_runs_are_refused(executable, folder):
         shutil.copytree(folder / "out", folder / name)
     shutil.copy(folder / "a/x_histories.csv", folder / "b/x_histories.csv")
     with pytest.raises(
-        dd.errors.InputError, match=r"b/x_histories\.csv: is of run .*, .*b/x_run\.json of run .*: they are not"
+        dd.errors.InputError, match=r"b/x_histories\.csv: is of run .*, .*b/x_run\.json of run .*: they do not belong"
     ):
         dd.read_results(folder / "b/x")
     table = folder / "a/x_histories.csv"
@@ -158,9 +158,9 @@ def test_nothing_of_the_user_is_replaced(mine, executable, folder):
     lock = folder / "out/x.lock"
     lock.write_text(mine)
     run = start(executable, folder, "a")
-    assert "out/x.lock: exists, and is no lock of dondolo" in run.communicate()[1]
+    assert "out/x.lock: exists, and is not a lock of dondolo" in run.communicate()[1]
     assert run.returncode == 2
-    with pytest.raises(dd.errors.InputError, match=r"x\.lock: exists, and is no lock"), result_set(folder / "out/x"):
+    with pytest.raises(dd.errors.InputError, match=r"x\.lock: exists, and is not a lock"), result_set(folder / "out/x"):
         pass
     assert os.listdir(folder / "out") == ["x.lock"]
     assert lock.read_text() == mine
