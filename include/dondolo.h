@@ -75,9 +75,11 @@ dondolo_curve *dondolo_fit_stripes(dondolo_error *error, const dondolo_stripes *
 dondolo_curve *dondolo_fit_counts(dondolo_error *error, int count, const double *levels, const double *collapses,
                                   const double *histories);
 
-/* The motion of a wall under record number (from 0) times scale, negative to reverse it. solver may be NULL. */
+/* The motion of a wall under record number (from 0) times scale, negative to reverse it. It begins with a rotation [rad] and a
+ * velocity [rad/s], signed as those of the history, 0 and 0 at rest. solver may be NULL. */
 dondolo_history *dondolo_run_history(dondolo_error *error, const dondolo_wall *wall, dondolo_records *records, int number,
-                                     double scale, const dondolo_settings *solver);
+                                     double scale, double initial_rotation, double initial_velocity,
+                                     const dondolo_settings *solver);
 
 /* Numbers and texts of a handle, by name. Flags are 1 or 0. In lists of histories those of the lowest level come first.
  *

@@ -141,10 +141,23 @@ static void runs(const char *catalogue)
    curve = dondolo_fit_counts(error, 2, levels, collapses, counts);
    holds(dondolo_get_text(error, curve, "status", text, sizeof text) > 0, "curve of counts");
    dondolo_fit_counts(error, 2, levels, counts, collapses), fails(DONDOLO_INPUT, "counts that cannot be");
-   dondolo_history *history = dondolo_run_history(error, wall, suite, 3, 1.5, NULL);
+   dondolo_history *history = dondolo_run_history(error, wall, suite, 3, 1.5, 0.0, 0.0, NULL);
    holds(dondolo_count(error, history, "rotation") > 1000, "history");
-   dondolo_run_history(error, wall, suite, 44, 1.0, NULL), fails(DONDOLO_INPUT, "no such record");
-   dondolo_run_history(error, wall, suite, 0, NAN, NULL), fails(DONDOLO_INPUT, "NaN for a scale");
+   /* A wall that is let go at half of its capacity */
+   double start = 0.5 * dondolo_get_number(error, wall, "capacity_angle"), rotation[2];
+   dondolo_history *released = dondolo_run_history(error, wall, suite, 3, 0.0, start, 0.0, NULL);
+   holds(fabs(dondolo_get_number(error, released, "edp") - 0.5) < 1e-12, "largest rotation of a wall that is let go");
+   int rows = dondolo_count(error, released, "rotation");
+   double *rotations = malloc(rows * sizeof *rotations);
+   dondolo_get_numbers(error, released, "rotation", rotations, rows);
+   rotation[0] = rotations[0], rotation[1] = rotations[rows - 1];
+   holds(rotation[0] == start && rotation[1] == 0.0, "from the start to rest");
+   free(rotations);
+   dondolo_free(released);
+   dondolo_run_history(error, wall, suite, 3, 0.0, 3.0 * start, 0.0, NULL), fails(DONDOLO_INPUT, "beyond the capacity");
+   dondolo_run_history(error, wall, suite, 3, 0.0, start, NAN, NULL), fails(DONDOLO_INPUT, "NaN for a velocity");
+   dondolo_run_history(error, wall, suite, 44, 1.0, 0.0, 0.0, NULL), fails(DONDOLO_INPUT, "no such record");
+   dondolo_run_history(error, wall, suite, 0, NAN, 0.0, 0.0, NULL), fails(DONDOLO_INPUT, "NaN for a scale");
    /* Results stay when what they are of is freed. */
    dondolo_free(suite);
    dondolo_run_stripes(error, wall, suite, how, solver, 1), fails(DONDOLO_INPUT, "records that were freed");

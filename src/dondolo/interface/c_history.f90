@@ -16,6 +16,7 @@ module dondolo_interface_c_history
    use dondolo_interface_c_walls, only : find_wall
    use dondolo_interface_felt_motions, only : check_scale, find_motions
    use dondolo_interface_handles, only : find_suite, hold
+   use dondolo_motion_initial_state, only : initial_state_type
    use dondolo_motion_response, only : response_type, trace_type
    use dondolo_motion_simulate, only : simulate
    use dondolo_motion_solver, only : solver_type
@@ -38,12 +39,15 @@ module dondolo_interface_c_history
 contains
 
    !> Compute the motion of a wall under one record, with its time history
-   type(c_ptr) function c_run_history(error, wall, records, number, scale, solver) result(made) bind(c, name='dondolo_run_history')
+   type(c_ptr) function c_run_history(error, wall, records, number, scale, initial_rotation, initial_velocity, solver) &
+      & result(made) bind(c, name='dondolo_run_history')
       type(c_ptr), intent(in), value :: error, wall, records
       !> Number of the record, from 0
       integer(c_int), intent(in), value :: number
       !> Factor on it, negative to reverse its polarity
       real(c_double), intent(in), value :: scale
+      !> Rotation [rad] and velocity [rad/s] at the start
+      real(c_double), intent(in), value :: initial_rotation, initial_velocity
       !> Settings of the group solver; NULL: the defaults
       type(c_ptr), intent(in), value :: solver
 
@@ -52,6 +56,7 @@ contains
       type(suite_type), pointer :: suite, motions
       type(floors_type), target :: own
       type(solver_type) :: how
+      type(initial_state_type) :: initial
       type(c_history_type), pointer :: held
       type(error_type), allocatable :: problem
       class(*), pointer :: content
@@ -72,7 +77,9 @@ contains
       if (.not. allocated(problem)) call find_motions(one, suite, 1, own, motions, problem)
       if (.not. allocated(problem)) then
          allocate (held)
-         call simulate(one%mechanism, motions%records(number + 1), real(scale, wp), how, held%response, problem, held%trace)
+         initial = initial_state_type(real(initial_rotation, wp), real(initial_velocity, wp))
+         call simulate(one%mechanism, motions%records(number + 1), real(scale, wp), how, held%response, problem, held%trace, &
+            & initial)
          if (allocated(problem)) then
             deallocate (held)
          else
@@ -99,7 +106,7 @@ contains
 
          call wall_warnings%look(wall)
          call wall_warnings%warn(warnings)
-         call warn_of_records(suite, wall%gravity, warnings, record)
+         call warn_of_records(suite, wall%gravity, warnings, record, initial%moves())
          call warn_of_fall(suite%records(record), real(scale, wp), wall%gravity, warnings)
          call warn_of_error(held%response, how%edp_limit, warnings)
          call warnings%put_sentences(held%warnings)
