@@ -36,7 +36,7 @@ _COLUMNS = (
     "ran",
 )
 # Texts of each record; results read from files may lack them
-_OF_RECORDS = ("record_names", "events", "checksums")
+_OF_RECORDS = ("record_names", "events", "checksums", "record_formats")
 # What must be the same for stripes to be joined
 _SHARED = ("im", "engine", "rtol", "atol", "edp_limit")
 # Columns that stripes have or not, and what one of two then lacks

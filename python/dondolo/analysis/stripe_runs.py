@@ -434,6 +434,7 @@ def _stripes(request: Request, plan: Plan, outcome: Outcome, complete: int) -> S
         uplift=uplift,
         events=facts.events,
         checksums=facts.checksums,
+        record_formats=facts.formats,
         **{name: matrix(getattr(outcome, name)[:count], ran.shape, places) for name in names},
     )
 

@@ -100,6 +100,8 @@ class Stripes(Shown, Saved):
         `Record.event` of each record: those of one event depend on each other; '' for a record by itself.
     checksums : tuple of str, length records
         `Record.checksum` of each.
+    record_formats : tuple of str, length records
+        Format that each was read in, 'synthetic' if dondolo made it, '' if neither is known.
 
     Examples
     --------
@@ -136,6 +138,7 @@ class Stripes(Shown, Saved):
     uplift: np.ndarray[Any, np.dtype[np.bool_]] | None = None
     events: tuple[str, ...] = ()
     checksums: tuple[str, ...] = ()
+    record_formats: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -730,7 +733,7 @@ class Stripes(Shown, Saved):
             work=self.work._asdict(),
             shape={"walls": 1, "levels": len(self.levels), "states": len(levels), "records": self.n_records},
         )
-        used = sources_of_fits(self.im, (self.wall,)) | {self.engine, states}
+        used = sources_of_fits(self.im, (self.wall,)) | {self.engine, states, *self.record_formats}
         write_set(prefix, found, run.citing(*used), spreadsheet_safe=spreadsheet_safe)
 
     def _facts(self) -> list[tuple[str, str]]:

@@ -108,6 +108,7 @@ def _words(thing: Any, seen: set[int]) -> Iterator[str]:
     if isinstance(thing, Response) or (isinstance(thing, Stripes) and thing.engine == _ADAPTIVE):
         yield _ADAPTIVE
     if is_dataclass(thing):
+        yield from getattr(thing, "record_formats", ())
         measure = getattr(thing, "im", None)
         if isinstance(measure, str):
             yield from sources_of_measure(measure)

@@ -126,6 +126,7 @@ def typology(
             plan.histories,
             [*plan.warnings, *of_occurrence],
         )
+        result = dataclasses.replace(result, record_formats=request.facts.formats)
         if complete < number or interrupts.requested:
             raise Interrupted(f"interrupted: {complete} of {number} walls are complete", result)
     warn(result.warnings)

@@ -87,6 +87,8 @@ class Typology(Shown, Saved):
     ties : tuple of TieCounts
         What the histories do to the ties of each row: how many make each `yielded` and `broken`, and its mean and
         largest plastic elongation; None where that is not known.
+    record_formats : tuple of str
+        `Stripes.record_formats`.
 
     Examples
     --------
@@ -115,6 +117,7 @@ class Typology(Shown, Saved):
     group_union_curves: dict[str, Fragility] | None = None
     union_counts: dict[str, FloatArray] | None = None
     ties: tuple[TieCounts, ...] | None = None
+    record_formats: tuple[str, ...] = ()
     _states: dict[float, Typology] = field(default_factory=dict)
 
     @property
@@ -272,7 +275,7 @@ class Typology(Shown, Saved):
         if self.stored_curves is not None:
             state = self.stored_curves.at(number).put_into(state)._with_union_warnings()
         warn(warning.placed(f"damage state {self.edp_thresholds[number]:g}: ") for warning in state.warnings)
-        return dataclasses.replace(state, ties=self.ties)
+        return dataclasses.replace(state, ties=self.ties, record_formats=self.record_formats)
 
     @property
     def unions(self) -> dict[str, Fragility]:
@@ -568,18 +571,20 @@ class Typology(Shown, Saved):
     def _stored(self) -> dict[str, Any]:
         """What a file has of it: all but what follows from the rest."""
         names = ("population", "im", "levels", "edp_thresholds", "exceedances", "histories", "work", "flags")
-        stored = {name: getattr(self, name) for name in (*names, "warnings", "stored_curves", "ties")}
+        stored = {name: getattr(self, name) for name in (*names, "warnings", "stored_curves", "ties", "record_formats")}
         return stored | {"are_alternatives": self.are_alternatives}
 
     @classmethod
-    def _restored(cls, stored_curves: StoredCurves | None, **more: Any) -> Typology:
+    def _restored(
+        cls, stored_curves: StoredCurves | None, record_formats: tuple[str, ...] = (), **more: Any
+    ) -> Typology:
         from dondolo.populations.combination import combine_rows
 
         rest = {name: more.pop(name) for name in ("warnings", "ties")}
         typology = combine_rows(more.pop("population"), **more)
         if stored_curves is not None:
             typology = stored_curves.put_into(typology)
-        return dataclasses.replace(typology, **rest)
+        return dataclasses.replace(typology, record_formats=record_formats, **rest)
 
     def write_results(self, prefix: str | os.PathLike[str], *, spreadsheet_safe: bool = False) -> None:
         """Write all tables into files of the names that the executable gives them.
@@ -628,6 +633,7 @@ class Typology(Shown, Saved):
         run = self._run_file(pulls.pop())
         run = dataclasses.replace(run, settings={**run.settings, **(settings or {})}, confidence=confidence)
         used = sources_of_fits(self.im, self.walls) | ({"check", "uncertainty"} & run.settings.keys())
+        used |= {*self.record_formats}
         write_set(prefix, found, run.citing(*used), spreadsheet_safe=spreadsheet_safe)
 
     def _shape(self) -> dict[str, int]:

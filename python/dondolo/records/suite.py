@@ -82,7 +82,7 @@ class Facts(NamedTuple):
 
     Attributes
     ----------
-    names, events, checksums : tuple of str
+    names, events, checksums, formats : tuple of str
         Of each record.
     falls : ndarray, shape (records,), or None
         `Record.largest_fall` of each [m/s2]; None without vertical motion.
@@ -93,6 +93,7 @@ class Facts(NamedTuple):
     names: tuple[str, ...]
     events: tuple[str, ...]
     checksums: tuple[str, ...]
+    formats: tuple[str, ...]
     falls: FloatArray | None
     samples: float
 
@@ -134,6 +135,7 @@ class Suite(Handle):
                 tuple(record.name for record in records),
                 tuple(record.event for record in records),
                 tuple(record.checksum for record in records),
+                tuple(record.metadata.get("format", "") for record in records),
                 np.array([record.largest_fall for record in records]) if moves_up else None,
                 sum(map(len, records)) / len(records),
             )

@@ -311,7 +311,7 @@ def _alternatives(names: Sequence[str], stripes: Sequence[Stripes]) -> Typology:
         Flags(sizes, len(first), 1, runs, first._sample().clusters, bits),
         are_alternatives=True,
     )
-    return replace(typology, ties=tuple(one.ties for one in stripes))
+    return replace(typology, ties=tuple(one.ties for one in stripes), record_formats=first.record_formats)
 
 
 def _known(designs: Mapping[str, Wall], given: object, what: str) -> Iterable[str]:
