@@ -440,20 +440,21 @@ def test_parameters_are_told_of_a_line_that_is_drawn(people, states):
     ]
     for ax, curves in drawings:
         lines = ax.get_lines()
-        means = [i for i, drawn in enumerate(lines) if ": mean; " in drawn.get_label()]
+        means = [i for i, drawn in enumerate(lines) if ": θ = " in drawn.get_label()]
         assert len(means) == len(curves)
         for i, curve in zip(means, curves, strict=True):
             label = lines[i].get_label()
-            assert f"lognormal θ = {curve.fit.theta:.3g} g, β = {curve.fit.beta:.3g}" in label
+            assert f": θ = {curve.fit.theta:.3g} g, β = {curve.fit.beta:.3g}" in label
             beside = lines[i + 1]
             assert np.array_equal(beside.get_ydata(), curve.fit(beside.get_xdata()))
             assert to_rgba(beside.get_color()) == to_rgba(lines[i].get_color())
             assert beside.get_linewidth() < 0.5 * lines[i].get_linewidth()
+        assert lines[-1].get_label() == "thick: means; thin: lognormals of these θ and β"
     counts = people.exceedances * 0
     complete = np.ones(len(people.walls), dtype=bool)
     none = combine(people.population, "pga", LEVELS, np.ones(1), counts, people.histories, complete, Work())
     labels = none.plot_groups().get_legend_handles_labels()[1]
-    assert labels[-1] == "population (5 walls): mean; no fit (no collapse)"
+    assert labels[-1] == "population (5 walls): no fit (no collapse)"
 
 
 @pytest.mark.slow

@@ -199,8 +199,7 @@ def _band(ax: Axes, grid: FloatArray, fractiles: FloatArray, color: str) -> None
 
 def _mean(ax: Axes, grid: FloatArray, curve: PopulationCurve, name: str, look: dict[str, Any]) -> None:
     """A mean curve, and thin beside it the lognormal whose parameters its label has."""
-    fitted = f"lognormal {parameters(curve.fit)}" if curve.fit.has_fit else parameters(curve.fit)
-    text = style.label(f"{name}: mean; {fitted}")
+    text = style.label(f"{name}: {parameters(curve.fit)}")
     style.main(ax, ax.plot(grid, curve(grid), **{"label": text} | look)[0])
     if curve.fit.has_fit:
         ax.plot(grid, curve.fit(grid), color=look["color"], linewidth=_THIN_LINE, zorder=look.get("zorder"))
@@ -209,4 +208,6 @@ def _mean(ax: Axes, grid: FloatArray, curve: PopulationCurve, name: str, look: d
 def _explain_fitted(ax: Axes, means: Sequence[PopulationCurve]) -> None:
     """What the thin lines beside means are."""
     if any(curve.fit.has_fit for curve in means):
-        ax.plot([], [], color=style.BLACK, linewidth=_THIN_LINE, label="thin: lognormals fitted to the mean fractions")
+        ax.plot(
+            [], [], color=style.BLACK, linewidth=_THIN_LINE, label="thick: means; thin: lognormals of these θ and β"
+        )
