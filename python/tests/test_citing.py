@@ -104,7 +104,7 @@ def test_the_commit_is_one_everywhere(tmp_path, executable):
 def test_files_of_python_name_the_same_sources(task, tmp_path, monkeypatch):
     """`write_results` of objects, and the case of the same walls, records and levels."""
     monkeypatch.chdir(tmp_path)
-    records = dd.example_records()[:6]
+    records = dd.synthetic_records(6.5, 10.0, "shallow", n_records=6)
     dd.RecordSet(records).to_catalogue("records.csv")
     walls = dd.Population([dd.TwoBlockWall(3.0, 0.25, hinge=0.6, name="strip")])
     walls.to_csv("walls.csv")

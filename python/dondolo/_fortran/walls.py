@@ -201,7 +201,7 @@ WALL_WORDS = tuple(row.name for row in WALL_PROPERTIES if row.kind == "words")
 # Those that only some walls have: tables show them where one of theirs has them
 WALL_EXTRAS = frozenset(
     row.name for row in properties("wall") if row.default == "optional" and row.owners and row.column
-) | frozenset(BUILDING_NAMES)
+) | frozenset(("restitution_sd", "restitution_seed", *BUILDING_NAMES))
 # How the mechanisms of a wall occur
 OCCURRENCE = next(row.choices for row in properties("row") if row.name == "occurrence")
 INDEPENDENT, EXCLUSIVE = OCCURRENCE

@@ -53,8 +53,13 @@ _ADDED: dict[str, dict[str, Any]] = {
         kind: {"deviance": math.nan, "deviance_dof": 0}
         for kind in ("Fragility", "FirstCollapseFragility", "LimitedFragility")
     },
+    **{
+        kind: {"restitution_sd": None, "restitution_seed": None}
+        for kind in ("FreeStandingWall", "OneSidedWall", "TabulatedWall", "TwoBlockWall")
+    },
     "HazardCurve": {"rigid_ground": False},
     "Response": {"initial_rotation": 0.0, "initial_velocity": 0.0},
+    "Stripes": {"record_formats": ()},
     "Logistic": {
         "likelihood_ratio": math.nan,
         "im": "",

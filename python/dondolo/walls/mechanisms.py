@@ -61,6 +61,11 @@ class OneSidedWall(BlockWall):
         Speed after / before an impact, instead of a model: 0 <= value < 1.
     restitution_factor : float, optional
         Factor on the speed ratio of any model, 1 if left out.
+    restitution_sd : float, optional
+        Standard deviation of the speed ratio, which then varies from impact to impact, uniformly about that of the
+        model (docs/theory.md, section 3). Histories are computed by the engine 'rk45'.
+    restitution_seed : float, optional
+        Seed of the random numbers of these ratios, 1 if left out.
     gravity : float, optional
         Acceleration of gravity [m/s2], 9.81 if left out.
     name : str, optional
@@ -182,6 +187,12 @@ class FreeStandingWall(BlockWall):
     >>> pinnacle = dd.FreeStandingWall(height=1.5, thickness=0.25, name="pinnacle")
     >>> pinnacle.two_sided
     True
+
+    A speed ratio that varies from impact to impact:
+
+    >>> varying = dd.FreeStandingWall(1.5, 0.25, restitution_sd=0.01)
+    >>> varying.restitution_coefficient == pinnacle.restitution_coefficient
+    True
     """
 
     mechanism: ClassVar[str] = "free_standing"
@@ -262,7 +273,8 @@ class TabulatedWall(Wall):
     """A wall whose terms of the equation of motion are given: of any mechanism with one rotation.
 
     J(q) q'' + 1/2 J'(q) q'^2 + M(q) = -s L(q) u_g'', with M = G - Q (docs/own_mechanism.md). Height, restitution_value,
-    restitution_factor, gravity, name and building are those of `OneSidedWall`; restitution_value must be given.
+    restitution_factor, restitution_sd, restitution_seed, gravity, name and building are those of `OneSidedWall`;
+    restitution_value must be given.
 
     Parameters
     ----------

@@ -95,6 +95,8 @@ class Wall:
     restitution: Literal["default", "sorrentino", "impulse"] = DEFAULT
     restitution_value: float | None = None
     restitution_factor: float | None = None
+    restitution_sd: float | None = None
+    restitution_seed: float | None = None
     gravity: float = DEFAULT
     name: str = DEFAULT
     building: Building | None = None
@@ -105,7 +107,9 @@ class Wall:
     def _sources(self) -> tuple[str, ...]:
         """What it uses of the methods of others, in the words of dondolo_base_references."""
         building = () if self.building is None else ("building",)
-        return self.mechanism, f"{self.mechanism}/{self.restitution}", *building
+        # The engine that has a speed ratio for each impact
+        engine = ("rk45",) if self.restitution_sd else ()
+        return self.mechanism, f"{self.mechanism}/{self.restitution}", *building, *engine
 
     def _understand(self, **more: Any) -> None:
         """Let Fortran check what is said of the wall, and what is given besides its fields."""

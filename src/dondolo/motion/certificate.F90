@@ -170,9 +170,9 @@ contains
 
       is_whole = .true.
       if (allocated(record%vertical)) then
-         call exact%take(record%dt, record%acceleration, record%vertical)
+         call exact%take(record%name, record%dt, record%acceleration, record%vertical)
       else
-         call exact%take(record%dt, record%acceleration)
+         call exact%take(record%name, record%dt, record%acceleration)
       end if
       associate (response => certificate%response, lowest => certificate%lowest, highest => certificate%highest)
          another_way = .false.

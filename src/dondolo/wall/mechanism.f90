@@ -7,6 +7,7 @@
 !> All terms are per metre of wall length.
 module dondolo_wall_mechanism
    use dondolo_base_kinds, only : wp
+   use dondolo_wall_restitution_scatter, only : restitution_scatter_type
    use dondolo_wall_restraint, only : restraint_type
    implicit none
    private
@@ -21,8 +22,10 @@ module dondolo_wall_mechanism
       real(wp) :: gravity = 0.0_wp
       !> Rotation q_c at which the restoring moment G - Q vanishes [rad]
       real(wp) :: capacity = 0.0_wp
-      !> Speed after an impact / speed before it, 0 <= e < 1
+      !> Speed after an impact / speed before it, 0 <= e < 1: as built the mean of all impacts, in a history that of the next one
       real(wp) :: restitution = 0.0_wp
+      !> How it varies from impact to impact
+      type(restitution_scatter_type) :: scatter
       !> Rotations between which the terms are defined; no step goes to them or beyond [rad]
       real(wp) :: lowest = -huge(1.0_wp), highest = huge(1.0_wp)
       !> Rotation at which a load loses its seat, which counts as collapse [rad]; huge: none does
@@ -57,6 +60,8 @@ module dondolo_wall_mechanism
       procedure :: trigger_acceleration
       !> Frequency parameter p
       procedure :: frequency_parameter
+      !> Largest speed ratio of an impact
+      procedure :: largest_restitution
    end type mechanism_type
 
    abstract interface
@@ -184,5 +189,13 @@ contains
       call self%terms(0.0_wp, j, c, g, l, load)
       p = sqrt((g - load - self%preload)/(j*sin(self%capacity)))
    end function frequency_parameter
+
+   !> Largest speed after an impact / speed before it, of all impacts that there may be
+   pure real(wp) function largest_restitution(self)
+      class(mechanism_type), intent(in) :: self
+
+      largest_restitution = self%restitution
+      if (self%scatter%exists()) largest_restitution = self%scatter%largest()
+   end function largest_restitution
 
 end module dondolo_wall_mechanism

@@ -1,6 +1,6 @@
 !> A wall: its properties as the user gives them, and the mechanism that follows.
 module dondolo_wall
-   use dondolo_base_error, only : error_type, out_of_range, problems_type, wrong_length
+   use dondolo_base_error, only : error_type, not_an_integer, not_together, out_of_range, problems_type, wrong_length
    use dondolo_base_kinds, only : wp
    use dondolo_base_property, only : check_number
    use dondolo_base_settings_check, only : check_settings
@@ -14,6 +14,7 @@ module dondolo_wall
    use dondolo_wall_properties, only : gravity_property, is_beyond_bare, is_of_building, masonry_names, mechanism_names, &
       & standard_gravity, wall_input_type
    use dondolo_wall_restitution, only : impact_models_type, restitution_type
+   use dondolo_wall_restitution_scatter, only : new_restitution_scatter
    use dondolo_wall_tabulated_model, only : tabulated_model_type, tabulated_name
    use dondolo_wall_two_block_model, only : two_block_model_type, two_block_name
    implicit none
@@ -106,6 +107,8 @@ contains
       if (allocated(error)) return
       restitution = restitution_of(wall%input)
       call restitution%speed_ratio(wall%impacts, wall%mechanism%restitution, error)
+      if (.not. allocated(error) .and. wall%input%has('restitution_sd')) call new_restitution_scatter(wall%mechanism%scatter, &
+         & wall%mechanism%restitution, wall%input%number('restitution_sd'), nint(wall%input%number('restitution_seed')), error)
       if (allocated(error) .or. .not. allocated(wall%building)) return
       call wall%mechanism%support(share, tilt)
       call wall%building%lean(share, tilt)
@@ -144,6 +147,7 @@ contains
       if (.not. any(mechanism == mechanism_names)) mechanism = ''
       call new_model(wall%model, mechanism)
       call wall%model%prepare(wall%input, problems)
+      call take_seed(wall%input, problems)
       call wall%input%fill(mechanism)
       call wall%input%set('name', trim(wall%input%word('name')))
       call check_settings(wall%input, problems, 'mechanism', mechanism)
@@ -157,6 +161,24 @@ contains
       wall%model%is_bare = .not. wall%input%gives(is_beyond_bare)
       call wall%model%read(wall%input, wall%gravity, problems)
    end subroutine understand
+
+   !> Set the seed of speed ratios that vary, and check it
+   subroutine take_seed(input, problems)
+      !> What is said of the wall
+      type(wall_input_type), intent(inout) :: input
+      !> Takes what is wrong
+      type(problems_type), intent(inout) :: problems
+
+      real(wp) :: seed
+
+      if (input%has('restitution_sd') .and. .not. input%has('restitution_seed')) call input%set('restitution_seed', 1.0_wp)
+      if (.not. input%has('restitution_seed')) return
+      seed = input%number('restitution_seed')
+      if (abs(seed - anint(seed)) > 0.0_wp) call problems%note('restitution_seed = '//to_text(seed)// &
+         & ': must be a whole number', not_an_integer, 'restitution_seed')
+      if (.not. input%has('restitution_sd')) call problems%note('restitution_seed: only with restitution_sd', not_together, &
+         & 'restitution_seed')
+   end subroutine take_seed
 
    !> What the user asks of the impacts
    pure function restitution_of(input) result(restitution)

@@ -4,7 +4,7 @@
 !> Here are those that all walls share, and the list of all. A property of one mechanism is a row in the file of its model.
 module dondolo_wall_properties
    use dondolo_base_kinds, only : wp
-   use dondolo_base_property, only : blank, choices_length, find_name, is_text, is_words, most_choices, property_type
+   use dondolo_base_property, only : blank, choices_length, find_name, is_integer, is_text, is_words, most_choices, property_type
    use dondolo_base_settings, only : settings_type
    use dondolo_building_input, only : building_rows
    use dondolo_wall_one_block_model, only : one_block_action_rows, one_block_body_rows, one_block_names
@@ -64,7 +64,15 @@ module dondolo_wall_properties
       &   example='0.9', meaning='speed after / before an impact, instead of a model'), &
       & property_type('restitution_factor', default=1.0_wp, positive=.true., &
       &   usual_most=1.5_wp, &
-      &   meaning='factor on the speed ratio of any model')]
+      &   meaning='factor on the speed ratio of any model'), &
+      & property_type('restitution_sd', optional=.true., smallest=0.0_wp, largest=0.5_wp, less=.true., example='0.02', &
+      &   meaning='standard deviation of the speed ratio, which then varies from impact to impact, uniformly about that of the '// &
+      &   'model; engine rk45 only'), &
+      & property_type('restitution_seed', is_integer, optional=.true., smallest=1.0_wp, largest=1.0e6_wp, absent=1.0_wp, &
+      &   example='1', meaning='seed of the random numbers of these ratios, 1 if not given')]
+
+   !> Names of those of a ratio that varies, which few walls have
+   character(len=*), parameter :: scatter_names(2) = [character(len=16) :: 'restitution_sd', 'restitution_seed']
 
    !> The rows of the wall itself, in the order in which a user thinks of them
    type(property_type), parameter :: own_rows(*) = [general_rows, one_block_body_rows, hinge_rows, one_block_action_rows, &
@@ -91,7 +99,8 @@ module dondolo_wall_properties
    logical, parameter :: is_beyond_bare(size(rows)) = rows%optional .and. rows%owners(1) /= blank(1) .and. .not. rows%replaced
 
    !> Those that tables show only where a wall has them
-   logical, parameter :: is_extra(size(rows)) = is_beyond_bare .or. is_of_building
+   logical, parameter :: is_extra(size(rows)) = is_beyond_bare .or. is_of_building .or. rows%name == scatter_names(1) &
+      & .or. rows%name == scatter_names(2)
 
    !> What walls have of their place; in namelists it stands in &solver, for all walls
    type(property_type), parameter :: gravity_property = property_type('gravity', unit='m/s2', &

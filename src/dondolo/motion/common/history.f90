@@ -142,10 +142,12 @@ contains
    end subroutine leave_edge
 
    !> Apply an impact: the wall loses speed, a two-sided wall changes side, and it may come to rest
-   pure subroutine strike(self, rest, record, acceleration, v, unit, at_rest)
+   pure subroutine strike(self, rest, ratio, record, acceleration, v, unit, at_rest)
       class(history_type), intent(inout) :: self
       !> The wall at rest
       type(rest_type), intent(in) :: rest
+      !> Speed after this impact / speed before it
+      real(wp), intent(in) :: ratio
       !> The accelerogram; zero after its last sample
       type(record_type), intent(in) :: record
       !> Ground acceleration at the impact, seen from the side of the wall before it [m/s2]
@@ -160,7 +162,7 @@ contains
       real(wp) :: ground
 
       self%impacts = self%impacts + 1
-      v = -rest%restitution*min(v, 0.0_wp)
+      v = -ratio*min(v, 0.0_wp)
       ground = self%side*acceleration
       if (rest%two_sided) self%side = -self%side
       call self%settle(rest, record, ground, v*unit, at_rest)

@@ -27,7 +27,7 @@ module dondolo_motion_rest
    type :: rest_type
       !> Can it rock to both sides?
       logical :: two_sided
-      !> Speed after an impact / speed before it
+      !> Largest speed after an impact / speed before it
       real(wp) :: restitution
       !> Restoring moment G(0) - Q(0) [N m]
       real(wp) :: moment
@@ -92,7 +92,7 @@ contains
 
       call mechanism%terms(0.0_wp, j0, c0, g0, l0, load0)
       rest%two_sided = mechanism%two_sided
-      rest%restitution = mechanism%restitution
+      rest%restitution = mechanism%largest_restitution()
       rest%moment = g0 - load0
       rest%lever = l0
       rest%inertia = j0
@@ -278,7 +278,7 @@ contains
    !> Does the chain of bounces after an impact end at rest, whatever happens in between?
    !>
    !> While every inward moment stays positive the energy E = 1/2 J q'^2 + U of a flight grows only as that
-   !> moment does, dE/dt <= E d(ln m)/dt, and is multiplied by e^2 at each impact. So, with V the product of all
+   !> moment does, dE/dt <= E d(ln m)/dt, and is multiplied by e^2 at most at each impact. So, with V the product of all
    !> rises of the moments, no bounce is faster than w e^n sqrt(V), and the chain is over after at most
    !>
    !>     2 w sqrt(V) (1/a_1 + e/a_2)/(1 - e^2)

@@ -33,6 +33,8 @@ contains
       type(lane_constants_type) :: constants
 
       constants%wall_constants_type = new_wall_constants(mechanism, solver)
+      ! Lanes have one speed ratio for all impacts.
+      if (mechanism%scatter%exists()) return
       ! The tighter tolerances of walls with ties are for steps of a lower order.
       constants%solver = solver
       constants%form = new_normal_form(mechanism, constants%limit, is_shaken)

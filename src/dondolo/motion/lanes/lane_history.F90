@@ -241,7 +241,8 @@ contains
          lanes%v(i) = min(lanes%v(i), 0.0_wp)
          if (associated(batch%trace)) call add_row(batch, i)
          if (allocated(batch%restraints)) call batch%restraints(i)%strike(constants, lanes, i, history%rest)
-         call history%strike(history%rest, record, lanes%u(i), lanes%v(i), constants%form%unit, at_rest)
+         call history%strike(history%rest, history%rest%restitution, record, lanes%u(i), lanes%v(i), constants%form%unit, &
+            & at_rest)
          if (associated(batch%trace)) call add_row(batch, i, after_impact=.true.)
          if (.not. at_rest) then
             call aim(lanes, i, batch%set, history%side*history%scale, constants%gravity)

@@ -114,8 +114,10 @@ contains
    end function capacity
 
    !> Take an accelerogram
-   subroutine take(self, dt, acceleration, vertical)
+   subroutine take(self, name, dt, acceleration, vertical)
       class(quadruple_record_type), intent(out) :: self
+      !> Its name
+      character(len=*), intent(in) :: name
       !> Time between two samples [s]
       real(real64), intent(in) :: dt
       !> Ground acceleration [m/s2]
@@ -123,6 +125,7 @@ contains
       !> Vertical ground acceleration, if there is any [m/s2]
       real(real64), intent(in), optional :: vertical(:)
 
+      self%record%name = name
       self%record%dt = real(dt, wp)
       self%record%acceleration = real(acceleration, wp)
       if (present(vertical)) self%record%vertical = real(vertical, wp)

@@ -54,7 +54,7 @@ contains
       type(motion_type) :: motion
       integer :: last, ending
 
-      ! A copy, whose ties change in the course of the history
+      ! A copy, whose ties and speed ratio change in the course of the history
       allocate (wall, source=mechanism)
       constants = new_wall_constants(wall, solver)
       motion%scale = scale
@@ -70,6 +70,9 @@ contains
          end if
       end if
       motion%peak = motion%q
+      ! The mirror image of the motion of a two-sided wall is the same motion.
+      call wall%scatter%begin(record%name, scale < 0.0_wp .and. .not. wall%two_sided)
+      call wall%scatter%draw(wall%restitution)
       call motion%restraints%begin(wall, motion%q)
       if (present(trace)) call add_row(motion, record, trace)
 
@@ -313,7 +316,7 @@ contains
 
    !> An impact: lose speed, change side, and see whether the wall comes to rest
    pure subroutine bounce(wall, constants, record, motion, ending, trace)
-      !> The wall; its ties change
+      !> The wall; its ties and its speed ratio change
       class(mechanism_type), intent(inout) :: wall
       !> Constants of the wall; how it rests changes with its ties
       type(wall_constants_type), intent(inout) :: constants
@@ -330,8 +333,9 @@ contains
       if (present(trace)) call add_row(motion, record, trace)
       if (motion%restraints%exists) call strike_ties(wall, constants, motion)
       v = motion%v
-      call motion%strike(constants%rest, record, motion%excitation%start + motion%excitation%slope*motion%time, v, &
-         & 1.0_wp, rests)
+      call motion%strike(constants%rest, wall%restitution, record, motion%excitation%start + motion%excitation%slope*motion%time, &
+         & v, 1.0_wp, rests)
+      call wall%scatter%draw(wall%restitution)
       motion%v = v
       ending = merge(at_rest, 0, rests)
       call aim(constants%gravity, record, motion)

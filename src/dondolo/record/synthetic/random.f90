@@ -38,6 +38,8 @@ module dondolo_record_random
    contains
       !> The next number
       procedure :: next
+      !> The same in pure procedures
+      procedure :: draw
    end type random_type
 
 contains
@@ -81,6 +83,15 @@ contains
       !> Number, a multiple of 1/(m1 + 1)
       real(wp) :: uniform
 
+      call self%draw(uniform)
+   end function next
+
+   !> Draw the next number
+   pure subroutine draw(self, uniform)
+      class(random_type), intent(inout) :: self
+      !> Number between 0 and 1, both excluded, a multiple of 1/(m1 + 1)
+      real(wp), intent(out) :: uniform
+
       integer(int64) :: x, y
 
       x = modulo(a12*self%x(2) - a13*self%x(1), m1)
@@ -90,7 +101,7 @@ contains
       x = x - y
       if (x <= 0) x = x + m1
       uniform = real(x, wp)/real(m1 + 1, wp)
-   end function next
+   end subroutine draw
 
    !> Product of two matrices modulo m
    pure function product_modulo(a, b, m) result(c)
