@@ -436,6 +436,8 @@ contains
                   & input%has(table(j)%name)) call input%set(table(j)%name, merge(3.0_wp, 0.5_wp, table(j)%name == 'height'))
             end do
             if (mechanism_names(m) == 'tabulated') call complete_table(input)
+            ! Less than walls of each mechanism allow, and what its seed is for
+            if (index(what, 'restitution_s') == 1) call input%set('restitution_sd', 0.02_wp)
             if (what == 'bearing') call input%set('bearing', 'centre')
             if (what == 'bearing_distance') call input%set('bearing', 'inner')
             call new_wall(wall, input, error)

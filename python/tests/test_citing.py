@@ -123,7 +123,7 @@ def test_files_of_python_name_the_same_sources(task, tmp_path, monkeypatch):
         dd.multiple_stripe(walls.walls[0], records, [0.5, 1.0, 1.5], **options).write_results("ours")
     ours = json.loads((tmp_path / "ours_run.json").read_text())["references"]
     assert {"baker2015", "liang1986", "sorrentino2008", "housner1952"} <= set(ours)
-    # Objects know that their records are synthetic; the files that a case reads do not say so
+    # Objects know that their records are synthetic; files that a case reads do not say so
     assert "sabetta1996" in ours
     assert [key for key in ours if key != "sabetta1996"] == list(case.run.references)
     assert list(dd.read_results("ours").run.references) == ours

@@ -405,7 +405,7 @@ def test_figures(people, states, monkeypatch):
         "facades (3 walls)",
         "towers (1 wall)",
         "population (4 walls)",
-        "thin",
+        "thick",
     ]
     towers = next(drawn for drawn in ax.get_lines() if drawn.get_label().startswith("towers"))
     assert np.array_equal(towers.get_ydata(), people["two_block", "towers"](towers.get_xdata()))

@@ -223,6 +223,7 @@ BASES = {
     "tie": {"height": 3.0, "thickness": 0.25, "tie_height": 2.8, "tie_area": 2e-5, "tie_length": 4.0},
     "interlock": {"height": 3.0, "thickness": 0.25, "interlock_overlap": 0.1, "interlock_course": 0.1}
     | {"interlock_thickness": 0.25, "interlock_spacing": 5.0},
+    "restitution": {"height": 3.0, "thickness": 0.25, "restitution_sd": 0.02},
     "stress": {"height": 3.0, "thickness": 0.25, "compressive_strength": 1e6},
     # Strong masonry that is sheared, and weak masonry that is crushed
     "masonry": _PLATE | {"masonry_compression": 2e6, "masonry_shear": 4e3, "masonry_tension": 1e5},
@@ -243,6 +244,7 @@ def test_what_is_not_given(records):
     numbers = {name: float(found[1]) for name, found in shown.items() if found}
     assert {name.split("_")[0] for name in numbers} == set(BASES)
     others = {"section_offset": 0.05, "tie_depth": 0.1, "tie_preload": 5e7, "masonry_knowledge_factor": 1.0}
+    others["restitution_seed"] = 2.0
     for name, number in numbers.items():
         stem, other = name.split("_")[0], others.get(name, 0.7 * number)
         values = (number, [number, other] if stem == "section" else other)

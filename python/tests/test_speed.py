@@ -93,7 +93,7 @@ def calls(work):
 
 
 def test_a_call_does_little_besides_its_histories(wall, records):
-    """About 370 calls of functions, whatever the number of its records and levels; a tenth more is allowed."""
+    """About 420 calls of functions, whatever the number of its records and levels; a tenth more is allowed."""
 
     def stripes(some, levels):
         dd.multiple_stripe(wall, some, levels, threads=1, progress=False)
@@ -104,7 +104,7 @@ def test_a_call_does_little_besides_its_histories(wall, records):
         # The first call of all keeps what later ones use.
         stripes(some, levels)
         counts.append(calls(lambda some=some, levels=levels: stripes(some, levels)))
-    assert counts[0] == counts[1] < 410, counts
+    assert counts[0] == counts[1] < 465, counts
 
 
 def tied(*heights):

@@ -56,7 +56,7 @@ contains
       call parcel%put('least_ratio', least_ratio)
       call parcel%put('sum_tolerance', sum_tolerance)
       call parcel%put('version', dondolo_version_text)
-      call parcel%put('commit', build_commit())
+      call parcel%put('commit', trim(build_commit()))
       call put_words(parcel, 'statuses', fit_status_names)
       call put_words(parcel, 'fitted', fit_status_names(:statuses_with_curve))
       call put_words(parcel, 'errors', error_names)

@@ -89,7 +89,7 @@ class RunFile:
         Files of the case: role, path, bytes, crc32.
     records : tuple of mapping
         Records of the case: name, event (label of its cluster, '' for none), checksum of its samples, and what is known
-        of date, magnitude, station and component.
+        of date, magnitude, station, component and format.
     work : mapping
         Counts of what was computed, by name; empty for a time history.
     history : HistoryResult or None
@@ -240,7 +240,7 @@ def parse_run_file(text: str, path: str, written: datetime | None = None) -> Run
             tuple(_input(one) for one in _all(content, "inputs", dict)),
             tuple(
                 {key: _member(one, key, str) for key in ("name", "event", "checksum")}
-                | {key: _member(one, key, str) for key in RECORD_FACTS if key in one}
+                | {key: _member(one, key, str) for key in (*RECORD_FACTS, "format") if key in one}
                 for one in _all(content, "records", dict)
             ),
             {name: _member(work, name, int) for name in work},

@@ -712,7 +712,10 @@ class Stripes(Shown, Saved):
         }
         if number_of_ties(self.wall):
             found["_ties.csv"] = tie_table((self.wall,), self.im, self.levels, (self.ties,), self.histories[:, None])
-        events, checksums = (one or ("",) * self.n_records for one in (self.events, self.checksums))
+        facts = (
+            one or ("",) * self.n_records
+            for one in (self.record_names[: self.n_records], self.events, self.checksums, self.record_formats)
+        )
         run = RunFile(
             constants().version,
             settings={
@@ -727,8 +730,8 @@ class Stripes(Shown, Saved):
                 },
             },
             records=tuple(
-                {"name": name, "event": event, "checksum": checksum}
-                for name, event, checksum in zip(self.record_names[: self.n_records], events, checksums, strict=True)
+                {"name": name, "event": event, "checksum": checksum} | ({"format": form} if form else {})
+                for name, event, checksum, form in zip(*facts, strict=True)
             ),
             work=self.work._asdict(),
             shape={"walls": 1, "levels": len(self.levels), "states": len(levels), "records": self.n_records},

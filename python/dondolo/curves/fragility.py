@@ -592,7 +592,7 @@ class Fragility(Curve, Shown, Saved):
             *what,
             ("theta", f"{self.theta:.6g}{unit}" + self._shown_error("standard error of ln theta", self.se_ln_theta)),
             ("beta", f"{self.beta:.6g}" + self._shown_error("standard error", self.se_beta)),
-            ("standard errors", self._kind()),
+            ("standard errors", self._kind() if self.has_errors else f"none: {self._kind()}"),
             *ends,
             *([("log likelihood", f"{self.log_likelihood:.6g}")] if math.isfinite(self.log_likelihood) else []),
             ("status", self.status),

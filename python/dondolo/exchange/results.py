@@ -245,7 +245,7 @@ def _of_stripes(results: Results, source: Source, work: Work) -> Results:
         stripes = _stripes(table, wall, engine, *tolerances, limit, work)
         if len(run.records) == stripes.n_records:
             events, checksums = (tuple(one[key] for one in run.records) for key in ("event", "checksum"))
-            stripes = replace(stripes, events=events, checksums=checksums)
+            stripes = replace(stripes, events=events, checksums=checksums, record_formats=_formats(run))
         ordinal = results.states == "ordinal" and results.edp_thresholds
         curves = stripes.fit_damage_states(results.edp_thresholds, states="ordinal") if ordinal else [stripes.fit()]
     results = replace(results, stripes=stripes, fragility=curves[-1])
@@ -265,7 +265,8 @@ def _of_typology(results: Results, source: Source, work: Work, flags: Flags | No
     if flags is None:
         groups = None if are_designs else source["_typology.csv"]
         typology = stored_curves(typology, source["_fragility.csv"], groups, source.get(_UNIONS)).put_into(typology)
-    typology = replace(typology, ties=stored_ties(typology, source.get(_TIES)))
+    ties = stored_ties(typology, source.get(_TIES))
+    typology = replace(typology, ties=ties, record_formats=_formats(run))
     results = replace(results, typology=typology)
     if "uncertainty" in run.settings:
         sources = source["_sources.csv"]
@@ -276,6 +277,11 @@ def _of_typology(results: Results, source: Source, work: Work, flags: Flags | No
         with beside.reading():
             results = replace(results, designs=stored_designs(typology, beside, run))
     return results
+
+
+def _formats(run: RunFile) -> tuple[str, ...]:
+    """Format of each record, '' where it is not known."""
+    return tuple(one.get("format", "") for one in run.records)
 
 
 def _population(table: Columns, gravity: float) -> Population:

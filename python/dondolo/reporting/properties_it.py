@@ -94,6 +94,9 @@ MEANINGS = {
     "restitution": "modello degli urti",
     "restitution_value": "velocità dopo / prima di un urto, al posto di un modello",
     "restitution_factor": "fattore sul rapporto di velocità di qualunque modello",
+    "restitution_sd": "deviazione standard del rapporto di velocità, che varia allora da urto a urto, uniformemente"
+    " attorno a quello del modello; solo con engine rk45",
+    "restitution_seed": "seme dei numeri casuali di questi rapporti, 1 se non assegnato",
     "overburden": "carico verticale in sommità, al metro di parete",
     "overburden_inertia": "frazione di quel carico la cui massa è sollevata dalla parete",
     "eccentricity": "distanza di quel carico dalla mezzeria, verso la cerniera superiore attiva",

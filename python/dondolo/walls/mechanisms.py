@@ -63,9 +63,9 @@ class OneSidedWall(BlockWall):
         Factor on the speed ratio of any model, 1 if left out.
     restitution_sd : float, optional
         Standard deviation of the speed ratio, which then varies from impact to impact, uniformly about that of the
-        model (docs/theory.md, section 3). Histories are computed by the engine 'rk45'.
+        model; engine rk45 only (docs/theory.md, section 3).
     restitution_seed : float, optional
-        Seed of the random numbers of these ratios, 1 if left out.
+        Seed of the random numbers of these ratios, 1 if not given.
     gravity : float, optional
         Acceleration of gravity [m/s2], 9.81 if left out.
     name : str, optional

@@ -31,7 +31,8 @@ module dondolo_case_run_file
    character(len=*), parameter :: shape_names(*) = [character(len=7) :: 'walls', 'levels', 'states', 'records']
 
    !> What is said of a record besides its event: which earthquake a report is of, and where it was felt
-   character(len=*), parameter :: shown_metadata(*) = [character(len=9) :: 'date', 'magnitude', 'station', 'component']
+   character(len=*), parameter :: shown_metadata(*) = [character(len=9) :: 'date', 'magnitude', 'station', 'component', &
+      & 'format']
 
    !> Name and version of the format, the first member of the file
    character(len=*), parameter :: format = 'dondolo run 2'
