@@ -173,7 +173,7 @@ def test_a_handler_of_the_users_may_raise_anywhere(name, complete, wall, few, in
 
 
 @pytest.mark.parametrize(("run", "how"), [(dd.multiple_stripe, [0.3, 0.6, 0.9]), (dd.adaptive_stripes, 24)])
-@pytest.mark.parametrize("name", ["_stripes", "_warnings"])
+@pytest.mark.parametrize("name", ["_stripes", "warn_of_errors"])
 def test_when_all_stripes_are_complete(name, run, how, wall, few, interrupt_at):
     interrupt_at(stripe_runs, name, 3 if run is dd.adaptive_stripes and name == "_stripes" else 1)
     with pytest.raises(dd.errors.Interrupted, match=r"interrupted: 3 of 3 stripes are complete") as caught:

@@ -235,8 +235,10 @@ def test_objects_of_python(name, ran):
     given = {"im": case.im, "polarity": case.polarity, "solver": solver, "progress": False}
     if case.task == "stripes":
         wall = case.population.walls[0]
-        own = dd.multiple_stripe(wall, case.records, case.levels, estimate_error=case.estimate_error, **given)
-        ignored = {f"Stripes.{field}" for field in ("status", "edp_lowest", "edp_highest", "engine", "runs", "work")}
+        own = dd.multiple_stripe(
+            wall, case.records, case.levels, estimate_error=case.estimate_error, certify=case.certify, **given
+        )
+        ignored = {f"Stripes.{field}" for field in ("engine", "runs", "work")}
         assert [*differences(own, mine.stripes, name, ignored)] == []
         return
     own = dd.typology(case.population, case.records, case.levels, edp_thresholds=case.edp_thresholds, **given)
@@ -298,3 +300,32 @@ def test_written_by_python(name, ran, tmp_path):
         typology.write_results(tmp_path / str(number))
         back = dd.read_results(tmp_path / str(number)).typology
         assert [*differences(theirs, back, name, WRITTEN_ALONE)] == []
+
+
+def test_warnings(tmp_path):
+    """Stripes carry the warnings of their runs, by every route; a curve warns of itself."""
+    wall = dd.OneSidedWall(1.5, 0.25)
+    records = dd.synthetic_records(6.5, 10.0, "shallow", n_records=4)
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("always", dd.errors.DondoloWarning)
+        stripes = dd.multiple_stripe(wall, records, [0.5, 9.0], estimate_error=True, progress=False)
+        later = dd.multiple_stripe(wall, records, [0.7], estimate_error=True, progress=False)
+    codes = [one.code for one in stripes.warnings]
+    assert {"levels_above_usual", "scale_factors_large"} <= set(codes)
+    assert [one.message for one in heard] == [*stripes.warnings, *later.warnings]
+    assert stripes[:1].warnings == stripes.warnings
+    assert (stripes + later).warnings == tuple(dict.fromkeys([*stripes.warnings, *later.warnings]))
+    assert stripes.certify(records, progress=False).warnings == tuple(
+        one for one in stripes.warnings if one.code not in ("ill_conditioned", "collapse_in_doubt")
+    )
+    stripes.save(tmp_path / "stripes.npz")
+    assert dd.load(tmp_path / "stripes.npz").warnings == stripes.warnings
+    stripes.write_results(tmp_path / "stripes")
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("always", dd.errors.DondoloWarning)
+        curve = stripes.fit()
+        of_curve = [one.message for one in heard]
+        back = dd.read_results(tmp_path / "stripes")
+    assert back.stripes.warnings == stripes.warnings
+    assert back.run.warnings == (*stripes.warnings, *of_curve)
+    assert back.fragility.status == curve.status

@@ -12,10 +12,10 @@ import numpy as np
 from dondolo._base.arguments import as_flag
 from dondolo._base.interrupts import deferred
 from dondolo._fortran import _core
-from dondolo._fortran.histories import is_doubtful
-from dondolo._fortran.library import Stoppable, check
+from dondolo._fortran.histories import is_doubtful, warnings_of_errors
+from dondolo._fortran.library import Stoppable, check, warn
 from dondolo.analysis.request import check_threads, progress_bar
-from dondolo.errors import DondoloError, InputError, Interrupted
+from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted
 from dondolo.records.level_rows import records_at_levels
 from dondolo.records.record import Record
 from dondolo.records.suite import upload
@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from dondolo.analysis.stripes import Stripes
 
 
+# Codes of the warnings of estimated errors
+_OF_ERRORS = ("ill_conditioned", "collapse_in_doubt")
 # What a run in 33 digits replaces, in the order in which Fortran gives it
 _REPLACED = ("edp", "collapsed", "impacts", "time_of_peak", "edp_error")
 _BLOCK = 16
@@ -78,7 +80,7 @@ def run_again(stripes: Stripes, records: Sequence[Record], threads: int, progres
         found = fields | {"status": status, "edp_lowest": lowest, "edp_highest": highest}
         for value in found.values():
             value.flags.writeable = False
-        return dataclasses.replace(stripes, **found)
+        return warned(dataclasses.replace(stripes, **found), stripes.warnings)
 
     done = 0
     # A few at a time, so that Ctrl-C and the bar are heard
@@ -117,6 +119,26 @@ def run_again(stripes: Stripes, records: Sequence[Record], threads: int, progres
         if is_stopped:
             raise Interrupted(f"interrupted: {done} of {len(places)} histories in doubt are certified", so_far())
     return so_far()
+
+
+def warned(stripes: Stripes, others: Iterable[DondoloWarning]) -> Stripes:
+    """Stripes with these warnings, but of estimated errors with those of the errors that they have."""
+    found = [one for one in others if one.code not in _OF_ERRORS]
+    if stripes.edp_error is not None:
+        level, history = np.unravel_index(np.nanargmax(stripes.edp_error), stripes.edp_error.shape)
+        found += warnings_of_errors(
+            stripes.edp[stripes.ran],
+            stripes.edp_error[stripes.ran],
+            stripes.edp_limit,
+            stripes.record_names[history],
+            float(stripes.levels[level]),
+        )
+    return dataclasses.replace(stripes, warnings=tuple(found))
+
+
+def warn_of_errors(stripes: Stripes) -> None:
+    """Warn of estimated errors, as the executable does after the run."""
+    warn(one for one in stripes.warnings if one.code in _OF_ERRORS)
 
 
 def records_of(stripes: Stripes, records: Any) -> list[Record]:

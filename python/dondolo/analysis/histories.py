@@ -145,7 +145,8 @@ def _concatenated(parts: Sequence[_Part], levels: NDArray[Any]) -> Stripes:
     # A run counts once, in however many parts its histories come.
     runs = {key: work for part in parts for key, work in part.stripes.runs.items()}
     polarity = np.repeat(signs, n_records)
-    return dataclasses.replace(first, levels=levels, polarity=polarity, runs=runs, **columns, **texts)
+    heard = tuple(dict.fromkeys(one for part in parts for one in part.stripes.warnings))
+    return dataclasses.replace(first, levels=levels, polarity=polarity, runs=runs, warnings=heard, **columns, **texts)
 
 
 def _texts(what: str, parts: Sequence[_Part], n_records: int) -> tuple[str, ...]:

@@ -13,16 +13,15 @@ from numpy.typing import ArrayLike
 from dondolo._base.arguments import FloatArray, as_count, as_flag, instance_of
 from dondolo._base.interrupts import Interrupts, as_event, deferred
 from dondolo._base.shown import Shown
-from dondolo._fortran.histories import warnings_of_errors
 from dondolo._fortran.library import warn
 from dondolo._fortran.records import levels_in_words
 from dondolo.analysis.auto_levels import FEWEST, next_level, rounded
-from dondolo.analysis.certificate import run_again
+from dondolo.analysis.certificate import run_again, warn_of_errors, warned
 from dondolo.analysis.histories import matrix, stack
 from dondolo.analysis.request import Kept, Outcome, Pace, Plan, Polarity, Request, new_request, progress_bar
 from dondolo.analysis.solver import Solver
 from dondolo.analysis.stripes import Stripes
-from dondolo.errors import DondoloWarning, InputError, Interrupted
+from dondolo.errors import InputError, Interrupted
 from dondolo.records.record import Record
 from dondolo.walls.wall import Wall
 
@@ -388,10 +387,15 @@ def _adaptive(request: Request, budget: int, progress: bool, interrupts: Interru
     except KeyboardInterrupt:
         # Of a handler of the user's, at any moment
         is_stopped = True
-    if is_stopped or interrupts.requested:
-        raise _stopped(len(parts), budget // size, stack(parts) if parts else None)
+    if not parts:
+        raise _stopped(0, budget // size, None)
     stripes = stack(parts)
-    warn(at(stripes.levels).plan().warnings)
+    # Those of all levels together, in place of those of each
+    found = at(stripes.levels).plan().warnings
+    stripes = warned(stripes, found)
+    if is_stopped or interrupts.requested:
+        raise _stopped(len(parts), budget // size, stripes)
+    warn(found)
     return stripes
 
 
@@ -399,7 +403,7 @@ def _finished(stripes: Stripes, request: Request, certify: bool, progress: bool,
     """The stripes, certified if they are to be, with the warnings of their errors."""
     if certify:
         stripes = run_again(stripes, request.records, request.threads, progress)
-    warn(_warnings(stripes))
+    warn_of_errors(stripes)
     if interrupts.requested:
         raise _stopped(len(stripes.levels), len(stripes.levels), stripes)
     return stripes
@@ -418,7 +422,7 @@ def _stripes(request: Request, plan: Plan, outcome: Outcome, complete: int) -> S
     uplift = None
     if facts.falls is not None:
         uplift = ran & (plan.scale[:complete] * facts.falls[plan.record] >= request.walls[0].gravity)
-    return Stripes(
+    stripes = Stripes(
         wall=request.walls[0],
         im=request.im,
         levels=levels,
@@ -435,19 +439,7 @@ def _stripes(request: Request, plan: Plan, outcome: Outcome, complete: int) -> S
         events=facts.events,
         checksums=facts.checksums,
         record_formats=facts.formats,
+        warnings=tuple(plan.warnings),
         **{name: matrix(getattr(outcome, name)[:count], ran.shape, places) for name in names},
     )
-
-
-def _warnings(stripes: Stripes) -> list[DondoloWarning]:
-    """What the executable would warn of, of estimated errors."""
-    if stripes.edp_error is None:
-        return []
-    level, history = np.unravel_index(np.nanargmax(stripes.edp_error), stripes.edp_error.shape)
-    return warnings_of_errors(
-        stripes.edp[stripes.ran],
-        stripes.edp_error[stripes.ran],
-        stripes.edp_limit,
-        stripes.record_names[history],
-        float(stripes.levels[level]),
-    )
+    return stripes if stripes.edp_error is None else warned(stripes, plan.warnings)

@@ -30,7 +30,7 @@ from dondolo.curves.fitting import fit
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.sample import Sample, cluster_labels, given_labels
 from dondolo.curves.table import fragility_table
-from dondolo.errors import InputError, silent
+from dondolo.errors import DondoloWarning, InputError, silent
 from dondolo.records.record import Record
 from dondolo.walls.ties import TieCounts, number_of_ties, tallies_of_ties, tie_table
 from dondolo.walls.wall import Wall, notes_on_supports, upload, walls_table
@@ -102,6 +102,9 @@ class Stripes(Shown, Saved):
         `Record.checksum` of each.
     record_formats : tuple of str, length records
         Format that each was read in, 'synthetic' if dondolo made it, '' if neither is known.
+    warnings : tuple of DondoloWarning
+        Warnings of `runs`: of the wall, the records, the levels and estimated errors; also of levels and records that
+        are no longer among them.
 
     Examples
     --------
@@ -139,6 +142,7 @@ class Stripes(Shown, Saved):
     events: tuple[str, ...] = ()
     checksums: tuple[str, ...] = ()
     record_formats: tuple[str, ...] = ()
+    warnings: tuple[DondoloWarning, ...] = ()
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -420,10 +424,13 @@ class Stripes(Shown, Saved):
 
     def _warn_of(self, curve: Fragility, where: str) -> None:
         """Warn of a curve as the executable does."""
+        warn(one.placed(where) for one in self._warnings_of(curve))
+
+    def _warnings_of(self, curve: Fragility) -> list[DondoloWarning]:
+        """Warnings of a curve of these stripes."""
         low, high = curve.bracket
         data = CurveData.of(curve.status, curve.theta, curve.beta, (low, min(high, np.finfo(np.float64).max)))
-        sentences = warnings_of_curve(upload((self.wall,)), self.levels, float(np.nanmax(self.edp)), data)
-        warn(sentence.placed(where) for sentence in sentences)
+        return warnings_of_curve(upload((self.wall,)), self.levels, float(np.nanmax(self.edp)), data)
 
     def certify(
         self,
@@ -704,6 +711,7 @@ class Stripes(Shown, Saved):
         levels = [self.edp_limit] if edp_thresholds is None else self._thresholds(edp_thresholds)
         with silent():
             curves = self.fit_damage_states(levels, states=states)
+            of_collapse = curves[-1] if states == "ordinal" else self.fit()
         found = {
             "_walls.csv": walls_table((self.wall,)),
             "_histories.csv": histories_table(self),
@@ -734,6 +742,7 @@ class Stripes(Shown, Saved):
                 for name, event, checksum, form in zip(*facts, strict=True)
             ),
             work=self.work._asdict(),
+            warnings=(*self.warnings, *self._warnings_of(of_collapse)),
             shape={"walls": 1, "levels": len(self.levels), "states": len(levels), "records": self.n_records},
         )
         used = sources_of_fits(self.im, (self.wall,)) | {self.engine, states, *self.record_formats}

@@ -248,6 +248,9 @@ def _of_stripes(results: Results, source: Source, work: Work) -> Results:
             stripes = replace(stripes, events=events, checksums=checksums, record_formats=_formats(run))
         ordinal = results.states == "ordinal" and results.edp_thresholds
         curves = stripes.fit_damage_states(results.edp_thresholds, states="ordinal") if ordinal else [stripes.fit()]
+    # The run also warns of the curve.
+    of_curve = {one.code for one in stripes._warnings_of(curves[-1])}
+    stripes = replace(stripes, warnings=tuple(one for one in run.warnings if one.code not in of_curve))
     results = replace(results, stripes=stripes, fragility=curves[-1])
     if "check" not in run.settings:
         return results

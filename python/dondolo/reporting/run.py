@@ -169,7 +169,9 @@ def _of_stripes(stripes: Stripes) -> Run:
         stripes.fit()
     found = [one.message for one in caught if isinstance(one.message, DondoloWarning)]
     of_scales = warnings_of_scales(stripes.levels, stripes.scale, stripes.record_names)
-    found = of_scales + found
+    # Of the stripes that there are; those of the run may be of more.
+    of_run = [one for one in stripes.warnings if one.code != _LARGE_SCALES]
+    found = [*of_run, *of_scales, *found]
     settings: Facts = [
         ("engine", stripes.engine),
         ("rtol, atol", f"{stripes.rtol:g}, {stripes.atol:g}"),
