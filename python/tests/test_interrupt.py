@@ -1,5 +1,6 @@
 """Ctrl-C: in the middle of one history that would take minutes, and between blocks, where what is complete is kept."""
 
+import inspect
 import os
 import signal
 import subprocess
@@ -12,6 +13,7 @@ import pytest
 from dondolo._base.interrupts import deferred
 from dondolo.analysis import certificate, cloud, overturning, request, stripe_runs
 from dondolo.populations import blocks, study
+from public import public_things
 
 import dondolo as dd
 
@@ -353,3 +355,128 @@ def test_an_event_ends_a_population_after_a_block(is_main, few, monkeypatch, tmp
     resumed, whole = dd.typology(walls, few, **how), dd.typology(walls, few, [0.4, 0.8], progress=False)
     assert resumed["all"](0.6) == whole["all"](0.6)
     assert os.listdir(tmp_path) == ["part"]
+
+
+def test_every_long_run_has_an_event():
+    """What shows a progress bar can be ended from another thread."""
+    things = public_things()
+    methods = [
+        getattr(kind, name) for kind in things.values() if inspect.isclass(kind) for name in dir(kind) if name[0] != "_"
+    ]
+    calls = [call for call in (*things.values(), *methods) if inspect.isfunction(call)]
+    long = {call.__qualname__: call for call in calls if "progress" in inspect.signature(call).parameters}
+    assert {"multiple_stripe", "run_case", "cloud", "Stripes.certify"} <= set(long)
+    for name, call in long.items():
+        assert "stop" in inspect.signature(call).parameters, name
+
+
+def test_an_event_ends_a_cloud(wall, few, monkeypatch):
+    """Nothing of a cloud that is not whole is kept; whole when the event comes, it is."""
+    monkeypatch.setattr(request, "_FIRST_SAMPLES", 2 * max(map(len, few)))
+    monkeypatch.setattr(request, "_SECONDS", 1e-9)
+    stop = _stop_after(monkeypatch, request.Pace, "learn", 2)
+    with pytest.raises(dd.errors.Interrupted, match=f"interrupted: . of {len(few)} histories are complete") as caught:
+        dd.cloud(wall, few, progress=False, stop=stop)
+    assert caught.value.partial is None
+    monkeypatch.undo()
+    stop = _stop_after(monkeypatch, request.Pace, "learn", 1)
+    with pytest.raises(dd.errors.Interrupted, match=f"{len(few)} of {len(few)} histories are complete") as caught:
+        dd.cloud(wall, few, scale=2.0, progress=False, stop=stop)
+    assert caught.value.partial.edp.tolist() == dd.cloud(wall, few, scale=2.0, progress=False).edp.tolist()
+
+
+def test_an_event_ends_certificates(wall, few, monkeypatch):
+    """What is certified is kept, and the rest is certified by a second call."""
+    stripes = dd.multiple_stripe(wall, few, [0.4, 0.6, 0.8], estimate_error=True, progress=False)
+    monkeypatch.setattr(certificate, "is_doubtful", lambda edp, *_: np.ones(edp.shape, dtype=bool))
+    monkeypatch.setattr(certificate, "_BLOCK", 5)
+    stop = _stop_after(monkeypatch, certificate, "check", 2)
+    with pytest.raises(dd.errors.Interrupted, match="interrupted: 10 of 24 histories in doubt are certified") as caught:
+        stripes.certify(few, progress=False, stop=stop)
+    assert np.count_nonzero(caught.value.partial.status) == 10
+    resumed, whole = caught.value.partial.certify(few, progress=False), stripes.certify(few, progress=False)
+    assert resumed.edp_highest.tolist() == whole.edp_highest.tolist()
+    with pytest.raises(dd.errors.Interrupted, match="0 of 24 histories have their friction"):
+        stripes.friction_demand(few, progress=False, stop=stop)
+
+
+def test_an_event_ends_what_runs_several_walls(wall, few, monkeypatch):
+    """Designs, samples, hinges and measures end with it."""
+    stop = threading.Event()
+    stop.set()
+    how = {"progress": False, "stop": stop}
+    two_block = dd.TwoBlockWall(3.0, 0.25, hinge=0.6)
+    sources = {"thickness": dd.distributions.Uniform(0.24, 0.26)}
+    with pytest.raises(dd.errors.Interrupted):
+        dd.compare_designs({"bare": wall, "thicker": dd.OneSidedWall(1.5, 0.4)}, few, [0.4, 0.8], **how)
+    with pytest.raises(dd.errors.Interrupted):
+        dd.uncertain_wall(wall, few, [0.4, 0.8], sources=sources, n_variants=8, **how)
+    with pytest.raises(dd.errors.Interrupted):
+        dd.weakest_hinge(two_block, few, [0.4, 0.8], hinges=[0.5, 0.6], **how)
+    with pytest.raises(dd.errors.Interrupted):
+        dd.compare_intensities(wall, few, ["pga"], **how)
+
+
+LONG_CASE = """
+&job task = '{task}', output = 'out/long' /
+&wall mechanism = 'one_sided', height = 3, thickness = 0.25, restitution_value = 0.99999 /
+&records catalogue = 'records.csv' /
+{group}
+&solver engine = '{engine}' /
+"""
+
+
+@pytest.mark.parametrize(("task", "engine"), [("history", "rk45"), ("stripes", "rk45"), ("stripes", "lanes")])
+@pytest.mark.parametrize("is_main", [True, False])
+def test_an_event_breaks_a_case_off(is_main, task, engine, tmp_path):
+    """The whole would take half an hour, of one history. No file is left, and the next run is whole."""
+    wall = dd.OneSidedWall(3.0, 0.25)
+    ground = 0.6 * wall.trigger_acceleration * np.sin(2.0 * np.pi * 0.01 * np.arange(500_000))
+    for i in range(1, 4):
+        ground[i::500] = -wall.trigger_acceleration * (1.0 + 1e-6)
+    np.savetxt(tmp_path / "r.txt", ground, fmt="%.17g")
+    np.savetxt(tmp_path / "short.txt", ground[:200], fmt="%.17g")
+    (tmp_path / "records.csv").write_text("file,dt_s,units\nr.txt,0.01,m/s2\n")
+    level = np.abs(ground).max() / 9.80665
+    group = "&history record = 1 /" if task == "history" else f"&stripes levels = {level:.17g}, {2 * level:.17g} /"
+    (tmp_path / "case.nml").write_text(LONG_CASE.format(task=task, group=group, engine=engine))
+    before, stop = sorted(os.listdir(tmp_path)), threading.Event()
+    threading.Timer(0.5, stop.set).start()
+
+    def run():
+        dd.run_case(tmp_path / "case.nml", progress=False, stop=stop)
+
+    begin = time.monotonic()
+    if is_main:
+        with pytest.raises(dd.errors.Interrupted) as caught:
+            run()
+        error = caught.value
+        assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    else:
+        (error,) = _in_a_thread(run)
+    assert time.monotonic() - begin < 20.0
+    assert (str(error), error.partial) == ("interrupted", None)
+    assert sorted(os.listdir(tmp_path)) == before
+    # An event of an earlier run ends nothing of the next, which runs in the same threads.
+    (tmp_path / "records.csv").write_text("file,dt_s,units\nshort.txt,0.01,m/s2\n")
+    assert dd.run_case(tmp_path / "case.nml", progress=False).run is not None
+
+
+def test_an_event_ends_a_case_of_a_population(tmp_path):
+    """The walls that are complete are kept in memory; nothing is written, a checkpoint neither."""
+    records = dd.RecordSet(dd.synthetic_records(6.5, 10.0, "shallow", n_records=10))
+    records.to_catalogue(tmp_path / "records.csv")
+    rows = "\n".join(f"w{i},one_sided,{1.5 + 0.0001 * i:g},0.25" for i in range(3000))
+    (tmp_path / "walls.csv").write_text(f"name,mechanism,height,thickness\n{rows}\n")
+    (tmp_path / "case.nml").write_text(
+        "&job task = 'typology', output = 'out/walls' /\n&population file = 'walls.csv' /\n"
+        "&records catalogue = 'records.csv' /\n&stripes first = 0.05, last = 2, count = 40 /\n"
+    )
+    before, stop = sorted(os.listdir(tmp_path)), threading.Event()
+    threading.Timer(0.3, stop.set).start()
+    with pytest.raises(dd.errors.Interrupted) as caught:
+        dd.run_case(tmp_path / "case.nml", progress=False, stop=stop)
+    assert caught.value.partial is None or len(caught.value.partial.population) < 3000
+    assert sorted(os.listdir(tmp_path)) == before
+    with pytest.raises(dd.errors.InputError, match=r"stop: must be a threading\.Event, not int"):
+        dd.run_case(tmp_path / "case.nml", progress=False, stop=1)

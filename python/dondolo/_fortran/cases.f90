@@ -1,7 +1,8 @@
 !> Case files.
 module cases
-   use, intrinsic :: iso_c_binding, only : c_double, c_f_pointer, c_int, c_int64_t, c_ptr
+   use, intrinsic :: iso_c_binding, only : c_double, c_f_pointer, c_int, c_int64_t, c_loc, c_null_ptr, c_ptr
    use dondolo_base_error, only : error_type
+   use dondolo_base_interrupt, only : stop_at
    use dondolo_base_json, only : json_type
    use dondolo_boundary, only : check_room
    use dondolo_case, only : case_type
@@ -26,8 +27,8 @@ module cases
 
    public :: read_case, read_text, run_case, result_tables
 
-   !> Where the histories that the run of a thread has done, and all of them, are told: the library calls back in the thread
-   !> that runs, and a callback carries no data of its own
+   !> What the run of a thread shares with who watches it: how many histories are done, and how many there are. The library
+   !> calls back in the thread that runs, and a callback carries no data of its own
    integer(c_int), pointer :: told(:) => null()
    !$omp threadprivate(told)
 
@@ -69,11 +70,12 @@ contains
    !> Run a case. Three parcels are sent: the case (pack_case); the rows of its population (pack_store), which after Ctrl-C are
    !> those that are complete, with 1 or 0 for each record (records, levels) that runs at a level behind the integers and
    !> counts of what was computed behind the reals; and its results (pack_results). With an error the first two are sent as far
-   !> as they are there. heard: address of two integers that the histories that are done, and all of them, are written to meanwhile
-   subroutine run_case(path, heard, sent_case, sent_rows, sent_results)
+   !> as they are there. shared: address of three integers: the histories that are done, and all of them, are written to the
+   !> first two meanwhile, and once another thread has set the third, the run is broken off as by Ctrl-C
+   subroutine run_case(path, shared, sent_case, sent_rows, sent_results)
       !f2py threadsafe
       character(len=*), intent(in) :: path
-      integer(c_int64_t), intent(in) :: heard
+      integer(c_int64_t), intent(in) :: shared
       integer(c_int64_t), intent(out) :: sent_case(5), sent_rows(5), sent_results(5)
       type(case_type), allocatable, target :: case
       type(results_type), allocatable :: results
@@ -92,9 +94,11 @@ contains
          call send(tables, error, sent_results)
          return
       end if
-      address = transfer(heard, address)
-      call c_f_pointer(address, told, [2])
+      address = transfer(shared, address)
+      call c_f_pointer(address, told, [3])
+      call stop_at(c_loc(told(3)))
       call run(case, results, error, progress=hear, in_memory=.true.)
+      call stop_at(c_null_ptr)
       if (allocated(results%stores)) then
          call pack_store(results%stores(1), rows, fault)
          if (.not. allocated(fault)) then
@@ -123,7 +127,7 @@ contains
    subroutine hear(done, total)
       integer, intent(in) :: done, total
 
-      told = [done, total]
+      told(:2) = [done, total]
    end subroutine hear
 
    !> A case: each of its values under its name, as Python's Case has it, the JSON of its groups (settings), its walls (pack_rows)

@@ -2,7 +2,7 @@
 module stripes
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_base_error, only : add_place, error_type
-   use dondolo_base_interrupt, only : check_interrupt, watch, watched
+   use dondolo_base_interrupt, only : check_interrupt, get_watched, watch, watched_type
    use dondolo_base_lines, only : lines_type
    use dondolo_base_text, only : to_text
    use dondolo_base_threads, only : check_threads, team_of
@@ -226,9 +226,10 @@ contains
       type(work_type) :: total
       type(error_type), allocatable :: error, trouble
       integer, allocatable :: range(:, :)
-      integer :: i, k, left, crew, shared_out, since
+      type(watched_type) :: watched
+      integer :: i, k, left, crew, shared_out
 
-      since = watched()
+      call get_watched(watched)
       call check_room(error, walls=last - one + 1, histories=real(count, c_double))
       if (.not. allocated(error)) call find_study(study, chosen, error)
       if (.not. allocated(error)) call find_walls(walls, wall, error)
@@ -245,9 +246,9 @@ contains
          crew = team_of(chosen%threads, huge(1))
          shared_out = last - modulo(last - one + 1, crew)
          !$omp parallel do schedule(dynamic) num_threads(crew) if(shared_out >= one) default(none) &
-         !$omp & shared(one, shared_out, chosen, wall, range, part, since, error) private(trouble)
+         !$omp & shared(one, shared_out, chosen, wall, range, part, watched, error) private(trouble)
          do i = one, shared_out
-            call watch(since)
+            call watch(watched)
             call run_part(part(i), wall(i), chosen, 1, range(:, i), trouble)
             if (.not. allocated(trouble)) cycle
             !$omp critical (note_trouble)

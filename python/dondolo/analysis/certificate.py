@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import dataclasses
 import enum
+import threading
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from dondolo._base.arguments import as_flag
-from dondolo._base.interrupts import deferred
+from dondolo._base.interrupts import as_event, deferred
 from dondolo._fortran import _core
 from dondolo._fortran.histories import is_doubtful, warnings_of_errors
 from dondolo._fortran.library import Stoppable, check, warn
@@ -49,13 +50,15 @@ def certify(
     *,
     threads: int = 0,
     progress: bool = True,
+    stop: threading.Event | None = None,
 ) -> Stripes:
     """Stripes with certificates: see `Stripes.certify`."""
     if stripes.edp_error is None:
         raise InputError("stripes: have no estimated errors: must be run with estimate_error = True")
     team = check_threads(threads)
     as_flag("progress", progress)
-    return run_again(stripes, records_of(stripes, records), team, progress)
+    with deferred(as_event(stop)):
+        return run_again(stripes, records_of(stripes, records), team, progress)
 
 
 def run_again(stripes: Stripes, records: Sequence[Record], threads: int, progress: bool) -> Stripes:

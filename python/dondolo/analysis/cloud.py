@@ -45,6 +45,7 @@ motion records, Earthquake Engineering and Structural Dynamics 46, 2639-2663; Al
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
@@ -52,6 +53,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray, as_number, instance_of
+from dondolo._base.interrupts import as_event, deferred
 from dondolo._fortran.library import constants, warn
 from dondolo._fortran.records import describe_measure, unit_of
 from dondolo._storage import tables
@@ -340,6 +342,7 @@ def cloud(
     solver: Solver | None = None,
     threads: int = 0,
     progress: bool = True,
+    stop: threading.Event | None = None,
 ) -> Cloud:
     """Cloud analysis: run unscaled records, and fit EDP and collapse to the intensity.
 
@@ -355,7 +358,7 @@ def cloud(
         One factor for all records.
     polarity : {'as_recorded', 'reversed', 'both'}
         As for `multiple_stripe`.
-    solver, threads, progress
+    solver, threads, progress, stop
         As for `multiple_stripe`.
 
     Returns
@@ -368,7 +371,7 @@ def cloud(
         Input that cannot be run; a record without motion, whose intensity has no logarithm; a row of a set with a level
         and no factor.
     Interrupted
-        Ctrl-C; its `partial` is the result if all histories were complete, else None.
+        Ctrl-C or `stop`; its `partial` is the result if all histories were complete, else None.
 
     Warns
     -----
@@ -412,7 +415,8 @@ def cloud(
     )
     plan = request.plan()
     warn(plan.warnings)
-    outcome, interrupted = request.run(plan.histories, progress, wall.name)
+    with deferred(as_event(stop)):
+        outcome, interrupted = request.run(plan.histories, progress, wall.name)
     told = f"interrupted: {outcome.done} of {len(plan.record)} histories are complete"
     if outcome.done < len(plan.record):
         raise Interrupted(told)

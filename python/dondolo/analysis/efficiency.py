@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -9,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray, as_count, as_measures
+from dondolo._base.interrupts import as_event, deferred
 from dondolo._fortran.library import constants
 from dondolo._fortran.records import blank_unit, describe_measure
 from dondolo._storage import tables
@@ -158,6 +160,7 @@ def compare_intensities(
     events: Sequence[Any] | None = None,
     threads: int = 0,
     progress: bool = True,
+    stop: threading.Event | None = None,
 ) -> IntensityComparison:
     """Compare intensity measures by the dispersion of a wall's fragility: the smaller, the more efficient.
 
@@ -183,7 +186,7 @@ def compare_intensities(
         Of these samples.
     events : sequence, optional
         A label for each record in place of its event; records with the same label depend on each other.
-    threads, progress
+    threads, progress, stop
         As for `multiple_stripe`.
 
     Returns
@@ -196,6 +199,8 @@ def compare_intensities(
         Records with levels or factors of their own, measures that are not known.
     DondoloError
         A measure without a curve: too few records, say.
+    Interrupted
+        Ctrl-C or `stop`.
 
     Examples
     --------
@@ -212,14 +217,15 @@ def compare_intensities(
         raise InputError("ims: must be given, and differ")
     count = as_count("n_levels", n_levels, 2)
     analyses, curves = [], []
-    for im in names:
-        grid = _levels(wall, several, im, count, polarity, threads)
-        analyses.append(
-            multiple_stripe(wall, several, grid, im=im, polarity=polarity, threads=threads, progress=progress)
-        )
-        curves.append(analyses[-1].fit(events=events))
-        if not curves[-1].has_fit:
-            raise DondoloError(f"im = '{im}': no curve was fitted (status '{curves[-1].status}')")
+    with deferred(as_event(stop)):
+        for im in names:
+            grid = _levels(wall, several, im, count, polarity, threads)
+            analyses.append(
+                multiple_stripe(wall, several, grid, im=im, polarity=polarity, threads=threads, progress=progress)
+            )
+            curves.append(analyses[-1].fit(events=events))
+            if not curves[-1].has_fit:
+                raise DondoloError(f"im = '{im}': no curve was fitted (status '{curves[-1].status}')")
     power = np.array([describe_measure(im).power for im in names], dtype=np.float64)
     dispersion = np.array([curve.beta for curve in curves]) / power
     error = np.array([curve.se_beta for curve in curves]) / power

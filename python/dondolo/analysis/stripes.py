@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import os
+import threading
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
@@ -438,6 +439,7 @@ class Stripes(Shown, Saved):
         *,
         threads: int = 0,
         progress: bool = True,
+        stop: threading.Event | None = None,
     ) -> Stripes:
         """Rerun in 33 digits every history whose estimated error leaves its outcome in doubt.
 
@@ -449,6 +451,8 @@ class Stripes(Shown, Saved):
             Number of threads; 0: all (OMP_NUM_THREADS is honoured). Results do not depend on it.
         progress : bool
             Show a progress bar in a terminal or notebook.
+        stop : threading.Event, optional
+            As for `multiple_stripe`.
 
         Returns
         -------
@@ -461,8 +465,8 @@ class Stripes(Shown, Saved):
         InputError
             Stripes without estimated errors, other records, or a build without quadruple precision.
         Interrupted
-            Ctrl-C; its `partial` has all stripes, with a status of 0 for the doubtful histories that were not yet
-            rerun. Its own `certify` resumes there. At most 16 histories in progress are lost.
+            Ctrl-C or `stop`; its `partial` has all stripes, with a status of 0 for the doubtful histories that were not
+            yet rerun. Its own `certify` resumes there. At most 16 histories in progress are lost.
 
         Notes
         -----
@@ -487,7 +491,7 @@ class Stripes(Shown, Saved):
         """
         from dondolo.analysis.certificate import certify
 
-        return certify(self, records, threads=threads, progress=progress)
+        return certify(self, records, threads=threads, progress=progress, stop=stop)
 
     def incremental(self) -> Incremental:
         """Read the stripes as an incremental dynamic analysis, record by record.
@@ -525,6 +529,7 @@ class Stripes(Shown, Saved):
         records: Record | Iterable[Record] | Mapping[float, Record | Iterable[Record]],
         *,
         progress: bool = True,
+        stop: threading.Event | None = None,
     ) -> FloatArray:
         """Coefficient of friction that each history needs so that the wall does not slide while it rocks.
 
@@ -534,6 +539,8 @@ class Stripes(Shown, Saved):
             The accelerograms that they were run with.
         progress : bool
             Show a progress bar in a terminal or notebook.
+        stop : threading.Event, optional
+            As for `multiple_stripe`.
 
         Returns
         -------
@@ -545,6 +552,8 @@ class Stripes(Shown, Saved):
         ------
         InputError
             Other records, or a wall that is more than a rectangular block.
+        Interrupted
+            `stop`; nothing is kept.
 
         Notes
         -----
@@ -563,7 +572,7 @@ class Stripes(Shown, Saved):
         """
         from dondolo.analysis.sliding import friction_demand
 
-        return friction_demand(self, records, progress=progress)
+        return friction_demand(self, records, progress=progress, stop=stop)
 
     def plot(self, ax: Axes | None = None, **options: Any) -> Axes:
         """Draw every history: EDP against intensity, collapses set apart above.

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dondolo._base.arguments import as_flag, as_path
-from dondolo._base.interrupts import deferred
+from dondolo._base.interrupts import Interrupts, as_event, deferred
 from dondolo._fortran import _core
 from dondolo._fortran.library import Parcel, Stoppable, receive, warn
 from dondolo._fortran.tables import unpack_table
@@ -30,7 +30,7 @@ from dondolo.populations.study import typology_of
 _PAUSE = 0.1
 
 
-def run_case(path: str | os.PathLike[str], *, progress: bool = True) -> Results:
+def run_case(path: str | os.PathLike[str], *, progress: bool = True, stop: threading.Event | None = None) -> Results:
     """Run a case file as the executable does, with its results in memory and no files written.
 
     Parameters
@@ -39,6 +39,8 @@ def run_case(path: str | os.PathLike[str], *, progress: bool = True) -> Results:
         A namelist file; paths in it are relative to it.
     progress : bool
         Show a progress bar in a terminal or notebook.
+    stop : threading.Event, optional
+        Once another thread has set it, the run is broken off within about a second.
 
     Returns
     -------
@@ -53,7 +55,7 @@ def run_case(path: str | os.PathLike[str], *, progress: bool = True) -> Results:
     DondoloError
         The run failed.
     Interrupted
-        Ctrl-C; its `partial` is the typology of the walls that are complete, None for one wall.
+        Ctrl-C or `stop`; its `partial` is the typology of the walls that are complete, None for one wall.
 
     Warns
     -----
@@ -77,9 +79,9 @@ def run_case(path: str | os.PathLike[str], *, progress: bool = True) -> Results:
     'ok'
     """
     name = as_path(path)
-    with deferred() as interrupts:
-        with Stoppable(), _shown(as_flag("progress", progress)) as heard:
-            *sent, answer = _core.cases.run_case(name, heard.ctypes.data)
+    with deferred(as_event(stop)) as interrupts:
+        with Stoppable(), _watched(as_flag("progress", progress), interrupts) as shared:
+            *sent, answer = _core.cases.run_case(name, shared.ctypes.data)
         case, rows = map(receive, sent)
         known = case_of(case) if case.address else None
         contents = None if known is None or not rows.address else _contents(known, rows)
@@ -119,7 +121,7 @@ def _contents(case: Case, parcel: Parcel) -> Contents:
 
 
 def _interrupted(case: Case | None, contents: Contents | None) -> tuple[str, Any]:
-    """What is said of a run that Ctrl-C has stopped, and what is complete."""
+    """What is said of a run that was stopped, and what is complete."""
     if case is None or contents is None:
         return "interrupted", None
     histories = np.zeros(len(case.population), dtype=np.int32)
@@ -141,15 +143,20 @@ def _interrupted(case: Case | None, contents: Contents | None) -> tuple[str, Any
 
 
 @contextmanager
-def _shown(wanted: bool) -> Iterator[NDArray[np.int32]]:
-    """Show how far a run is: gives where it tells how many histories are done, and how many there are."""
-    heard, over = np.zeros(2, dtype=np.int32), threading.Event()
+def _watched(is_shown: bool, interrupts: Interrupts) -> Iterator[NDArray[np.int32]]:
+    """Watch a run from another thread: gives what it shares with it.
 
-    def show() -> None:
+    The run writes how many histories are done, and how many there are, and ends early once the third number is not 0.
+    """
+    shared, over = np.zeros(3, dtype=np.int32), threading.Event()
+    shared[2] = interrupts.requested
+
+    def watch() -> None:
         bar, shown = None, 0
         while not over.wait(_PAUSE):
-            done, total = heard.tolist()
-            if total == 0:
+            shared[2] = interrupts.requested
+            done, total = shared[:2].tolist()
+            if total == 0 or not is_shown:
                 continue
             # Certificates are a work of their own.
             if bar is None or bar.total != total:
@@ -161,13 +168,10 @@ def _shown(wanted: bool) -> Iterator[NDArray[np.int32]]:
         if bar is not None:
             bar.close()
 
-    if not wanted:
-        yield heard
-        return
-    watcher = threading.Thread(target=show, daemon=True)
+    watcher = threading.Thread(target=watch, daemon=True)
     watcher.start()
     try:
-        yield heard
+        yield shared
     finally:
         over.set()
         watcher.join()

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+import threading
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -245,6 +246,7 @@ def uncertain_wall(
     threads: int = 0,
     executor: Executor | None = None,
     progress: bool = True,
+    stop: threading.Event | None = None,
 ) -> UncertainWall:
     """Sample the uncertain properties of a wall, and apportion the variance of its median among them.
 
@@ -255,7 +257,7 @@ def uncertain_wall(
     ----------
     wall : Wall
         The wall; properties that are not sources keep their values.
-    records, levels, im, polarity, solver, threads, executor, progress
+    records, levels, im, polarity, solver, threads, executor, progress, stop
         As for `typology`.
     sources : mapping of str to distribution
         Numbers of the wall (restitution_factor, hinge, hinge_depth, density, thickness ...) and their distributions,
@@ -280,7 +282,7 @@ def uncertain_wall(
     DondoloError
         Fewer walls with a curve than the indices need: the levels do not reach up or down to their medians.
     Interrupted
-        Ctrl-C.
+        Ctrl-C or `stop`.
 
     Warns
     -----
@@ -325,6 +327,7 @@ def uncertain_wall(
         threads=threads,
         executor=executor,
         progress=progress,
+        stop=stop,
     )
     with silent():
         middle = multiple_stripe(
@@ -337,6 +340,7 @@ def uncertain_wall(
             estimate_error=True,
             threads=threads,
             progress=False,
+            stop=stop,
         )
     return _result(known, values, found, _numbers(middle))
 

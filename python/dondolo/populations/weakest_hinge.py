@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -132,6 +133,7 @@ def weakest_hinge(
     solver: Solver | None = None,
     threads: int = 0,
     progress: bool = True,
+    stop: threading.Event | None = None,
 ) -> HingeSearch:
     """Find the height of the hinge at which a wall of two blocks collapses first.
 
@@ -142,7 +144,7 @@ def weakest_hinge(
     ----------
     wall : TwoBlockWall
         The wall; its own hinge is not used.
-    records, levels, im, polarity, solver, threads, progress
+    records, levels, im, polarity, solver, threads, progress, stop
         As for `typology`.
     hinges : array_like
         Heights of the hinge / height of the wall, increasing; 0.4 to 0.9 in steps of 0.02 if left out.
@@ -157,6 +159,8 @@ def weakest_hinge(
         A height that the wall cannot have, and errors of `typology`.
     DondoloError
         No height has a curve, or one without may be the weakest: the levels do not reach its median.
+    Interrupted
+        As `typology`.
 
     Warns
     -----
@@ -193,6 +197,7 @@ def weakest_hinge(
         solver=solver,
         threads=threads,
         progress=progress,
+        stop=stop,
     )
     if not any(curve.has_fit for curve in found.curves):
         raise DondoloError(f"hinges: no height has a curve (status '{found.curves[0].status}'): choose other levels")

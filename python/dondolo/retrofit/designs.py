@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import threading
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
@@ -217,6 +218,7 @@ def compare_designs(
     solver: Solver | None = None,
     threads: int = 0,
     progress: bool = True,
+    stop: threading.Event | None = None,
 ) -> DesignComparison:
     """Compare designs of one wall, such as strengthenings, on the same records.
 
@@ -233,7 +235,7 @@ def compare_designs(
         Levels of intensity, as for `multiple_stripe`, for all designs or for each.
     steel : mapping of str to float, optional
         Mass of steel in each design [kg per m of wall]; of a design that is not named, that of the wall's ties.
-    im, polarity, solver, threads, progress
+    im, polarity, solver, threads, progress, stop
         As for `multiple_stripe`.
     confidence : float
         Of the intervals.
@@ -249,7 +251,7 @@ def compare_designs(
     InputError
         No designs, names without a design, and errors of `multiple_stripe` and, with a site, `check_ntc`.
     Interrupted
-        Ctrl-C.
+        Ctrl-C or `stop`.
 
     Warns
     -----
@@ -278,7 +280,9 @@ def compare_designs(
     grids = [levels[name] if isinstance(levels, Mapping) else levels for name in _known(designs, levels, "levels")]
     given = {"im": im, "polarity": polarity, "solver": solver, "threads": threads}
     alike = {id(grid): Study(several, grid, **given) for grid in grids}  # type: ignore[arg-type]
-    stripes = tuple(alike[id(grid)].run(wall, progress=progress) for wall, grid in zip(walls, grids, strict=True))
+    stripes = tuple(
+        alike[id(grid)].run(wall, progress=progress, stop=stop) for wall, grid in zip(walls, grids, strict=True)
+    )
     curves = tuple(one.fit() for one in stripes)
     has_levels = all(np.array_equal(one.levels, stripes[0].levels) for one in stripes)
     return DesignComparison(

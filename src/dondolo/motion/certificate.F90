@@ -3,7 +3,7 @@
 module dondolo_motion_certificate
    use, intrinsic :: iso_c_binding, only : c_int
    use dondolo_base_error, only : error_type, raise_failure, raise_input
-   use dondolo_base_interrupt, only : look_for_interrupt, watch, watched
+   use dondolo_base_interrupt, only : get_watched, look_for_interrupt, watch, watched_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_property, only : is_list, is_text, is_words
    use dondolo_motion_ensemble, only : ensemble_type
@@ -93,18 +93,19 @@ contains
       type(queue_type) :: queue
       real(wp) :: rate
       integer(c_int) :: interrupted
-      integer :: i, since
+      type(watched_type) :: watched
+      integer :: i
 
       rate = wall%mechanism%frequency_parameter()
-      since = watched()
+      call get_watched(watched)
       allocate (certificates(size(ensemble%record)))
       call new_quadruple_wall(exact, wall, error)
       if (allocated(error)) return
       call queue%announce(size(certificates), progress)
       !$omp parallel do schedule(dynamic) num_threads(team_of(threads, size(certificates))) default(none) &
-      !$omp & private(interrupted) shared(certificates, exact, records, ensemble, edp_limit, rate, queue, since)
+      !$omp & private(interrupted) shared(certificates, exact, records, ensemble, edp_limit, rate, queue, watched)
       do i = 1, size(certificates)
-         call watch(since)
+         call watch(watched)
          call look_for_interrupt(interrupted)
          if (interrupted == 1) cycle
          call certify(exact, records(ensemble%record(i)), ensemble%scale(i), ensemble%response(i)%edp, edp_limit, rate, &

@@ -4,7 +4,7 @@
 !> to the bit for any number of threads and any grouping.
 module dondolo_motion_ensemble
    use dondolo_base_error, only : error_type, not_given, not_together, raise_failure, raise_input
-   use dondolo_base_interrupt, only : watch, watched
+   use dondolo_base_interrupt, only : get_watched, watch, watched_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : brief
    use dondolo_base_threads, only : team_of
@@ -112,19 +112,20 @@ contains
       type(rest_type) :: rest
       type(work_type) :: own
       character(len=16) :: variant
-      integer :: number, since, team
+      type(watched_type) :: watched
+      integer :: number, team
       logical :: stays
 
       variant = build_variant()
-      since = watched()
+      call get_watched(watched)
       ! Lanes begin at rest.
       if (solver%engine /= 'rk45' .and. .not. initial%moves()) constants = new_lane_constants(mechanism, solver, suite%has_vertical)
       if (.not. constants%form%exists) rest = new_rest(mechanism)
       team = team_of(threads, size(queue%record)/merge(histories_of_thread, 1, constants%form%exists))
       !$omp parallel num_threads(team) default(none) &
       !$omp & private(own, number, stays) &
-      !$omp & shared(variant, constants, rest, mechanism, suite, solver, initial, queue, work, since)
-      call watch(since)
+      !$omp & shared(variant, constants, rest, mechanism, suite, solver, initial, queue, work, watched)
+      call watch(watched)
       own = work_type()
       if (constants%form%exists) then
          call simulate_variant(variant, mechanism, constants, suite%records, suite%set, queue, own)

@@ -5,7 +5,7 @@
 module dondolo_population_run_rows
    use, intrinsic :: omp_lib, only : omp_get_thread_num
    use dondolo_base_error, only : add_place, error_type
-   use dondolo_base_interrupt, only : watch, watched
+   use dondolo_base_interrupt, only : get_watched, watch, watched_type
    use dondolo_base_threads, only : team_of
    use dondolo_fragility_stripes, only : plan_stripes, run_histories, stripes_type
    use dondolo_fragility_study, only : study_type
@@ -37,17 +37,18 @@ contains
       procedure(progress_interface), optional :: progress
 
       type(work_type) :: work
-      integer :: i, threads, shared_out, failed, since
+      type(watched_type) :: watched
+      integer :: i, threads, shared_out, failed
 
-      since = watched()
+      call get_watched(watched)
       allocate (results(size(rows)))
       failed = size(rows) + 1
       threads = team_of(study%threads, huge(1))
       shared_out = size(rows) - modulo(size(rows), threads)
       !$omp parallel do schedule(dynamic) num_threads(threads) if(shared_out > 0) default(none) &
-      !$omp & shared(shared_out, since)
+      !$omp & shared(shared_out, watched)
       do i = 1, shared_out
-         call watch(since)
+         call watch(watched)
          call one_row(i, 1)
       end do
       !$omp end parallel do

@@ -1,6 +1,7 @@
 /* Signals while histories run: handlers that take note of them. Fortran knows no signals. For Windows see
    windows_process.c. */
 #ifndef _WIN32
+#include "interrupt.h"
 #include <signal.h>
 #include <stddef.h>
 
@@ -8,8 +9,8 @@
 static volatile sig_atomic_t noted, come, listening;
 static struct sigaction before;
 
-/* How many had come when this thread began to listen; -1: it does not listen */
-static _Thread_local int heard = -1;
+/* What ends the work of this thread */
+static _Thread_local struct dondolo_watched watched = {-1, NULL};
 
 static void note(int number, siginfo_t *info, void *context)
 {
@@ -26,7 +27,7 @@ void dondolo_listen(void)
 {
    struct sigaction ours;
 
-   heard = come;
+   watched.since = come;
    if (listening || sigaction(SIGINT, NULL, &before) != 0)
       return;
    if (!(before.sa_flags & SA_SIGINFO) && (before.sa_handler == SIG_DFL || before.sa_handler == SIG_IGN))
@@ -43,19 +44,25 @@ void dondolo_end_listening(void)
    if (listening)
       sigaction(SIGINT, &before, NULL);
    listening = 0;
-   heard = -1;
+   watched.since = -1;
+}
+
+/* End the work of this thread once a number, which another thread writes, is not 0; NULL: no more */
+void dondolo_stop_at(const volatile int *flag)
+{
+   watched.flag = flag;
 }
 
 /* What this thread listens for, which is handed to those that work for it */
-int dondolo_watched(void)
+void dondolo_get_watched(struct dondolo_watched *own)
 {
-   return heard;
+   *own = watched;
 }
 
 /* Listen for what another thread listens for */
-void dondolo_watch(int since)
+void dondolo_watch(const struct dondolo_watched *other)
 {
-   heard = since;
+   watched = *other;
 }
 
 static void remember(int number)
@@ -71,7 +78,7 @@ void dondolo_end_in_order(void)
    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
    struct sigaction ours, theirs;
 
-   heard = come;
+   watched.since = come;
    ours.sa_handler = remember;
    ours.sa_flags = SA_RESTART | SA_RESETHAND;
    sigemptyset(&ours.sa_mask);
@@ -89,9 +96,9 @@ void dondolo_die_of_signal(void)
    raise(noted);
 }
 
-/* 1: a signal has come since this thread, or the one that it works for, began to listen */
+/* 1: a signal has come since this thread, or the one that it works for, began to listen, or its flag is set */
 void dondolo_look_for_interrupt(int *is_noted)
 {
-   *is_noted = heard >= 0 && come != heard;
+   *is_noted = (watched.since >= 0 && come != watched.since) || (watched.flag != NULL && *watched.flag != 0);
 }
 #endif

@@ -2,14 +2,22 @@
 !>
 !> Only a thread that listens, and the threads that work for it, see a signal. What it returns then are not results: the
 !> listener must check too, and discard them. Python's main thread listens to Ctrl-C during a call, the executable to signals
-!> that end it from its first history on; a program that does not listen is ended by the signal.
+!> that end it from its first history on; a program that does not listen is ended by the signal. A flag that another thread sets
+!> ends the work of a thread in the same way.
 module dondolo_base_interrupt
-   use, intrinsic :: iso_c_binding, only : c_int
+   use, intrinsic :: iso_c_binding, only : c_int, c_null_ptr, c_ptr
    use dondolo_base_error, only : error_type, raise_failure
    implicit none
    private
 
-   public :: listen, end_listening, end_in_order, die_of_signal, watched, watch, look_for_interrupt, check_interrupt
+   public :: watched_type, listen, end_listening, end_in_order, die_of_signal, stop_at, get_watched, watch, look_for_interrupt, &
+      & check_interrupt
+
+   !> What a thread listens for: struct dondolo_watched of interrupt.h
+   type, bind(c) :: watched_type
+      integer(c_int) :: since = -1
+      type(c_ptr) :: flag = c_null_ptr
+   end type watched_type
 
    interface
 
@@ -29,22 +37,30 @@ module dondolo_base_interrupt
       subroutine die_of_signal() bind(c, name='dondolo_die_of_signal')
       end subroutine die_of_signal
 
+      !> End the work of this thread once an integer(c_int) is not 0; no more with the null pointer
+      subroutine stop_at(flag) bind(c, name='dondolo_stop_at')
+         import :: c_ptr
+         !> Its address; another thread writes it
+         type(c_ptr), value :: flag
+      end subroutine stop_at
+
       !> What this thread listens for
-      integer(c_int) function watched() bind(c, name='dondolo_watched')
-         import :: c_int
-      end function watched
+      subroutine get_watched(own) bind(c, name='dondolo_get_watched')
+         import :: watched_type
+         type(watched_type), intent(out) :: own
+      end subroutine get_watched
 
       !> Listen for what another thread listens for: OpenMP's threads, for the one that they work for
-      subroutine watch(since) bind(c, name='dondolo_watch')
-         import :: c_int
-         !> As from watched in that thread
-         integer(c_int), value :: since
+      subroutine watch(other) bind(c, name='dondolo_watch')
+         import :: watched_type
+         !> As from get_watched in that thread
+         type(watched_type), intent(in) :: other
       end subroutine watch
 
-      !> Look whether a signal has come
+      !> Look whether the work should end
       pure subroutine look_for_interrupt(noted) bind(c, name='dondolo_look_for_interrupt')
          import :: c_int
-         !> 1: it has, since this thread began to listen
+         !> 1: a signal has come since this thread began to listen, or its flag is set
          integer(c_int), intent(out) :: noted
       end subroutine look_for_interrupt
 
@@ -52,9 +68,9 @@ module dondolo_base_interrupt
 
 contains
 
-   !> Report a signal that has come
+   !> Report that the work should end
    subroutine check_interrupt(error)
-      !> It has: what was computed since listening began is not whole
+      !> It should: what was computed since listening began is not whole
       type(error_type), allocatable, intent(out) :: error
 
       integer(c_int) :: interrupted

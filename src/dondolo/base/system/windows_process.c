@@ -1,5 +1,6 @@
 /* What process.c and interrupt.c do on POSIX, for Windows; see there what each function promises. */
 #ifdef _WIN32
+#include "interrupt.h"
 #include "windows_files.h"
 #include <conio.h>
 #include <io.h>
@@ -173,7 +174,7 @@ int dondolo_is_limited(void)
 }
 
 static volatile LONG come, is_ending;
-static _Thread_local int heard = -1;
+static _Thread_local struct dondolo_watched watched = {-1, NULL};
 
 /* Runs in a thread of its own. What it does not take (FALSE) goes to the handlers from before, Python's among them. */
 static BOOL WINAPI note(DWORD event)
@@ -192,29 +193,34 @@ void dondolo_listen(void)
 {
    static int is_listening;
 
-   heard = come;
+   watched.since = come;
    if (!is_listening)
       is_listening = SetConsoleCtrlHandler(note, TRUE);
 }
 
 void dondolo_end_listening(void)
 {
-   heard = -1;
+   watched.since = -1;
 }
 
-int dondolo_watched(void)
+void dondolo_stop_at(const volatile int *flag)
 {
-   return heard;
+   watched.flag = flag;
 }
 
-void dondolo_watch(int since)
+void dondolo_get_watched(struct dondolo_watched *own)
 {
-   heard = since;
+   *own = watched;
+}
+
+void dondolo_watch(const struct dondolo_watched *other)
+{
+   watched = *other;
 }
 
 void dondolo_end_in_order(void)
 {
-   heard = come;
+   watched.since = come;
    is_ending = 1;
    SetConsoleCtrlHandler(note, TRUE);
 }
@@ -230,6 +236,6 @@ void dondolo_die_of_signal(void)
 
 void dondolo_look_for_interrupt(int *is_noted)
 {
-   *is_noted = heard >= 0 && come != heard;
+   *is_noted = (watched.since >= 0 && come != watched.since) || (watched.flag != NULL && *watched.flag != 0);
 }
 #endif
