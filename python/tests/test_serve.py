@@ -22,6 +22,7 @@ import dondolo as dd
 pytest.importorskip("starlette", reason="starlette is not installed")
 pytest.importorskip("httpx", reason="httpx is not installed")
 
+from dondolo.checks.ntc import Verdict
 from dondolo.exchange.case_text import case_text
 from dondolo.reporting.properties_it import MEANINGS
 from dondolo.serve.server import application, beginning_of
@@ -49,6 +50,8 @@ TIED = {
     "stripes": {"im": "pga"},
     "check": {"ag": [0.25], "f0": [2.5], "tc_star": [0.35], "soil": "B", "knowledge_factor": 1.2},
 }
+
+BARE = {**TIED, "wall": {name: value for name, value in TIED["wall"].items() if not name.startswith("tie")}}
 
 
 @pytest.fixture(scope="module")
@@ -210,8 +213,7 @@ def test_other_cases_are_refused_by_name(page, root):
 
 def test_drafts_pins_and_fans(page):
     """A draft is marked and has half of the records; B is compared on the same records; a fan has two more curves."""
-    bare = copy.deepcopy(TIED)
-    bare["wall"] = {name: value for name, value in TIED["wall"].items() if not name.startswith("tie")}
+    bare = copy.deepcopy(BARE)
     fan = {"group": "wall", "name": "load", "place": 0, "share": 0.2}
     whole = curve(page, TIED, auto=True, b={**bare, "stripes": {"im": "pga", "levels": [0.2, 0.4, 0.6, 0.8]}}, fan=fan)
     assert whole["comparison"]["ratio"] > 1.0
@@ -236,8 +238,7 @@ def test_drafts_pins_and_fans(page):
 def test_anchors_that_nobody_has_given(page):
     """A tie without plate or force of its anchor is marked, and so is what it is compared with."""
     levels = {"stripes": {"im": "pga", "levels": [0.4, 0.8, 1.2]}}
-    bare, plated = copy.deepcopy(TIED), copy.deepcopy(TIED)
-    bare["wall"] = {name: value for name, value in TIED["wall"].items() if not name.startswith("tie")}
+    bare, plated = copy.deepcopy(BARE), copy.deepcopy(TIED)
     plated["wall"] |= {"tie_anchor_force": [8e3]}
     assert curve(page, TIED | levels)["unchecked"] == [1]
     assert curve(page, bare | levels)["unchecked"] == curve(page, plated | levels)["unchecked"] == []
@@ -247,6 +248,28 @@ def test_anchors_that_nobody_has_given(page):
     assert notes == [
         "ancoraggio di catena 1 non verificato: non sono assegnati né il capochiave né la forza per cui cede"
     ]
+
+
+def test_verdicts_are_the_library_s(page):
+    """The page has the verdicts of `check_ntc`, and words for all that there may be, in both languages."""
+    words = page.get("/words.js").text
+    assert set(re.findall(r'"verdict\.([\w ]+)": \["', words)) == set(get_args(Verdict))
+    seen = set()
+    weak = TIED["wall"] | {"tie_anchor_force": [2e3]}
+    for wall, ag in [(TIED["wall"], 0.05), (TIED["wall"], 0.4), (BARE["wall"], 0.05), (weak, 0.05)]:
+        settings = TIED | {"wall": wall, "check": TIED["check"] | {"ag": [ag], "behaviour": 2.0}}
+        settings["stripes"] = {"im": "pga", "levels": [0.4, 0.8, 1.2]}
+        shown = curve(page, settings)
+        case = dd.case_from_text(shown["text"], dd.example_records())
+        check = dd.check_ntc(
+            case.population[0], case.site, knowledge_factor=case.knowledge_factor, behaviour=case.behaviour
+        )
+        assert shown["check"]["verdicts"] == [[*key, check._verdict(key)] for key in check.verified]
+        assert {(one, state) for one, state, _ in shown["check"]["capacities"]} == set(check.capacities) - set(
+            check.not_applicable
+        )
+        seen |= {verdict for *_, verdict in shown["check"]["verdicts"]}
+    assert seen == set(get_args(Verdict))
 
 
 def test_refusals_are_data(page):

@@ -8,7 +8,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -49,7 +49,9 @@ _OPEN = {
     "anchor_checked": "anchor not checked",
 }
 
-# What a check comes to in numbers
+# What a check comes to in words
+Verdict = Literal["verified", "verified if its ties are", "not verified", "not applicable"]
+# The same in numbers
 _OUTCOMES = ("ratio", "zeta_e", "capacity_pga", "return_period_capacity", "probability")
 
 
@@ -138,7 +140,7 @@ class CodeCheck(Shown, Saved):
         bound = {"<": -1.0, ">": 1.0}.get(years.bound, 0.0) if years is not None else 0.0
         return (*(np.nan if row is None else row.value for row in rows), bound)
 
-    def _verdict(self, key: tuple[str, str]) -> str:
+    def _verdict(self, key: tuple[str, str]) -> Verdict:
         """The outcome of a check (method, limit state) in words; none is verified while something of a tie is open."""
         if key in self.not_applicable:
             return "not applicable"
@@ -340,7 +342,7 @@ class CodeCheck(Shown, Saved):
         shown = {row.quantity: row for row in self.rows if row.method == "mechanism"}
         facts = [(shown[name].symbol, f"{shown[name].value:.6g} {shown[name].unit}".strip()) for name in names]
         for method, state in self.verified:
-            text = self._verdict((method, state))
+            text: str = self._verdict((method, state))
             if (method, state) in self.not_applicable:
                 pass
             elif (method, state) in self.capacities:

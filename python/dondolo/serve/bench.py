@@ -338,11 +338,9 @@ def _checked(case: Case, fit: Fragility, language: Language) -> dict[str, Any]:
     answer: dict[str, Any] = {
         "pga": check.pga,
         "capacities": [[*key, value] for key, value in check.capacities.items() if key not in check.not_applicable],
-        "verified": [[*key, value] for key, value in check.verified.items()],
-        "not_applicable": [list(key) for key in check.not_applicable],
+        "verdicts": [[*key, check._verdict(key)] for key in check.verified],
         "alpha_0": check.value("mechanism", "", "alpha_0"),
         "notes": [warning_in_words(language, note) for note in check.notes],
-        "open_ties": list(check.open_ties),
     }
     if fit.has_fit and fit.im == "pga":
         answer["probability"] = float(fit(check.pga))

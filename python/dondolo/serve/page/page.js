@@ -70,6 +70,9 @@ function refuse(error, isAside = false) {
   at("chart").replaceChildren(); at("wall").replaceChildren(); stopFilm(); at("film").hidden = true;
 }
 
+// How the library's verdict on a check looks: what is neither satisfied nor failed has no colour.
+const lookOf = (verdict) => ({ verified: "good", "not verified": "bad" })[verdict] ?? "";
+
 function number(key, value, unit, more, kind = "") {
   return make("div", { class: kind }, make("dt", {}, t(key)), make("dd", {}, value, unit ? make("small", {}, ` ${unit}`) : ""), more ? make("dd", { class: "more" }, more) : "");
 }
@@ -88,8 +91,8 @@ function show() {
   const marks = [];
   if (a.check?.capacities && a.im === "pga") {
     marks.push({ x: a.check.pga, label: t("level_site", { x: num(a.check.pga, 3) }), kind: "" });
-    const isFine = new Map(a.check.verified.map(([method, limit, fine]) => [method + limit, fine]));
-    for (const [method, limit, x] of a.check.capacities) if (limit === "SLV") marks.push({ x, label: t("capacity", { method: t(method), state: limit, x: num(x, 3) }), kind: !isFine.get(method + limit) ? "bad" : a.check.open_ties.length ? "" : "good" });
+    const verdicts = new Map(a.check.verdicts.map(([method, limit, verdict]) => [method + limit, verdict]));
+    for (const [method, limit, x] of a.check.capacities) if (limit === "SLV") marks.push({ x, label: t("capacity", { method: t(method), state: limit, x: num(x, 3) }), kind: lookOf(verdicts.get(method + limit)) });
   }
   at("chart").classList.remove("old"); at("film").hidden = false;
   const b = state.bAnswer && state.bAnswer.im === a.im ? state.bAnswer : null;
@@ -116,12 +119,12 @@ function under(a, unit) {
 function check(found) {
   if (!found) { at("check").replaceChildren(); return; }
   if (found.refused) { at("check").replaceChildren(make("p", { class: "hint" }, sentenceOf(found.refused))); return; }
-  const capacities = new Map(found.capacities.map(([method, limit, x]) => [`${method} ${limit}`, x])), off = new Set(found.not_applicable.map((key) => key.join(" ")));
-  const rows = found.verified.map(([method, limit, fine]) => {
-    const key = `${method} ${limit}`, isOff = off.has(key), isOpen = fine && found.open_ties.length > 0, word = t(isOff ? "not_applicable" : !fine ? "not_verified" : isOpen ? "with_anchors" : "verified");
-    return make("tr", {}, make("th", { scope: "row" }, `${t(method)} ${limit}`), make("td", { class: "n" }, capacities.has(key) ? num(capacities.get(key), 3) : "–"), make("td", { class: isOff || isOpen ? "" : fine ? "good" : "bad" }, `${isOff || isOpen ? "" : fine ? "✓ " : "✗ "}${word}`));
+  const capacities = new Map(found.capacities.map(([method, limit, x]) => [`${method} ${limit}`, x]));
+  const rows = found.verdicts.map(([method, limit, verdict]) => {
+    const key = `${method} ${limit}`, look = lookOf(verdict);
+    return make("tr", {}, make("th", { scope: "row" }, `${t(method)} ${limit}`), make("td", { class: "n" }, capacities.has(key) ? num(capacities.get(key), 3) : "–"), make("td", { class: look }, `${{ good: "✓ ", bad: "✗ " }[look] ?? ""}${t(`verdict.${verdict}`)}`));
   });
-  const failed = found.verified.some(([, , fine]) => !fine) && found.probability < 0.01;
+  const failed = rows.some((row) => row.querySelector(".bad")) && found.probability < 0.01;
   at("check").replaceChildren(make("div", { class: "scroll" }, make("table", {}, make("caption", {}, `${t("check_title")}, α₀ = ${num(found.alpha_0, 3)}`), make("thead", {}, make("tr", {}, make("th", { scope: "col" }, t("method")), make("th", { scope: "col", class: "n" }, t("capacity_head")), make("th", { scope: "col" }, t("outcome")))), make("tbody", {}, ...rows))), failed ? make("p", { class: "hint" }, t("check_why")) : "", ...found.notes.map((note) => make("p", { class: "hint" }, note.replace(/^alpha_0/, "α₀"))));
 }
 
