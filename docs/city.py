@@ -172,7 +172,7 @@ def walls():
                 "height m": [wall.height for wall in several],
                 "trigger g": [wall.trigger_acceleration / wall.gravity for wall in several],
                 "p rad/s": [wall.frequency_parameter for wall in several],
-                "speed ratio": [abs(wall.restitution_coefficient) for wall in several],
+                "restitution e": [abs(wall.restitution_coefficient) for wall in several],
             }
             medians = (f"{name} {median(np.array(values), weights[here]):.4g}" for name, values in facts.items())
             print(f"{mechanism}, {group or 'all groups'}:", ", ".join(medians))
@@ -238,7 +238,7 @@ def fitted(fraction, histories, saturation=1.0, top=None):
 
 
 def restitution(study):
-    """Print curves for factors of the two-block rows and for speed ratios by number of the one-sided ones."""
+    """Print curves for factors of the two-block rows and for numbers e of the one-sided ones."""
     for factor in (0.84, 0.87, 0.90, 1.0):
         population = part("two_block", restitution_factor=factor)
         print(f"two_block, factor {factor}: {text(study.run(f'factor_{factor}', population, LEVELS)['all'].fit)}")

@@ -671,7 +671,7 @@ s/one_sided'/two_block' bearing = 'centre' eccentricity = 0/|bad.nml: &wall: ecc
 s/one_sided'/free_standing' restitution = 'sorrentino'/|bad.nml: &wall: restitution = 'sorrentino': must be one of
 s/one_sided'/one_sided' restitution = 'impulse' restitution_value = 0.5/|bad.nml: &wall: restitution_value = 0.5: give either it or
 s/one_sided'/one_sided' restitution_value = 1/|bad.nml: &wall: restitution_value = 1: must be at least 0
-s/one_sided'/one_sided' restitution_factor = 3/|bad.nml: &wall: restitution_factor = 3: makes the speed ratio
+s/one_sided'/one_sided' restitution_factor = 3/|bad.nml: &wall: restitution_factor = 3: makes the restitution e
 s/task = 'stripes'/task = 'stripe'/|bad.nml: &job: task = 'stripe': must be one of 'history', 'stripes', 'typology'
 s/task = 'stripes'/task = ''/|bad.nml: &job: task = '': must be one of
 s/task = 'stripes'/task = 'typology'/|bad.nml: &population: must be given for task = 'typology'

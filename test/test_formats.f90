@@ -807,6 +807,10 @@ contains
          & 'numbers')
       call check_text(table%line(3)%text(65:), '  Friuli, TLM\x1b', 'event and station, the escape character made visible')
       call check_text(table%line(4)%text(65:89), '  1976-05-06      begins ', 'date where there is no event')
+      call new_record(records(3), wave, 0.01_wp, repeat('x', 17)//'è'//repeat('y', 9)//'è'//repeat('z', 18), error)
+      table = record_table(records(3:3), 10.0_wp)
+      call check_text(table%line(3)%text(8:48), repeat('x', 17)//'...'//repeat('z', 18)//repeat(' ', 3), &
+         & 'a long name without its middle, and no half of a character')
    end subroutine test_table
 
    !> Recorded files of all formats, where there are any: peaks and steps as in their manifest

@@ -38,7 +38,7 @@ mine = (terms.inertia, terms.restoring_moment, terms.excitation_lever)
 for (name, value), term in zip(printed.items(), mine, strict=True):
     print(f"equation (1): {name} = {value:.15g}, dondolo differs by {float(term) / value - 1.0:.0e}")
 eta = (1.0 - 1.5 * np.sin(alpha) ** 2) ** 2 * (1.0 - 1.5 * np.cos(alpha) ** 2)
-print(f"equation (2): eta = {eta:.15g}, speed ratio {facade.restitution_coefficient:.15g}")
+print(f"equation (2): eta = {eta:.15g}, restitution e {facade.restitution_coefficient:.15g}")
 
 # %% Section 2.2, equation (4): with the numerator as printed an impact creates energy; dondolo has it repaired
 strip = dd.TwoBlockWall(height=3.0, thickness=0.25, hinge=0.6, restitution_factor=0.87, name="strip")

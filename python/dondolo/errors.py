@@ -22,7 +22,7 @@ Code = Literal[
     "not_numbers",
     "not_an_integer",
     "not_a_flag",
-    "not_a_text",
+    "not_a_string",
     "not_a_word",
     "not_a_probability",
     "no_such_file",

@@ -192,9 +192,7 @@ def test_a_case_in_the_place_of_results(folder, monkeypatch):
         dd.errors.InputError, match=r"is a case, .* 'out/wall'; there are none yet, dondolo wall.nml writes them"
     ):
         dd.read_results("wall.nml")
-    with pytest.raises(
-        dd.errors.InputError, match=r"'records.csv': is a file, must be what the names of result files begin with"
-    ):
+    with pytest.raises(dd.errors.InputError, match=r"'records.csv': is a file, must be the prefix of result files"):
         dd.read_results("records.csv")
 
 
@@ -202,13 +200,11 @@ def test_prefixes_that_are_nearly_right(folder, run, monkeypatch):
     monkeypatch.chdir(folder)
     (folder / "wall.nml").write_text(case())
     assert run("wall.nml").returncode == 0
-    with pytest.raises(
-        dd.errors.InputError, match=r"is a case, must be what the names of its result files begin with, 'out/wall'$"
-    ):
+    with pytest.raises(dd.errors.InputError, match=r"is a case, must be the prefix of its result files, 'out/wall'$"):
         dd.read_results("wall.nml")
     with pytest.raises(dd.errors.InputError, match=r"'out': is a folder, .* such as 'out/wall'$"):
         dd.read_results("out")
-    with pytest.raises(dd.errors.InputError, match=r"must be what the names begin with, 'out/wall'$"):
+    with pytest.raises(dd.errors.InputError, match=r"must be the prefix of result files, 'out/wall'$"):
         dd.read_results("out/wall_")
     assert dd.read_results("out/wall").stripes is not None
 

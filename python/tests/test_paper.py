@@ -25,7 +25,7 @@ def test_equations_are_those_of_the_paper(printed):
     apart = [float(value) for value in re.findall(r"equation \(1\): .* differs by (\S+)", text)]
     assert len(apart) == 3
     assert max(map(abs, apart)) < 1e-14
-    eta, ratio = map(float, re.search(r"equation \(2\): eta = (\S+), speed ratio (\S+)", text).groups())
+    eta, ratio = map(float, re.search(r"equation \(2\): eta = (\S+), restitution e (\S+)", text).groups())
     assert -eta == pytest.approx(ratio, rel=1e-14)
     as_printed, repaired, here = map(
         float, re.search(r"as printed (\S+), repaired (\S+), dondolo (\S+)", text).groups()

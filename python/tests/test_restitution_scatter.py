@@ -208,12 +208,12 @@ def test_certified_motions_have_the_same_draws(few):
     ("given", "sentence"),
     [
         ({"restitution_sd": -0.01}, "restitution_sd = -0.01: must be at least 0 and less than 0.5"),
-        ({"restitution_sd": 0.05}, "restitution_sd = 0.05: must be at most 0.01905.* so that all speed ratios"),
+        ({"restitution_sd": 0.05}, "restitution_sd = 0.05: must be at most 0.01905.* so that all values"),
         (
             {"restitution_value": 0.02, "restitution_sd": 0.02},
             "must be at most 0.0115.* about 0.02 lie between 0 and 1",
         ),
-        ({"restitution_value": 0.0, "restitution_sd": 0.001}, "must be at most 0, so that all speed ratios"),
+        ({"restitution_value": 0.0, "restitution_sd": 0.001}, "must be at most 0, so that all values"),
         ({"restitution_seed": 3}, "restitution_seed: only with restitution_sd"),
         ({"restitution_sd": 0.01, "restitution_seed": 0}, "restitution_seed = 0: must lie between 1 and 1e6"),
         ({"restitution_sd": 0.01, "restitution_seed": 1.5}, "restitution_seed = 1.5: must be a whole number"),
@@ -226,7 +226,7 @@ def test_what_cannot_be(given, sentence):
 
 def test_lanes_are_refused(varying, few):
     _, wall = varying
-    sentence = r"engine = 'lanes': has one speed ratio .* must be 'auto' or 'rk45' with restitution_sd"
+    sentence = r"engine = 'lanes': has one restitution e .* must be 'auto' or 'rk45' with restitution_sd"
     for run in (stripes_of, lambda *given, **more: dd.simulate(given[0], few[0], **more)):
         with pytest.raises(dd.errors.InputError, match=sentence):
             run(wall, few, solver=dd.Solver(engine="lanes"))

@@ -412,7 +412,7 @@ def test_errors(changes, sentence):
         ),
         (
             {"restitution_factor": dd.distributions.Uniform(1.0, 2.0)},
-            r"wall 'facades \d+': restitution_factor = 1.*speed ratio",
+            r"wall 'facades \d+': restitution_factor = 1.*restitution e",
         ),
     ],
 )

@@ -137,7 +137,7 @@ def test_files_of_two_runs_are_refused(executable, folder):
     table.write_bytes(table.read_bytes()[:-3])
     with pytest.raises(dd.errors.InputError, match=r"x_histories\.csv: "):
         dd.read_results(folder / "a/x")
-    with pytest.raises(dd.errors.InputError, match=r"must be what the names begin with, '.*a/x'"):
+    with pytest.raises(dd.errors.InputError, match=r"must be the prefix of result files, '.*a/x'"):
         dd.read_results(folder / "a/x_walls.csv")
 
 

@@ -117,7 +117,7 @@ def as_sentences(name: str, sentences: str | Iterable[str]) -> tuple[str, ...]:
     found = tuple(several)
     for one in found:
         if not isinstance(one, str):
-            raise _wrong("not_a_text", name, f" = {one!r}: must be a string")
+            raise _wrong("not_a_string", name, f" = {one!r}: must be a string")
     return found
 
 

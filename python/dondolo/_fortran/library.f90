@@ -8,7 +8,7 @@
 module library
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use, intrinsic :: omp_lib, only : omp_set_max_active_levels
-   use dondolo_base_error, only : error_type, not_a_text, raise_input
+   use dondolo_base_error, only : error_type, not_a_string, raise_input
    use dondolo_base_interrupt, only : begin => listen, finish => end_listening
    use dondolo_base_limits, only : longest_name
    use dondolo_base_lines, only : lines_type
@@ -160,7 +160,7 @@ contains
          meant = meant(:at - 1)//achar(0)//meant(at + 2:)
       end do
       if (len_trim(name_problem(meant)) > 0) call raise_input(error, what//' = '''//shown(meant)//''': '// &
-         & trim(name_problem(meant)), not_a_text, what)
+         & trim(name_problem(meant)), not_a_string, what)
       call report(error, failure)
    end subroutine check_text
 

@@ -60,7 +60,7 @@ def read_results(prefix: str | os.PathLike[str]) -> Results:
             for end in (*TABLES, RUN_FILE):
                 if name.endswith(end):
                     start = prefix.removesuffix(end)
-                    raise InputError(f"prefix = {prefix!r}: must be what the names begin with, {start!r}") from None
+                    raise InputError(f"prefix = {prefix!r}: must be the prefix of result files, {start!r}") from None
             _refuse_other(prefix)
             raise
         try:
@@ -76,21 +76,21 @@ def _refuse_other(prefix: str) -> None:
     """Refuse a case, another file, a folder or a prefix with an underscore, and name the prefix that is meant."""
     path, what = Path(prefix), f"prefix = {prefix!r}"
     if prefix.endswith("_") and Path(prefix[:-1] + RUN_FILE).is_file():
-        raise InputError(f"{what}: must be what the names begin with, {prefix[:-1]!r}")
+        raise InputError(f"{what}: must be the prefix of result files, {prefix[:-1]!r}")
     if path.is_dir():
         found = sorted(str(one).removesuffix(RUN_FILE) for one in path.glob(f"*{RUN_FILE}"))
         more = f" and {len(found) - _SHOWN} more" if len(found) > _SHOWN else ""
         names = ", ".join(map(repr, found[:_SHOWN])) + more
         if found:
-            raise InputError(f"{what}: is a folder, must be what the names of result files begin with, such as {names}")
+            raise InputError(f"{what}: is a folder, must be the prefix of result files, such as {names}")
     if not path.is_file():
         return
     if path.suffix.lower() != ".nml":
-        raise InputError(f"{what}: is a file, must be what the names of result files begin with")
+        raise InputError(f"{what}: is a file, must be the prefix of result files")
     with silent():
         output = read_case(prefix).output
     run = "" if Path(output + RUN_FILE).is_file() else f"; there are none yet, dondolo {prefix} writes them"
-    raise InputError(f"{what}: is a case, must be what the names of its result files begin with, {output!r}{run}")
+    raise InputError(f"{what}: is a case, must be the prefix of its result files, {output!r}{run}")
 
 
 def _read(prefix: str, run: RunFile) -> Results:

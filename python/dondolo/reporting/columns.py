@@ -137,7 +137,7 @@ _COLUMNS: dict[str, _Shown] = {
     "trigger": _Shown((Symbol("a", "0"), " [g]"), number),
     "capacity_rad": _Shown("capacity [rad]", number),
     "p_rad_s": _Shown((Symbol("p"), " [rad/s]"), number),
-    "restitution": _Shown("speed ratio", number),
+    "restitution": _Shown("restitution e", number),
 }
 
 

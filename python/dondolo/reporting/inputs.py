@@ -136,7 +136,7 @@ def _wall_facts(run: Run) -> Facts:
         (("trigger ", Symbol("a", "0")), number(wall.trigger_acceleration / wall.gravity, unit=" g")),
         ("capacity", number(wall.capacity_angle, unit=" rad")),
         (("frequency parameter ", Symbol("p")), number(wall.frequency_parameter, unit=" rad/s")),
-        ("speed ratio of impacts", number(wall.restitution_coefficient)),
+        ("restitution e of impacts", number(wall.restitution_coefficient)),
         ("gravity", number(wall.gravity, unit=" m/s2")),
     ]
     if wall.support_share > 0.0:

@@ -93,8 +93,8 @@ MEANINGS = {
     "hinge": "quota della cerniera intermedia / altezza della parete",
     "restitution": "modello degli urti",
     "restitution_value": "velocità dopo / prima di un urto, al posto di un modello",
-    "restitution_factor": "fattore sul rapporto di velocità di qualunque modello",
-    "restitution_sd": "scarto quadratico medio del rapporto di velocità, che varia allora da urto a urto, uniformemente"
+    "restitution_factor": "fattore sulla restituzione e di qualunque modello",
+    "restitution_sd": "scarto quadratico medio della restituzione e, che varia allora da urto a urto, uniformemente"
     " attorno a quello del modello; solo con engine rk45",
     "restitution_seed": "seme dei numeri casuali di questi rapporti, 1 se non assegnato",
     "overburden": "carico verticale in sommità, al metro di parete",

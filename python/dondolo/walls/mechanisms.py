@@ -60,9 +60,9 @@ class OneSidedWall(BlockWall):
     restitution_value : float, optional
         Speed after / before an impact, instead of a model: 0 <= value < 1.
     restitution_factor : float, optional
-        Factor on the speed ratio of any model, 1 if left out.
+        Factor on the restitution e of any model, 1 if left out.
     restitution_sd : float, optional
-        Standard deviation of the speed ratio, which then varies from impact to impact, uniformly about that of the
+        Standard deviation of the restitution e, which then varies from impact to impact, uniformly about that of the
         model; engine rk45 only (docs/theory.md, section 3).
     restitution_seed : float, optional
         Seed of the random numbers of these ratios, 1 if not given.
@@ -188,7 +188,7 @@ class FreeStandingWall(BlockWall):
     >>> pinnacle.two_sided
     True
 
-    A speed ratio that varies from impact to impact:
+    A restitution that varies from impact to impact:
 
     >>> varying = dd.FreeStandingWall(1.5, 0.25, restitution_sd=0.01)
     >>> varying.restitution_coefficient == pinnacle.restitution_coefficient

@@ -346,7 +346,7 @@ class Wall:
         facts = [(what, _in_words(value)) for what, value in own.items() if value is not None and what not in KINDS]
         facts += [(letter, f"{getattr(self, what):.6g} {unit}") for letter, what, unit in _GREEK]
         trigger = f"{self.trigger_acceleration:.6g} m/s2 ({self.trigger_acceleration / self.gravity:.4g} g)"
-        return [*facts, ("trigger", trigger), ("speed ratio", f"{self.restitution_coefficient:.6g}")]
+        return [*facts, ("trigger", trigger), ("restitution e", f"{self.restitution_coefficient:.6g}")]
 
     def _parts(self) -> dict[str, list[Any]]:
         """Its parts as it is computed with, by the names that it has for them."""

@@ -1,7 +1,7 @@
 !> Settings of the C interface: values by the names that they have in cases.
 module dondolo_interface_c_settings
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t, c_null_ptr, c_ptr
-   use dondolo_base_error, only : error_type, not_a_flag, not_a_number, not_a_text, not_a_word, not_an_integer, out_of_range, &
+   use dondolo_base_error, only : error_type, not_a_flag, not_a_number, not_a_string, not_a_word, not_an_integer, out_of_range, &
       & problems_type, raise_input, wrong_length
    use dondolo_base_kinds, only : wp
    use dondolo_base_plain, only : shown
@@ -224,7 +224,7 @@ contains
       name = trim(property%name)
       select case (property%kind)
       case (is_text, is_words)
-         call raise_input(error, name//' = '//to_text(real(numbers(1), wp))//': must be a string', not_a_text, name)
+         call raise_input(error, name//' = '//to_text(real(numbers(1), wp))//': must be a string', not_a_string, name)
       case (is_list)
          call check_finite(numbers, name, error)
       case default

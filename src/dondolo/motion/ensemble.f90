@@ -215,7 +215,7 @@ contains
       end if
       if (solver%engine /= 'lanes') return
       if (mechanism%scatter%exists()) then
-         call raise_input(error, 'engine = ''lanes'': has one speed ratio for all impacts of a wall; must be ''auto'' or '// &
+         call raise_input(error, 'engine = ''lanes'': has one restitution e for all impacts of a wall; must be ''auto'' or '// &
             & '''rk45'' with restitution_sd', not_together, 'engine')
          return
       end if

@@ -2,7 +2,7 @@
 !>
 !> The piecewise linear function IS the input of every analysis, exactly (docs/theory.md, section 1).
 module dondolo_record
-   use dondolo_base_error, only : error_type, not_a_number, not_a_text, out_of_range, raise_failure, raise_input
+   use dondolo_base_error, only : error_type, not_a_number, not_a_string, out_of_range, raise_failure, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_limits, only : most_samples
    use dondolo_base_plain, only : name_problem, shown
@@ -95,7 +95,7 @@ contains
             & to_text(most_samples))
          return
       else if (len_trim(name_problem(name)) > 0) then
-         call raise_input(error, 'name = '''//shown(name)//''': '//trim(name_problem(name)), not_a_text, 'name')
+         call raise_input(error, 'name = '''//shown(name)//''': '//trim(name_problem(name)), not_a_string, 'name')
          return
       end if
       i = first_implausible(acceleration, 1.0_wp)

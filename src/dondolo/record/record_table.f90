@@ -29,7 +29,7 @@ module dondolo_record_table
    !> to 0.23 s
    real(wp), parameter :: slowest = 0.5_wp, quickest = 0.01_wp
 
-   !> Widest column of events and stations
+   !> Widest column of names, and of events and stations
    integer, parameter :: widest = 40
 
 contains
@@ -55,7 +55,7 @@ contains
       if (present(values)) measures = max(len(measure), len(unit), 10) + 1
       allocate (character(len=measures) :: column)
       do i = 1, size(records)
-         width = max(width, len(records(i)%name))
+         width = min(max(width, len(records(i)%name)), widest)
          origins = max(origins, len_trim(origin(records(i))))
       end do
       if (origins > 0) origins = min(max(origins, len('event, station')), widest)
@@ -72,11 +72,44 @@ contains
                & record%duration(), record%pga()/gravity, 100.0_wp*peak_velocity(record)
             if (present(values)) write (column, '(f'//to_text(measures)//'.4)') values(i)
             call find_problems(record, gravity, problems)
-            call table%add(trim(visible(numbered(i)//left(record%name, width)//trim(numbers)//column// &
+            call table%add(trim(visible(numbered(i)//narrowed(record%name, width)//trim(numbers)//column// &
                & titled(origin(record), origins)//'  '//problems)))
          end associate
       end do
    end function record_table
+
+   !> A name in its column; of a longer one the beginning and the end, since names of records often differ in their ends
+   pure function narrowed(name, width)
+      character(len=*), intent(in) :: name
+      !> Width of the column [bytes], more than 3
+      integer, intent(in) :: width
+      character(len=width) :: narrowed
+
+      integer :: head, tail
+
+      narrowed = name
+      if (len(name) <= width) return
+      head = (width - 3)/2
+      tail = len(name) - (width - 3 - head) + 1
+      ! Not in the middle of a character
+      do while (head > 0 .and. is_continued(name(head + 1:head + 1)))
+         head = head - 1
+      end do
+      do while (tail < len(name) .and. is_continued(name(tail:tail)))
+         tail = tail + 1
+      end do
+      narrowed = name(:head)//'...'//name(tail:)
+
+   contains
+
+      !> Whether a byte continues a character of UTF-8
+      pure logical function is_continued(byte)
+         character(len=1), intent(in) :: byte
+
+         is_continued = iachar(byte) >= 128 .and. iachar(byte) < 192
+      end function is_continued
+
+   end function narrowed
 
    !> What looks odd about a record
    subroutine find_problems(record, gravity, problems)

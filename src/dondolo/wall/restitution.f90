@@ -116,7 +116,7 @@ contains
       ratio = max(0.0_wp, self%factor*coefficient)
       if (.not. ratio < 1.0_wp) then
          call raise_input(error, 'restitution_factor = '//to_text(self%factor)// &
-            & ': makes the speed ratio of an impact '//brief(ratio)//', must be less than 1'// &
+            & ': makes the restitution e of an impact '//brief(ratio)//', must be less than 1'// &
             & trim(unit_question('', self%factor, 0.1_wp, 1.2_wp, 0.9_wp)), out_of_range, 'restitution_factor')
          ratio = 0.0_wp
       end if

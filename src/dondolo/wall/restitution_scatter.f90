@@ -55,7 +55,7 @@ contains
       scatter%seed = seed
       if (.not. mean - scatter%half_width < 0.0_wp .and. mean + scatter%half_width < 1.0_wp) return
       call raise_input(error, 'restitution_sd = '//to_text(sd)//': must be at most '// &
-         & brief(min(mean, 1.0_wp - mean)/half_width_of_sd)//', so that all speed ratios of the uniform distribution about '// &
+         & brief(min(mean, 1.0_wp - mean)/half_width_of_sd)//', so that all values of the uniform distribution of e about '// &
          & brief(mean)//' lie between 0 and 1', out_of_range, 'restitution_sd')
    end subroutine new_restitution_scatter
 

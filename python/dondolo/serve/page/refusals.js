@@ -7,7 +7,7 @@ import { choiceOf, labelOf, language, num, t } from "./words.js";
 // What each code means; {allowed} is what the table of properties allows
 const CODES = {
   unknown_name: "nome sconosciuto", not_given: "va assegnato insieme agli altri dati", not_together: "non ammesso insieme agli altri dati", wrong_type: "valore di un tipo non ammesso", wrong_length: "numero di valori sbagliato", out_of_range: "valore non ammesso con gli altri dati", not_increasing: "i valori devono crescere",
-  not_a_number: "deve essere un numero, con il punto decimale e senza unità", not_numbers: "devono essere numeri", not_an_integer: "deve essere un numero intero", not_a_flag: "deve essere .true. o .false.", not_a_text: "testo non ammesso", not_a_word: "parola non ammessa", not_a_probability: "deve stare tra 0 e 1", no_such_file: "file inesistente", not_at_rest: "senza terremoto la parete cade, o è trattenuta per sempre",
+  not_a_number: "deve essere un numero, con il punto decimale e senza unità", not_numbers: "devono essere numeri", not_an_integer: "deve essere un numero intero", not_a_flag: "deve essere .true. o .false.", not_a_string: "testo non ammesso", not_a_word: "parola non ammessa", not_a_probability: "deve stare tra 0 e 1", no_such_file: "file inesistente", not_at_rest: "senza terremoto la parete cade, o è trattenuta per sempre",
 };
 // The same of a variable, where more can be said; {h} and {t} are height and thickness of the wall [m]
 const OWN = {

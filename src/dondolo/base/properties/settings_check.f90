@@ -1,6 +1,6 @@
 !> The check of settings against their table, and the values as its messages show them.
 module dondolo_base_settings_check
-   use dondolo_base_error, only : not_a_text, not_a_word, not_given, not_together, out_of_range, problems_type, unknown_name
+   use dondolo_base_error, only : not_a_string, not_a_word, not_given, not_together, out_of_range, problems_type, unknown_name
    use dondolo_base_kinds, only : wp
    use dondolo_base_plain, only : name_problem, shown
    use dondolo_base_property, only : check_number, check_word, has_owner, is_integer, is_list, is_real, is_text, is_words, &
@@ -72,7 +72,7 @@ contains
                code = not_a_word
                call check_word(property, word, allowed)
                if (len_trim(name_problem(word)) > 0) then
-                  code = not_a_text
+                  code = not_a_string
                   allowed = trim(name_problem(word))
                end if
             case (is_real, is_integer)

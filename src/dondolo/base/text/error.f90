@@ -13,7 +13,7 @@ module dondolo_base_error
    public :: error_type, problem_type, problems_type, raise_input, raise_missing, raise_failure, add_place
    public :: status_failure, status_input, status_missing, status_memory
    public :: error_codes, unknown_name, not_given, not_together, wrong_length, out_of_range, not_increasing, not_a_number, &
-      & not_an_integer, not_a_flag, not_a_text, not_a_word, no_such_file, not_at_rest
+      & not_an_integer, not_a_flag, not_a_string, not_a_word, no_such_file, not_at_rest
 
    !> The work failed while running (exit code of the executable)
    integer, parameter :: status_failure = 1
@@ -34,11 +34,11 @@ module dondolo_base_error
    character(len=*), parameter :: unknown_name = 'unknown_name', not_given = 'not_given', not_together = 'not_together', &
       & wrong_length = 'wrong_length', out_of_range = 'out_of_range', not_increasing = 'not_increasing', &
       & not_a_number = 'not_a_number', not_an_integer = 'not_an_integer', not_a_flag = 'not_a_flag', &
-      & not_a_text = 'not_a_text', not_a_word = 'not_a_word', no_such_file = 'no_such_file', not_at_rest = 'not_at_rest'
+      & not_a_string = 'not_a_string', not_a_word = 'not_a_word', no_such_file = 'no_such_file', not_at_rest = 'not_at_rest'
 
    !> All of them
    character(len=14), parameter :: error_codes(*) = [character(len=14) :: unknown_name, not_given, not_together, &
-      & wrong_length, out_of_range, not_increasing, not_a_number, not_an_integer, not_a_flag, not_a_text, not_a_word, &
+      & wrong_length, out_of_range, not_increasing, not_a_number, not_an_integer, not_a_flag, not_a_string, not_a_word, &
       & no_such_file, not_at_rest]
 
    !> What one sentence of an error is about

@@ -3,7 +3,7 @@
 !> What is refused is refused with its place and its value as it was typed:
 !> `walls.nml: &wall: thickness = 'thin': must be a number, such as 0.25 (line 12)`.
 module dondolo_case_namelist_group
-   use dondolo_base_error, only : add_place, error_type, not_a_flag, not_a_number, not_a_text, not_an_integer, raise_input, &
+   use dondolo_base_error, only : add_place, error_type, not_a_flag, not_a_number, not_a_string, not_an_integer, raise_input, &
       & unknown_name, wrong_length
    use dondolo_base_kinds, only : wp
    use dondolo_base_numbers, only : parse_integer, parse_real
@@ -317,9 +317,9 @@ contains
       call single(self, name, given, found, error)
       if (allocated(error) .or. .not. given) return
       if (.not. found%quoted) then
-         call self%refuse(name, 'must be text in quotes, such as '''//found%text//'''', not_a_text, error)
+         call self%refuse(name, 'must be text in quotes, such as '''//found%text//'''', not_a_string, error)
       else if (len_trim(name_problem(found%text)) > 0) then
-         call self%refuse(name, trim(name_problem(found%text)), not_a_text, error)
+         call self%refuse(name, trim(name_problem(found%text)), not_a_string, error)
       else
          value = found%text
       end if
@@ -343,7 +343,7 @@ contains
       associate (given => self%variables(i)%values)
          do j = 1, size(given)
             if (.not. given(j)%quoted) then
-               call self%refuse(name, 'must be text in quotes, such as '''//given(j)%text//'''', not_a_text, error)
+               call self%refuse(name, 'must be text in quotes, such as '''//given(j)%text//'''', not_a_string, error)
                return
             end if
             value = value//trim(merge(',', ' ', j > 1))//given(j)%text
