@@ -1,4 +1,4 @@
-"""Pages of the site that follow from the program: command line, variables, Python interface, and the examples, run.
+"""Pages of the site that follow from the program: command line, variables, columns, Python interface, examples.
 
 They are written into docs/generated when the site is built, and only if they changed, so that a second build is quick.
 """
@@ -14,6 +14,7 @@ import sys
 import tempfile
 from pathlib import Path
 
+import columns
 import variables
 
 import dondolo as dd
@@ -42,6 +43,7 @@ def write_pages(source: Path) -> None:
     folder.mkdir(exist_ok=True)
     _write(folder / "command_line.md", _command_line())
     _write(folder / "variables.md", variables.page())
+    _write(folder / "columns.md", columns.page())
     _write(folder / "api.md", _api())
     _write_examples(source / "examples", folder / "examples")
 

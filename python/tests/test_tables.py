@@ -1,5 +1,6 @@
-"""docs/files.md describes every column of every table of a run, and every key of its file."""
+"""The docs describe every column of every table of a run, and every key of its file."""
 
+import importlib.util
 import json
 import re
 import subprocess
@@ -53,14 +54,16 @@ def written(executable, root, tmp_path_factory):
     return folder
 
 
-def sections(root):
-    """Names in the first column of the tables of each section of the page."""
-    parts = re.split(r"(?m)^### (.*)\n", (root / "docs/files.md").read_text())
-    found = {}
-    for title, text in zip(parts[1::2], parts[2::2], strict=True):
-        rows = re.findall(r"(?m)^\| ([^|]*) \|.*\|$", text.split("\n## ")[0])
-        found[title] = {name for row in rows for name in re.findall(r"`([^`]+)`", row)}
-    return found
+def described(root):
+    """Tables and their columns in order, as the page of columns has them."""
+    spec = importlib.util.spec_from_file_location("columns", root / "docs/columns.py")
+    columns = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(columns)
+    parts = re.split(r"(?m)^## `PREFIX_(\w+).csv`\n", columns.page())
+    return {
+        name: re.findall(r"(?m)^\| `(\w+)` \| [^|]* \| [^|]+ \|$", text)
+        for name, text in zip(parts[1::2], parts[2::2], strict=True)
+    }
 
 
 def head(path):
@@ -77,24 +80,31 @@ def of_a_wall():
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
 def test_columns_are_described(written, root):
-    page = sections(root)
-    common, seen = page.pop("Columns of several tables"), {}
+    page, seen = described(root), {}
     for path in written.glob("*.csv"):
         if "_" in path.name:
-            seen.setdefault(f"`PREFIX_{path.name.rpartition('_')[2]}`", set()).update(head(path))
-    described = {title: names for title, names in page.items() if title.startswith("`PREFIX_")}
-    assert set(seen) == set(described)
-    for title, columns in seen.items():
-        columns = {re.sub(r"^([a-z]+)\d+", r"\1", name) for name in columns}
-        if "walls" in title:
-            columns -= set(of_a_wall())
-        assert columns <= described[title] | common, (title, columns - described[title] - common)
+            seen.setdefault(path.stem.rpartition("_")[2], []).append(head(path))
+    assert set(seen) == set(page)
+    for name, heads in seen.items():
         # Nothing is described that no table has
-        assert described[title] <= columns, (title, described[title] - columns)
-    # Every table is in the list of tables
-    assert {title.strip("`") for title in described} <= page_names(root)
-    words = set(constants().statuses) | set(constants().errors) | {"given"}
-    assert words <= common
+        assert set(page[name]) <= set().union(*heads), name
+        for columns in heads:
+            if name == "walls":
+                plain = [re.sub(r"^([a-z]+)\d+", r"\1", column) for column in columns]
+                columns = [column for column in plain if column not in of_a_wall()]
+            # In the order of the page
+            assert columns == [column for column in page[name] if column in columns], name
+
+
+def test_tables_and_words_are_listed(root):
+    assert {f"PREFIX_{name}.csv" for name in described(root)} == page_names(root)
+    text = (root / "docs/files.md").read_text()
+    for title, words in (
+        ("Status of a fit", constants().statuses),
+        ("Kinds of standard errors", {*constants().errors, "given"}),
+    ):
+        rows = re.findall(r"(?m)^\| ([^|]*) \|.*\|$", text.partition(f"### {title}\n")[2].partition("\n### ")[0])
+        assert set(words) == {word for row in rows for word in re.findall(r"`([^`]+)`", row)} - {"status", "errors"}
 
 
 @pytest.mark.slow
@@ -115,7 +125,7 @@ def page_names(root):
 def test_names_of_columns_of_walls(root):
     """The rule of the page, and those that differ from it."""
     text = (root / "docs/files.md").read_text()
-    section = re.search(r"(?s)### `PREFIX_walls.csv`\n(.*?)\n\|", text)[1]
+    section = text.partition("**Properties of walls**")[2].partition("\n\n")[0]
     differ = {row.column for row in of_a_wall().values() if row.column != by_rule(row)}
     assert {name for name in differ if f"`{name}`" in section} == differ
     assert f"{['no', 'one', 'two', 'three', 'four'][len(differ)]} names differ" in section.lower()

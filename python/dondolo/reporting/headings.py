@@ -30,7 +30,7 @@ SHEETS = {
 }
 
 # Units that names of columns end with
-_UNITS = {
+UNITS = {
     "_kg_m3": "kg/m³",
     "_m_s2": "m/s²",
     "_nm2_m": "N m²/m",
@@ -297,7 +297,7 @@ def heading(name: str) -> str:
     number, plain = (f" {found[2]}", f"{found[1]}{found[3] or ''}") if found and name not in COLUMNS else ("", name)
     if plain in COLUMNS:
         return COLUMNS[plain] + number
-    for ending, unit in _UNITS.items():
+    for ending, unit in UNITS.items():
         words = plain.removesuffix(ending)
         if words != plain and words in COLUMNS:
             return f"{COLUMNS[words]}{number} [{unit}]"
