@@ -9,7 +9,6 @@ from markdown import bullets, many, paragraph, percent, power, small, table
 from study import DEFAULT, REPEATS, TIGHT, TOLERANCES
 
 LARGE = 1e-6  # EDPs with larger errors are counted
-SHOWN = [TOLERANCES[i] for i in (0, 5, 9)]  # rows of the tables of accuracy and time
 SHARE = 0.01  # of the histories, at the defaults
 FEW = 2  # histories, at TIGHT
 
@@ -53,15 +52,13 @@ def truth(study):
         "## 1. Reference solution",
         "",
         *paragraph(
-            "The exact solution is the motion defined in [theory.md](../theory.md#4-the-hybrid-motion) for an "
-            "accelerogram that is linear between its samples: rocking starts, impacts occur, chains of bounces "
-            "end and the peak is reached at their exact instants instead of at samples."
+            "The exact solution is the [hybrid motion](../theory.md#4-the-hybrid-motion) under an accelerogram that is "
+            "linear between its samples, with starts, impacts, ends of chains and peaks at their exact instants."
         ),
         *paragraph(
-            "The tables of `test/reference` contain the EDP of every history to 20 digits. "
-            "`./run reference` compiles the same sources in real128 (33 digits) and runs them at a tolerance at "
-            "which even the most amplified error is small. The change of an EDP when that tolerance is relaxed "
-            "a hundredfold bounds the error of the table."
+            "The tables of `test/reference` have the EDP of every history to 20 digits. `./run reference` computes "
+            "them from the same sources in real128 (33 digits). The change of an EDP when the tolerance is relaxed a "
+            "hundredfold bounds the error of the table."
         ),
         *table(
             ["wall", "accelerograms", "histories", "rtol", "largest change of an EDP", "in", "changes above 1e-12"],
@@ -69,8 +66,8 @@ def truth(study):
         ),
         *bullets(f"`{wall}`: `{said}`" for wall, said in WALLS.items()),
         *paragraph(
-            "[Verification](../verification.md#what-is-compared-with-what) names the accelerograms. Reference and "
-            "product share their sources; section 7 lists the independent checks of both."
+            "[Verification](../verification.md#what-is-compared-with-what) names the accelerograms. Section 7 lists "
+            "independent checks of the shared sources."
         ),
     ]
 
@@ -83,33 +80,28 @@ def work_precision(study):
         "",
         *paragraph(
             f"The engine rk45 is run at rtol from {power(TOLERANCES[0])} to {power(TOLERANCES[-1])}, atol = rtol/100, "
-            "on one thread. The error is that of the EDP with respect to the reference; the median is over the "
-            f"histories that rock and do not collapse. Times are medians of {REPEATS} runs, exclude the reading of "
-            "files, and are indicative only. The figure has all tolerances, the tables a part of them."
+            "on one thread. The error is that of the EDP; the median is over the histories that rock and do not "
+            f"collapse. Times are medians of {REPEATS} runs without the reading of files, and are indicative only. The "
+            f"figure has all tolerances, the table the default, {power(DEFAULT)}."
         ),
         "![error of the EDP against tolerance and time per history](../figures/verification_work.png)",
         "",
     ]
-    head = ["rtol"]
-    for _ in range(2):
-        head += ["wrong flags", "> 1e-6", "worst", "median", "ms"]
-    for wall in dict.fromkeys(wall for wall, _ in study.pairs()):
-        rows = []
-        for rtol in SHOWN:
-            row = [f"**{power(rtol)}**" if rtol == DEFAULT else power(rtol)]
-            for name in ("recorded", "synthetic"):
-                errors = study.errors(wall, name, rtol)
-                row += [
-                    errors.flags(),
-                    errors.above(LARGE),
-                    small(errors.worst()),
-                    small(errors.quantile(0.5)),
-                    f"{study.milliseconds[wall, name, rtol]:.3f}",
-                ]
-            rows.append(row)
-        numbers = [len(study.exact[wall, name]) for name in ("recorded", "synthetic")]
-        lines += paragraph(f"`{wall}`: {numbers[0]} recorded histories (left), {numbers[1]} synthetic ones (right)")
-        lines += table(head, rows)
+    rows = []
+    for wall, name in study.pairs():
+        errors = study.errors(wall, name, DEFAULT)
+        rows.append(
+            [
+                f"`{wall}`, {name}",
+                len(study.exact[wall, name]),
+                errors.flags(),
+                errors.above(LARGE),
+                small(errors.worst()),
+                small(errors.quantile(0.5)),
+                f"{study.milliseconds[wall, name, DEFAULT]:.3f}",
+            ]
+        )
+    lines += table(["wall", "histories", "wrong flags", "> 1e-6", "worst", "median", "ms per history"], rows)
     return lines + defaults(study)
 
 
@@ -129,12 +121,11 @@ def defaults(study):
     demand(gain > 10.0, f"beyond the default errors fall: {gain:.2g}-fold at {power(TIGHT)}")
     return paragraph(
         f"**Why rtol = {power(DEFAULT)} and atol = {power(DEFAULT / 100.0)} are the defaults.** One step from sample "
-        "to sample is already so accurate that looser tolerances have almost no effect: from "
-        f"{power(loosest)} on, no median error changes by more than a factor {change:.1f}. Against the loosest, the "
-        f"default costs {percent(near)} time; {power(tighter)} costs {percent(far)} more, and {power(TIGHT)} "
-        f"{percent(farther)}. Median errors of the last are at least {gain:.0f} times smaller. The default matters if "
-        "the samples do not limit the step: for accelerograms with coarser samples than these (0.005 s), and for "
-        "smaller, faster walls."
+        f"to sample is so accurate that from {power(loosest)} on no median error changes by more than a factor "
+        f"{change:.1f}. Against the loosest, the default costs {percent(near)} time; {power(tighter)} costs "
+        f"{percent(far)} more, and {power(TIGHT)} {percent(farther)}, with median errors at least {gain:.0f} times "
+        "smaller. The default matters where samples do not limit the step: they are coarser than here (0.005 s), or "
+        "the wall is smaller and faster."
     )
 
 

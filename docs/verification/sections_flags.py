@@ -2,7 +2,6 @@
 
 import figures
 import numpy as np
-from histories import Errors
 from markdown import many, paragraph, power, small, table
 from sections_accuracy import LARGE
 from study import DEFAULT, TIGHTEST, TOLERANCES
@@ -36,48 +35,6 @@ def largest_shift(study, tolerances):
             if shift > found[0]:
                 found = (shift, (wall, name, rtol))
     return found
-
-
-def curves(study):
-    """Table of the curves of the reference and of every tolerance, tolerances with the same flags in one row."""
-    rows = []
-    for wall, name in study.pairs():
-        exact = study.exact[wall, name]
-        fit = exact.fit()
-        of_theta, of_beta = naive_errors(fit)
-        status = "reference" if fit.status == "ok" else f"reference ({fit.status})"
-        rows.append(
-            [
-                f"`{wall}`, {name}",
-                status,
-                "",
-                f"{fit.theta:.6f} ± {fit.theta * of_theta:.4f}",
-                f"{fit.beta:.6f} ± {of_beta:.4f}",
-                "",
-                "",
-            ]
-        )
-        groups = {}
-        for rtol in ORDINARY:
-            groups.setdefault(study.runs[wall, name, rtol].collapsed.tobytes(), []).append(rtol)
-        for group in groups.values():
-            run = study.runs[wall, name, group[0]]
-            curve = run.fit()
-            by_theta, by_beta = shifts(curve, fit)
-            rows.append(
-                [
-                    "",
-                    ", ".join(map(power, group)),
-                    Errors(run, exact).flags(),
-                    f"{curve.theta:.6f}",
-                    f"{curve.beta:.6f}",
-                    signed(by_theta),
-                    signed(by_beta),
-                ]
-            )
-    return table(
-        ["wall", "rtol", "wrong flags", "θ, g", "β", "shift of ln θ / its s.e.", "shift of β / its s.e."], rows
-    )
 
 
 def wrong_flags(study):
@@ -134,8 +91,7 @@ def flags(study):
         lines += paragraph(
             f"{span}, in {len(ORDINARY) * len(study.pairs())} runs of all histories of a wall, "
             f"{many(len(wrong), 'flag')} differed from the reference. No ordinary tolerance excludes this: a "
-            "tighter one may fail for the one history that is right with a looser one. The estimated error of "
-            "section 5 for this case:"
+            "tighter one may fail for the history that is right with a looser one. The estimated error of section 5:"
         )
         lines += table(
             [
@@ -157,10 +113,9 @@ def flags(study):
         place = f"({where[0]}, {where[1]}, rtol = {power(where[2])})"
         kind = "taken as if all histories were independent"
         moved = f"Its largest shift is {shift:.2f} standard errors, {kind} {place}."
-    lines += paragraph("The fragility curve, at the levels of the next table, depends on the flags only. " + moved)
+    lines += paragraph("The fragility curve depends on the flags only. " + moved)
     return [
         *lines,
-        *curves(study),
         *paragraph(f"The {NEAREST} histories nearest to the limit that do not collapse, at every tolerance:"),
         "![errors of the histories nearest the limit](../figures/verification_boundary.png)",
         "",
@@ -200,11 +155,9 @@ def estimates(study):
         "## 5. The estimated error",
         "",
         *paragraph(
-            "With `estimate_error = .true.` every history is run twice more, and "
-            "`*_histories.csv` has a column `edp_error`. Here this estimate is compared with the true error, at the "
-            "defaults. A miss is an EDP with an error above 1e-6 that the estimate does not report; a false alarm is "
-            "the opposite. A flag is uncertain if EDP plus twice the estimated error reaches the limit, if that error "
-            "exceeds 0.01."
+            "The estimate of `estimate_error = .true.` against the true error, at the defaults. A miss is an EDP with "
+            "an error above 1e-6 that the estimate does not report; a false alarm is the opposite. A flag is uncertain "
+            "if EDP plus twice the estimated error reaches the limit, or if that error exceeds 0.01."
         ),
         *table(
             [
@@ -225,9 +178,8 @@ def estimates(study):
         "",
         *dense_grid(study),
         *paragraph(
-            "The estimate indicates the size of the error and is not a bound, so a flag can be wrong without being "
-            "uncertain. [Hard histories](certification.md) have a study of their own, in which those in doubt are run "
-            "in 33 digits."
+            "The estimate is not a bound, so a flag can be wrong without being uncertain. [Hard "
+            "histories](certification.md) have a study of their own."
         ),
     ]
 

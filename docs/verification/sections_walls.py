@@ -68,17 +68,16 @@ def walls(folder):
         "",
         *paragraph(
             "Twelve more walls ([walls.csv](../../test/reference/walls.csv)) are slender and squat, small and large, "
-            "with hinges at 0.35 to 0.85 of the height, loads beside the axis, and speed ratios of up to 0.995. Each "
-            f"runs under every second record of both sets with a random factor, {number} histories. Their truth is in "
-            f"33 digits, at two tolerances that agree to {small(change)}, but for {unsettled} histories that the last "
-            "digit of the factor decides. Columns of an engine have the wrong flags, the EDPs with errors above 1e-6, "
-            "how many of these the estimated error finds, and its false alarms; the largest error is that of the "
-            "computable histories."
+            "with hinges at 0.35 to 0.85 of the height, loads beside the axis, and restitutions of up to 0.995. Each "
+            f"runs under every second record of both sets with a random factor, {number} histories. In 33 digits two "
+            f"tolerances agree to {small(change)}, but for {unsettled} histories that the last digit of the factor "
+            "decides. Columns of an engine have the wrong flags, the EDPs with errors above 1e-6, those that the "
+            "estimated error finds, and its false alarms; the largest error is that of the computable histories."
         ),
         *table(head, lines),
         *paragraph(
-            "Every third history is in [test_certificates](../../python/tests/test_certificates.py). The tables are "
-            "written by docs/verification/more_walls.py."
+            "[test_certificates](../../python/tests/test_certificates.py) runs every third history; "
+            "docs/verification/more_walls.py writes the tables."
         ),
     ]
 
