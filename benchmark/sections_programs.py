@@ -21,15 +21,13 @@ from rounds import (
 from spread import Spread, rounded
 
 METHODS = [
-    "*C++ by hand*: one or several Nyström steps of order four from sample to sample; events by Newton's method on the "
-    "step.",
-    "*Boost.odeint*: Dormand-Prince stepper, with controlled steps that end at every sample, or with free steps and "
-    "dense output. *SUNDIALS*: ARKODE's Dormand-Prince pair and CVODE's Adams method with their own root finding, "
-    "stopped at every sample, or free.",
+    "*C++ by hand*: one or several Nyström steps of order four from sample to sample; events by Newton's method.",
+    "*Boost.odeint*: Dormand-Prince stepper, with steps that end at every sample (cut), or free steps and dense "
+    "output. *SUNDIALS*: ARKODE's Dormand-Prince pair and CVODE's Adams method with their own root finding.",
     "*heyoka*: Taylor's method with its own events, called from Python, one history after the other or in lanes; *own* "
-    "is the time within the library's steps. *numbalsoda*: the whole program compiled by Numba, sample by sample.",
-    "*SciPy*: `solve_ivp` with events, from sample to sample or over the whole record; the right-hand side is "
-    "compiled. *GNU Octave*: `ode45` with events over the whole record, or with steps no longer than a sample.",
+    "is the time within the library's steps. *numbalsoda*: the whole program compiled by Numba.",
+    "*SciPy*: `solve_ivp` with events; the right-hand side is compiled. *GNU Octave*: `ode45` with events and an "
+    "interpreted right-hand side.",
 ]
 
 
@@ -59,12 +57,11 @@ def programs(results, turns, machine):
         "## 1. Other programs",
         "",
         *paragraph(
-            "Every program computes the same motion (theory.md, sections 1 to 4). Programs in the same language share "
-            "all source except the integration. Those in C++, heyoka and Numba are compiled for the processor at hand; "
-            "dondolo's are portable binaries, of which the engine `lanes` chooses the variant that fits. All run on "
-            "one core, in a warm process: reading and compilation are over before the clock starts. Times hold the "
-            "integration of all histories: of dondolo a call of `multiple_stripe` from Python, of heyoka and SciPy "
-            "with their loop in Python, of GNU Octave with an interpreted right-hand side as well."
+            "Every program computes the same motion (theory.md, sections 1 to 4); those in one language share all "
+            "source but the integration. C++, heyoka and Numba are compiled for the processor at hand; dondolo is a "
+            "portable binary. All run on one core, in a warm process, without reading and compilation. Times are those "
+            "of all histories: of dondolo a call of `multiple_stripe` from Python, of heyoka, SciPy and GNU Octave "
+            "with their interpreted loop."
         ),
         *bullets(METHODS),
         *paragraph(
@@ -72,10 +69,9 @@ def programs(results, turns, machine):
             "relative ones, in units of the capacity."
         ),
         *paragraph(
-            f"Slow programs run only a part of the histories: {parts(first)}. Their times are divided by the ratio of "
-            "the mean numbers of evaluations per history that rk45 needs for that part and for all histories. The "
-            f"figure has every setting of `{wall}`; a front joins the settings that no other of dondolo, or of the "
-            "other programs, beats in both time and error."
+            f"Slow programs run only a part of the histories, and their times are scaled by the evaluations of rk45: "
+            f"{parts(first)}. The figure has every setting of `{wall}`; a front joins the settings that no other of "
+            "dondolo, or of the other programs, beats in both time and error."
         ),
         "![error against time per history](../figures/performance_work.png)",
         "",
@@ -105,14 +101,14 @@ def ratios(results, turns):
     for name, best, what in compared(results):
         key = (best.name, best.setting)
         times = times_of(turns, *key, what)
+        relative = {engine: ratio(turns, key, under, what) for engine, under in engines.items()}
         rows.append(
             [
                 name,
                 f"{best.method}, {best.setting:g}",
-                Spread.of(times.values()).stated(),
+                rounded(Spread.of(times.values()).median, 3),
                 f"{best.above} of {best.histories}, {many(best.flags, 'wrong flag')}",
-                len(set(times) - {0}) or "none",
-                *(ratio(turns, key, under, what).stated() for under in engines.values()),
+                *(one.stated() if engine == "lanes" else rounded(one.median, 3) for engine, one in relative.items()),
             ]
         )
     rounds = max(turn.round for turn in turns)
@@ -120,16 +116,15 @@ def ratios(results, turns):
     return [
         *paragraph(
             f"Of `{results[0].wall}`, for each program the cheapest setting with at most {100 * SHARE:g} % of the EDPs "
-            f"with an error above 1e-6 and at most {many(WRONG, 'wrong flag')}, or, if there is none, its most "
-            "accurate setting. *As accurate* is the cheapest with no more wrong flags, no larger share of errors above "
-            f"1e-6 and at most {WORST:g} times the largest error of `lanes` at its defaults, where that is another "
-            f"one. These settings ran in {many(rounds, 'round')}, in which every program has its turn, in a new "
-            f"process. A turn is as many calls as fit in {TURN:g} s, and counts by their median; a program that takes "
-            f"more than {SLOWEST:g} s has none. The last columns are the times relative to those of dondolo's engines "
-            "in the same round, at their defaults and at a tight tolerance. Times and ratios are median, lower to "
-            "upper quartile, and in brackets the least and the largest of the rounds."
+            f"with an error above 1e-6 and at most {many(WRONG, 'wrong flag')}, or else its most accurate setting. *As "
+            "accurate*, where that is another one, is the cheapest with no more wrong flags, no larger share of errors "
+            f"above 1e-6 and at most {WORST:g} times the largest error of `lanes` at its defaults. These settings ran "
+            f"in {many(rounds, 'round')} in which every program has its turn, the median of the calls that fit in "
+            f"{TURN:g} s; programs beyond {SLOWEST:g} s have none. The last columns are the times relative to those of "
+            "dondolo's engines in the same round, at their defaults and at a tight tolerance: medians, and for `lanes` "
+            "also lower to upper quartile and in brackets the least and the largest of the rounds."
         ),
-        *table(["program", "setting", "ms for all histories", "errors", "rounds", *heads], rows),
+        *table(["program", "setting", "ms for all histories", "errors", *heads], rows),
     ]
 
 
@@ -142,36 +137,32 @@ def limits(results, turns):
         Spread.of(times_of(turns, *key).values()).stated() for key in (lanes, (COLD, 1e-8), (COLD, 1e-8, "own"))
     )
     lines = paragraph(
-        f"The {histories} histories take the engine `lanes` {warm} ms in a call from Python that is warm, of which the "
-        f"histories themselves are {ratio(turns, lanes, lanes, 'own').times(100.0).stated()} %. Calls of as many "
-        f"histories that never move take {still.stated()} ms each, "
-        f"{ratio(turns, (STILL, 1e-8), lanes).times(100.0).stated()} % of it. "
-        f"The whole command `dondolo CASE.nml` takes {whole} ms, with reading and writing; its histories take {cold} "
-        "ms of it."
+        f"The {histories} histories take the engine `lanes` {warm} ms in a warm call from Python, of which the "
+        f"histories themselves are {ratio(turns, lanes, lanes, 'own').times(100.0).stated()} %. As many histories that "
+        f"never move take {still.stated()} ms, {ratio(turns, (STILL, 1e-8), lanes).times(100.0).stated()} % of it. "
+        f"The command `dondolo CASE.nml` takes {whole} ms with reading and writing, its histories {cold} ms."
     )
     if core_of(turns):
         lines += paragraph(
-            f"Each turn ran on the core that other programs left most of just before, and waited up to {WAIT:g} s for "
-            f"one that they left alone; if that core was shared at its end it was taken again, {TRIES} times at most. "
-            "A core that also runs a thread of another program does as few as half of the independent additions in the "
-            f"time of a multiplication that waits for the one before; here they were {core_of(turns).stated()}."
+            f"Each turn waited up to {WAIT:g} s for a core that other programs left alone; if that core was shared at "
+            f"its end it was taken again, {TRIES} times at most. A shared core does as few as half of the independent "
+            "additions in the time of a multiplication that waits for the one before; here they were "
+            f"{core_of(turns).stated()}."
         )
     loop = times_of(turns, LIMIT, 0.0).values()
     if not loop:
         return lines
     lines += paragraph(
-        f"In the same rounds a loop of 3.24e6 times 90 fused multiplications and additions in the widest vectors of "
-        f"the processor takes {Spread.of(loop).stated()} ms; the call from Python takes "
-        f"{ratio(turns, lanes, (LIMIT, 0.0)).stated()} times as long. The loop measures the processor, so that "
-        "machines can be compared."
+        "To compare machines, a loop of 3.24e6 times 90 fused multiplications and additions in the widest vectors of "
+        f"the processor takes {Spread.of(loop).stated()} ms in the same rounds; the call from Python takes "
+        f"{ratio(turns, lanes, (LIMIT, 0.0)).stated()} times as long."
     )
     lines += paragraph(
-        "`dondolo --benchmark` counts the multiplications and additions of the engine's steps, a fused one as two, and "
-        "ran on one thread in the same rounds, with the embedded synthetic accelerograms. Impacts, starts and all else "
-        "that is no step are not counted."
+        "`dondolo --benchmark` counts the multiplications and additions of the engine's steps, not those of impacts "
+        "and starts (one thread, embedded synthetic accelerograms):"
     )
     lines += table(
-        ["mechanism", "% of the operations per second of the loop"],
+        ["mechanism", "% of the operations per second of the loop, which counts a fused one as two"],
         [[f"`{mechanism}`", share.times(100.0).stated()] for mechanism, share in shares(turns).items()],
     )
     return [*lines, "![share of the arithmetic limit by mechanism](../figures/performance_arithmetic.png)", ""]

@@ -15,10 +15,10 @@ def earlier_runs(runs, run):
     if not run.is_committed:
         return lines + paragraph("This run is of sources that were not committed, and is not compared with others.")
     lines += paragraph(
-        f"Earlier runs are those of the same commit ({run.commit}), compiler options, processor, version and build "
-        "variant in `benchmark/runs.csv`. A run is disturbed, by other programs on the machine, if the quartiles of "
-        f"half of its ratios are farther apart than {100.0 * QUIET:g} % of the median; disturbed runs are listed, and "
-        f"not compared. In this run the quartiles of half of the ratios are within {apart(runs[run])}."
+        f"Earlier runs in `benchmark/runs.csv` are of the same commit ({run.commit}), options, processor and build "
+        "variant. Runs that other programs disturbed are listed, and not compared: the quartiles of half of their "
+        f"ratios are farther apart than {100.0 * QUIET:g} % of the median. In this run they are within "
+        f"{apart(runs[run])}."
     )
     if not is_quiet(runs[run]):
         return lines + paragraph("**This run was disturbed**, and is not compared with others.")
@@ -44,10 +44,9 @@ def comparison(runs, run, others):
     closely = sum(each.agrees_closely(stated[each.name]) for each in found)
     by_chance, closely_by_chance = chances(len(others))
     lines = paragraph(
-        "A ratio agrees if the median of this run and that of the earlier ones lie within the range of the other, "
-        "closely if they lie within the quartiles. Of runs that differ by chance alone "
-        f"{by_chance} % of the ratios would agree and {closely_by_chance} % closely (simulated, {sum(ROUNDS)} normal "
-        "errors a run)."
+        "A ratio agrees if the medians of both lie within the range of the other, closely if within the quartiles. By "
+        f"chance alone {by_chance} % of the ratios would agree and {closely_by_chance} % closely (simulated, "
+        f"{sum(ROUNDS)} normal errors a run)."
     )
     lines += paragraph(
         f"{agree} of {many(len(found), 'ratio')} agree with {many(len(others), 'earlier run')}, {closely} of them "

@@ -12,10 +12,9 @@ def scaling(rows):
         "## 2. Threads, sizes, memory",
         "",
         *paragraph(
-            "The default engine is run with the embedded synthetic accelerograms, at 20 levels unless stated "
-            "otherwise. Strong scaling has a fixed population of walls, weak scaling one that grows with the threads. "
-            "The numbers of threads ran in turns, and an efficiency is relative to one thread in the same turn. Lines "
-            "are the fitted growth, stated below."
+            "The default engine with the embedded synthetic accelerograms, at 20 levels unless stated otherwise. "
+            "Strong scaling has a fixed population of walls, weak scaling one that grows with the threads; "
+            "efficiencies are relative to one thread in the same turn. Lines are the growth fitted below."
         ),
         "![threads, sizes, memory](../figures/performance_scaling.png)",
         "",
