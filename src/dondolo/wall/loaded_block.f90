@@ -218,6 +218,7 @@ contains
       self%spring = self%free_spring
       self%is_sprung = self%free_spring%w > 0.0_wp .or. any(abs(stiffness) > 0.0_wp)
       do i = 1, size(force)
+         if (force(i) == 0.0_wp .and. stiffness(i) == 0.0_wp) cycle
          associate (tie => self%restraints(i))
             call self%thrust%add(-force(i), tie%e, tie%f)
             call self%spring%add(stiffness(i), tie%e, tie%f)

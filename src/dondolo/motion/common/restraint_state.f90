@@ -13,6 +13,13 @@ module dondolo_motion_restraint_state
 
    public :: restraint_state_type
 
+   !> A tie, or friction, at present: mode, plastic elongation [m], rotation below which it is slack [rad], and times of yield and
+   !> fracture [s]
+   type :: tie_state_type
+      integer :: mode = elastic
+      real(wp) :: plastic_elongation = 0.0_wp, slack_below = 0.0_wp, time_of_yield = never, time_of_fracture = never
+   end type tie_state_type
+
    !> Ties and friction of a wall at present
    type :: restraint_state_type
       !> Are there any?
@@ -21,15 +28,16 @@ module dondolo_motion_restraint_state
       logical :: flows = .false.
       !> Have their forces at rest changed since `strike` was called last?
       logical :: changed = .false.
+      !> Does a tie that has stretched become slack where the wall strikes its base? It may be taut until then by rounding
+      logical :: slackens_at_base = .false.
       !> Nearest rotations above and below the present one at which a mode changes [rad]; huge and -huge: none
       real(wp) :: above = huge(1.0_wp), below = -huge(1.0_wp)
       !> Force of each tie T = force + stiffness D at present [N/m] and [N/m per m]
       real(wp), allocatable :: force(:), stiffness(:)
       !> Largest rotation at which a motion outwards has ended [rad]
       real(wp), private :: reached = 0.0_wp
-      !> Mode, plastic elongation [m], rotation below which it is slack [rad] and times of yield and fracture [s] of each
-      integer, allocatable, private :: mode(:)
-      real(wp), allocatable, private :: plastic_elongation(:), slack_below(:), time_of_yield(:), time_of_fracture(:)
+      !> The state of each tie
+      type(tie_state_type), allocatable, private :: tie(:)
    contains
       !> The start of a history
       procedure :: begin
@@ -39,8 +47,6 @@ module dondolo_motion_restraint_state
       procedure :: turn
       !> The wall strikes its base
       procedure :: strike
-      !> Does a tie become slack there?
-      procedure :: slackens_at_base
       !> Would friction resist a motion outwards that goes on?
       procedure :: rubs_beyond
       !> What the history did to the ties
@@ -63,10 +69,9 @@ contains
       self%exists = allocated(wall%restraints)
       if (.not. self%exists) return
       ties = size(wall%restraints)
-      allocate (self%mode(ties))
-      self%mode = merge(flowing, elastic, wall%restraints%is_friction)
-      allocate (self%force(ties), self%stiffness(ties), self%plastic_elongation(ties), self%slack_below(ties), source=0.0_wp)
-      allocate (self%time_of_yield(ties), self%time_of_fracture(ties), source=never)
+      allocate (self%tie(ties))
+      self%tie%mode = merge(flowing, elastic, wall%restraints%is_friction)
+      allocate (self%force(ties), self%stiffness(ties), source=0.0_wp)
       if (q > 0.0_wp) call self%cross(wall, q, .true., 0.0_wp)
       call self%turn(wall, q)
    end subroutine begin
@@ -85,21 +90,21 @@ contains
 
       integer :: i
 
-      do i = 1, size(self%mode)
+      do i = 1, size(self%tie)
          associate (tie => wall%restraints(i))
             if (.not. outwards) then
-               if (self%mode(i) == elastic .and. q <= self%slack_below(i)) self%mode(i) = slack
+               if (self%tie(i)%mode == elastic .and. q <= self%tie(i)%slack_below) self%tie(i)%mode = slack
                cycle
             end if
-            if (self%mode(i) == slack .and. q >= self%slack_below(i)) self%mode(i) = elastic
-            if (self%mode(i) == elastic .and. q >= yields_at(self, tie)) then
-               self%mode(i) = flowing
-               if (tie%fracture > tie%yield .and. self%time_of_yield(i) < 0.0_wp) self%time_of_yield(i) = time
+            if (self%tie(i)%mode == slack .and. q >= self%tie(i)%slack_below) self%tie(i)%mode = elastic
+            if (self%tie(i)%mode == elastic .and. q >= yields_at(self, tie)) then
+               self%tie(i)%mode = flowing
+               if (tie%fracture > tie%yield .and. self%tie(i)%time_of_yield < 0.0_wp) self%tie(i)%time_of_yield = time
             end if
-            if (self%mode(i) == flowing .and. q >= tie%fracture) then
-               self%mode(i) = broken
-               self%plastic_elongation(i) = tie%plastic_elongation(q)
-               self%time_of_fracture(i) = time
+            if (self%tie(i)%mode == flowing .and. q >= tie%fracture) then
+               self%tie(i)%mode = broken
+               self%tie(i)%plastic_elongation = tie%plastic_elongation(q)
+               self%tie(i)%time_of_fracture = time
                self%changed = .true.
             end if
          end associate
@@ -118,17 +123,17 @@ contains
       integer :: i
 
       self%reached = max(self%reached, q)
-      do i = 1, size(self%mode)
-         if (self%mode(i) /= flowing) cycle
+      do i = 1, size(self%tie)
+         if (self%tie(i)%mode /= flowing) cycle
          if (wall%restraints(i)%is_friction) then
             ! As long as the wall has not moved at all friction acts in full.
             if (.not. self%reached > 0.0_wp) cycle
-            self%mode(i) = slack
-            self%slack_below(i) = self%reached
+            self%tie(i)%mode = slack
+            self%tie(i)%slack_below = self%reached
          else
-            self%mode(i) = elastic
-            self%plastic_elongation(i) = wall%restraints(i)%plastic_elongation(q)
-            self%slack_below(i) = wall%restraints(i)%slack_below(self%plastic_elongation(i))
+            self%tie(i)%mode = elastic
+            self%tie(i)%plastic_elongation = wall%restraints(i)%plastic_elongation(q)
+            self%tie(i)%slack_below = wall%restraints(i)%slack_below(self%tie(i)%plastic_elongation)
          end if
          self%changed = .true.
       end do
@@ -141,24 +146,17 @@ contains
       !> The wall; its ties get these forces
       class(mechanism_type), intent(inout) :: wall
 
-      where (self%mode == elastic .and. self%slack_below > 0.0_wp) self%mode = slack
+      where (self%tie%mode == elastic .and. self%tie%slack_below > 0.0_wp) self%tie%mode = slack
       self%changed = .false.
       call self%update(wall)
    end subroutine strike
-
-   !> Does a tie that has stretched become slack where the wall strikes its base? It may be taut until then by rounding
-   pure logical function slackens_at_base(self)
-      class(restraint_state_type), intent(in) :: self
-
-      slackens_at_base = any(self%mode == elastic .and. self%slack_below > 0.0_wp)
-   end function slackens_at_base
 
    !> Would a motion outwards, which has ended at the largest rotation so far, wake friction if it went on?
    pure logical function rubs_beyond(self, wall)
       class(restraint_state_type), intent(in) :: self
       class(mechanism_type), intent(in) :: wall
 
-      rubs_beyond = any(self%mode == slack .and. wall%restraints%is_friction)
+      rubs_beyond = any(self%tie%mode == slack .and. wall%restraints%is_friction)
    end function rubs_beyond
 
    !> What a history that is over did to the ties
@@ -175,8 +173,8 @@ contains
          response%plastic_elongation = ties%plastic_elongation(peak)
          response%energy = ties%strength*response%plastic_elongation
          response%broken = peak >= ties%fracture
-         response%time_of_yield = self%time_of_yield(:wall%ties)
-         response%time_of_fracture = self%time_of_fracture(:wall%ties)
+         response%time_of_yield = self%tie(:wall%ties)%time_of_yield
+         response%time_of_fracture = self%tie(:wall%ties)%time_of_fracture
       end associate
    end subroutine responses
 
@@ -195,20 +193,24 @@ contains
 
       integer :: i
 
-      call wall%restraints%linear_force(self%mode, self%plastic_elongation, self%force, self%stiffness)
+      call wall%restraints%linear_force(self%tie%mode, self%tie%plastic_elongation, self%force, self%stiffness)
       call wall%set_restraints(self%force, self%stiffness)
-      self%flows = any(self%mode == flowing)
+      self%flows = .false.
+      self%slackens_at_base = .false.
       self%above = huge(self%above)
       self%below = -huge(self%below)
-      do i = 1, size(self%mode)
-         select case (self%mode(i))
+      do i = 1, size(self%tie)
+         select case (self%tie(i)%mode)
          case (elastic)
             self%above = min(self%above, yields_at(self, wall%restraints(i)))
-            if (self%slack_below(i) > 0.0_wp) self%below = max(self%below, self%slack_below(i))
+            if (.not. self%tie(i)%slack_below > 0.0_wp) cycle
+            self%below = max(self%below, self%tie(i)%slack_below)
+            self%slackens_at_base = .true.
          case (flowing)
+            self%flows = .true.
             self%above = min(self%above, wall%restraints(i)%fracture)
          case (slack)
-            self%above = min(self%above, self%slack_below(i))
+            self%above = min(self%above, self%tie(i)%slack_below)
          end select
       end do
    end subroutine update

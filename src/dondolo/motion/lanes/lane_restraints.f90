@@ -21,8 +21,6 @@ module dondolo_motion_lane_restraints
 
    !> The ties and the friction of a wall in one lane
    type :: lane_restraints_type
-      !> The wall, with the forces that its ties have at present
-      class(mechanism_type), allocatable, private :: wall
       !> Their modes
       type(restraint_state_type), private :: state
       !> Levels in a row that were reached without any time passing
@@ -55,19 +53,18 @@ module dondolo_motion_lane_restraints
 contains
 
    !> Begin a history, at rest
-   pure subroutine begin(self, mechanism, constants, lanes, i)
+   pure subroutine begin(self, wall, constants, lanes, i)
       class(lane_restraints_type), intent(inout) :: self
-      !> The wall as built
-      class(mechanism_type), intent(in) :: mechanism
+      !> The wall; here and below one for all lanes: whatever forces its ties have, it gets those of this lane
+      class(mechanism_type), intent(inout) :: wall
       type(lane_constants_type), intent(in) :: constants
       !> The lanes, and the one
       type(lanes_type), intent(inout) :: lanes
       integer, intent(in) :: i
 
-      if (.not. allocated(self%wall)) allocate (self%wall, source=mechanism)
       self%state = restraint_state_type()
       self%stalled = 0
-      call self%state%begin(self%wall, 0.0_wp)
+      call self%state%begin(wall, 0.0_wp)
       call self%update(constants, lanes, i)
    end subroutine begin
 
@@ -82,8 +79,9 @@ contains
    end subroutine looks_for_levels
 
    !> Cross a level
-   pure subroutine cross(self, constants, lanes, i, event, time, took_time, may_hold)
+   pure subroutine cross(self, wall, constants, lanes, i, event, time, took_time, may_hold)
       class(lane_restraints_type), intent(inout) :: self
+      class(mechanism_type), intent(inout) :: wall
       type(lane_constants_type), intent(in) :: constants
       !> The lanes, and the one
       type(lanes_type), intent(inout) :: lanes
@@ -101,20 +99,21 @@ contains
       may_hold = .false.
       if (event == level_above) then
          lanes%y(i) = lanes%above(i)
-         call self%state%cross(self%wall, self%state%above, .true., time)
+         call self%state%cross(wall, self%state%above, .true., time)
       else if (self%state%flows) then
-         call self%state%turn(self%wall, constants%form%rotation(lanes%y(i)))
-         may_hold = self%state%rubs_beyond(self%wall)
+         call self%state%turn(wall, constants%form%rotation(lanes%y(i)))
+         may_hold = self%state%rubs_beyond(wall)
       else
          lanes%y(i) = lanes%below(i)
-         call self%state%cross(self%wall, self%state%below, .false., time)
+         call self%state%cross(wall, self%state%below, .false., time)
       end if
       call self%update(constants, lanes, i)
    end subroutine cross
 
    !> End a motion outwards
-   pure subroutine turn(self, constants, lanes, i, may_hold)
+   pure subroutine turn(self, wall, constants, lanes, i, may_hold)
       class(lane_restraints_type), intent(inout) :: self
+      class(mechanism_type), intent(inout) :: wall
       type(lane_constants_type), intent(in) :: constants
       !> The lanes, and the one
       type(lanes_type), intent(inout) :: lanes
@@ -125,14 +124,15 @@ contains
       self%stalled = 0
       may_hold = .false.
       if (.not. self%state%flows) return
-      call self%state%turn(self%wall, constants%form%rotation(lanes%y(i)))
-      may_hold = self%state%rubs_beyond(self%wall)
+      call self%state%turn(wall, constants%form%rotation(lanes%y(i)))
+      may_hold = self%state%rubs_beyond(wall)
       call self%update(constants, lanes, i)
    end subroutine turn
 
    !> Where a motion outwards has ended: the pushes of the ground between which friction holds the wall
-   pure subroutine held_between(self, constants, lanes, i, back, on)
+   pure subroutine held_between(self, wall, constants, lanes, i, back, on)
       class(lane_restraints_type), intent(inout) :: self
+      class(mechanism_type), intent(inout) :: wall
       type(lane_constants_type), intent(in) :: constants
       !> The lanes, and the one
       type(lanes_type), intent(in) :: lanes
@@ -145,15 +145,16 @@ contains
       back = -constants%form%restrained_value(lanes%a(i, :), lanes%y(i))
       ! With the friction that a further motion wakes
       largest = self%state%above
-      call self%state%cross(self%wall, largest, .true., 0.0_wp)
+      call self%state%cross(wall, largest, .true., 0.0_wp)
       call constants%form%restrained(self%state%force, self%state%stiffness, a, fifth)
-      call self%state%turn(self%wall, largest)
+      call self%state%turn(wall, largest)
       on = -constants%form%restrained_value(a, lanes%y(i))
    end subroutine held_between
 
    !> Go on outwards, against friction
-   pure subroutine go_on(self, constants, lanes, i, time)
+   pure subroutine go_on(self, wall, constants, lanes, i, time)
       class(lane_restraints_type), intent(inout) :: self
+      class(mechanism_type), intent(inout) :: wall
       type(lane_constants_type), intent(in) :: constants
       !> The lanes, and the one
       type(lanes_type), intent(inout) :: lanes
@@ -161,13 +162,14 @@ contains
       !> Time [s]
       real(wp), intent(in) :: time
 
-      call self%state%cross(self%wall, self%state%above, .true., time)
+      call self%state%cross(wall, self%state%above, .true., time)
       call self%update(constants, lanes, i)
    end subroutine go_on
 
    !> Strike the base
-   pure subroutine strike(self, constants, lanes, i, rest)
+   pure subroutine strike(self, wall, constants, lanes, i, rest)
       class(lane_restraints_type), intent(inout) :: self
+      class(mechanism_type), intent(inout) :: wall
       type(lane_constants_type), intent(in) :: constants
       !> The lanes, and the one
       type(lanes_type), intent(inout) :: lanes
@@ -178,18 +180,19 @@ contains
       logical :: changed
 
       self%stalled = 0
-      if (.not. (self%state%flows .or. self%state%changed .or. self%state%slackens_at_base())) return
+      if (.not. (self%state%flows .or. self%state%changed .or. self%state%slackens_at_base)) return
       ! Rounding may end a motion outwards unseen.
-      if (self%state%flows) call self%state%turn(self%wall, constants%form%rotation(lanes%peak(i)))
+      if (self%state%flows) call self%state%turn(wall, constants%form%rotation(lanes%peak(i)))
       changed = self%state%changed
-      call self%state%strike(self%wall)
-      if (changed) rest = new_rest(self%wall)
+      call self%state%strike(wall)
+      if (changed) rest = new_rest(wall)
       call self%update(constants, lanes, i)
    end subroutine strike
 
    !> The motion after the record
-   pure subroutine after_record(self, constants, y, v, duration, tail)
+   pure subroutine after_record(self, wall, constants, y, v, duration, tail)
       class(lane_restraints_type), intent(inout) :: self
+      class(mechanism_type), intent(inout) :: wall
       type(lane_constants_type), intent(in) :: constants
       !> Coordinate, and its velocity [1/s], at the end of the record
       real(wp), intent(in) :: y, v
@@ -200,19 +203,21 @@ contains
       real(wp) :: q, j, c, g, l, load
 
       q = constants%form%rotation(y)
-      call self%wall%terms(q, j, c, g, l, load)
-      call restrained_motion(self%wall, self%state, constants%limit, q, v*constants%form%unit*sqrt(constants%rest%inertia/j), &
+      call wall%set_restraints(self%state%force, self%state%stiffness)
+      call wall%terms(q, j, c, g, l, load)
+      call restrained_motion(wall, self%state, constants%limit, q, v*constants%form%unit*sqrt(constants%rest%inertia/j), &
          & duration, tail)
    end subroutine after_record
 
    !> What the history has done to each of the ties
-   pure subroutine responses(self, peak, ties)
+   pure subroutine responses(self, wall, peak, ties)
       class(lane_restraints_type), intent(in) :: self
+      class(mechanism_type), intent(in) :: wall
       !> Largest rotation [rad]
       real(wp), intent(in) :: peak
       type(tie_response_type), allocatable, intent(out) :: ties(:)
 
-      call self%state%responses(self%wall, peak, ties)
+      call self%state%responses(wall, peak, ties)
    end subroutine responses
 
    !> Give a lane the forces and the next levels of its ties

@@ -51,7 +51,10 @@ contains
       batch%records => records
       batch%set => set
       batch%queue => queue
-      if (constants%form%is_restrained) allocate (batch%restraints(lane_width))
+      if (constants%form%is_restrained) then
+         allocate (batch%wall, source=mechanism)
+         allocate (batch%restraints(lane_width))
+      end if
       most = most_lanes(size(queue%record), omp_get_num_threads())
       do while (batch%active < most)
          if (.not. is_filled(batch%active + 1)) exit
@@ -164,7 +167,10 @@ contains
       batch%set => set
       batch%queue => queue
       batch%trace => trace
-      if (constants%form%is_restrained) allocate (batch%restraints(lane_width))
+      if (constants%form%is_restrained) then
+         allocate (batch%wall, source=mechanism)
+         allocate (batch%restraints(lane_width))
+      end if
       call begin(batch, 1, 1)
       batch%active = 1
       do while (.not. (batch%history(1)%over .or. trace%lacks_memory))
@@ -175,13 +181,14 @@ contains
          ! Of a flagged lane it has been added.
          if (batch%lanes%flag(1) < event_possible .and. batch%lanes%next(1) > next) call add_row(batch, 1)
          if (.not. batch%history(1)%over .or. batch%history(1)%record /= 1) cycle
-         if (allocated(batch%restraints)) call batch%restraints(1)%responses(batch%history(1)%peak, trace%ties)
+         if (allocated(batch%restraints)) call batch%restraints(1)%responses(mechanism, batch%history(1)%peak, trace%ties)
          if (.not. rocks_on()) cycle
          if (allocated(kept)) batch%restraints(1) = kept
          call begin_still(batch, 1, 2)
       end do
       ! A wall that never moves has no step.
-      if (allocated(batch%restraints) .and. .not. allocated(trace%ties)) call batch%restraints(1)%responses(0.0_wp, trace%ties)
+      if (allocated(batch%restraints) .and. .not. allocated(trace%ties)) &
+         & call batch%restraints(1)%responses(mechanism, 0.0_wp, trace%ties)
       trace%is_whole = queue%response(1)%is_whole
       call trace%trim_rows()
 

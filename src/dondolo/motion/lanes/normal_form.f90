@@ -415,11 +415,12 @@ contains
       a(:self%last) = self%free
       fifth_a = self%fifth_a
       do i = 1, size(force)
+         if (force(i) == 0.0_wp .and. stiffness(i) == 0.0_wp) cycle
          a(:self%last) = a(:self%last) + (force(i)*self%by_force(:, i) + stiffness(i)*self%by_stiffness(:, i))
          if (.not. self%is_harmonic) fifth_a = fifth_a &
             & + abs(force(i))*self%fifth_by_force(i) + abs(stiffness(i))*self%fifth_by_stiffness(i)
       end do
-      if (self%is_harmonic) fifth_a = (hypot(a(0), a(1)) + 32.0_wp*hypot(a(2), a(3)))*self%unit**5/120.0_wp
+      if (self%is_harmonic) fifth_a = (sqrt(a(0)**2 + a(1)**2) + 32.0_wp*sqrt(a(2)**2 + a(3)**2))*self%unit**5/120.0_wp
    end subroutine restrained
 
    !> a of a wall with ties [1/s2]
