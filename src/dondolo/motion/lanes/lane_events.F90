@@ -92,8 +92,8 @@ contains
       integer, intent(in) :: n
       !> The lanes: y and v become those at the event
       type(lanes_type), intent(inout) :: lanes
-      !> The ties in each lane; absent for a wall without
-      type(lane_restraints_type), intent(inout), optional :: restraints(:)
+      !> The ties; absent for a wall without
+      type(lane_restraints_type), intent(inout), optional :: restraints
       !> The part of its step up to the event, or to where the step ends
       real(wp), intent(out) :: part
       !> The event
@@ -121,7 +121,7 @@ contains
             part = found%last(n)
             call find_first(d, lanes%peak(i), part, event)
          end if
-         if (looks) call restraints(i)%looks_for_levels(looks)
+         if (looks) call restraints%looks_for_levels(i, looks)
          if (looks) call find_first_level(d, found%low(n), found%high(n), part, event)
          ! A motion that begins where it turns does not turn there again: that is rounding, and would be found forever, since no
          ! time passes. It goes on a little instead.

@@ -48,9 +48,8 @@ module dondolo_motion_lane_history
       type(found_type) :: found
       !> The history in each lane
       type(lane_history_type) :: history(lane_width)
-      !> The ties in each lane, and a wall to give their forces to; not allocated for a wall without
-      type(lane_restraints_type), allocatable :: restraints(:)
-      class(mechanism_type), allocatable :: wall
+      !> The ties; not allocated for a wall without
+      type(lane_restraints_type), allocatable :: restraints
       !> Counts
       type(work_type) :: work
       !> The wall
@@ -88,7 +87,7 @@ contains
          lanes%last(i) = set%offset(history%record) + set%length(history%record)
          lanes%fifth_a(i) = constants%form%fifth_a
          lanes%released(i) = 0.0_wp
-         if (allocated(batch%restraints)) call batch%restraints(i)%begin(batch%wall, constants, lanes, i)
+         if (allocated(batch%restraints)) call batch%restraints%begin(constants, lanes, i)
          if (associated(batch%trace)) call batch%trace%add(0.0_wp, &
             & history%scale*batch%records(history%record)%acceleration(1), 0.0_wp, 0.0_wp, history%side)
          call wait(batch, i, 1)
@@ -148,13 +147,13 @@ contains
             case (impact)
                call bounce(batch, i)
             case (level_above, level_below)
-               call batch%restraints(i)%cross(batch%wall, constants, lanes, i, event, time_of(batch, i), &
+               call batch%restraints%cross(constants, lanes, i, event, time_of(batch, i), &
                   & h > shortest_motion*lanes%dt(i), may_hold)
             case (turning)
                lanes%v(i) = 0.0_wp
                ! Between two impacts it may turn below the peak.
                if (lanes%y(i) > lanes%peak(i)) call set_peak(batch, i)
-               if (allocated(batch%restraints)) call batch%restraints(i)%turn(batch%wall, constants, lanes, i, may_hold)
+               if (allocated(batch%restraints)) call batch%restraints%turn(constants, lanes, i, may_hold)
                history%collapsed = .not. lanes%y(i) < y_limit
                history%over = history%collapsed
             case (limit_reached)
@@ -180,7 +179,7 @@ contains
       real(wp) :: back, on, b, d, now, next, going_back, going_on
 
       associate (lanes => batch%lanes, constants => batch%constants, form => batch%constants%form)
-         call batch%restraints(i)%held_between(batch%wall, constants, lanes, i, back, on)
+         call batch%restraints%held_between(constants, lanes, i, back, on)
          b = power_series(form%b, lanes%y(i) - 1.0_wp)
          d = power_series(form%d, lanes%y(i) - 1.0_wp)
          now = b*lanes%u(i) + d*lanes%heavier(i)
@@ -202,7 +201,7 @@ contains
          lanes%released(i) = -1.0_wp
          if (going_back < going_on) return
          lanes%released(i) = 1.0_wp
-         call batch%restraints(i)%go_on(batch%wall, constants, lanes, i, time_of(batch, i))
+         call batch%restraints%go_on(constants, lanes, i, time_of(batch, i))
       end associate
 
    contains
@@ -241,7 +240,7 @@ contains
          lanes%y(i) = 0.0_wp
          lanes%v(i) = min(lanes%v(i), 0.0_wp)
          if (associated(batch%trace)) call add_row(batch, i)
-         if (allocated(batch%restraints)) call batch%restraints(i)%strike(batch%wall, constants, lanes, i, history%rest)
+         if (allocated(batch%restraints)) call batch%restraints%strike(constants, lanes, i, history%rest)
          call history%strike(history%rest, history%rest%restitution, record, lanes%u(i), lanes%v(i), constants%form%unit, &
             & at_rest)
          if (associated(batch%trace)) call add_row(batch, i, after_impact=.true.)
@@ -377,8 +376,7 @@ contains
             if (history%collapsed .or. history%given_up) then
                continue
             else if (allocated(batch%restraints)) then
-               call batch%restraints(i)%after_record(batch%wall, constants, lanes%y(i), lanes%v(i), &
-                  & record%duration(), tail)
+               call batch%restraints%after_record(constants, i, lanes%y(i), lanes%v(i), record%duration(), tail)
                call history%take_tail(tail, record)
             else
                call find_motion(batch, i, q, v)

@@ -1,4 +1,4 @@
-!> Ties and friction of a wall in a lane of the engine lanes: their modes, and the lane's coefficients that follow from them.
+!> Ties and friction of a wall in the lanes of the engine lanes: their modes, and the coefficients of a lane that follow from them.
 !>
 !> All engines share the rules by which modes change (dondolo_motion_restraint_state). Here the rotations at which they do become
 !> values of y, and the forces the polynomial a of the lane (dondolo_motion_normal_form).
@@ -20,12 +20,24 @@ module dondolo_motion_lane_restraints
    public :: lane_restraints_type
 
    !> The ties and the friction of a wall in one lane
-   type :: lane_restraints_type
+   type :: restrained_lane_type
       !> Their modes
-      type(restraint_state_type), private :: state
+      type(restraint_state_type) :: state
       !> Levels in a row that were reached without any time passing
-      integer, private :: stalled = 0
+      integer :: stalled = 0
+   end type restrained_lane_type
+
+   !> The same in all lanes
+   type :: lane_restraints_type
+      !> The wall, for all lanes: whatever forces its ties have, it gets those of a lane where they are needed
+      class(mechanism_type), allocatable, private :: wall
+      !> The lanes
+      type(restrained_lane_type), allocatable, private :: lane(:)
    contains
+      !> No history yet
+      procedure :: make
+      !> The state of a lane goes to another
+      procedure :: move
       !> The start of a history
       procedure :: begin
       !> Are levels looked for?
@@ -52,36 +64,55 @@ module dondolo_motion_lane_restraints
 
 contains
 
-   !> Begin a history, at rest
-   pure subroutine begin(self, wall, constants, lanes, i)
+   !> Make room for a number of lanes
+   pure subroutine make(self, wall, number)
       class(lane_restraints_type), intent(inout) :: self
-      !> The wall; here and below one for all lanes: whatever forces its ties have, it gets those of this lane
-      class(mechanism_type), intent(inout) :: wall
+      !> The wall as built
+      class(mechanism_type), intent(in) :: wall
+      !> The number
+      integer, intent(in) :: number
+
+      allocate (self%wall, source=wall)
+      allocate (self%lane(number))
+   end subroutine make
+
+   !> Move the state of a lane to another
+   pure subroutine move(self, from, to)
+      class(lane_restraints_type), intent(inout) :: self
+      !> The lane, and where it goes
+      integer, intent(in) :: from, to
+
+      self%lane(to) = self%lane(from)
+   end subroutine move
+
+   !> Begin a history, at rest
+   pure subroutine begin(self, constants, lanes, i)
+      class(lane_restraints_type), intent(inout) :: self
       type(lane_constants_type), intent(in) :: constants
       !> The lanes, and the one
       type(lanes_type), intent(inout) :: lanes
       integer, intent(in) :: i
 
-      self%state = restraint_state_type()
-      self%stalled = 0
-      call self%state%begin(wall, 0.0_wp)
+      self%lane(i) = restrained_lane_type()
+      call self%lane(i)%state%begin(self%wall, 0.0_wp)
       call self%update(constants, lanes, i)
    end subroutine begin
 
    !> Are levels looked for in the next step? Not after many in a row that took no time: the wall balances on one of them
-   pure subroutine looks_for_levels(self, looks)
+   pure subroutine looks_for_levels(self, i, looks)
       class(lane_restraints_type), intent(inout) :: self
+      !> The lane
+      integer, intent(in) :: i
       !> Are they?
       logical, intent(out) :: looks
 
-      looks = self%stalled < most_stalled
-      if (.not. looks) self%stalled = 0
+      looks = self%lane(i)%stalled < most_stalled
+      if (.not. looks) self%lane(i)%stalled = 0
    end subroutine looks_for_levels
 
    !> Cross a level
-   pure subroutine cross(self, wall, constants, lanes, i, event, time, took_time, may_hold)
+   pure subroutine cross(self, constants, lanes, i, event, time, took_time, may_hold)
       class(lane_restraints_type), intent(inout) :: self
-      class(mechanism_type), intent(inout) :: wall
       type(lane_constants_type), intent(in) :: constants
       !> The lanes, and the one
       type(lanes_type), intent(inout) :: lanes
@@ -95,25 +126,26 @@ contains
       !> Has a motion outwards ended, where friction may hold the wall?
       logical, intent(out) :: may_hold
 
-      self%stalled = merge(0, self%stalled + 1, took_time)
-      may_hold = .false.
-      if (event == level_above) then
-         lanes%y(i) = lanes%above(i)
-         call self%state%cross(wall, self%state%above, .true., time)
-      else if (self%state%flows) then
-         call self%state%turn(wall, constants%form%rotation(lanes%y(i)))
-         may_hold = self%state%rubs_beyond(wall)
-      else
-         lanes%y(i) = lanes%below(i)
-         call self%state%cross(wall, self%state%below, .false., time)
-      end if
-      call self%update(constants, lanes, i)
+      associate (state => self%lane(i)%state, wall => self%wall)
+         self%lane(i)%stalled = merge(0, self%lane(i)%stalled + 1, took_time)
+         may_hold = .false.
+         if (event == level_above) then
+            lanes%y(i) = lanes%above(i)
+            call state%cross(wall, state%above, .true., time)
+         else if (state%flows) then
+            call state%turn(wall, constants%form%rotation(lanes%y(i)))
+            may_hold = state%rubs_beyond(wall)
+         else
+            lanes%y(i) = lanes%below(i)
+            call state%cross(wall, state%below, .false., time)
+         end if
+         call self%update(constants, lanes, i)
+      end associate
    end subroutine cross
 
    !> End a motion outwards
-   pure subroutine turn(self, wall, constants, lanes, i, may_hold)
+   pure subroutine turn(self, constants, lanes, i, may_hold)
       class(lane_restraints_type), intent(inout) :: self
-      class(mechanism_type), intent(inout) :: wall
       type(lane_constants_type), intent(in) :: constants
       !> The lanes, and the one
       type(lanes_type), intent(inout) :: lanes
@@ -121,18 +153,19 @@ contains
       !> May friction hold the wall there?
       logical, intent(out) :: may_hold
 
-      self%stalled = 0
-      may_hold = .false.
-      if (.not. self%state%flows) return
-      call self%state%turn(wall, constants%form%rotation(lanes%y(i)))
-      may_hold = self%state%rubs_beyond(wall)
-      call self%update(constants, lanes, i)
+      associate (state => self%lane(i)%state, wall => self%wall)
+         self%lane(i)%stalled = 0
+         may_hold = .false.
+         if (.not. state%flows) return
+         call state%turn(wall, constants%form%rotation(lanes%y(i)))
+         may_hold = state%rubs_beyond(wall)
+         call self%update(constants, lanes, i)
+      end associate
    end subroutine turn
 
    !> Where a motion outwards has ended: the pushes of the ground between which friction holds the wall
-   pure subroutine held_between(self, wall, constants, lanes, i, back, on)
+   pure subroutine held_between(self, constants, lanes, i, back, on)
       class(lane_restraints_type), intent(inout) :: self
-      class(mechanism_type), intent(inout) :: wall
       type(lane_constants_type), intent(in) :: constants
       !> The lanes, and the one
       type(lanes_type), intent(in) :: lanes
@@ -142,19 +175,20 @@ contains
 
       real(wp) :: a(0:highest_restrained), fifth, largest
 
-      back = -constants%form%restrained_value(lanes%a(i, :), lanes%y(i))
-      ! With the friction that a further motion wakes
-      largest = self%state%above
-      call self%state%cross(wall, largest, .true., 0.0_wp)
-      call constants%form%restrained(self%state%force, self%state%stiffness, a, fifth)
-      call self%state%turn(wall, largest)
-      on = -constants%form%restrained_value(a, lanes%y(i))
+      associate (state => self%lane(i)%state, wall => self%wall)
+         back = -constants%form%restrained_value(lanes%a(i, :), lanes%y(i))
+         ! With the friction that a further motion wakes
+         largest = state%above
+         call state%cross(wall, largest, .true., 0.0_wp)
+         call constants%form%restrained(state%force, state%stiffness, a, fifth)
+         call state%turn(wall, largest)
+         on = -constants%form%restrained_value(a, lanes%y(i))
+      end associate
    end subroutine held_between
 
    !> Go on outwards, against friction
-   pure subroutine go_on(self, wall, constants, lanes, i, time)
+   pure subroutine go_on(self, constants, lanes, i, time)
       class(lane_restraints_type), intent(inout) :: self
-      class(mechanism_type), intent(inout) :: wall
       type(lane_constants_type), intent(in) :: constants
       !> The lanes, and the one
       type(lanes_type), intent(inout) :: lanes
@@ -162,14 +196,13 @@ contains
       !> Time [s]
       real(wp), intent(in) :: time
 
-      call self%state%cross(wall, self%state%above, .true., time)
+      call self%lane(i)%state%cross(self%wall, self%lane(i)%state%above, .true., time)
       call self%update(constants, lanes, i)
    end subroutine go_on
 
    !> Strike the base
-   pure subroutine strike(self, wall, constants, lanes, i, rest)
+   pure subroutine strike(self, constants, lanes, i, rest)
       class(lane_restraints_type), intent(inout) :: self
-      class(mechanism_type), intent(inout) :: wall
       type(lane_constants_type), intent(in) :: constants
       !> The lanes, and the one
       type(lanes_type), intent(inout) :: lanes
@@ -179,21 +212,24 @@ contains
 
       logical :: changed
 
-      self%stalled = 0
-      if (.not. (self%state%flows .or. self%state%changed .or. self%state%slackens_at_base)) return
-      ! Rounding may end a motion outwards unseen.
-      if (self%state%flows) call self%state%turn(wall, constants%form%rotation(lanes%peak(i)))
-      changed = self%state%changed
-      call self%state%strike(wall)
-      if (changed) rest = new_rest(wall)
-      call self%update(constants, lanes, i)
+      associate (state => self%lane(i)%state, wall => self%wall)
+         self%lane(i)%stalled = 0
+         if (.not. (state%flows .or. state%changed .or. state%slackens_at_base)) return
+         ! Rounding may end a motion outwards unseen.
+         if (state%flows) call state%turn(wall, constants%form%rotation(lanes%peak(i)))
+         changed = state%changed
+         call state%strike(wall)
+         if (changed) rest = new_rest(wall)
+         call self%update(constants, lanes, i)
+      end associate
    end subroutine strike
 
    !> The motion after the record
-   pure subroutine after_record(self, wall, constants, y, v, duration, tail)
+   pure subroutine after_record(self, constants, i, y, v, duration, tail)
       class(lane_restraints_type), intent(inout) :: self
-      class(mechanism_type), intent(inout) :: wall
       type(lane_constants_type), intent(in) :: constants
+      !> The lane
+      integer, intent(in) :: i
       !> Coordinate, and its velocity [1/s], at the end of the record
       real(wp), intent(in) :: y, v
       !> Duration of the record [s]
@@ -202,22 +238,25 @@ contains
 
       real(wp) :: q, j, c, g, l, load
 
-      q = constants%form%rotation(y)
-      call wall%set_restraints(self%state%force, self%state%stiffness)
-      call wall%terms(q, j, c, g, l, load)
-      call restrained_motion(wall, self%state, constants%limit, q, v*constants%form%unit*sqrt(constants%rest%inertia/j), &
-         & duration, tail)
+      associate (state => self%lane(i)%state, wall => self%wall)
+         q = constants%form%rotation(y)
+         call wall%set_restraints(state%force, state%stiffness)
+         call wall%terms(q, j, c, g, l, load)
+         call restrained_motion(wall, state, constants%limit, q, v*constants%form%unit*sqrt(constants%rest%inertia/j), &
+            & duration, tail)
+      end associate
    end subroutine after_record
 
    !> What the history has done to each of the ties
-   pure subroutine responses(self, wall, peak, ties)
+   pure subroutine responses(self, i, peak, ties)
       class(lane_restraints_type), intent(in) :: self
-      class(mechanism_type), intent(in) :: wall
+      !> The lane
+      integer, intent(in) :: i
       !> Largest rotation [rad]
       real(wp), intent(in) :: peak
       type(tie_response_type), allocatable, intent(out) :: ties(:)
 
-      call self%state%responses(wall, peak, ties)
+      call self%lane(i)%state%responses(self%wall, peak, ties)
    end subroutine responses
 
    !> Give a lane the forces and the next levels of its ties
@@ -230,13 +269,15 @@ contains
 
       real(wp) :: a(0:highest_restrained)
 
-      call constants%form%restrained(self%state%force, self%state%stiffness, a, lanes%fifth_a(i))
-      lanes%a(i, :constants%form%last) = a(:constants%form%last)
-      lanes%above(i) = constants%form%coordinate(self%state%above)
-      lanes%below(i) = 0.0_wp
-      if (self%state%below > 0.0_wp) lanes%below(i) = constants%form%coordinate(self%state%below)
-      ! A tie flows outwards only; rounding may end such a motion unseen.
-      if (self%state%flows) lanes%below(i) = max(lanes%below(i), lanes%y(i))
+      associate (state => self%lane(i)%state)
+         call constants%form%restrained(state%force, state%stiffness, a, lanes%fifth_a(i))
+         lanes%a(i, :constants%form%last) = a(:constants%form%last)
+         lanes%above(i) = constants%form%coordinate(state%above)
+         lanes%below(i) = 0.0_wp
+         if (state%below > 0.0_wp) lanes%below(i) = constants%form%coordinate(state%below)
+         ! A tie flows outwards only; rounding may end such a motion unseen.
+         if (state%flows) lanes%below(i) = max(lanes%below(i), lanes%y(i))
+      end associate
    end subroutine update
 
 end module dondolo_motion_lane_restraints

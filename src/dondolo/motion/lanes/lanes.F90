@@ -52,8 +52,8 @@ contains
       batch%set => set
       batch%queue => queue
       if (constants%form%is_restrained) then
-         allocate (batch%wall, source=mechanism)
-         allocate (batch%restraints(lane_width))
+         allocate (batch%restraints)
+         call batch%restraints%make(mechanism, lane_width)
       end if
       most = most_lanes(size(queue%record), omp_get_num_threads())
       do while (batch%active < most)
@@ -168,27 +168,26 @@ contains
       batch%queue => queue
       batch%trace => trace
       if (constants%form%is_restrained) then
-         allocate (batch%wall, source=mechanism)
-         allocate (batch%restraints(lane_width))
+         allocate (batch%restraints)
+         call batch%restraints%make(mechanism, 1)
       end if
       call begin(batch, 1, 1)
       batch%active = 1
       do while (.not. (batch%history(1)%over .or. trace%lacks_memory))
          ! At its end a history looks ahead with its ties; the trace goes on from how they are now.
-         if (allocated(batch%restraints)) kept = batch%restraints(1)
+         if (allocated(batch%restraints)) kept = batch%restraints
          next = batch%lanes%next(1)
          call step(batch)
          ! Of a flagged lane it has been added.
          if (batch%lanes%flag(1) < event_possible .and. batch%lanes%next(1) > next) call add_row(batch, 1)
          if (.not. batch%history(1)%over .or. batch%history(1)%record /= 1) cycle
-         if (allocated(batch%restraints)) call batch%restraints(1)%responses(mechanism, batch%history(1)%peak, trace%ties)
+         if (allocated(batch%restraints)) call batch%restraints%responses(1, batch%history(1)%peak, trace%ties)
          if (.not. rocks_on()) cycle
-         if (allocated(kept)) batch%restraints(1) = kept
+         if (allocated(kept)) batch%restraints = kept
          call begin_still(batch, 1, 2)
       end do
       ! A wall that never moves has no step.
-      if (allocated(batch%restraints) .and. .not. allocated(trace%ties)) &
-         & call batch%restraints(1)%responses(mechanism, 0.0_wp, trace%ties)
+      if (allocated(batch%restraints) .and. .not. allocated(trace%ties)) call batch%restraints%responses(1, 0.0_wp, trace%ties)
       trace%is_whole = queue%response(1)%is_whole
       call trace%trim_rows()
 
@@ -208,7 +207,7 @@ contains
       integer, intent(in) :: from, to
 
       batch%history(to) = batch%history(from)
-      if (allocated(batch%restraints)) batch%restraints(to) = batch%restraints(from)
+      if (allocated(batch%restraints)) call batch%restraints%move(from, to)
       call move_lane(batch%lanes, from, to)
    end subroutine move
 
