@@ -359,9 +359,7 @@ def main() -> None:
     write_page(rows, tests, risks, methods, excluded)
 
 
-def write_page(
-    rows: list[Row], tests: list[Row], risks: list[Row], methods: list[str], excluded: float
-) -> None:
+def write_page(rows: list[Row], tests: list[Row], risks: list[Row], methods: list[str], excluded: float) -> None:
     """Write the page with the rows of the tables."""
     head = ["wall", "polarity", "records"]
     levels = ", ".join(map(str, LEVELS))
@@ -393,11 +391,11 @@ divided by its own clustered standard error (bootstrap-t, Efron 1981). Percentil
 with few clusters.
 """
 
-CHOSEN = """Widths of the 95 % intervals in ln θ / in ln β under the 44 embedded records, means of three walls: with levels
-chosen one after the other; with as many equally spaced up to 2 θ; with as many from the 5th to the 95th
-percentile of the curve, which is unknown beforehand; and with 50 levels from 0.1 to 4 g. With one draw of
-records, differences of a tenth are chance. The records limit the precision: fifty stripes add little to
-twelve.
+CHOSEN = """Widths of the 95 % intervals in ln θ / in ln β under the 44 embedded records, means of three walls: with
+levels chosen one after the other; with as many equally spaced up to 2 θ; with as many from the 5th to
+the 95th percentile of the curve, which is unknown beforehand; and with 50 levels from 0.1 to 4 g. With
+one draw of records, differences of a tenth are chance. The records limit the precision: fifty stripes
+add little to twelve.
 """
 
 TEXT = """# Coverage of intervals
