@@ -130,7 +130,7 @@ contains
    subroutine take_participation(building, input, problems)
       !> The building with its periods: its participation is set
       type(building_type), intent(inout) :: building
-      !> What is said of it
+      !> Its settings
       class(settings_type), intent(in) :: input
       !> Takes what is missing, too much, or does not agree
       type(problems_type), intent(inout) :: problems
@@ -194,7 +194,7 @@ contains
    !> The diaphragm, with what it has unless it is given
    subroutine take_diaphragm(diaphragm, input, problems)
       type(diaphragm_type), intent(out) :: diaphragm
-      !> What is said of it; out: with its damping and its participation
+      !> Its settings; out: with its damping and its participation
       class(settings_type), intent(inout) :: input
       !> Takes what is given without it
       type(problems_type), intent(inout) :: problems
@@ -217,7 +217,7 @@ contains
    subroutine take_wall(building, input, contact, wall_height, problems)
       !> The building: its height of the line and the level of the top are set
       type(building_type), intent(inout) :: building
-      !> What is said of it
+      !> Its settings
       class(settings_type), intent(in) :: input
       !> What the wall touches
       integer, intent(in) :: contact
@@ -252,7 +252,7 @@ contains
    subroutine take_top(building, input, problems)
       !> The building with that of the base: that of the top is set
       type(building_type), intent(inout) :: building
-      !> What is said of it
+      !> Its settings
       class(settings_type), intent(in) :: input
       !> Takes what does not agree
       type(problems_type), intent(inout) :: problems

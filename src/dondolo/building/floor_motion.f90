@@ -220,7 +220,7 @@ contains
             next = step(1, 1)*u + step(1, 2)*w + (step(1, 3)*start + step(1, 4)*rise)
             w = step(2, 1)*u + step(2, 2)*w + (step(2, 3)*start + step(2, 4)*rise)
             u = next
-            ! A swing that has died out would be counted in denormal numbers, which are slow
+            ! A swing that has died out would be computed in denormal numbers, which are slow
             if (abs(u) + abs(w) < tiny(u)) then
                u = 0.0_wp
                w = 0.0_wp
@@ -268,7 +268,7 @@ contains
                if (i == refined + 1) state(ground) = 0.0_wp
                state(ground + 1) = input(i) - state(ground)
                next = matmul(step, state)
-               ! A swing that has died out would be counted in denormal numbers, which are slow
+               ! A swing that has died out would be computed in denormal numbers, which are slow
                if (sum(abs(next)) < tiny(swing%dt)) next = 0.0_wp
                state(:ground - 1) = next
                state(ground) = input(i)

@@ -80,7 +80,7 @@ contains
       whole = body_of_sections(wall%sections, 1.0_wp)
       density = wall%body%mass/whole%mass
       bottom = 0.0_wp
-      ! A body whose centroid is given has no storeys that it is the sum of.
+      ! A body whose centroid is given has no sections to sum.
       if (abs(whole%height - wall%body%height) + abs(whole%depth - wall%body%depth) <= same*whole%height) then
          do i = 1, size(wall%sections)
             part = body_of_sections(wall%sections(i:i), density)

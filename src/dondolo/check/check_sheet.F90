@@ -14,7 +14,7 @@ module dondolo_check_sheet
 
    !> A quantity of a check
    type :: quantity_type
-      !> Name, as it stands in tables and in Python
+      !> Name in tables and in Python
       character(len=name_length) :: name = ''
       !> Symbol in the code
       character(len=12) :: symbol = ''
@@ -156,7 +156,7 @@ contains
          if (quantities(at)%name == name) exit
       end do
 #ifdef DONDOLO_CHECKED
-      ! A look-up of a name that no quantity has would find nothing in silence, so that tests end here.
+      ! A look-up of a name that no quantity has would silently find nothing, so that tests end here.
       if (at == 0) error stop 'dondolo: no quantity of a check is named '''//trim(name)//''''
 #endif
    end function find_quantity

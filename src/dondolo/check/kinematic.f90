@@ -163,7 +163,7 @@ contains
             if (building%has_diaphragm()) kinematic%diaphragm_period = building%diaphragm%period
          end select
          kinematic%level = max(0.0_wp, kinematic%level)
-         ! Modes that do not move the level are not there.
+         ! Modes that do not move the level are left out.
          kinematic%period = pack(building%period, abs(participation) > 0.0_wp)
          kinematic%damping = pack(building%damping, abs(participation) > 0.0_wp)
          kinematic%participation = pack(participation, abs(participation) > 0.0_wp)

@@ -1,4 +1,4 @@
-!> What a check comes to, so that walls can stand beside each other: multiplier, acceleration, safety index and return period.
+!> Result of a check, by which walls are compared: multiplier, acceleration, safety index and return period.
 module dondolo_check_safety
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : rounded

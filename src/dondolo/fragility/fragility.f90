@@ -120,7 +120,7 @@ contains
       fragility%beta = spread/b(2)
       logarithm = centre - fragility%beta*b(1)
       if (.not. abs(logarithm) < 0.5_wp*log(huge(logarithm))) then
-         ! Flat but for rounding: the median is no number any more
+         ! Flat to rounding: the median is not finite
          fragility%beta = 0.0_wp
          fragility%status = fit_decreasing
          return

@@ -70,7 +70,7 @@ contains
       end if
    end subroutine new_scaling
 
-   !> Records as they stand, times factors: a level is the factor itself, in the place of a measure's name stands nothing
+   !> Unscaled records times factors: a level is the factor itself, and the measure has no name
    function unscaled() result(scaling)
       !> The scaling
       type(scaling_type) :: scaling
@@ -86,7 +86,7 @@ contains
       class(scaling_type), intent(in) :: self
       !> Level, in its unit
       real(wp), intent(in) :: level
-      !> Values of the measure for the records as they stand
+      !> Values of the measure for the unscaled records
       real(wp), intent(in) :: values(:)
       type(wall_type), intent(in) :: wall
       !> The factors; 0 for a record without motion

@@ -37,7 +37,7 @@ module dondolo_fragility_study
       type(floors_type), pointer :: floors => null()
       !> What they are scaled by
       type(scaling_type) :: scaling
-      !> Values of its measure for the records as they stand
+      !> Values of its measure for the unscaled records
       real(wp), allocatable :: values(:)
       !> Levels of intensity, positive and increasing, in the unit of the measure
       real(wp), allocatable :: levels(:)

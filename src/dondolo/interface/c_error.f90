@@ -10,7 +10,7 @@ module dondolo_interface_c_error
 
    public :: failure_type, is_ready, status_without_handle
 
-   !> What a handle of errors stands for
+   !> The object of a handle of errors
    type :: failure_type
       !> The first error since the last clearing
       type(error_type), allocatable :: error
@@ -37,7 +37,7 @@ contains
    logical function is_ready(error, failure)
       !> Handle of errors
       type(c_ptr), intent(in) :: error
-      !> What it stands for; null: it is not valid
+      !> Its object; null: it is not valid
       type(failure_type), pointer, intent(out) :: failure
 
       call find_failure(error, failure)
@@ -45,11 +45,11 @@ contains
       if (is_ready) is_ready = .not. allocated(failure%error)
    end function is_ready
 
-   !> What a handle of errors stands for
+   !> The object of a handle of errors
    subroutine find_failure(error, failure)
       !> Handle of errors
       type(c_ptr), intent(in) :: error
-      !> What it stands for; null: it is not valid
+      !> Its object; null: it is not valid
       type(failure_type), pointer, intent(out) :: failure
 
       class(*), pointer :: content
@@ -169,7 +169,7 @@ contains
       failure%text = [c_null_char]
    end subroutine clear_error
 
-   !> Free what any handle stands for; nothing, if it is NULL or was freed before
+   !> Free the object of any handle; nothing, if it is NULL or was freed before
    subroutine free_handle(handle) bind(c, name='dondolo_free')
       type(c_ptr), intent(in), value :: handle
 

@@ -45,7 +45,7 @@ module dondolo_interface_handles
       integer(c_int64_t) :: suite = 0
    end type held_study_type
 
-   !> What a handle stands for that is not valid
+   !> The object of a handle that is not valid
    type :: nothing_type
    end type nothing_type
 
@@ -104,7 +104,7 @@ contains
       !$omp end critical (slots)
    end subroutine hold
 
-   !> Free what a handle stands for; nothing, if it is not valid
+   !> Free the object of a handle; nothing, if it is not valid
    subroutine release(handle)
       !> The handle
       integer(c_int64_t), intent(in) :: handle
@@ -176,7 +176,7 @@ contains
       if (k <= chunks) slot => chunk(k)%slot(left)
    end function slot_of
 
-   !> What a handle stands for
+   !> The object of a handle
    function content_of(handle) result(content)
       !> The handle
       integer(c_int64_t), intent(in) :: handle

@@ -132,7 +132,7 @@ contains
       end do
    end function list_length
 
-   !> Numbers as text that tells each from all others
+   !> Numbers as text, with as many digits as distinguish each from all others
    function list_of(numbers) result(text)
       !> Numbers, one at least
       real(wp), intent(in) :: numbers(:)

@@ -211,7 +211,7 @@ contains
          m = findloc(weight > 0.0_wp, .true., dim=1)
          call leave_out(curve, weight(m), population%occurrence(columns(m)), fraction(:, m), run)
       case default
-         ! Rows of one mechanism: they leave with their wall.
+         ! Rows of one mechanism are left out with their wall.
          mean = matmul(fraction, weight)/sum(weight)
          call leave_out(curve, sum(weight), 1.0_wp, mean, run)
       end select

@@ -186,7 +186,7 @@ contains
       if (size(self%levels) == 0) then
          call read_own(self, table, wrong)
          call read_row(self, table, problems)
-         ! What cannot be read would be told of once more as missing
+         ! A value that cannot be read would be reported once more, as missing
          if (problems%count == 0 .and. has_hinge_level(self%input)) call find_levels(self)
       end if
       input = self%input
@@ -199,7 +199,7 @@ contains
       row = self%own
       call row%wall%input%set('name', trim(input%word('name')))
       if (problems%count == 0) call new_wall(row%wall, input, error, table%gravity)
-      ! What is wrong with a facade is wrong with all of its walls: the others are not tried
+      ! An error of a facade is one of all its walls: the others are not tried
       if (allocated(error) .or. allocated(wrong) .or. problems%count > 0) self%levels = [real(wp) ::]
       call problems%take(error)
       call problems%take(wrong)
@@ -280,7 +280,7 @@ contains
          end if
          if (allocated(error)) return
       end do
-      ! The row after may go on with the wall of the last
+      ! The next row may be of the same wall
       if (rows > 0) call self%next(table, row, found, error)
    end subroutine skip
 
@@ -325,7 +325,7 @@ contains
       if (.not. own%has_word('occurrence')) call own%set('occurrence', trim(table%occurrence))
       call own%fill()
       call check_settings(own, problems)
-      ! Spreadsheets round to -0, whose bits do not stand in the order of its value.
+      ! Spreadsheets round to -0, whose bits are not in the order of values.
       self%own%weight = abs(own%number('weight'))
       if (allocated(table%base_wall)) self%own%weight = table%base_wall%weight(self%row)
       self%own%p_occ = abs(own%number('p_occ'))

@@ -201,7 +201,7 @@ contains
    subroutine read_lists(self, row, input, problems)
       class(population_table_type), intent(in) :: self
       type(csv_row_type), intent(in) :: row
-      !> What is said of the wall
+      !> Input of the wall
       type(wall_input_type), intent(inout) :: input
       !> Takes every cell that should be a number and is none, or that stands behind an empty one
       type(problems_type), intent(inout) :: problems

@@ -1,4 +1,4 @@
-!> Which of several uncertain quantities an outcome owes its scatter to: Sobol indices from a sample as it stands.
+!> Which of several uncertain quantities an outcome owes its scatter to: Sobol indices from any sample.
 !>
 !> The outcome is regressed on polynomials of the ranks of each quantity, up to the third degree, and on the products of
 !> two first-degree ones (Blatman and Sudret 2010, Reliability Engineering and System Safety 95:1216-1229, for polynomial
@@ -80,7 +80,7 @@ contains
       noise = sum(residuals**2)/real(n - m, wp)
       call split(coefficients, noise, inverse, owners, own, found%rest)
       do i = 1, n
-         ! What is found without one sample follows from its leverage
+         ! The estimate without one sample (jackknife) follows from its leverage
          projected = matmul(inverse, basis(i, :))
          leverage = dot_product(basis(i, :), projected)
          if (.not. leverage < 1.0_wp) leverage = 0.0_wp
@@ -174,13 +174,13 @@ contains
          before = m
          do power = 1, degree
             polynomial = rank**power
-            ! Twice, since rounding leaves something of the others the first time
+            ! Orthogonalised twice: rounding leaves components along the others the first time
             do i = 1, 2
                call project(polynomial, basis(:, 1:1))
                call project(polynomial, basis(:, before + 1:m))
             end do
             norm = sqrt(sum(polynomial**2)/real(size(rank), wp))
-            ! A quantity of few values has no further polynomial
+            ! A quantity of few distinct values has no polynomial of higher degree
             if (norm < 1.0e-6_wp) exit
             m = m + 1
             if (power == 1) first(k) = m

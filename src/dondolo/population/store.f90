@@ -37,7 +37,7 @@ module dondolo_population_store
       integer(int64), private :: bytes = 0, size = 0
       !> Where each row begins in the file; 0: it is not there
       integer(int64), allocatable, private :: place(:)
-      !> Rows in memory, as they would stand in the file
+      !> Rows in memory, as in the file
       type(line_type), allocatable, private :: entry(:)
       !> The file while rows are read
       type(reader_type), private :: reader
@@ -163,7 +163,7 @@ contains
       end do
    end subroutine find_rows
 
-   !> Note a row that stands at the end of the file
+   !> Note a row at the end of the file
    subroutine note_row(store, row, bytes)
       type(store_type), intent(inout) :: store
       type(row_result_type), intent(in) :: row
@@ -218,7 +218,7 @@ contains
       if (.not. ok) call raise_failure(error, self%path//': cannot be written')
       size = file_size(self%path)
       if (.not. allocated(error) .and. size /= self%size) then
-         ! Another run has put rows in between, and has ended.
+         ! Another run has added rows meanwhile, and has ended.
          call open_store(now, self%path, self%identity, error)
          if (.not. allocated(error)) then
             self%done = now%done

@@ -1,8 +1,8 @@
-!> How rows of a population stand in a file: a head that says in plain text which study they belong to, and then rows, each
+!> Format of the rows of a population in a file: a header that says in plain text which study they belong to, and then rows, each
 !> with its number, its length and a fingerprint of all of it.
 !>
-!> The file is for machines like the one that wrote it (little endian or big endian, real64 or real128). Rows may stand in
-!> any order. What a killed run left of its last row is seen by its length or its fingerprint.
+!> The file is for machines like the one that wrote it (little endian or big endian, real64 or real128). Rows may be in
+!> any order. The incomplete last row of a killed run is found by its length or its fingerprint.
 module dondolo_population_store_format
    use, intrinsic :: iso_fortran_env, only : int32, int64
    use dondolo_base_error, only : error_type, raise_input
@@ -196,7 +196,7 @@ contains
       bytes = entry_head + bytes_of_row(shape, histories, ties)
    end function bytes_of_entry
 
-   !> A row as it stands in a file
+   !> A row as stored in a file
    subroutine pack_entry(row, entry)
       type(row_result_type), intent(in) :: row
       !> Its bytes, as many as bytes_of_entry says

@@ -65,7 +65,7 @@ module dondolo_population_unions
       procedure :: keep
       !> How many there are, means included
       procedure :: count => count_unions
-      !> Get one; the means stand behind the walls
+      !> Get one; the means come after the walls
       procedure :: get
       !> Part of the histories of a wall in which a state is reached
       procedure :: fraction => fraction_of_wall
@@ -156,7 +156,7 @@ contains
       if (allocated(self%mean)) number = size(self%wall) + size(self%mean)
    end function count_unions
 
-   !> Get a union; the means stand behind the walls
+   !> Get a union; the means come after the walls
    subroutine get(self, place, population, union)
       class(unions_type), intent(in) :: self
       !> Its place

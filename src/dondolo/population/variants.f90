@@ -2,7 +2,7 @@
 !> whose properties are not known for certain.
 !>
 !> Variants are a Latin hypercube (McKay, Beckman and Conover 1979): the range of every property is cut into as many parts
-!> of equal probability as there are samples, and each part holds one. Behind the sample stand, with a weight of 0, the wall
+!> of equal probability as there are samples, and each part holds one. After the sample come, with a weight of 0, the wall
 !> as it was given, that with all properties at their medians, and those with one property at its fractiles 5 and 95 %.
 module dondolo_population_variants
    use dondolo_base_kinds, only : wp

@@ -1,4 +1,4 @@
-!> The walls and facades of a population by their names: which rows belong together, and which names stand twice.
+!> The walls and facades of a population by their names: which rows belong together, and which names are duplicates.
 module dondolo_population_wall_names
    use dondolo_base_error, only : error_type, not_a_word, not_together, out_of_range, raise_input
    use dondolo_base_kinds, only : wp
@@ -18,7 +18,7 @@ module dondolo_population_wall_names
 
    !> The walls and facades so far, as rows are read one after the other
    type :: wall_names_type
-      !> Are names looked up, to find those that stand twice? A table that was gone through before needs it no more
+      !> Are names looked up, to find duplicates? A table that was gone through before needs it no more
       logical :: is_checked = .true.
       !> Names of the walls so far
       type(name_index_type), private :: names
@@ -48,7 +48,7 @@ contains
       integer, intent(in) :: line
       !> The row: whether it continues the wall before is set
       type(wall_row_type), intent(inout) :: row
-      !> The name stands elsewhere too, or what is said of the wall differs
+      !> The name also occurs elsewhere, or the properties of the wall differ
       type(error_type), allocatable, intent(out) :: error
 
       character(len=:), allocatable :: name, mechanism, what

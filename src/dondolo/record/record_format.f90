@@ -171,7 +171,7 @@ contains
       end do
    end function are_numbers
 
-   !> Read numbers that stand in columns of equal width, where they may touch
+   !> Read numbers in columns of equal width, where they may touch
    !>
    !> Every line but the last is full; blanks at the end of a line may be missing.
    subroutine read_fixed(text, first_line, count, width, per_line, values, error, after)

@@ -70,7 +70,7 @@ contains
       if (allocated(error)) return
       ground = pack([(i, i=1, size(samples%channels))], &
          & [(.not. allocated(samples%channels(i)%refusal), i=1, size(samples%channels))])
-      ! If none is, the first says why
+      ! If no channel is, the error is that of the first
       if (size(ground) == 0) ground = [1]
       allocate (records(size(ground)))
       do i = 1, size(records)

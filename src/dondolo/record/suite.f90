@@ -26,7 +26,7 @@ module dondolo_record_suite
    type :: measured_type
       !> Name of the measure; not allocated: the place is free
       character(len=:), allocatable :: name
-      !> Its values for the records as they stand
+      !> Its values for the unscaled records
       real(wp), allocatable :: values(:)
       !> 1: name and values are complete
       integer :: is_complete = 0
@@ -144,7 +144,7 @@ contains
       !$omp end atomic
    end subroutine measure
 
-   !> Values of a measure for the records as they stand: those that are kept, or computed now
+   !> Values of a measure for the unscaled records: those that are kept, or computed now
    function values(self, im, threads)
       class(suite_type), intent(in) :: self
       type(measure_type), intent(in) :: im

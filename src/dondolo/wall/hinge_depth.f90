@@ -18,7 +18,7 @@ contains
 
    !> The depth of the hinges, and the property that it follows from
    subroutine read_hinge_depth(input, weight, problems, depth, name)
-      !> What is said of the wall, defaults filled in
+      !> Settings of the wall, defaults filled in
       class(settings_type), intent(in) :: input
       !> Weight on the base hinge, of the wall and all that it carries [N/m]
       real(wp), intent(in) :: weight
@@ -47,7 +47,7 @@ contains
 
    !> Check that a hinge is less deep than what it must hold
    subroutine check_hinge(input, problems, name, depth, limit, what)
-      !> What is said of the wall
+      !> Settings of the wall
       class(settings_type), intent(in) :: input
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
@@ -58,7 +58,7 @@ contains
       !> What that is, and where
       character(len=*), intent(in) :: what
 
-      ! So many times too deep it follows from a strength in another unit
+      ! A hinge so many times too deep means that the strength is in another unit
       real(wp), parameter :: absurd = 10.0_wp
       type(property_type), pointer :: table(:)
       character(len=:), allocatable :: hint

@@ -23,7 +23,7 @@ contains
 
    !> Is a hinge asked for, at the base or above?
    pure logical function has_hinge_level(input)
-      !> What is said of the wall
+      !> Input of the wall
       class(wall_input_type), intent(in) :: input
 
       has_hinge_level = input%has('hinge_level') .or. input%has('hinge_at')
@@ -31,7 +31,7 @@ contains
 
    !> Heights of the hinges that are asked for
    subroutine read_hinge_levels(input, problems, levels)
-      !> What is said of the wall, ranges checked
+      !> Input of the wall, ranges checked
       class(wall_input_type), intent(in) :: input
       !> Takes levels that the wall does not have
       type(problems_type), intent(inout) :: problems
@@ -65,7 +65,7 @@ contains
 
    !> The wall above a hinge
    subroutine cut_wall(input, level, problems)
-      !> What is said of the whole wall, checked; out: of what is above the hinge
+      !> Input of the whole wall, checked; out: of what is above the hinge
       class(wall_input_type), intent(inout) :: input
       !> Height of the hinge above the base, less than that of the wall [m]
       real(wp), intent(in) :: level
@@ -85,7 +85,7 @@ contains
          if (input%has('participation')) call problems%note('participation: not with hinge_level = '//to_text(level)// &
             & ', give storeys, level and building_height, from which every hinge takes its own', not_together, 'participation')
          call input%set('level', input%number('level') + level)
-         ! Above what the building holds a part leans on nothing
+         ! A part above level_top leans on no support
          if (input%has('level_top')) call input%set('level_top', max(input%number('level_top'), input%number('level')))
       end if
       if (problems%count > 0) return
@@ -101,7 +101,7 @@ contains
 
    !> The storeys above a hinge
    subroutine cut_sections(input, level, face)
-      !> What is said of the wall
+      !> Input of the wall
       class(wall_input_type), intent(inout) :: input
       !> Height of the hinge [m]
       real(wp), intent(in) :: level
@@ -152,7 +152,7 @@ contains
 
    !> Keep the actions of a kind that act above a hinge: their heights are from the hinge, their depths from the outer face there
    subroutine keep_above(input, level, face, kind)
-      !> What is said of the wall, whose actions have a height each
+      !> Input of the wall, whose actions have a height each
       class(wall_input_type), intent(inout) :: input
       !> Height of the hinge, and depth of the outer face there [m]
       real(wp), intent(in) :: level, face
@@ -179,7 +179,7 @@ contains
 
    !> Leave out the strengths of the masonry at plates, of which none is left
    subroutine forget_masonry(input)
-      !> What is said of the wall, its ties cut
+      !> Input of the wall, its ties cut
       class(wall_input_type), intent(inout) :: input
 
       type(property_type), pointer :: table(:)
@@ -194,7 +194,7 @@ contains
    !> Leave only some actions of a kind: of each of their properties the values that belong to these. A property that the table
    !> gets in future is among them
    subroutine choose_all(input, kind, chosen)
-      !> What is said of the wall
+      !> Input of the wall
       class(wall_input_type), intent(inout) :: input
       !> First word of the names of their properties
       character(len=*), intent(in) :: kind
@@ -214,7 +214,7 @@ contains
 
    !> Leave only some words of a list of choices; one that is that of all stays unless nothing is left
    subroutine choose_words(input, name, chosen)
-      !> What is said of the wall
+      !> Input of the wall
       class(wall_input_type), intent(inout) :: input
       !> Name of the list
       character(len=*), intent(in) :: name
@@ -236,7 +236,7 @@ contains
 
    !> The parts of beds above a hinge
    subroutine cut_beds(input, level, face)
-      !> What is said of the wall
+      !> Input of the wall
       class(wall_input_type), intent(inout) :: input
       !> Height of the hinge, and depth of the outer face there [m]
       real(wp), intent(in) :: level, face
@@ -272,7 +272,7 @@ contains
 
    !> Leave only some values of a list; one that stands for all stays unless nothing is left
    subroutine choose(input, name, chosen)
-      !> What is said of the wall
+      !> Input of the wall
       class(wall_input_type), intent(inout) :: input
       !> Name of the list
       character(len=*), intent(in) :: name

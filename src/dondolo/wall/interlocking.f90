@@ -27,7 +27,7 @@ contains
 
    !> Add the friction of the transverse walls to the ties of a wall
    subroutine read_interlocking(input, sections, gravity, hinge, edge, problems, restraints)
-      !> What is said of the wall, ranges checked
+      !> Settings of the wall, ranges checked
       class(settings_type), intent(in) :: input
       !> Its storeys
       type(section_type), intent(in) :: sections(:)

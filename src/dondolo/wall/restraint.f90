@@ -58,7 +58,7 @@ contains
 
    !> Make a tie
    pure function new_tie(input, hinge, edge) result(tie)
-      !> What is said of it, checked
+      !> Its input, checked
       type(tie_input_type), intent(in) :: input
       !> Depth of the hinge, and radius of the edge [m]
       real(wp), intent(in) :: hinge, edge

@@ -55,7 +55,7 @@ contains
       do k = 0, most
          coefficients(k) = sum(p(:, k)*left)
          left = left - coefficients(k)*p(:, k)
-         ! What rounding leaves does not count: it would ask for one degree after the other.
+         ! Rounding errors do not count: they would raise the degree without end.
          squares(k) = max(sum(left**2)/real(n - k - 1, wp), (rounding*largest)**2)
       end do
       least = minval(squares)

@@ -132,7 +132,7 @@ contains
       end if
       first = findloc(moment <= 0.0_wp, .true., dim=1) - 1
       if (first < 0 .and. moment(places) <= max(least_moment, misfit)*largest) then
-         ! The table ends where the wall falls, but for what is left of rounding.
+         ! The table ends where the wall falls, to rounding.
          mechanism%capacity = mechanism%last
          return
       else if (first < 0) then

@@ -163,7 +163,7 @@ contains
 
    !> The depth of the hinges of a wall of two blocks: those at base and top and the intermediate one
    subroutine read_hinges(input, gravity, problems, depth)
-      !> What is said of the wall, its eccentricity known
+      !> Settings of the wall, its eccentricity known
       class(settings_type), intent(in) :: input
       !> Gravity [m/s2]
       real(wp), intent(in) :: gravity
@@ -186,7 +186,7 @@ contains
 
    !> Turn the bearing into the eccentricity of a wall that folds outwards: its top rotates about the outer face
    subroutine replace_bearing(input)
-      !> What is said of the wall, checked
+      !> Settings of the wall, checked
       class(settings_type), intent(inout) :: input
 
       real(wp) :: half, distance
@@ -209,7 +209,7 @@ contains
    subroutine check_load(problems, input)
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
-      !> What is said of the wall, defaults filled in
+      !> Settings of the wall, defaults filled in
       class(settings_type), intent(in) :: input
 
       real(wp) :: thickness, half, distance, eccentricity

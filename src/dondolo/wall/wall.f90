@@ -78,7 +78,7 @@ contains
    !> Make a wall and check all that is said of it
    subroutine new_wall(wall, input, error, gravity)
       type(wall_type), intent(out) :: wall
-      !> What is said of it
+      !> Its input
       type(wall_input_type), intent(in) :: input
       !> Everything that is wrong with it, one thing a line: `variable = value: what is allowed`
       type(error_type), allocatable, intent(out) :: error
@@ -130,11 +130,11 @@ contains
       end select
    end subroutine new_model
 
-   !> Fill in defaults and check all that is said of a wall, but whether it stands
+   !> Fill in defaults and check the properties of a wall, but not whether it stands
    subroutine understand(wall, input, problems)
       !> The wall: all but its mechanism is set
       type(wall_type), intent(inout) :: wall
-      !> What is said of it
+      !> Its input
       type(wall_input_type), intent(in) :: input
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
@@ -164,7 +164,7 @@ contains
 
    !> Set the seed of speed ratios that vary, and check it
    subroutine take_seed(input, problems)
-      !> What is said of the wall
+      !> Input of the wall
       type(wall_input_type), intent(inout) :: input
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
@@ -182,7 +182,7 @@ contains
 
    !> What the user asks of the impacts
    pure function restitution_of(input) result(restitution)
-      !> What is said of the wall
+      !> Input of the wall
       type(wall_input_type), intent(in) :: input
       !> The same as one thing
       type(restitution_type) :: restitution

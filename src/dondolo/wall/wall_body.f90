@@ -36,7 +36,7 @@ contains
    subroutine take_sections(problems, input)
       !> Takes what does not agree
       type(problems_type), intent(inout) :: problems
-      !> What is said of the wall
+      !> Settings of the wall
       class(settings_type), intent(inout) :: input
 
       real(wp), allocatable :: heights(:), thicknesses(:)
@@ -71,7 +71,7 @@ contains
 
    !> Read sections, body and actions, and check what belongs together
    subroutine read_wall_body(input, gravity, two_sided, problems, wall)
-      !> What is said of the wall, defaults filled in, ranges checked
+      !> Settings of the wall, defaults filled in, ranges checked
       class(settings_type), intent(in) :: input
       !> Gravity [m/s2]
       real(wp), intent(in) :: gravity
@@ -107,7 +107,7 @@ contains
 
    !> The storeys
    subroutine read_sections(input, problems, sections)
-      !> What is said of the wall
+      !> Settings of the wall
       class(settings_type), intent(in) :: input
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
@@ -141,7 +141,7 @@ contains
 
    !> Number of leaves; equal ones rock with nearly the same rotation, so that one of them is as good as all
    pure real(wp) function leaves_of(input)
-      !> What is said of the wall
+      !> Settings of the wall
       class(settings_type), intent(in) :: input
 
       leaves_of = 1.0_wp
@@ -150,7 +150,7 @@ contains
 
    !> Check that several leaves carry nothing, which one of them would carry alone
    subroutine check_leaves(input, problems)
-      !> What is said of the wall
+      !> Settings of the wall
       class(settings_type), intent(in) :: input
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
@@ -173,7 +173,7 @@ contains
 
    !> Mass and centroid where they are given
    subroutine read_mass(input, problems, body)
-      !> What is said of the wall
+      !> Settings of the wall
       class(settings_type), intent(in) :: input
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
@@ -198,7 +198,7 @@ contains
 
    !> The inertia of a body about its centroid from that about the hinge
    subroutine take_inertia(input, problems, wall)
-      !> What is said of the wall
+      !> Settings of the wall
       class(settings_type), intent(in) :: input
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
@@ -217,7 +217,7 @@ contains
 
    !> Loads, and masses that are pushed alone
    subroutine read_loads(input, gravity, problems, carried)
-      !> What is said of the wall
+      !> Settings of the wall
       class(settings_type), intent(in) :: input
       !> Gravity [m/s2]
       real(wp), intent(in) :: gravity
@@ -281,7 +281,7 @@ contains
 
    !> Thrusts; their depth is that of the inner face unless it is given
    subroutine read_thrusts(input, sections, problems, thrusts)
-      !> What is said of the wall
+      !> Settings of the wall
       class(settings_type), intent(in) :: input
       !> Its storeys
       type(section_type), intent(in) :: sections(:)
@@ -311,7 +311,7 @@ contains
 
    !> Springs and beds
    subroutine read_springs(input, problems, springs)
-      !> What is said of the wall
+      !> Settings of the wall
       class(settings_type), intent(in) :: input
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
@@ -335,7 +335,7 @@ contains
 
    !> The hinge: its depth, given or from the strength of the masonry under all weights, or where the edge begins
    subroutine read_hinge(input, gravity, problems, wall)
-      !> What is said of the wall
+      !> Settings of the wall
       class(settings_type), intent(in) :: input
       !> Gravity [m/s2]
       real(wp), intent(in) :: gravity
@@ -370,7 +370,7 @@ contains
 
    !> Check that everything acts within the wall
    subroutine check_places(input, problems, wall)
-      !> What is said of the wall
+      !> Settings of the wall
       class(settings_type), intent(in) :: input
       !> Takes what does not
       type(problems_type), intent(inout) :: problems
@@ -428,7 +428,7 @@ contains
 
    !> Check that a wall that rocks to both sides is the same from both
    subroutine check_symmetry(input, problems, wall)
-      !> What is said of the wall
+      !> Settings of the wall
       class(settings_type), intent(in) :: input
       !> Takes what is not
       type(problems_type), intent(inout) :: problems

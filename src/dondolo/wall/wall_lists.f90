@@ -14,7 +14,7 @@ contains
 
    !> Values of a list that goes with another: one for each, or one for all where its property allows that
    subroutine take(input, problems, name, of, values, default)
-      !> What is said of the wall
+      !> Settings of the wall
       class(settings_type), intent(in) :: input
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems

@@ -123,7 +123,7 @@ contains
 
    !> The table
    subroutine get_table(self, table)
-      !> What is said of a wall
+      !> Input of a wall
       class(wall_input_type), intent(in) :: self
       !> The properties of walls
       type(property_type), pointer, intent(out) :: table(:)
@@ -135,7 +135,7 @@ contains
 
    !> Place of a property in the table
    pure integer function find(self, name)
-      !> What is said of a wall
+      !> Input of a wall
       class(wall_input_type), intent(in) :: self
       !> Name of the property, in lower case
       character(len=*), intent(in) :: name

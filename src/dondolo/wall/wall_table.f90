@@ -43,7 +43,7 @@ contains
 
    !> Take the terms of a wall out of the file that it names
    subroutine take_table(input, file, error)
-      !> What is said of the wall; out: the terms are lists in place of the file, whose path is kept
+      !> Input of the wall; out: the terms are lists in place of the file, whose path is kept
       class(wall_input_type), intent(inout) :: input
       !> The file whose folder the path is relative to; empty: the current folder
       character(len=*), intent(in) :: file
@@ -158,7 +158,7 @@ contains
 
    !> Set the terms of the wall
    subroutine set_terms(input, values, at, error)
-      !> What is said of the wall: its lists are set
+      !> Input of the wall: its lists are set
       class(wall_input_type), intent(inout) :: input
       !> Values (columns, rows)
       real(wp), intent(in) :: values(:, :)
@@ -194,7 +194,7 @@ contains
          call raise_input(error, 'column ''power'': must be integers from 0 to 100')
          return
       end if
-      ! Places of Chebyshev, with both ends
+      ! Chebyshev points, both ends included
       n = nint(maxval(values(at(0), :))) + more_points
       q = [(q(1)*sin(0.5_wp*pi*real(k, wp)/real(n, wp))**2, k=0, n - 1), q(1)]
       do i = 2, size(term_names)

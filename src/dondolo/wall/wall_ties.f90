@@ -21,7 +21,7 @@ contains
 
    !> Read the ties, and check each
    subroutine read_ties(input, sections, hinge, edge, problems, ties, anchors)
-      !> What is said of the wall
+      !> Settings of the wall
       class(settings_type), intent(in) :: input
       !> Its storeys
       type(section_type), intent(in) :: sections(:)
@@ -69,7 +69,7 @@ contains
 
    !> Read bars and plates
    subroutine read_anchors(input, problems, anchors)
-      !> What is said of the wall
+      !> Settings of the wall
       class(settings_type), intent(in) :: input
       !> Takes what is wrong
       type(problems_type), intent(inout) :: problems
@@ -162,7 +162,7 @@ contains
 
    !> Compute the strength of anchors from their plates and the masonry
    subroutine compute_anchors(input, sections, ties, problems, anchors)
-      !> What is said of the wall
+      !> Settings of the wall
       class(settings_type), intent(in) :: input
       !> Its storeys
       type(section_type), intent(in) :: sections(:)
@@ -216,7 +216,7 @@ contains
       if (anchor%edge < -slack .or. height - half < -slack) call problems%note(name//': its tie_height = '//to_text(height)// &
          & ' must be at least '//rounded(half)//' m, half its plate, from the base and from the top of the wall', &
          & out_of_range, 'tie_height')
-      ! Where sections of different thickness meet behind the plate the thinner one is all that it surely finds
+      ! Where sections of different thickness meet behind the plate only the thinner one is certain to be there
       thickness = huge(1.0_wp)
       bottom = 0.0_wp
       do i = 1, size(sections)
@@ -231,7 +231,7 @@ contains
 
    !> Strengths of the masonry at anchors
    subroutine read_masonry(input, has_plates, problems, masonry)
-      !> What is said of the wall
+      !> Settings of the wall
       class(settings_type), intent(in) :: input
       !> Is there a plate?
       logical, intent(in) :: has_plates

@@ -36,7 +36,7 @@ module dondolo_base_property
 
    !> One property
    type :: property_type
-      !> Name, in lower case, as it stands in namelists, in the columns of populations and in Python
+      !> Name, in lower case, as in namelists, in the columns of populations and in Python
       character(len=name_length) :: name = ''
       !> Kind of its value
       integer :: kind = is_real
@@ -52,7 +52,7 @@ module dondolo_base_property
       logical :: optional = .false.
       !> Default of a number; of a logical 1 for true
       real(wp) :: default = 0.0_wp
-      !> What stands in the place of an optional number that is not given beside the others of its kind; no_limit: nothing
+      !> Substitute of an optional number that is not given beside the others of its kind; no_limit: none
       real(wp) :: absent = no_limit
       !> Default of a text
       character(len=16) :: word = ''

@@ -32,7 +32,7 @@ module dondolo_base_settings
       type(word_type), allocatable :: words(:)
       !> Lists; not allocated where there is none
       type(list_type), allocatable :: lists(:)
-      !> The first name that was set and stands in no row of the table
+      !> The first name that was set and that no row of the table has
       character(len=:), allocatable :: unknown
    contains
       !> The table
@@ -53,7 +53,7 @@ module dondolo_base_settings
       procedure :: has_word
       !> A list of numbers; empty where there is none
       procedure :: list
-      !> What stands in the place of a number that is not given beside the others of its kind
+      !> Substitute of a number that is not given beside the others of its kind
       procedure :: absent
       !> Range of the values in a row of the table
       procedure :: find_range
@@ -68,7 +68,7 @@ module dondolo_base_settings
       procedure :: clear
       !> Give properties without a value their defaults
       procedure :: fill
-      !> The first name that was set and stands in no row of the table
+      !> The first name that was set and that no row of the table has
       procedure :: get_unknown
       !> Is the value of a property a list?
       procedure :: has_list
@@ -139,7 +139,7 @@ contains
       character(len=*), intent(in) :: name
 
 #ifdef DONDOLO_CHECKED
-      ! A look-up of a name that no row has would find nothing in silence, so that tests end here.
+      ! A look-up of a name that no row has would silently find nothing, so that tests end here.
       if (self%find(name) == 0) error stop 'dondolo: there are no settings '''//trim(name)//''''
 #endif
       place = 0
@@ -258,7 +258,7 @@ contains
       if (i > 0) has_word = allocated(self%words(i)%text)
    end function has_word
 
-   !> The first name that was set and stands in no row of the table
+   !> The first name that was set and that no row of the table has
    pure subroutine get_unknown(self, name)
       class(settings_type), intent(in) :: self
       !> It; not allocated: there is none
@@ -295,7 +295,7 @@ contains
       if (i == 0) allocate (list(0))
    end function list
 
-   !> What stands in the place of a number that is not given beside the others of its kind
+   !> Substitute of a number that is not given beside the others of its kind
    real(wp) function absent(self, name)
       class(settings_type), intent(in) :: self
       !> Name of the property, in lower case

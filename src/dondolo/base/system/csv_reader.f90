@@ -137,7 +137,7 @@ contains
       do
          call self%next(row, found, error)
          if (.not. found) exit
-         ! What is wrong in a row is found once more where it is read
+         ! An error in a row is reported where the row is read
          if (allocated(error)) cycle
          do i = 1, size(columns)
             if (columns(i) > 0) call self%mark%look(row%cells(columns(i))%text)

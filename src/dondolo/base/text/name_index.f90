@@ -46,7 +46,7 @@ contains
          if (2*self%names >= size(self%key)) call make_room(self, 2*size(self%key))
       end if
       if (self%lacks_memory) return
-      ! Blanks at the end do not tell names apart
+      ! Trailing blanks do not distinguish names
       key = key_of(trim(name))
       place = place_of(self, key)
       if (self%key(place) == key) then

@@ -162,7 +162,7 @@ contains
       at = 1
       ok = .false.
       do while (at <= len(text))
-         ! What is seldom there is asked for before it is passed, since a loop takes longer than a number
+         ! Further blanks are rare, and a call of the loop takes longer than a number
          if (iachar(text(at:at)) <= blank) call pass_blanks(text, at)
          call take_usual(text, at, values(count + 1), ok)
          if (.not. ok) call take_real(text, at, len(text), values(count + 1), ok)

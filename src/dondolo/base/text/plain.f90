@@ -9,7 +9,7 @@ module dondolo_base_plain
 
    public :: is_plain, name_problem, visible, shown
 
-   !> What is said of a name that is not plain
+   !> Message on a name that is not plain
    character(len=*), parameter :: must_be_plain = 'must be one line without control characters and marks of '// &
       & 'direction'
 
@@ -55,7 +55,7 @@ contains
    pure function name_problem(text)
       !> Any bytes
       character(len=*), intent(in) :: text
-      !> What is said of it
+      !> Message, blank if nothing is wrong
       character(len=len(must_be_plain)) :: name_problem
 
       name_problem = ''

@@ -17,9 +17,9 @@ contains
 
    !> Read the group, if the case has one
    subroutine read_building_group(group, wall, error)
-      !> The group as it stands in the file
+      !> The group as read from the file
       type(group_type), intent(in) :: group
-      !> What is said of the wall: what it stands on is added
+      !> Input of the wall: what it stands on is added
       type(wall_input_type), intent(inout) :: wall
       !> What is wrong with it
       type(error_type), allocatable, intent(out) :: error

@@ -14,7 +14,7 @@ contains
 
    !> Read the group
    subroutine read_check_group(group, check, error)
-      !> The group as it stands in the file
+      !> The group as read from the file
       type(group_type), intent(in) :: group
       !> The check; not allocated: the case has no such group
       type(check_input_type), allocatable, intent(out) :: check

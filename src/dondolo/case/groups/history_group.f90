@@ -27,7 +27,7 @@ module dondolo_case_history_group
       & property_type('initial_velocity', unit='rad/s', default=0.0_wp, &
       &   meaning='angular velocity of the wall at the start, positive towards side 1')]
 
-   !> What is said of the time history
+   !> Input of the time history
    type :: history_input_type
       !> Number of the record in the catalogue, from 1
       integer :: record = 1
@@ -48,9 +48,9 @@ contains
 
    !> Read the group
    subroutine read_history_group(group, history, error)
-      !> The group as it stands in the file
+      !> The group as read from the file
       type(group_type), intent(in) :: group
-      !> What is said of the time history
+      !> Input of the time history
       type(history_input_type), intent(out) :: history
       !> What is wrong with it
       type(error_type), allocatable, intent(out) :: error
@@ -78,9 +78,9 @@ contains
 
    !> Find the record in the catalogue
    subroutine find_record(group, history, records, error)
-      !> The group as it stands in the file
+      !> The group as read from the file
       type(group_type), intent(in) :: group
-      !> What is said of the time history: the number of the record is set from its name
+      !> Input of the time history: the number of the record is set from its name
       type(history_input_type), intent(inout) :: history
       !> The records of the catalogue
       type(record_type), intent(in) :: records(:)
@@ -120,9 +120,9 @@ contains
       if (size(records) > shown) list = list//' and '//to_text(size(records) - shown)//' more'
    end subroutine list_names
 
-   !> What is said of the time history, as settings
+   !> Input of the time history as settings
    subroutine put(self, settings)
-      !> What is said of the time history
+      !> Input of the time history
       class(history_input_type), intent(in) :: self
       !> Values of history_properties
       type(group_settings_type), intent(out) :: settings

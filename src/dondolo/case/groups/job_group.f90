@@ -60,7 +60,7 @@ contains
 
    !> Read the group
    subroutine read_job(group, job, error)
-      !> The group as it stands in the file
+      !> The group as read from the file
       type(group_type), intent(in) :: group
       !> What is to be done, defaults filled in
       type(job_type), intent(out) :: job
@@ -89,7 +89,7 @@ contains
       else if (index(job%output, '\') > 0) then
          call group%refuse('output', 'must have / between folders, not \', out_of_range, error)
       else if (scan(job%output(1:1), '~$') > 0) then
-         ! A folder ~ would be made; who removes it as shells understand it removes the home folder
+         ! It would make a folder named ~, and removing that in a shell removes the home folder
          call group%refuse('output', 'must be a path from the current folder or from /: '// &
             & job%output(1:1)//' is not replaced as a shell does', out_of_range, error)
       end if

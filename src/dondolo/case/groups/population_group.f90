@@ -27,7 +27,7 @@ contains
 
    !> Read the group
    subroutine read_population_group(group, file, occurrence, designs, error)
-      !> The group as it stands in the file
+      !> The group as read from the file
       type(group_type), intent(in) :: group
       !> Path of the table of walls, relative to the case
       character(len=:), allocatable, intent(out) :: file

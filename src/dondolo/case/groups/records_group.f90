@@ -33,7 +33,7 @@ module dondolo_case_records_group
       &   meaning='factor on the vertical components beside that of their record, 1 if not given; negative: they are '// &
       &   'positive downwards')]
 
-   !> What is said of the accelerograms
+   !> Input of the accelerograms
    type :: records_input_type
       !> Path of the catalogue, relative to the case
       character(len=:), allocatable :: catalogue
@@ -52,9 +52,9 @@ contains
 
    !> Read the group
    subroutine read_records_group(group, records, error)
-      !> The group as it stands in the file
+      !> The group as read from the file
       type(group_type), intent(in) :: group
-      !> What is said of the accelerograms
+      !> Input of the accelerograms
       type(records_input_type), intent(out) :: records
       !> What is wrong with it
       type(error_type), allocatable, intent(out) :: error
@@ -74,9 +74,9 @@ contains
       end if
    end subroutine read_records_group
 
-   !> What is said of the accelerograms, as settings
+   !> Input of the accelerograms as settings
    subroutine put(self, settings)
-      !> What is said of the accelerograms
+      !> Input of the accelerograms
       class(records_input_type), intent(in) :: self
       !> Values of records_properties
       type(group_settings_type), intent(out) :: settings

@@ -12,7 +12,7 @@ module dondolo_case_solver_group
 
    public :: solver_input_type, read_solver_group
 
-   !> What is said of the computation
+   !> Input of the computation
    type :: solver_input_type
       !> Engine, tolerances and limit
       type(solver_type) :: solver
@@ -27,9 +27,9 @@ contains
 
    !> Read the group
    subroutine read_solver_group(group, input, error)
-      !> The group as it stands in the file
+      !> The group as read from the file
       type(group_type), intent(in) :: group
-      !> What is said of the computation
+      !> Input of the computation
       type(solver_input_type), intent(out) :: input
       !> What is wrong with it
       type(error_type), allocatable, intent(out) :: error
@@ -43,9 +43,9 @@ contains
       input%gravity = settings%number('gravity')
    end subroutine read_solver_group
 
-   !> What is said of the computation, as settings
+   !> Input of the computation as settings
    subroutine put(self, settings)
-      !> What is said of the computation
+      !> Input of the computation
       class(solver_input_type), intent(in) :: self
       !> Values of solver_properties
       type(group_settings_type), intent(out) :: settings

@@ -43,7 +43,7 @@ module dondolo_case_stripes_group
    !> Those that give equally spaced levels
    character(len=5), parameter :: grid_variables(3) = [character(len=5) :: 'first', 'last', 'count']
 
-   !> What is said of the stripes
+   !> Input of the stripes
    type :: stripes_input_type
       !> Intensity measure that the records are scaled by
       type(scaling_type) :: scaling
@@ -62,9 +62,9 @@ contains
 
    !> Read the group
    subroutine read_stripes_group(group, stripes, error)
-      !> The group as it stands in the file
+      !> The group as read from the file
       type(group_type), intent(in) :: group
-      !> What is said of the stripes
+      !> Input of the stripes
       type(stripes_input_type), intent(out) :: stripes
       !> What is wrong with it
       type(error_type), allocatable, intent(out) :: error
@@ -104,7 +104,7 @@ contains
 
    !> Check the EDP thresholds, and make collapse the last of them
    subroutine check_states(stripes, edp_limit, error)
-      !> What is said of the stripes
+      !> Input of the stripes
       type(stripes_input_type), intent(inout) :: stripes
       !> Rotation / capacity at which the wall has collapsed
       real(wp), intent(in) :: edp_limit
@@ -118,10 +118,10 @@ contains
 
    !> Make levels of first, last and count, if they were given
    subroutine make_grid(group, settings, stripes, error)
-      !> The group as it stands in the file
+      !> The group as read from the file
       type(group_type), intent(in) :: group
       type(group_settings_type), intent(in) :: settings
-      !> What is said of the stripes: equally spaced levels, both ends included
+      !> Input of the stripes: equally spaced levels, both ends included
       type(stripes_input_type), intent(inout) :: stripes
       !> What is wrong with it
       type(error_type), allocatable, intent(out) :: error
@@ -147,9 +147,9 @@ contains
       stripes%levels = even_levels(first, last, count)
    end subroutine make_grid
 
-   !> What is said of the stripes, as settings; without levels only their measure
+   !> Input of the stripes as settings; without levels only their measure
    subroutine put(self, settings)
-      !> What is said of the stripes
+      !> Input of the stripes
       class(stripes_input_type), intent(in) :: self
       !> Values of stripes_properties
       type(group_settings_type), intent(out) :: settings

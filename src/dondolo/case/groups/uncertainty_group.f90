@@ -57,7 +57,7 @@ contains
 
    !> Read the group, and make the variants of the wall
    subroutine read_uncertainty_group(group, wall, settings, error)
-      !> The group as it stands in the file
+      !> The group as read from the file
       type(group_type), intent(in) :: group
       !> The wall: its variants are set
       type(base_wall_type), intent(inout) :: wall

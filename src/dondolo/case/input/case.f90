@@ -37,13 +37,13 @@ module dondolo_case
       logical :: designs = .false.
       !> What the rows of the population are taken from: its table, or a facade or wall with variants
       type(population_table_type) :: table
-      !> What is said of its variants; not allocated: it has none
+      !> Settings of its variants; not allocated: it has none
       type(group_settings_type), allocatable :: uncertainty
       !> The wall, unless the task is 'typology'
       type(wall_type) :: wall
       !> What there is in the population, if the task is 'typology'
       type(survey_type) :: survey
-      !> What is said of the accelerograms
+      !> Input of the accelerograms
       type(records_input_type) :: records_input
       !> The accelerograms, measured where they are scaled to levels
       type(suite_type) :: suite

@@ -169,7 +169,7 @@ contains
    subroutine read_table(group, wall, error)
       !> The group &wall
       type(group_type), intent(in) :: group
-      !> What is said of the wall: lists take the place of the table
+      !> Input of the wall: lists take the place of the table
       type(wall_input_type), intent(inout) :: wall
       !> No such file, or a table of something else
       type(error_type), allocatable, intent(out) :: error
@@ -268,7 +268,7 @@ contains
    !> Make the wall, or find the population
    subroutine make_wall(namelist, input, case, error)
       type(namelist_type), intent(in) :: namelist
-      !> What is said of the wall
+      !> Input of the wall
       type(wall_input_type), intent(in) :: input
       !> The case: its wall is made
       type(case_type), intent(inout) :: case
@@ -300,7 +300,7 @@ contains
 
    !> Take a facade, or a wall with variants, and make all of its walls to check them
    subroutine make_facade(input, variants, case, error)
-      !> What is said of it
+      !> Its input
       type(wall_input_type), intent(in) :: input
       !> The group of its variants, if there is one
       type(group_type), intent(in) :: variants

@@ -24,9 +24,9 @@ module dondolo_case_namelist_group
       character(len=:), allocatable :: typed
       !> The value without its quotes
       character(len=:), allocatable :: text
-      !> Did it stand in quotes?
+      !> Was it in quotes?
       logical :: quoted = .false.
-      !> Line of the file it stands in
+      !> Its line in the file
       integer :: line = 0
    end type value_type
 
@@ -34,7 +34,7 @@ module dondolo_case_namelist_group
    type :: variable_type
       !> Name, in lower case
       character(len=:), allocatable :: name
-      !> Line of the file it stands in
+      !> Its line in the file
       integer :: line = 0
       !> Its values, one at least
       type(value_type), allocatable :: values(:)
@@ -280,9 +280,9 @@ contains
 
    !> Do two values look like one number that was typed with a decimal comma?
    pure function split_number(first, second)
-      !> What stands before the comma
+      !> The text before the comma
       type(value_type), intent(in) :: first
-      !> What stands after it
+      !> The text after it
       type(value_type), intent(in) :: second
       !> Both are whole numbers without quotes, the second one unsigned
       logical :: split_number

@@ -35,7 +35,7 @@ module dondolo_case_namelist_tokens
       character(len=:), allocatable :: typed
       !> Without quotes or ampersand
       character(len=:), allocatable :: text
-      !> Line it stands in
+      !> Its line
       integer :: line = 0
    end type token_type
 

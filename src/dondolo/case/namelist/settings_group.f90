@@ -17,7 +17,7 @@ contains
 
    !> Read the values that a group gives; their ranges are checked where they are used
    subroutine read_values(group, settings, error, rows)
-      !> The group as it stands in the file
+      !> The group as read from the file
       type(group_type), intent(in) :: group
       !> Settings; what the group says is added
       class(settings_type), intent(inout) :: settings
@@ -42,7 +42,7 @@ contains
 
    !> Read a value
    subroutine read_value(group, property, settings, error)
-      !> The group as it stands in the file
+      !> The group as read from the file
       type(group_type), intent(in) :: group
       !> A property that it gives
       type(property_type), intent(in) :: property
@@ -86,7 +86,7 @@ contains
 
    !> Read a group: defaults filled in, ranges checked
    subroutine read_settings(group, settings, error)
-      !> The group as it stands in the file
+      !> The group as read from the file
       type(group_type), intent(in) :: group
       !> Settings, without a value
       class(settings_type), intent(inout) :: settings

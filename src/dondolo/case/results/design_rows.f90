@@ -64,7 +64,7 @@ contains
       call table%put('zeta_e_linear_change', safety%linear - first%linear, are_both .and. &
          & min(safety%linear, first%linear) >= 0.0_wp)
       call table%put('zeta_e_change', safety%nonlinear - first%nonlinear, are_both)
-      ! A difference of bounds is none.
+      ! Bounds have no difference.
       call table%put('return_period_change', safety%years - first%years, is_period .and. safety%bound//first%bound == '')
    end subroutine put_safety
 

@@ -1,4 +1,4 @@
-!> The rows of the result tables: what stands in them under which name.
+!> The rows of the result tables: values by the names of their columns.
 module dondolo_case_report_rows
    use dondolo_base_kinds, only : wp
    use dondolo_base_property, only : column_name, is_many, is_text, is_words, property_type, word_of

@@ -1,4 +1,4 @@
-!> The tables of results: one list of what their names end with, when there is one, and what stands in it.
+!> The tables of results: one list of the endings of their names, the cases that have them, and their rows.
 module dondolo_case_result_tables
    use dondolo_base_error, only : error_type, raise_failure
    use dondolo_base_kinds, only : wp
@@ -353,7 +353,7 @@ contains
       call put_trace(table, results%trace, case%wall%mechanism%capacity)
    end subroutine put_motion
 
-   !> What comes of a time history
+   !> Facts of a time history
    subroutine list_motion(case, results, lines)
       type(case_type), intent(in) :: case
       type(results_type), intent(in) :: results

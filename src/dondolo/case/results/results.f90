@@ -1,4 +1,4 @@
-!> What comes of a case.
+!> Results of a case.
 module dondolo_case_results
    use dondolo_base_warning, only : warnings_type
    use dondolo_case_check_rows, only : verdicts_type

@@ -30,7 +30,7 @@ module dondolo_case_run_file
    !> What a shape counts
    character(len=*), parameter :: shape_names(*) = [character(len=7) :: 'walls', 'levels', 'states', 'records']
 
-   !> What is said of a record besides its event: which earthquake a report is of, and where it was felt
+   !> Metadata of a record besides its event: which earthquake a report is of, and where it was felt
    character(len=*), parameter :: shown_metadata(*) = [character(len=9) :: 'date', 'magnitude', 'station', 'component', &
       & 'format']
 
@@ -115,7 +115,7 @@ contains
          if (allocated(case%suite%records(i)%vertical_file)) call put_file('vertical', &
             & case%suite%records(i)%vertical_file)
       end do
-      ! As it was read, whatever has become of it
+      ! Bytes and checksum when it was read, even if it has changed since
       if (allocated(case%population_file)) call put_input('population', case%population_path(), .true., case%table%csv%bytes, &
          & case%table%csv%checksum)
       call case%tables(tables)

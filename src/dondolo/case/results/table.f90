@@ -21,7 +21,7 @@ module dondolo_case_table
       type(error_type), allocatable :: error
       !> Column of the last value that was put
       integer :: column = 0
-      !> Where it is written, does the text stand in quotes in any case, or the real number for a whole one?
+      !> Where it is written, is the text quoted in any case, is the real number written as an integer?
       logical :: is_quoted = .false., are_degrees = .false.
    contains
       !> Put the value of the next column of a row; where it is not `given` its cell is empty
@@ -84,7 +84,7 @@ contains
       character(len=*), intent(in) :: text
       !> Is there one?
       logical, intent(in), optional :: given
-      !> Does it stand in quotes in any case?
+      !> Is it quoted in any case?
       logical, intent(in), optional :: is_quoted
 
       call self%next_column(name)

@@ -50,7 +50,7 @@ contains
             call put(stripes%response(:, at), stripes%ran(:, at))
          else if (.not. allocated(case%factor)) then
             if (state == 2 .or. case%check%has_states()) then
-               ! d_0 is the capacity, whatever collapse is in the stripes
+               ! d_0 belongs to the capacity rotation, whatever EDP is collapse in the stripes
                call case%make_study(study, threads)
                call new_scaling(study%scaling, 'pga', error)
                study%values = case%suite%values(study%scaling%measure, threads)

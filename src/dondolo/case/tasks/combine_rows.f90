@@ -53,7 +53,7 @@ contains
       call case%survey%scales%warn(results%warnings)
       call case%survey%occurrence_warnings%warn(results%warnings)
       if (results%population%walls == 1 .and. results%unions%count() > 0) then
-         ! The number of one facade is its union.
+         ! The result of a single facade is the curve of its union.
          call fits%warn(results%typologies(:0, states), results%warnings)
          call warn_of_union(results%unions%name(1)%text, results%unions%curve(states, 1), results%warnings)
       else
@@ -164,7 +164,7 @@ contains
       results%unions = curves%unions
    end subroutine look_at_rows
 
-   !> Take what the check of a design comes to; the table of checks has why there is none
+   !> Take the result of the check of a design; if there is none, the table of checks has the reason
    subroutine take_check(case, wall, design)
       !> The case, with a check
       type(case_type), intent(in) :: case

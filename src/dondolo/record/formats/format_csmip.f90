@@ -228,7 +228,7 @@ contains
 
    contains
 
-      !> Find what stands after a label in the first of the lines that holds it
+      !> Find the text after a label in the first of the lines that holds it
       subroutine find_rest(label)
          !> Label in lower case
          character(len=*), intent(in) :: label
@@ -241,7 +241,7 @@ contains
          end do
       end subroutine find_rest
 
-      !> Keep what stands after a label
+      !> Keep the text after a label
       subroutine keep_rest(key, label)
          !> Key to keep it under, and label in lower case
          character(len=*), intent(in) :: key, label

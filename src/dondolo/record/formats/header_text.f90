@@ -49,7 +49,7 @@ module dondolo_record_header_text
 
 contains
 
-   !> Length of what stands after a label
+   !> Length of the text after a label
    pure integer function after_length(line, label)
       !> Header line, and label
       character(len=*), intent(in) :: line, label
@@ -61,7 +61,7 @@ contains
       if (at > 0) after_length = len_trim(adjustl(line(at + len(label):)))
    end function after_length
 
-   !> What stands after a label, whatever its case
+   !> The text after a label, whatever its case
    pure function after(line, label) result(rest)
       !> Header line
       character(len=*), intent(in) :: line
@@ -73,16 +73,16 @@ contains
       if (len(rest) > 0) rest = adjustl(line(index(lower(line), lower(label)) + len(label):))
    end function after
 
-   !> Length of what stands before a mark
+   !> Length of the text before a mark
    pure integer function before_length(line, mark)
       !> Header line, and mark
       character(len=*), intent(in) :: line, mark
 
-      ! A mark that is not there, at 0, counts as one behind the end
+      ! A mark that is missing, at 0, counts as one after the end
       before_length = len_trim(adjustl(line(:modulo(index(lower(line), lower(mark)) - 1, len(line) + 1))))
    end function before_length
 
-   !> What stands before a mark, whatever its case
+   !> The text before a mark, whatever its case
    pure function before(line, mark) result(start)
       !> Header line
       character(len=*), intent(in) :: line

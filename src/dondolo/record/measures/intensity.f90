@@ -55,7 +55,7 @@ module dondolo_record_intensity
       !> Periods of the oscillators it needs [s]
       real(wp), allocatable :: periods(:)
    contains
-      !> Its value for a record as it stands
+      !> Its value for an unscaled record
       procedure :: of
       !> What a level of 1 is
       procedure :: level_size
@@ -164,7 +164,7 @@ contains
       values = [((real(number - i, wp)*first + real(i - 1, wp)*last)/real(number - 1, wp), i=1, number)]
    end function evenly
 
-   !> Value for a record as it stands
+   !> Value for an unscaled record
    pure function of(self, record) result(value)
       class(measure_type), intent(in) :: self
       type(record_type), intent(in) :: record
