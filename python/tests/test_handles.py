@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
+from dondolo._fortran.histories import settings
 from dondolo._fortran.library import check
 from dondolo.records.suite import place_of, upload
 from dondolo.walls.wall import upload as upload_walls
@@ -63,7 +64,7 @@ def test_no_record_crosses_twice(few, replace_procedure):
 def test_walls_that_are_tried_alike_share_a_study(few, replace_procedure):
     calls = []
     new_study = _core.stripes.new_study
-    replace_procedure("stripes.new_study", lambda *given: calls.append(given) or new_study(*given))
+    replace_procedure("stripes.new_study", lambda *given, **more: calls.append(given) or new_study(*given, **more))
     plans, plan = [], _core.stripes.plan
     replace_procedure("stripes.plan", lambda *given: plans.append(given) or plan(*given))
     one, two = dd.OneSidedWall(3.0, 0.25), dd.TwoBlockWall(3.0, 0.25)
@@ -128,7 +129,7 @@ def test_motions_of_floors_are_not_kept(few, replace_procedure):
     """They take much memory: a wall on a building has a study of its own each time."""
     calls = []
     new_study = _core.stripes.new_study
-    replace_procedure("stripes.new_study", lambda *given: calls.append(given) or new_study(*given))
+    replace_procedure("stripes.new_study", lambda *given, **more: calls.append(given) or new_study(*given, **more))
     wall, building = dd.OneSidedWall(3.0, 0.25), dd.Building(period=0.3, participation=1.3)
     upstairs = dd.OneSidedWall(3.0, 0.25, building=building)
     study, by_level = dd.Study(few, LEVELS), dd.Study({0.2: few[:1], 0.6: few})
@@ -158,7 +159,7 @@ def test_a_study_frees_what_it_keeps(few):
 def test_use_after_free(few):
     suite, walls = upload(tuple(few)).number, upload_walls((dd.OneSidedWall(3.0, 0.25),))
     handle, *_ = _core.records.new_suite(b"a", b"\n\n", [2], [0.1], [1.0, 2.0], [0], [0.0], 1)
-    study, failure = _core.stripes.new_study(handle, b"pga", [0.1], b"both", b"auto", [1e-8, 1e-10, 1.0, 0.0, 0.0], 1)
+    study, failure = _core.stripes.new_study(handle, b"pga", [0.1], b"both", b"auto", 1, *settings(None, None, None))
     check(failure)
     _core.library.free(handle)
     _core.library.free(handle)
@@ -189,7 +190,7 @@ def test_a_study_keeps_its_suite():
     wall = dd.OneSidedWall(3.0, 0.25)
     suite = upload((record,))
     study = Handle(
-        _core.stripes.new_study(suite.number, b"pga", [0.1], b"both", b"auto", [1e-8, 1e-10, 1.0, 0.0, 0.0], 1)[0],
+        _core.stripes.new_study(suite.number, b"pga", [0.1], b"both", b"auto", 1, *settings(None, None, None))[0],
         suite,
     )
     del suite, record

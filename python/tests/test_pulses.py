@@ -269,11 +269,11 @@ def test_interruption_keeps_whole_frequencies(spectrum, monkeypatch, replace_pro
     done = []
     run_scaled = _core.histories.run_scaled
 
-    def stop(*arguments):
+    def stop(*arguments, **settings):
         done.append(len(arguments[3]))
         if sum(done) > 200:
             os.kill(os.getpid(), signal.SIGINT)
-        return run_scaled(*arguments)
+        return run_scaled(*arguments, **settings)
 
     replace_procedure("histories.run_scaled", stop)
     monkeypatch.setattr("dondolo.analysis.request._FIRST_SAMPLES", 60_000)

@@ -120,20 +120,22 @@ contains
    end subroutine as_settings
 
    !> Settings of the computation
-   pure function as_solver(engine, settings) result(solver)
+   pure function as_solver(engine, rtol, atol, edp_limit, estimate_error, collapses_only) result(solver)
       !> Engine
       character(len=*), intent(in) :: engine
-      !> Settings of histories.py, in their order; 1 for what is wanted, else 0
-      real(c_double), intent(in) :: settings(5)
+      !> Tolerances of a step, and the EDP that counts as collapse
+      real(c_double), intent(in) :: rtol, atol, edp_limit
+      !> 1 for what is wanted, else 0
+      integer(c_int), intent(in) :: estimate_error, collapses_only
       !> The settings
       type(solver_type) :: solver
 
       solver%engine = engine
-      solver%rtol = settings(1)
-      solver%atol = settings(2)
-      solver%edp_limit = settings(3)
-      solver%estimate_error = settings(4) > 0.0_c_double
-      solver%collapses_only = settings(5) > 0.0_c_double
+      solver%rtol = rtol
+      solver%atol = atol
+      solver%edp_limit = edp_limit
+      solver%estimate_error = estimate_error == 1
+      solver%collapses_only = collapses_only == 1
    end function as_solver
 
    !> A response as flat numbers

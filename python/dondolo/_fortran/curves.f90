@@ -208,12 +208,12 @@ contains
       end do
    end subroutine wall_slopes
 
-   !> Warnings of the executable for the curve of one wall, or for walls = 0 of counts without a wall; numbers and status
-   !> as fit_curves has them
-   subroutine warn_of_curve(walls, levels, m, largest_edp, curve, status, sent)
+   !> Warnings of the executable for the curve of one wall, or for walls = 0 of counts without a wall; status as
+   !> fit_curves has it
+   subroutine warn_of_curve(walls, levels, m, largest_edp, theta, beta, bracket, status, sent)
       integer(c_int64_t), intent(in) :: walls
       integer(c_int), intent(in) :: m, status
-      real(c_double), intent(in) :: levels(m), largest_edp, curve(10)
+      real(c_double), intent(in) :: levels(m), largest_edp, theta, beta, bracket(2)
       integer(c_int64_t), intent(out) :: sent(5)
       type(wall_type), pointer :: list(:), wall
       type(stripes_type) :: stripes
@@ -227,9 +227,9 @@ contains
       if (.not. allocated(error)) then
          if (walls /= 0) wall => list(1)
          fragility%status = status
-         fragility%theta = curve(1)
-         fragility%beta = curve(2)
-         fragility%bracket = curve(7:8)
+         fragility%theta = theta
+         fragility%beta = beta
+         fragility%bracket = bracket
          stripes%levels = levels
          ! Of the responses the sentences need the largest only
          allocate (stripes%response(1, 1))

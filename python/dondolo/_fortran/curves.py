@@ -15,24 +15,31 @@ from dondolo.errors import DondoloWarning
 
 
 class CurveData(NamedTuple):
-    """A fitted curve, or why there is none."""
+    """A fitted curve, or why there is none: status, and numbers in the order of curves.f90 (pack_curve).
+
+    Variances and covariance are those of ln theta and beta.
+    """
 
     status: str
-    numbers: FloatArray
+    theta: float
+    beta: float
+    var_ln_theta: float
+    covariance: float
+    var_beta: float
+    log_likelihood: float
+    bracket_low: float
+    bracket_high: float
+    deviance: float
+    deviance_dof: float
 
-    @classmethod
-    def of(cls, status: str, theta: float, beta: float, bracket: tuple[float, float] = (0.0, 0.0)) -> CurveData:
-        """What a warning of a curve needs; the other numbers are 0."""
-        return cls(status, np.array([theta, beta, 0.0, 0.0, 0.0, 0.0, *bracket, 0.0, 0.0]))
 
-
-def fit_curves(levels: FloatArray, collapses: FloatArray, histories: FloatArray) -> tuple[FloatArray, list[str]]:
+def fit_curves(levels: FloatArray, collapses: FloatArray, histories: FloatArray) -> list[CurveData]:
     """Fit many curves in one call: collapses and histories are (curves, levels)."""
     z, n = np.ascontiguousarray(collapses), np.ascontiguousarray(histories)
     curves, codes, failure = _core.curves.fit_curves(levels, z.T, n.T)
     check(failure)
     names = constants().statuses
-    return curves.T, [names[code - 1] for code in codes]
+    return [CurveData(names[code - 1], *numbers) for code, numbers in zip(codes, curves.T.tolist(), strict=True)]
 
 
 def cluster_changes(
@@ -61,7 +68,7 @@ def fit_ordinal(
     names, known = constants().statuses, constants().errors
     return [
         (
-            CurveData(names[statuses[i] - 1], curves[:, i]),
+            CurveData(names[statuses[i] - 1], *curves[:, i].tolist()),
             (changes[:, i].T.copy(), covariances[:, :, i].copy(), known[errors[i] - 1]),
         )
         for i in range(reached.shape[1])
@@ -100,12 +107,19 @@ def slopes_of_walls(
 
 
 def warnings_of_curve(
-    wall: Handle | None, levels: FloatArray, largest_edp: float, curve: CurveData
+    wall: Handle | None,
+    levels: FloatArray,
+    largest_edp: float,
+    status: str,
+    theta: float,
+    beta: float,
+    bracket: tuple[float, float],
 ) -> list[DondoloWarning]:
     """Warnings of the executable for the curve of one wall, or of counts without a wall."""
-    code = constants().statuses.index(curve.status) + 1
+    code = constants().statuses.index(status) + 1
     number = 0 if wall is None else wall.number
-    parcel = receive(_core.curves.warn_of_curve(number, levels, largest_edp, curve.numbers, code))
+    ends = np.minimum(bracket, np.finfo(np.float64).max)
+    parcel = receive(_core.curves.warn_of_curve(number, levels, largest_edp, theta, beta, ends, code))
     return unpack_warnings(parcel.lines)
 
 

@@ -37,13 +37,13 @@ contains
 
    !> One motion; with history = 1 also the columns of its rows, and of each tie the times of its yield and of its fracture,
    !> negative for never
-   subroutine simulate(walls, suite, number, scale, engine, settings, initial_rotation, initial_velocity, history, &
-         & edp, collapsed, impacts, time_of_peak, edp_error, sent)
+   subroutine simulate(walls, suite, number, scale, engine, initial_rotation, initial_velocity, history, rtol, atol, edp_limit, &
+         & estimate_error, collapses_only, edp, collapsed, impacts, time_of_peak, edp_error, sent)
       !f2py threadsafe
       integer(c_int64_t), intent(in) :: walls, suite
       character(len=*), intent(in) :: engine
-      integer(c_int), intent(in) :: number, history
-      real(c_double), intent(in) :: scale, settings(5), initial_rotation, initial_velocity
+      integer(c_int), intent(in) :: number, history, estimate_error, collapses_only
+      real(c_double), intent(in) :: scale, initial_rotation, initial_velocity, rtol, atol, edp_limit
       real(c_double), intent(out) :: edp, time_of_peak, edp_error
       integer(c_int), intent(out) :: collapsed, impacts
       integer(c_int64_t), intent(out) :: sent(5)
@@ -59,7 +59,7 @@ contains
 
       call find_walls(walls, wall, error)
       if (.not. allocated(error)) call find_suite(suite, records, error)
-      solver = as_solver(engine, settings)
+      solver = as_solver(engine, rtol, atol, edp_limit, estimate_error, collapses_only)
       if (.not. allocated(error)) call check_scale(records, number, scale, error)
       if (.not. allocated(error)) call find_motions(wall(1), records, 1, own, motions, error)
       state = initial_state_type(initial_rotation, initial_velocity)
@@ -87,13 +87,13 @@ contains
    end subroutine simulate
 
    !> Run k histories of one wall: each has its record (numbered from 1) and its factor, negative to reverse the polarity
-   subroutine run_scaled(walls, suite, record, scale, k, engine, settings, threads, &
-         & edp, collapsed, impacts, time_of_peak, edp_error, failure)
+   subroutine run_scaled(walls, suite, record, scale, k, engine, threads, rtol, atol, edp_limit, estimate_error, &
+         & collapses_only, edp, collapsed, impacts, time_of_peak, edp_error, failure)
       !f2py threadsafe
       integer(c_int64_t), intent(in) :: walls, suite
       character(len=*), intent(in) :: engine
-      integer(c_int), intent(in) :: k, threads, record(k)
-      real(c_double), intent(in) :: scale(k), settings(5)
+      integer(c_int), intent(in) :: k, threads, record(k), estimate_error, collapses_only
+      real(c_double), intent(in) :: scale(k), rtol, atol, edp_limit
       real(c_double), intent(out) :: edp(k), time_of_peak(k), edp_error(k)
       integer(c_int), intent(out) :: collapsed(k), impacts(k)
       integer(c_int64_t), intent(out) :: failure(5)
@@ -110,7 +110,7 @@ contains
       impacts = 0
       time_of_peak = 0
       edp_error = 0
-      solver = as_solver(engine, settings)
+      solver = as_solver(engine, rtol, atol, edp_limit, estimate_error, collapses_only)
       call check_room(error, histories=real(k, c_double))
       if (.not. allocated(error)) call check_threads(threads, error)
       if (.not. allocated(error)) call find_walls(walls, wall, error)

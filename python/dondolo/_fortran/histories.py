@@ -16,7 +16,7 @@ from dondolo.errors import DondoloWarning
 
 
 class Settings(NamedTuple):
-    """Numbers of the solver, in Fortran's order (as_solver)."""
+    """Numbers of the solver, under the names of the arguments of Fortran (as_solver)."""
 
     rtol: float
     atol: float

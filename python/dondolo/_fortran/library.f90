@@ -27,6 +27,7 @@ module library
    use dondolo_interface_handles, only : release
    use dondolo_motion_lane_variants, only : build_variant, check_variant
    use dondolo_motion_solver, only : solver_type
+   use dondolo_motion_work, only : work_names
    use dondolo_parcel, only : parcel_type, report, send, take, take_next => take_series
    use dondolo_population_distribution, only : least_share
    use dondolo_wall, only : standard_gravity
@@ -60,6 +61,7 @@ contains
       call put_words(parcel, 'statuses', fit_status_names)
       call put_words(parcel, 'fitted', fit_status_names(:statuses_with_curve))
       call put_words(parcel, 'errors', error_names)
+      call put_words(parcel, 'work', work_names)
       call send(parcel, error, sent)
    end subroutine constants
 

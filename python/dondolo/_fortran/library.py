@@ -53,8 +53,8 @@ class Constants(NamedTuple):
     sum_tolerance : float
         By how much a sum of probabilities may miss 1.
     version, commit : str
-    statuses, fitted, errors : tuple of str
-        Statuses of fits, those that have a curve, and kinds of standard errors.
+    statuses, fitted, errors, work : tuple of str
+        Statuses of fits, those that have a curve, kinds of standard errors, and counts of work.
     """
 
     longest_name: int
@@ -72,6 +72,7 @@ class Constants(NamedTuple):
     statuses: tuple[str, ...]
     fitted: tuple[str, ...]
     errors: tuple[str, ...]
+    work: tuple[str, ...]
 
 
 class Property(NamedTuple):
@@ -160,7 +161,7 @@ _NOTHING = Parcel(np.empty(0, dtype=np.int32), np.empty(0), [], 0)
 def constants() -> Constants:
     """Ask Fortran for its version, defaults and the names of its statuses."""
     parcel = receive(_core.library.constants())
-    words: dict[str, Any] = {name: tuple(parcel[name]) for name in ("statuses", "fitted", "errors")}
+    words: dict[str, Any] = {name: tuple(parcel[name]) for name in ("statuses", "fitted", "errors", "work")}
     return Constants(**parcel.named(Constants._fields) | words)
 
 

@@ -277,12 +277,12 @@ contains
    !> A curve of a population at n levels x: its weighted mean, and its fractiles for k shares of the weight. curves and
    !> statuses are those of the rows; mechanism 'all': the walls as a whole; group: empty for the whole population. With
    !> probabilities = 1 a parcel has their probabilities (rows or walls, n)
-   subroutine curve_of_population(texts, levels, collapses, m, r, histories, shares, alternative, rows, w, curves, statuses, &
+   subroutine curve_of_population(texts, levels, collapses, m, r, histories, shares, alternative, rows, w, theta, beta, statuses, &
          & mechanism, group, x, n, q, k, probabilities, mean, fractiles, sent)
       character(len=*), intent(in) :: texts, mechanism, group
       integer(c_int), intent(in) :: m, r, w, n, k, probabilities, collapses(m, r), histories(m, r), alternative(r), rows(w)
       integer(c_int), intent(in) :: statuses(r)
-      real(c_double), intent(in) :: levels(m), shares(2, r), curves(8, r), x(n), q(k)
+      real(c_double), intent(in) :: levels(m), shares(2, r), theta(r), beta(r), x(n), q(k)
       real(c_double), intent(out) :: mean(n), fractiles(k, n)
       integer(c_int64_t), intent(out) :: sent(5)
       ! Numbers that are held at a time: a few tens of MB
@@ -300,7 +300,7 @@ contains
       if (.not. allocated(error)) call new_population(population, texts, levels, collapses, histories, shares, &
          & alternative, rows, error)
       if (.not. allocated(error)) then
-         call set_curves(population, curves, statuses)
+         call set_curves(population, theta, beta, statuses)
          weights = weights_of(population, population%part(mechanism, group))
          if (probabilities == 1) then
             call check_room(error, reals=4.0_c_double*real(size(weights%column), c_double)*n)
@@ -390,11 +390,11 @@ contains
    end subroutine new_population
 
    !> Set the curves of the rows of a population: those that were fitted to it before
-   subroutine set_curves(population, curves, statuses)
+   subroutine set_curves(population, theta, beta, statuses)
       !> The population
       type(population_type), intent(inout) :: population
-      !> Their numbers, of which theta and beta come first (8, rows)
-      real(c_double), intent(in) :: curves(:, :)
+      !> Their medians and dispersions
+      real(c_double), intent(in) :: theta(:), beta(:)
       !> Places of their statuses among the names
       integer(c_int), intent(in) :: statuses(:)
 
@@ -402,8 +402,8 @@ contains
 
       do i = 1, size(statuses)
          population%curve(1, i)%status = statuses(i)
-         population%curve(1, i)%theta = curves(1, i)
-         population%curve(1, i)%beta = curves(2, i)
+         population%curve(1, i)%theta = theta(i)
+         population%curve(1, i)%beta = beta(i)
       end do
    end subroutine set_curves
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -40,6 +40,21 @@ class FlatPopulation(NamedTuple):
     shares: FloatArray
     alternative: NDArray[np.int32]
     rows: NDArray[np.int32]
+
+
+class FlatCurves(NamedTuple):
+    """Curves of the rows of a population as Fortran takes them, (rows,); statuses are places among the names."""
+
+    theta: FloatArray
+    beta: FloatArray
+    statuses: NDArray[np.int32]
+
+    @classmethod
+    def of(cls, curves: Sequence[tuple[float, float, str]]) -> FlatCurves:
+        """Curves that are known by theta, beta and status."""
+        theta, beta, status = zip(*curves, strict=True)
+        places = [constants().statuses.index(name) + 1 for name in status]
+        return cls(np.array(theta), np.array(beta), np.array(places, dtype=np.int32))
 
 
 class FlatFlags(NamedTuple):
@@ -104,28 +119,37 @@ def fitted_curves(parcel: Parcel, prefix: str) -> list[FittedCurve]:
     """The curves of a parcel whose names begin with a prefix."""
     names, kinds = constants().statuses, constants().errors
 
-    def columns(*words: str) -> list[Any]:
-        return [parcel[prefix + word] for word in words]
+    def columns(*words: str) -> Iterator[tuple[Any, ...]]:
+        return zip(*(parcel[prefix + word].tolist() for word in words), strict=True)
 
-    fit = np.column_stack(columns("theta", "beta", "naive_covariance", "log_likelihood", "bracket", "deviance"))
-    data = [CurveData(names[code - 1], own) for code, own in zip(parcel[prefix + "status"].tolist(), fit, strict=True)]
-    errors = [kinds[code - 1] for code in parcel[prefix + "errors"].tolist()]
-    numbers = (one.tolist() for one in columns("se_ln_theta", "se_beta", "cov_ln_theta_beta"))
-    rest = (one.tolist() for one in columns("clusters", "degrees_of_freedom"))
-    return [FittedCurve(*row) for row in zip(data, *numbers, errors, *rest, strict=True)]
-
-
-def coded(curves: Sequence[tuple[str, float, float]]) -> tuple[FloatArray, NDArray[np.int32]]:
-    """Numbers (8, curves) and codes (curves,) of curves that are known by status, theta and beta."""
-    names = constants().statuses
-    numbers = np.zeros((len(curves), 8))
-    numbers[:, :2] = [(theta, beta) for _, theta, beta in curves]
-    return numbers.T, np.array([names.index(status) + 1 for status, *_ in curves], dtype=np.int32)
+    data = [
+        CurveData(
+            status=names[status - 1],
+            theta=theta,
+            beta=beta,
+            var_ln_theta=naive[0],
+            covariance=naive[1],
+            var_beta=naive[2],
+            log_likelihood=height,
+            bracket_low=bracket[0],
+            bracket_high=bracket[1],
+            deviance=deviance[0],
+            deviance_dof=deviance[1],
+        )
+        for status, theta, beta, naive, height, bracket, deviance in columns(
+            "status", "theta", "beta", "naive_covariance", "log_likelihood", "bracket", "deviance"
+        )
+    ]
+    own = columns("se_ln_theta", "se_beta", "cov_ln_theta_beta", "errors", "clusters", "degrees_of_freedom")
+    return [
+        FittedCurve(fit, of_theta, of_beta, both, kinds[code - 1], clusters, degrees)
+        for fit, (of_theta, of_beta, both, code, clusters, degrees) in zip(data, own, strict=True)
+    ]
 
 
 def curve_of_population(
     population: FlatPopulation,
-    curves: tuple[FloatArray, NDArray[np.int32]],
+    curves: FlatCurves,
     which: tuple[str, str],
     x: FloatArray,
     q: FloatArray,
@@ -133,8 +157,8 @@ def curve_of_population(
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
     """A curve of a population at some levels: its mean, fractiles (q, x) and members' probabilities (members, x).
 
-    Curves are those of the rows, as `coded`; which: the mechanism, or 'all', and the group. The probabilities are
-    there with `members` only.
+    Curves are those of the rows; which: the mechanism, or 'all', and the group. The probabilities are there with
+    `members` only.
     """
     texts = (as_text("group", text) for text in which)
     mean, fractiles, sent = _core.populations.curve_of_population(*population, *curves, *texts, x, q, int(members))

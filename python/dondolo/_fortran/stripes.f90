@@ -30,11 +30,12 @@ module stripes
 contains
 
    !> A study: a suite and how walls are tried under it. Without a measure its levels are factors on the records
-   subroutine new_study(suite, im, levels, m, polarity, engine, settings, threads, handle, failure)
+   subroutine new_study(suite, im, levels, m, polarity, engine, threads, rtol, atol, edp_limit, estimate_error, collapses_only, &
+         & handle, failure)
       integer(c_int64_t), intent(in) :: suite
       character(len=*), intent(in) :: im, polarity, engine
-      integer(c_int), intent(in) :: m, threads
-      real(c_double), intent(in) :: levels(m), settings(5)
+      integer(c_int), intent(in) :: m, threads, estimate_error, collapses_only
+      real(c_double), intent(in) :: levels(m), rtol, atol, edp_limit
       integer(c_int64_t), intent(out) :: handle
       integer(c_int64_t), intent(out) :: failure(5)
       type(suite_type), pointer :: records
@@ -53,7 +54,8 @@ contains
       if (.not. allocated(error)) then
          allocate (held)
          held%suite = suite
-         call make_study(held%study, records, scaling, levels, polarity, as_solver(engine, settings), threads)
+         call make_study(held%study, records, scaling, levels, polarity, as_solver(engine, rtol, atol, edp_limit, &
+            & estimate_error, collapses_only), threads)
          held%study%floors => held%floors
          call held%study%check_once(error)
          if (allocated(error)) then

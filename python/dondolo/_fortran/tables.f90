@@ -77,13 +77,14 @@ contains
       call send_table(table, error, sent)
    end subroutine wall_table
 
-   !> n histories of a wall: its name, its mechanism and r names of records as lines; of each history record (from 1), polarity,
-   !> flag of collapse, impacts, how it is certified and flag of uplift; level, scale, EDP, time of the peak, error of the EDP,
-   !> and bounds of it. has: 1 where there are errors, certificates and uplifts
-   subroutine history_table(texts, im, integers, reals, has, n, sent)
+   !> n histories of a wall: its name, its mechanism and r names of records as lines; of each history its record (from 1), flags
+   !> of collapse and uplift, and how it is certified; has_*: 1 where there are errors, certificates and uplifts
+   subroutine history_table(texts, im, record, polarity, level, scale, edp, time_of_peak, collapsed, impacts, edp_error, status, &
+         & edp_lowest, edp_highest, uplift, has_errors, has_certificates, has_uplifts, n, sent)
       character(len=*), intent(in) :: texts, im
-      integer(c_int), intent(in) :: n, has(3), integers(6, n)
-      real(c_double), intent(in) :: reals(7, n)
+      integer(c_int), intent(in) :: n, has_errors, has_certificates, has_uplifts
+      integer(c_int), intent(in) :: record(n), polarity(n), collapsed(n), impacts(n), status(n), uplift(n)
+      real(c_double), intent(in) :: level(n), scale(n), edp(n), time_of_peak(n), edp_error(n), edp_lowest(n), edp_highest(n)
       integer(c_int64_t), intent(out) :: sent(5)
       type(response_type) :: response
       type(lines_type) :: words
@@ -95,15 +96,15 @@ contains
       if (.not. allocated(error)) then
          call split_lines(texts, words)
          do i = 1, n
-            response%edp = reals(3, i)
-            response%time_of_peak = reals(4, i)
-            response%collapsed = integers(3, i) == 1
-            response%impacts = integers(4, i)
+            response%edp = edp(i)
+            response%time_of_peak = time_of_peak(i)
+            response%collapsed = collapsed(i) == 1
+            response%impacts = impacts(i)
             call put_names(table, words%line(1)%text, words%line(2)%text)
-            call put_history(table, words%line(2 + integers(1, i))%text, integers(2, i), im, reals(1, i), reals(2, i), response)
-            if (has(1) == 1) call table%put('edp_error', reals(5, i))
-            if (has(2) == 1) call put_certified(table, certified_type(integers(5, i), reals(6, i), reals(7, i)))
-            if (has(3) == 1) call table%put('uplift', integers(6, i) == 1)
+            call put_history(table, words%line(2 + record(i))%text, polarity(i), im, level(i), scale(i), response)
+            if (has_errors == 1) call table%put('edp_error', edp_error(i))
+            if (has_certificates == 1) call put_certified(table, certified_type(status(i), edp_lowest(i), edp_highest(i)))
+            if (has_uplifts == 1) call table%put('uplift', uplift(i) == 1)
             call table%end_row()
          end do
       end if
@@ -271,13 +272,15 @@ contains
       call send_table(table, error, sent)
    end subroutine tie_table
 
-   !> k designs beside the first: of each as lines its name and its kind of errors; steel, alpha_0, ratio of the medians, its
-   !> bounds and its probability, a ratio of 0 for none; of its check a_0, multiplier, safety indices of both checks and return
-   !> period, 0 for none, and its bound, -1: '<', 1: '>'
-   subroutine design_table(texts, im, curves, codes, numbers, k, sent)
+   !> k designs beside the first: of each as lines its name and its kind of errors; ratio of the medians, its bounds and its
+   !> probability, a ratio of 0 for none; of its check a_0, multiplier, safety indices of SLV by both checks and return period
+   !> by the nonlinear one, 0 for none, and whether this is a bound, -1: '<', 1: '>'
+   subroutine design_table(texts, im, curves, codes, steel, alpha_0, ratio, ratio_low, ratio_high, p_value, activation, &
+         & multiplier, linear, nonlinear, years, bound, k, sent)
       character(len=*), intent(in) :: texts, im
       integer(c_int), intent(in) :: k, codes(3, k)
-      real(c_double), intent(in) :: curves(14, k), numbers(12, k)
+      real(c_double), intent(in) :: curves(14, k), steel(k), alpha_0(k), ratio(k), ratio_low(k), ratio_high(k), p_value(k)
+      real(c_double), intent(in) :: activation(k), multiplier(k), linear(k), nonlinear(k), years(k), bound(k)
       integer(c_int64_t), intent(out) :: sent(5)
       type(design_type) :: designs(k)
       type(lines_type) :: words
@@ -290,17 +293,17 @@ contains
          associate (design => designs(i))
             design%name = words%line(2*i - 1)%text
             design%curve = as_curve(curves(:, i), codes(:, i), words%line(2*i)%text)
-            design%steel = numbers(1, i)
-            design%alpha_0 = numbers(2, i)
-            design%is_compared = numbers(3, i) > 0.0_c_double
-            design%ratio = numbers(3, i)
-            design%low = numbers(4, i)
-            design%high = numbers(5, i)
-            design%p_value = numbers(6, i)
-            design%safety = safety_type(numbers(7, i) > 0.0_c_double, numbers(8, i), numbers(7, i), merge(numbers(9, i), &
-               & -1.0_c_double, numbers(9, i) > 0.0_c_double), numbers(10, i), merge(numbers(11, i), -1.0_c_double, &
-               & numbers(11, i) > 0.0_c_double), merge('<', merge('>', ' ', numbers(12, i) > 0.0_c_double), &
-               & numbers(12, i) < 0.0_c_double))
+            design%steel = steel(i)
+            design%alpha_0 = alpha_0(i)
+            design%is_compared = ratio(i) > 0.0_c_double
+            design%ratio = ratio(i)
+            design%low = ratio_low(i)
+            design%high = ratio_high(i)
+            design%p_value = p_value(i)
+            design%safety = safety_type(is_known=activation(i) > 0.0_c_double, multiplier=multiplier(i), &
+               & activation=activation(i), linear=merge(linear(i), -1.0_c_double, linear(i) > 0.0_c_double), &
+               & nonlinear=nonlinear(i), years=merge(years(i), -1.0_c_double, years(i) > 0.0_c_double), &
+               & bound=merge('<', merge('>', ' ', bound(i) > 0.0_c_double), bound(i) < 0.0_c_double))
          end associate
          call put_design(table, designs(i), designs(1), im)
          call table%end_row()
@@ -310,10 +313,10 @@ contains
 
    !> k sources: name and distribution of each as lines, its fractiles, its two curves, its Sobol indices with their intervals
    !> (NaN: none) and, of the curves, kinds of errors as further lines
-   subroutine source_table(texts, values, curves, codes, indices, k, sent)
+   subroutine source_table(texts, values, curves, codes, first, first_interval, total, total_interval, k, sent)
       character(len=*), intent(in) :: texts
       integer(c_int), intent(in) :: k, codes(3, 2, k)
-      real(c_double), intent(in) :: values(3, k), curves(14, 2, k), indices(6, k)
+      real(c_double), intent(in) :: values(3, k), curves(14, 2, k), first(k), first_interval(2, k), total(k), total_interval(2, k)
       integer(c_int64_t), intent(out) :: sent(5)
       type(lines_type) :: words
       type(columns_type) :: table
@@ -322,20 +325,20 @@ contains
 
       call split_lines(texts, words)
       do i = 1, k
-         associate (line => words%line(4*i - 3:4*i))
+         associate (line => words%line(4*i - 3:4*i), indices => [first(i), first_interval(:, i), total(i), total_interval(:, i)])
             call put_source(table, line(1)%text, line(2)%text, values(:, i), [as_curve(curves(:, 1, i), codes(:, 1, i), &
-               & line(3)%text), as_curve(curves(:, 2, i), codes(:, 2, i), line(4)%text)], indices(:, i), &
-               & .not. any(indices(:, i) /= indices(:, i)))
+               & line(3)%text), as_curve(curves(:, 2, i), codes(:, 2, i), line(4)%text)], first(i), first_interval(:, i), &
+               & total(i), total_interval(:, i), .not. any(indices /= indices))
             call table%end_row()
          end associate
       end do
       call send_table(table, error, sent)
    end subroutine source_table
 
-   !> A time history of n rows: time, acceleration, rotation and velocity; side and flag of an impact
-   subroutine trace_table(reals, integers, capacity, n, sent)
-      integer(c_int), intent(in) :: n, integers(n, 2)
-      real(c_double), intent(in) :: reals(n, 4), capacity
+   !> A time history of n rows; after_impact: 1 just after one
+   subroutine trace_table(time, acceleration, rotation, velocity, side, after_impact, capacity, n, sent)
+      integer(c_int), intent(in) :: n, side(n), after_impact(n)
+      real(c_double), intent(in) :: time(n), acceleration(n), rotation(n), velocity(n), capacity
       integer(c_int64_t), intent(out) :: sent(5)
       type(trace_type) :: trace
       type(columns_type) :: table
@@ -344,12 +347,12 @@ contains
       call check_room(error, reals=20.0_c_double*n)
       if (.not. allocated(error)) then
          trace%rows = n
-         trace%time = reals(:, 1)
-         trace%acceleration = reals(:, 2)
-         trace%rotation = reals(:, 3)
-         trace%velocity = reals(:, 4)
-         trace%side = real(integers(:, 1), c_double)
-         trace%after_impact = integers(:, 2) == 1
+         trace%time = time
+         trace%acceleration = acceleration
+         trace%rotation = rotation
+         trace%velocity = velocity
+         trace%side = real(side, c_double)
+         trace%after_impact = after_impact == 1
          call put_trace(table, trace, capacity)
       end if
       call send_table(table, error, sent)

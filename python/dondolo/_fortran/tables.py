@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import math
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,19 +20,32 @@ TableColumns = dict[str, Column]
 IntArray = NDArray[np.integer[Any]]
 
 
-class FlatCurve(NamedTuple):
-    """A curve as the library takes it for a table.
+class TableNumbers(NamedTuple):
+    """Numbers of a curve in the order in which a table takes them (as_curve in boundary.f90).
 
-    Attributes
-    ----------
-    numbers : tuple of float
-        theta, beta, naive covariance (3), log likelihood, bracket (2), covariance (3), degrees of freedom, deviance
-        and EDP threshold, 0 if it is not known.
-    status, errors : str
-    clusters, deviance_dof : int
+    Covariances are those of (ln theta, beta): both variances and what is between; `edp_threshold` is 0 if not known.
     """
 
-    numbers: tuple[float, ...]
+    theta: float
+    beta: float
+    naive_11: float
+    naive_12: float
+    naive_22: float
+    log_likelihood: float
+    bracket_low: float
+    bracket_high: float
+    own_11: float
+    own_12: float
+    own_22: float
+    degrees_of_freedom: float
+    deviance: float
+    edp_threshold: float
+
+
+class FlatCurve(NamedTuple):
+    """A curve as the library takes it for a table."""
+
+    numbers: TableNumbers
     status: str
     errors: str
     clusters: int
@@ -61,12 +75,10 @@ def wall_columns(
 
 
 def history_columns(
-    texts: Iterable[str], im: str, integers: Sequence[Any], reals: Sequence[Any], has: tuple[bool, bool, bool]
+    texts: Iterable[str], im: str, columns: Mapping[str, NDArray[Any]], has: Mapping[str, bool]
 ) -> TableColumns:
-    """Columns of ``_histories.csv``; texts, numbers and what they have as tables.f90 lists them."""
-    flags = np.array(has, dtype=np.int32)
-    numbers = np.array(integers), np.array(reals)
-    return _receive(_core.tables.history_table(text_lines(texts), im.encode(), *numbers, flags))
+    """Columns of ``_histories.csv``; numbers and what they have under the names that tables.f90 has for them."""
+    return _receive(_core.tables.history_table(text_lines(texts), im.encode(), **columns, **has))
 
 
 def stripe_columns(
@@ -158,35 +170,63 @@ def tie_columns(
     return _receive(_core.tables.tie_table(_pairs(walls), im.encode(), levels, numbers, histories, counts, elongations))
 
 
+class Safety(NamedTuple):
+    """What the check of a design comes to, for its table; NaN for none.
+
+    Attributes
+    ----------
+    activation, multiplier : float
+        a_0* [m/s2] and alpha_0.
+    linear, nonlinear : float
+        Safety indices of SLV by both checks.
+    years : float
+        Return period of the capacity by the nonlinear check of SLV.
+    bound : float
+        Whether this is a bound: -1 an upper one, 1 a lower one, else 0.
+    """
+
+    activation: float = math.nan
+    multiplier: float = math.nan
+    linear: float = math.nan
+    nonlinear: float = math.nan
+    years: float = math.nan
+    bound: float = math.nan
+
+
 def design_columns(
-    names: Iterable[str], im: str, curves: Sequence[FlatCurve], numbers: Sequence[FloatArray]
+    names: Iterable[str],
+    im: str,
+    curves: Sequence[FlatCurve],
+    columns: Mapping[str, FloatArray],
+    safety: Sequence[Safety],
 ) -> TableColumns:
-    """Columns of ``_designs.csv``; numbers as tables.f90 lists them, NaN for none."""
+    """Columns of ``_designs.csv``; numbers under the names that tables.f90 has for them, NaN for none."""
+    columns = {**columns, **dict(zip(Safety._fields, np.array(safety).T, strict=True))}
     words = (word for name, curve in zip(names, curves, strict=True) for word in (name, curve.errors))
-    flat = (*flat_curves(curves), np.nan_to_num(numbers))
-    return _receive(_core.tables.design_table(text_lines(words), im.encode(), *flat))
+    numbers = {what: np.nan_to_num(values) for what, values in columns.items()}
+    return _receive(_core.tables.design_table(text_lines(words), im.encode(), *flat_curves(curves), **numbers))
 
 
 def source_columns(
     sources: Iterable[tuple[str, str]],
     values: FloatArray,
     curves: Sequence[tuple[FlatCurve, FlatCurve]],
-    indices: Sequence[FloatArray],
+    indices: Mapping[str, FloatArray],
 ) -> TableColumns:
     """Columns of ``_sources.csv``.
 
-    Of each source name and distribution, three fractiles, the curves at the outer ones, and Sobol indices with bounds.
+    Of each source name and distribution, three fractiles, the curves at the outer ones, and Sobol indices with their
+    intervals under the names that tables.f90 has for them.
     """
     words = (
         word for names, both in zip(sources, curves, strict=True) for word in (*names, *(one.errors for one in both))
     )
-    return _receive(_core.tables.source_table(text_lines(words), values.T, *_flat_pairs(curves), np.array(indices)))
+    return _receive(_core.tables.source_table(text_lines(words), values.T, *_flat_pairs(curves), **indices))
 
 
-def trace_columns(reals: Sequence[Any], side: Any, after_impact: Any, capacity: float) -> TableColumns:
-    """Columns of ``_history.csv``; the first are time, acceleration, rotation and velocity."""
-    integers = np.array([side, after_impact], dtype=np.int32).T
-    return _receive(_core.tables.trace_table(np.array(reals).T, integers, capacity))
+def trace_columns(columns: Mapping[str, Any], capacity: float) -> TableColumns:
+    """Columns of ``_history.csv``; numbers under the names that tables.f90 has for them."""
+    return _receive(_core.tables.trace_table(**columns, capacity=capacity))
 
 
 def plain(columns: TableColumns) -> dict[str, Any]:
@@ -220,4 +260,4 @@ def flat_curves(curves: Sequence[FlatCurve]) -> tuple[FloatArray, NDArray[np.int
 def _flat_pairs(curves: Sequence[tuple[FlatCurve, FlatCurve]]) -> tuple[FloatArray, NDArray[np.int32]]:
     """The same of pairs: (14, 2, pairs) and (3, 2, pairs)."""
     numbers, codes = flat_curves([curve for both in curves for curve in both])
-    return numbers.reshape(14, -1, 2).transpose(0, 2, 1), codes.reshape(3, -1, 2).transpose(0, 2, 1)
+    return numbers.reshape(len(numbers), -1, 2).transpose(0, 2, 1), codes.reshape(3, -1, 2).transpose(0, 2, 1)

@@ -17,27 +17,29 @@ module uncertainty
 
 contains
 
-   !> Sobol indices of k quantities from n samples: first-order index, its interval, total index, its interval, of each; and the
-   !> part that is not explained
-   subroutine sensitivity(values, outcome, n, k, indices, rest, failure)
+   !> Sobol indices of k quantities from n samples, first-order and total with their intervals; and the part that is not explained
+   subroutine sensitivity(values, outcome, n, k, first, first_interval, total, total_interval, rest, failure)
       !f2py threadsafe
       integer(c_int), intent(in) :: n, k
       real(c_double), intent(in) :: values(n, k), outcome(n)
-      real(c_double), intent(out) :: indices(6, k), rest
+      real(c_double), intent(out) :: first(k), first_interval(2, k), total(k), total_interval(2, k), rest
       integer(c_int64_t), intent(out) :: failure(5)
       type(sensitivity_type) :: found
       type(error_type), allocatable :: error
 
-      indices = 0
+      first = 0
+      first_interval = 0
+      total = 0
+      total_interval = 0
       rest = 0
       call check_room(error, reals=4.0_c_double*n*k*(k + 4))
       if (.not. allocated(error)) call new_sensitivity(found, values, outcome, error)
       call report(error, failure)
       if (allocated(error)) return
-      indices(1, :) = found%first
-      indices(2:3, :) = found%first_interval
-      indices(4, :) = found%total
-      indices(5:6, :) = found%total_interval
+      first = found%first
+      first_interval = found%first_interval
+      total = found%total
+      total_interval = found%total_interval
       rest = found%rest
    end subroutine sensitivity
 

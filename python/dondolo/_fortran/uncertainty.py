@@ -36,10 +36,11 @@ def sensitivity(values: FloatArray, outcome: FloatArray) -> Sensitivity:
     """Which of several independent quantities (samples, quantities) an outcome (samples,) owes its scatter to."""
     if len(outcome) == 0:
         raise DondoloError("no sample has a curve, so that its scatter cannot be apportioned")
-    indices, rest, failure = _core.uncertainty.sensitivity(np.asfortranarray(values), outcome)
+    first, first_interval, total, total_interval, rest, failure = _core.uncertainty.sensitivity(
+        np.asfortranarray(values), outcome
+    )
     check(failure)
-    rows = indices.T.copy()
-    return Sensitivity(rows[:, 0], rows[:, 1:3], rows[:, 3], rows[:, 4:6], float(rest))
+    return Sensitivity(first, first_interval.T.copy(), total, total_interval.T.copy(), float(rest))
 
 
 def smallest_sample(quantities: int) -> int:

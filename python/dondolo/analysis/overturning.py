@@ -452,8 +452,8 @@ class _Runner(NamedTuple):
                 (np.asarray(places) + 1).astype(np.int32),
                 np.ascontiguousarray(scale),
                 self.engine,
-                self.settings,
                 self.threads,
+                **self.settings._asdict(),
             )
         check(failure)
         return edp, collapsed == 1, impacts, time

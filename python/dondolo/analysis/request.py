@@ -162,7 +162,7 @@ class Request:
         if self.im:
             suite.measure(self.im, self.threads)
         number, failure = _core.stripes.new_study(
-            suite.number, im, self.levels, polarity, engine, self.settings, self.threads
+            suite.number, im, self.levels, polarity, engine, self.threads, **self.settings._asdict()
         )
         check(failure)
         study = StudyHandle(number, suite)
@@ -251,7 +251,7 @@ class Request:
             with Stoppable():
                 counts, failure = _core.stripes.run_block(study, people, one + 1, last + 1, first + 1, *rows, count)
             check(failure)
-            work = Work.total([work, counts.tolist()])
+            work = Work.total([work, Work._of_counts(counts)])
 
         done, interrupted = in_blocks(total, pace, block, report)
         return Outcome(edp, collapsed.astype(np.bool_), impacts, peak, error, work, done), interrupted

@@ -311,8 +311,16 @@ class Response(Shown, Saved):
         return [("initial state", f"{self.initial_rotation:.6g} rad, {self.initial_velocity:.6g} rad/s")]
 
     def _table(self) -> tables.Table:
-        reals = (*self._motion()[:3], self.velocity)
-        return plain(trace_columns(reals, self.side, self.after_impact, self.wall.capacity_angle))
+        time, acceleration, rotation, after_impact = self._motion()
+        columns = {
+            "time": time,
+            "acceleration": acceleration,
+            "rotation": rotation,
+            "velocity": self.velocity,
+            "side": self.side,
+            "after_impact": after_impact,
+        }
+        return plain(trace_columns(columns, self.wall.capacity_angle))
 
     def to_frame(self) -> Any:
         """The time history as a pandas DataFrame."""
@@ -428,10 +436,10 @@ def simulate(
             place,
             factor,
             as_text("engine", how.engine),
-            settings,
             rotation,
             velocity,
             int(history),
+            **settings._asdict(),
         )
     check(sent)
     motion: dict[str, Any] = {}

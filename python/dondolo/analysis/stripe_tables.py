@@ -11,6 +11,12 @@ from dondolo._fortran.tables import TableColumns, history_columns
 if TYPE_CHECKING:
     from dondolo.analysis.stripes import Stripes
 
+# Columns that stripes have as matrices, or not at all
+_COLUMNS = (
+    *("scale", "edp", "time_of_peak", "collapsed", "impacts"),
+    *("edp_error", "status", "edp_lowest", "edp_highest", "uplift"),
+)
+
 
 def histories_table(stripes: Stripes) -> TableColumns:
     """Columns of ``_histories.csv``."""
@@ -20,16 +26,15 @@ def histories_table(stripes: Stripes) -> TableColumns:
     def of_rows(values: Any) -> Any:
         return np.zeros(len(level)) if values is None else values[ran]
 
-    integers = [
-        stripes.record_index[history] + 1,
-        stripes.polarity[history],
-        *map(of_rows, (stripes.collapsed, stripes.impacts, stripes.status, stripes.uplift)),
-    ]
-    reals = [
-        stripes.levels[level],
-        *map(of_rows, (stripes.scale, stripes.edp, stripes.time_of_peak)),
-        *map(of_rows, (stripes.edp_error, stripes.edp_lowest, stripes.edp_highest)),
-    ]
+    columns = {name: of_rows(getattr(stripes, name)) for name in _COLUMNS} | {
+        "record": stripes.record_index[history] + 1,
+        "polarity": stripes.polarity[history],
+        "level": stripes.levels[level],
+    }
     texts = (stripes.wall.name, stripes.wall.mechanism, *stripes.record_names[: stripes.n_records])
-    has = stripes.edp_error is not None, stripes.status is not None, stripes.uplift is not None
-    return history_columns(texts, stripes.im, integers, reals, has)
+    has = {
+        "has_errors": stripes.edp_error is not None,
+        "has_certificates": stripes.status is not None,
+        "has_uplifts": stripes.uplift is not None,
+    }
+    return history_columns(texts, stripes.im, columns, has)

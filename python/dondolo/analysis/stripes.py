@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_array, as_number, one_of
 from dondolo._base.shown import Shown, span
-from dondolo._fortran.curves import CurveData, warnings_of_curve
+from dondolo._fortran.curves import warnings_of_curve
 from dondolo._fortran.library import constants, warn
 from dondolo._fortran.records import levels_in_words, unit_of
 from dondolo._fortran.tables import TableColumns, plain, stripe_columns
@@ -429,9 +429,8 @@ class Stripes(Shown, Saved):
 
     def _warnings_of(self, curve: Fragility) -> list[DondoloWarning]:
         """Warnings of a curve of these stripes."""
-        low, high = curve.bracket
-        data = CurveData.of(curve.status, curve.theta, curve.beta, (low, min(high, np.finfo(np.float64).max)))
-        return warnings_of_curve(upload((self.wall,)), self.levels, float(np.nanmax(self.edp)), data)
+        numbers = curve.theta, curve.beta, curve.bracket
+        return warnings_of_curve(upload((self.wall,)), self.levels, float(np.nanmax(self.edp)), curve.status, *numbers)
 
     def certify(
         self,

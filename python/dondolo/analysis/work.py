@@ -7,8 +7,10 @@ from collections.abc import Iterable
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dondolo._fortran.buildings import drift_note
+from dondolo._fortran.library import constants
 from dondolo._storage.saved import part_of_results
 
 
@@ -67,6 +69,11 @@ class Work(NamedTuple):
         5
         """
         return cls(*map(sum, zip(cls(), *parts, strict=True)))
+
+    @classmethod
+    def _of_counts(cls, counts: NDArray[np.int64]) -> Work:
+        """The counts that the library sends, under its names of them."""
+        return cls(**dict(zip(constants().work, counts.tolist(), strict=True)))
 
     def _of_run(self, *contents: Any) -> dict[str, Work]:
         """The work of a run under a checksum of its contents, arrays and texts."""

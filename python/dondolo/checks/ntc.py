@@ -25,6 +25,7 @@ from dondolo._fortran.checks import (
     site_input,
 )
 from dondolo._fortran.library import constants, properties
+from dondolo._fortran.tables import Safety
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved, part_of_results
 from dondolo.analysis.request import Polarity
@@ -128,17 +129,17 @@ class CodeCheck(Shown, Saved):
         row = self._row(*key, quantity)
         return np.nan if row is None or self._is_void(row) else row.value
 
-    def _safety(self) -> tuple[float, ...]:
-        """a_0*, alpha_0, linear and nonlinear safety index of SLV, T_R,C, and the sign of its bound; NaN for none."""
-        rows = [
-            self._row("mechanism", "", "a_0"),
-            self._row("mechanism", "", "alpha_0"),
-            self._row("linear", "SLV", "zeta_e"),
-            self._row("nonlinear", "SLV", "zeta_e"),
-            years := self._row("nonlinear", "SLV", "return_period_capacity"),
-        ]
+    def _safety(self) -> Safety:
+        """What it comes to."""
+        rows = {
+            "activation": self._row("mechanism", "", "a_0"),
+            "multiplier": self._row("mechanism", "", "alpha_0"),
+            "linear": self._row("linear", "SLV", "zeta_e"),
+            "nonlinear": self._row("nonlinear", "SLV", "zeta_e"),
+            "years": (years := self._row("nonlinear", "SLV", "return_period_capacity")),
+        }
         bound = {"<": -1.0, ">": 1.0}.get(years.bound, 0.0) if years is not None else 0.0
-        return (*(np.nan if row is None else row.value for row in rows), bound)
+        return Safety(**{name: np.nan if row is None else row.value for name, row in rows.items()}, bound=bound)
 
     def _verdict(self, key: tuple[str, str]) -> Verdict:
         """The outcome of a check (method, limit state) in words; none is verified while something of a tie is open."""

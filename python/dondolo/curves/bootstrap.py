@@ -146,7 +146,8 @@ def fit_samples(
     levels: FloatArray, collapses: FloatArray, histories: FloatArray
 ) -> tuple[FloatArray, FloatArray, np.ndarray[Any, Any]]:
     """Curves of many samples: theta and beta, NaN where a sample has no fit, and the status of each."""
-    curves, statuses = fit_curves(levels, collapses, histories)
-    status = np.array(statuses)
+    curves = fit_curves(levels, collapses, histories)
+    status = np.array([one.status for one in curves])
     fitted = np.isin(status, constants().fitted)
-    return np.where(fitted, curves[:, 0], np.nan), np.where(fitted, curves[:, 1], np.nan), status
+    theta, beta = (np.array(values) for values in zip(*((one.theta, one.beta) for one in curves), strict=True))
+    return np.where(fitted, theta, np.nan), np.where(fitted, beta, np.nan), status

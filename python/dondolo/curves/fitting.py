@@ -102,19 +102,20 @@ def fit_fragility(
 
 def warnings_of_fit(curve: Fragility) -> list[DondoloWarning]:
     """Warnings of a fitted curve of counts without a wall: it extrapolates, or is nearly flat."""
-    return warnings_of_curve(None, curve.levels, 0.0, CurveData.of(curve.status, curve.theta, curve.beta))
+    return warnings_of_curve(None, curve.levels, 0.0, curve.status, curve.theta, curve.beta, curve.bracket)
 
 
 def counts_are_flat(levels: FloatArray, collapses: ArrayLike, histories: int) -> bool:
     """Whether collapses hardly increase with the level: whether the binomial fit to them is nearly flat."""
     counts = np.asarray(collapses, dtype=np.float64)
-    return fit_curves(levels, counts[None, :], np.full((1, len(levels)), float(histories)))[1][0] == "nearly_flat"
+    (found,) = fit_curves(levels, counts[None, :], np.full((1, len(levels)), float(histories)))
+    return found.status == "nearly_flat"
 
 
 def fit(levels: FloatArray, collapses: FloatArray, histories: FloatArray, **origin: Any) -> Fragility:
     """Fit without a warning; with a sample in `origin`, its standard errors are clustered."""
-    curves, statuses = fit_curves(levels, collapses[None, :], histories[None, :])
-    curve = curve_of(CurveData(statuses[0], curves[0]), levels, collapses, histories, **origin)
+    (data,) = fit_curves(levels, collapses[None, :], histories[None, :])
+    curve = curve_of(data, levels, collapses, histories, **origin)
     if curve.has_fit and curve.sample is not None:
         return with_errors(curve, errors_of_sample(curve.sample, (curve.theta, curve.beta)))
     return curve
@@ -130,20 +131,22 @@ def curve_of(
     data: CurveData, levels: FloatArray, collapses: FloatArray, histories: FloatArray, **origin: Any
 ) -> Fragility:
     """A curve as Fortran has fitted it."""
-    theta, beta, var_theta, both, var_beta, height, low, high, deviance, dof = (float(value) for value in data.numbers)
-    if data.status not in constants().fitted:
-        theta = beta = var_theta = both = var_beta = height = deviance = np.nan
-    largest = np.finfo(np.float64).max
-    covariance = np.array([[var_theta, both], [both, var_beta]])
+    is_there = data.status in constants().fitted
+
+    def of_fit(value: float) -> float:
+        return value if is_there else np.nan
+
+    both = of_fit(data.covariance)
+    covariance = np.array([[of_fit(data.var_ln_theta), both], [both, of_fit(data.var_beta)]])
     return Fragility(
-        theta=theta,
-        beta=beta,
+        theta=of_fit(data.theta),
+        beta=of_fit(data.beta),
         covariance=covariance,
         status=data.status,
-        log_likelihood=height,
-        deviance=deviance,
-        deviance_dof=int(dof),
-        bracket=(low, np.inf if high >= largest else high),
+        log_likelihood=of_fit(data.log_likelihood),
+        deviance=of_fit(data.deviance),
+        deviance_dof=int(data.deviance_dof),
+        bracket=(data.bracket_low, np.inf if data.bracket_high >= np.finfo(np.float64).max else data.bracket_high),
         levels=levels,
         collapses=collapses,
         histories=histories,

@@ -35,9 +35,6 @@ from dondolo.errors import DondoloError, InputError
 if TYPE_CHECKING:
     from dondolo.curves.fragility import Fragility
 
-# Place of the deviance among the numbers of a curve
-_DEVIANCE = 8
-
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
 class GoodnessOfFit(Shown, Saved):
@@ -117,8 +114,7 @@ def goodness_of_fit(curve: Fragility, n_resamples: int, seed: Any) -> GoodnessOf
             raise DondoloError("n_resamples: weighted counts cannot be resampled: counts of histories must be integers")
         drawn = generator.binomial(histories.astype(np.int64), chance, size=(number, len(levels))).astype(np.float64)
         counts, what = (levels, drawn, np.broadcast_to(histories, drawn.shape)), "histories"
-    numbers, statuses = fit_curves(*counts)
-    deviances = numbers[np.isin(statuses, constants().fitted), _DEVIANCE]
+    deviances = np.array([one.deviance for one in fit_curves(*counts) if one.status in constants().fitted])
     p_value = (1 + np.count_nonzero(deviances >= curve.deviance)) / (1 + len(deviances))
     return dataclasses.replace(found, p_value=float(p_value), resampled=what, n_resamples=len(deviances))
 

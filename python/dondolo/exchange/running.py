@@ -116,7 +116,7 @@ def _tables(parcel: Parcel) -> tuple[dict[str, ColumnsInMemory], str]:
 
 def _contents(case: Case, parcel: Parcel) -> Contents:
     """What the store of a population has, with the records that run at each level and counts of the work."""
-    work = Work(*parcel["work"].astype(int).tolist())
+    work = Work._of_counts(parcel["work"].astype(np.int64))
     return contents_of(parcel, case.records, parcel["runs"].T.astype(np.float64), work)
 
 

@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from dondolo._base.arguments import one_of
-from dondolo._fortran.curves import CurveData, fit_curves
+from dondolo._fortran.curves import fit_curves
 from dondolo._fortran.library import constants
 from dondolo._storage.columns import Columns
 from dondolo.curves.clusters import Errors, errors_of_table, no_errors
@@ -114,10 +114,9 @@ def _unions(typology: Typology, table: Columns, walls: Sequence[tuple[str, int]]
     collapses = np.array([table.numbers("collapses", first, levels) for _, first in walls])
     share = np.array([ends[name] or 1.0 for name, _ in walls])
     reached = np.minimum(collapses / share[:, None], histories)
-    numbers, statuses = fit_curves(typology.levels, reached, histories)
     curves = {}
-    for i, (name, first) in enumerate(walls):
-        edp, data = table.number("edp_threshold", first), CurveData(statuses[i], numbers[i])
+    for i, ((name, first), data) in enumerate(zip(walls, fit_curves(typology.levels, reached, histories), strict=True)):
+        edp = table.number("edp_threshold", first)
         origin = {"im": typology.im, "edp_threshold": edp, "saturation": ends[name]}
         curve = curve_of(data, typology.levels, reached[i], histories[i], **origin)
         curves[name] = with_errors(curve, errors_of_row(table, first)) if curve.has_fit else curve

@@ -99,7 +99,7 @@ class Store:
     def _state(self) -> tuple[NDArray[np.bool_], Work]:
         there, counts, failure = _core.stores.store_state(self._handle, len(self._request.walls))
         check(failure)
-        return there.astype(bool), Work(*counts.tolist())
+        return there.astype(bool), Work._of_counts(counts)
 
     def __enter__(self) -> Store:
         return self

@@ -15,7 +15,7 @@ from dondolo._base.arguments import FloatArray, as_number, one_of
 from dondolo._base.shown import Shown, shown_dispersion
 from dondolo._fortran.curves import warnings_of_union
 from dondolo._fortran.library import constants, warn
-from dondolo._fortran.populations import FlatPopulation, coded
+from dondolo._fortran.populations import FlatCurves, FlatPopulation
 from dondolo._fortran.records import levels_in_words, unit_of
 from dondolo._fortran.tables import TableColumns, plain, stripe_columns, typology_columns
 from dondolo._storage import tables
@@ -173,10 +173,10 @@ class Typology(Shown, Saved):
         return dataclasses.replace(self, warnings=tuple(dict.fromkeys([*self.warnings, *said])))
 
     @functools.cached_property
-    def _flat(self) -> tuple[FlatPopulation, tuple[FloatArray, IntArray]]:
+    def _flat(self) -> tuple[FlatPopulation, FlatCurves]:
         """The population with its collapses, and the curves of its rows, as Fortran takes them."""
-        curves = [(curve.status, curve.theta, curve.beta) for curve in self.curves]
-        return flat_population(self.population, self.levels, self.collapses.T, self.histories), coded(curves)
+        curves = FlatCurves.of([(curve.theta, curve.beta, curve.status) for curve in self.curves])
+        return flat_population(self.population, self.levels, self.collapses.T, self.histories), curves
 
     def __getitem__(self, key: str | tuple[str, str]) -> PopulationCurve:
         """A curve of the population, or of a part of it: of a mechanism, or of a mechanism and a group.

@@ -201,12 +201,16 @@ class UncertainWall(tables.Tabular, Saved):
 
     def _columns(self) -> TableColumns:
         """Columns of ``_sources.csv``."""
-        first, total = self.first_interval.T, self.total_interval.T
         return source_columns(
             list(zip(self.sources, self.distributions, strict=True)),
             self.values,
             [(flat(low), flat(high)) for low, high in self.ends],
-            [self.first, *first, self.total, *total],
+            {
+                "first": self.first,
+                "first_interval": self.first_interval.T,
+                "total": self.total,
+                "total_interval": self.total_interval.T,
+            },
         )
 
     def _table(self) -> tables.Table:

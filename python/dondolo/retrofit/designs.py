@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from dondolo._base.arguments import FloatArray, as_number, instance_of, tails
 from dondolo._fortran.checks import check_columns
 from dondolo._fortran.records import blank_unit
-from dondolo._fortran.tables import TableColumns, design_columns, plain
+from dondolo._fortran.tables import Safety, TableColumns, design_columns, plain
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.request import Polarity
@@ -169,12 +169,16 @@ class DesignComparison(tables.Tabular, Saved):
 
     def _columns(self) -> TableColumns:
         """Columns of ``_designs.csv``."""
-        p_value = np.array([np.nan if one is None else one.p_value for one in self.comparisons])
-        safety = np.full((6, len(self.names)), np.nan)
-        for place, check in enumerate(self.checks):
-            safety[:, place] = check._safety()
-        numbers = [self.steel, self.alpha_0, self.ratio, *self.ratio_interval.T, p_value, *safety]
-        return design_columns(self.names, self.im, [flat(curve) for curve in self.curves], numbers)
+        safety = [check._safety() for check in self.checks] or [Safety()] * len(self.names)
+        columns = {
+            "steel": self.steel,
+            "alpha_0": self.alpha_0,
+            "ratio": self.ratio,
+            "ratio_low": self.ratio_interval[:, 0],
+            "ratio_high": self.ratio_interval[:, 1],
+            "p_value": np.array([np.nan if one is None else one.p_value for one in self.comparisons]),
+        }
+        return design_columns(self.names, self.im, [flat(curve) for curve in self.curves], columns, safety)
 
     def _table(self) -> tables.Table:
         return {

@@ -292,19 +292,25 @@ contains
       class(table_type), intent(inout) :: table
       type(error_type), allocatable, intent(out) :: error
 
-      real(wp) :: indices(6)
+      real(wp) :: first, first_interval(2), total, total_interval(2)
       integer :: i, j
 
-      indices = 0.0_wp
+      first = 0.0_wp
+      first_interval = 0.0_wp
+      total = 0.0_wp
+      total_interval = 0.0_wp
       associate (wall => case%table%base_wall)
          do i = 1, size(wall%sources)
             if (allocated(results%sensitivity)) then
-               indices(:3) = [results%sensitivity%first(i), results%sensitivity%first_interval(:, i)]
-               indices(4:) = [results%sensitivity%total(i), results%sensitivity%total_interval(:, i)]
+               first = results%sensitivity%first(i)
+               first_interval = results%sensitivity%first_interval(:, i)
+               total = results%sensitivity%total(i)
+               total_interval = results%sensitivity%total_interval(:, i)
             end if
             call put_source(table, trim(wall%sources(i)), case%uncertainty%word(trim(wall%sources(i))), &
                & [wall%values(i, wall%row_of_end(i, 1)), wall%values(i, wall%samples + 2), wall%values(i, wall%row_of_end(i, 2))], &
-               & [(collapse_of(results, wall%row_of_end(i, j)), j=1, 2)], indices, allocated(results%sensitivity))
+               & [(collapse_of(results, wall%row_of_end(i, j)), j=1, 2)], first, first_interval, total, total_interval, &
+               & allocated(results%sensitivity))
             call table%end_row()
          end do
       end associate

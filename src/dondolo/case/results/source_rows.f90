@@ -15,7 +15,7 @@ module dondolo_case_source_rows
 contains
 
    !> A source as a row
-   subroutine put_source(table, name, distribution, values, curves, indices, given)
+   subroutine put_source(table, name, distribution, values, curves, first, first_interval, total, total_interval, given)
       class(table_type), intent(inout) :: table
       !> The property, and its distribution
       character(len=*), intent(in) :: name, distribution
@@ -24,7 +24,7 @@ contains
       !> Curves of collapse at the first and at the last of these
       type(fragility_type), intent(in) :: curves(2)
       !> Sobol indices: first-order with its interval, and total with its own
-      real(wp), intent(in) :: indices(6)
+      real(wp), intent(in) :: first, first_interval(2), total, total_interval(2)
       !> Are there any?
       logical, intent(in) :: given
 
@@ -35,12 +35,12 @@ contains
       call table%put('value_95', values(3))
       call table%put('theta_5', curves(1)%theta, curves(1)%has_fit())
       call table%put('theta_95', curves(2)%theta, curves(2)%has_fit())
-      call table%put('first', indices(1), given)
-      call table%put('first_low', indices(2), given)
-      call table%put('first_high', indices(3), given)
-      call table%put('total', indices(4), given)
-      call table%put('total_low', indices(5), given)
-      call table%put('total_high', indices(6), given)
+      call table%put('first', first, given)
+      call table%put('first_low', first_interval(1), given)
+      call table%put('first_high', first_interval(2), given)
+      call table%put('total', total, given)
+      call table%put('total_low', total_interval(1), given)
+      call table%put('total_high', total_interval(2), given)
    end subroutine put_source
 
    !> A source in words
