@@ -112,6 +112,8 @@ def test_mean_of_one_mechanism(people, mechanism):
     members = people[mechanism].members
     curves = members.rows_at(np.arange(len(members.weights)), X)
     assert members.weights @ curves / sum(chances) == pytest.approx(people[mechanism](X), rel=1e-12)
+    # So have those of the library, of which each has one row here.
+    assert np.array_equal(curves, people[mechanism].probabilities(X))
 
 
 def test_the_simulation_tells_wrong_formulas():

@@ -376,7 +376,8 @@ def test_procedures_that_compute_release_the_lock(root):
     assert free == {
         "take_parcel", "take_series", "measure_suite", "wall_terms", "check_record", "intensities", "spectrum",
         "ground_velocity", "significant_times", "certify", "simulate", "run_block", "run_case", "run_rows",
-        "run_scaled", "fit_curves", "fit_logit", "probability", "wall_probability", "wall_slopes", "fit_population",
+        "run_scaled", "fit_curves", "fit_logit", "probability", "row_probability", "wall_probability", "wall_slopes",
+        "fit_population",
         "floor_motion", "felt_motion", "sensitivity", "publish_set", "write_table",
     }  # fmt: skip
 

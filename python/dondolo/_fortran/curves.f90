@@ -1,5 +1,6 @@
 !> Fragility curves.
 module curves
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_base_error, only : error_type
    use dondolo_base_student, only : quantile => student_quantile
@@ -15,13 +16,14 @@ module curves
    use dondolo_fragility_ratio, only : compare => compare_parameters
    use dondolo_interface_handles, only : find_walls
    use dondolo_parcel, only : parcel_type, report, send
+   use dondolo_population, only : interpolated
    use dondolo_population_occurrence, only : probability_of => wall_probability, slopes_of => wall_slopes
    use dondolo_wall, only : wall_type
    implicit none
    private
 
-   public :: fit_curves, cluster_changes, fit_logit, fit_ordinal, probability, wall_probability, wall_slopes, warn_of_curve
-   public :: compare_parameters, student_quantile, warn_of_union
+   public :: fit_curves, cluster_changes, fit_logit, fit_ordinal, probability, row_probability, wall_probability, wall_slopes
+   public :: warn_of_curve, compare_parameters, student_quantile, warn_of_union
 
    !> Fits that take a thread longer, by a few times, than it takes a team to begin and to end: some milliseconds
    integer, parameter :: fits_of_thread = 200
@@ -166,6 +168,24 @@ contains
       curve%beta = beta
       p = curve%probability(x)
    end subroutine probability
+
+   !> Probabilities (x, rows) of the rows of a population at n levels: by their curves, or without one, for a theta that is not
+   !> finite, by their fractions
+   subroutine row_probability(levels, fractions, theta, beta, x, m, r, n, p)
+      !f2py threadsafe
+      integer(c_int), intent(in) :: m, r, n
+      real(c_double), intent(in) :: levels(m), fractions(m, r), theta(r), beta(r), x(n)
+      real(c_double), intent(out) :: p(n, r)
+      integer :: i
+
+      do i = 1, r
+         if (ieee_is_finite(theta(i))) then
+            call probability(theta(i), beta(i), x, n, p(:, i))
+         else
+            p(:, i) = interpolated(levels, fractions(:, i), x)
+         end if
+      end do
+   end subroutine row_probability
 
    !> Quantile of Student's t
    subroutine student_quantile(p, degrees, t)

@@ -88,6 +88,14 @@ def fit_logit(
     return numbers, ("", "naive", "clustered")[done]
 
 
+def probability_of_rows(
+    levels: FloatArray, fractions: FloatArray, theta: FloatArray, beta: FloatArray, x: FloatArray
+) -> FloatArray:
+    """Probabilities (rows, n) of rows of a population if they can occur; fractions are (levels, rows)."""
+    found: FloatArray = _core.curves.row_probability(levels, np.asfortranarray(fractions), theta, beta, x).T
+    return found
+
+
 def probability_of_walls(
     p_occ: FloatArray, alternative: NDArray[np.int32], probabilities: FloatArray, rows: NDArray[np.integer[Any]]
 ) -> FloatArray:

@@ -3,6 +3,7 @@
 !> Curves come as numbers (14, curves) and codes (3, curves), which as_curve has, and of each the kind of its standard errors among
 !> its lines; the last number is the EDP threshold.
 module tables
+   use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_base_error, only : error_type
    use dondolo_base_lines, only : lines_type
@@ -20,6 +21,7 @@ module tables
    use dondolo_motion_response, only : response_type, trace_type
    use dondolo_population_designs, only : design_type
    use dondolo_population_occurrence, only : exclusive, occurrence_names
+   use dondolo_population_sensitivity, only : sensitivity_type
    use dondolo_population_typology, only : typology_type
    use dondolo_population_unions, only : union_type
    use dondolo_population_wall_row, only : wall_row_type
@@ -320,15 +322,16 @@ contains
       integer(c_int64_t), intent(out) :: sent(5)
       type(lines_type) :: words
       type(columns_type) :: table
+      type(sensitivity_type), allocatable :: sensitivity
       type(error_type), allocatable :: error
       integer :: i
 
+      if (all(ieee_is_finite(first))) sensitivity = sensitivity_type(first, total, first_interval, total_interval)
       call split_lines(texts, words)
       do i = 1, k
-         associate (line => words%line(4*i - 3:4*i), indices => [first(i), first_interval(:, i), total(i), total_interval(:, i)])
+         associate (line => words%line(4*i - 3:4*i))
             call put_source(table, line(1)%text, line(2)%text, values(:, i), [as_curve(curves(:, 1, i), codes(:, 1, i), &
-               & line(3)%text), as_curve(curves(:, 2, i), codes(:, 2, i), line(4)%text)], first(i), first_interval(:, i), &
-               & total(i), total_interval(:, i), .not. any(indices /= indices))
+               & line(3)%text), as_curve(curves(:, 2, i), codes(:, 2, i), line(4)%text)], i, sensitivity)
             call table%end_row()
          end associate
       end do

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
+from dondolo._fortran.curves import probability_of_rows
 from dondolo.curves.fragility import Fragility
 
 
@@ -33,10 +34,4 @@ class Members:
 
     def rows_at(self, rows: np.ndarray[Any, Any], x: FloatArray) -> FloatArray:
         """Probabilities (rows, x) of some rows, if their mechanisms can occur."""
-        from scipy.special import ndtr
-
-        with np.errstate(divide="ignore"):
-            found: FloatArray = ndtr((np.log(x) - np.log(self.theta[rows])[:, None]) / self.beta[rows][:, None])
-        for i in np.flatnonzero(np.isnan(self.theta[rows])):
-            found[i] = np.interp(x, np.append(0.0, self.levels), np.append(0.0, self.fractions[:, rows[i]]))
-        return found
+        return probability_of_rows(self.levels, self.fractions[:, rows], self.theta[rows], self.beta[rows], x)

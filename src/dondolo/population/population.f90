@@ -15,7 +15,7 @@ module dondolo_population
    implicit none
    private
 
-   public :: population_type, row_type, part_type
+   public :: population_type, row_type, part_type, interpolated
 
    !> A row: one mechanism of a wall
    type :: row_type

@@ -1,7 +1,6 @@
 !> The tables of results: one list of the endings of their names, the cases that have them, and their rows.
 module dondolo_case_result_tables
    use dondolo_base_error, only : error_type, raise_failure
-   use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
    use dondolo_base_property, only : find_property
    use dondolo_base_text, only : to_table, to_text
@@ -292,25 +291,13 @@ contains
       class(table_type), intent(inout) :: table
       type(error_type), allocatable, intent(out) :: error
 
-      real(wp) :: first, first_interval(2), total, total_interval(2)
       integer :: i, j
 
-      first = 0.0_wp
-      first_interval = 0.0_wp
-      total = 0.0_wp
-      total_interval = 0.0_wp
       associate (wall => case%table%base_wall)
          do i = 1, size(wall%sources)
-            if (allocated(results%sensitivity)) then
-               first = results%sensitivity%first(i)
-               first_interval = results%sensitivity%first_interval(:, i)
-               total = results%sensitivity%total(i)
-               total_interval = results%sensitivity%total_interval(:, i)
-            end if
             call put_source(table, trim(wall%sources(i)), case%uncertainty%word(trim(wall%sources(i))), &
                & [wall%values(i, wall%row_of_end(i, 1)), wall%values(i, wall%samples + 2), wall%values(i, wall%row_of_end(i, 2))], &
-               & [(collapse_of(results, wall%row_of_end(i, j)), j=1, 2)], first, first_interval, total, total_interval, &
-               & allocated(results%sensitivity))
+               & [(collapse_of(results, wall%row_of_end(i, j)), j=1, 2)], i, results%sensitivity)
             call table%end_row()
          end do
       end associate

@@ -6,6 +6,7 @@ module dondolo_case_source_rows
    use dondolo_case_results, only : results_type
    use dondolo_case_table, only : table_type
    use dondolo_fragility, only : fit_status_names, fragility_type
+   use dondolo_population_sensitivity, only : sensitivity_type
    use dondolo_population_typology, only : whole_population
    implicit none
    private
@@ -15,7 +16,7 @@ module dondolo_case_source_rows
 contains
 
    !> A source as a row
-   subroutine put_source(table, name, distribution, values, curves, first, first_interval, total, total_interval, given)
+   subroutine put_source(table, name, distribution, values, curves, source, sensitivity)
       class(table_type), intent(inout) :: table
       !> The property, and its distribution
       character(len=*), intent(in) :: name, distribution
@@ -23,11 +24,21 @@ contains
       real(wp), intent(in) :: values(3)
       !> Curves of collapse at the first and at the last of these
       type(fragility_type), intent(in) :: curves(2)
-      !> Sobol indices: first-order with its interval, and total with its own
-      real(wp), intent(in) :: first, first_interval(2), total, total_interval(2)
-      !> Are there any?
-      logical, intent(in) :: given
+      !> Its number among those that have Sobol indices
+      integer, intent(in) :: source
+      !> These, if there are any
+      type(sensitivity_type), intent(in), optional :: sensitivity
 
+      real(wp) :: first(3), total(3)
+      logical :: given
+
+      given = present(sensitivity)
+      first = 0.0_wp
+      total = 0.0_wp
+      if (given) then
+         first = [sensitivity%first(source), sensitivity%first_interval(:, source)]
+         total = [sensitivity%total(source), sensitivity%total_interval(:, source)]
+      end if
       call table%put('source', name)
       call table%put('distribution', distribution)
       call table%put('value_5', values(1))
@@ -35,12 +46,12 @@ contains
       call table%put('value_95', values(3))
       call table%put('theta_5', curves(1)%theta, curves(1)%has_fit())
       call table%put('theta_95', curves(2)%theta, curves(2)%has_fit())
-      call table%put('first', first, given)
-      call table%put('first_low', first_interval(1), given)
-      call table%put('first_high', first_interval(2), given)
-      call table%put('total', total, given)
-      call table%put('total_low', total_interval(1), given)
-      call table%put('total_high', total_interval(2), given)
+      call table%put('first', first(1), given)
+      call table%put('first_low', first(2), given)
+      call table%put('first_high', first(3), given)
+      call table%put('total', total(1), given)
+      call table%put('total_low', total(2), given)
+      call table%put('total_high', total(3), given)
    end subroutine put_source
 
    !> A source in words
