@@ -93,9 +93,9 @@ MEANINGS = {
     "hinge": "quota della cerniera intermedia / altezza della parete",
     "restitution": "modello degli urti",
     "restitution_value": "velocità dopo / prima di un urto, al posto di un modello",
-    "restitution_factor": "fattore sulla restituzione e di qualunque modello",
-    "restitution_sd": "scarto quadratico medio della restituzione e, che varia allora da urto a urto, uniformemente"
-    " attorno a quello del modello; solo con engine rk45",
+    "restitution_factor": "fattore sul coefficiente di restituzione di qualunque modello",
+    "restitution_sd": "scarto quadratico medio del coefficiente di restituzione, che varia allora da urto a urto,"
+    " uniformemente attorno a quello del modello; solo con engine rk45",
     "restitution_seed": "seme dei numeri casuali di questi rapporti, 1 se non assegnato",
     "overburden": "carico verticale in sommità, al metro di parete",
     "overburden_inertia": "frazione di quel carico la cui massa è sollevata dalla parete",
