@@ -62,7 +62,7 @@ module dondolo_building_input
 
 contains
 
-   !> Make a building of what is said of it, its ranges checked
+   !> Make a building from its settings, ranges checked
    subroutine new_building(building, input, problems, contact, wall_height)
       type(building_type), intent(out) :: building
       !> Values of building_properties, among others; what has a value unless it is given is set

@@ -21,7 +21,7 @@ module dondolo_check_calculation
 
    public :: item_type, list_items, is_given
 
-   !> What a number is set to that an item has not
+   !> Value of a number that an item does not have
    real(wp), parameter :: none = -huge(1.0_wp)
 
    !> A term of the sums, per metre of wall

@@ -73,7 +73,7 @@ module dondolo_check_input
 
 contains
 
-   !> Take a check from what a user has said
+   !> Make a check from its settings
    subroutine take_check(input, settings, problems)
       type(check_input_type), intent(out) :: input
       !> Values of check_properties, without defaults

@@ -131,7 +131,7 @@ contains
       end associate
    end subroutine put_site
 
-   !> Put what the mechanism has of its own
+   !> Put the numbers of the mechanism
    subroutine put_mechanism(sheet, kinematic, input)
       type(sheet_type), intent(inout) :: sheet
       type(kinematic_type), intent(in) :: kinematic

@@ -8,7 +8,7 @@ module dondolo_check_safety
 
    public :: safety_type, new_safety, shown_years
 
-   !> What a check comes to
+   !> Result of a check
    type :: safety_type
       !> Is there a check?
       logical :: is_known = .false.
@@ -27,7 +27,7 @@ contains
    !> Take it from a sheet
    pure function new_safety(sheet) result(safety)
       type(sheet_type), intent(in) :: sheet
-      !> What it comes to
+      !> Its result
       type(safety_type) :: safety
 
       safety%is_known = .true.

@@ -1,4 +1,4 @@
-!> What stripes come to: how many histories reach each EDP threshold at each level, and the curves fitted to them.
+!> Results of stripes: how many histories reach each EDP threshold at each level, and the curves fitted to them.
 module dondolo_fragility_stripe_counts
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp

@@ -93,7 +93,7 @@ contains
 
    contains
 
-      !> Note what a run would warn of
+      !> Note the warnings of a run
       subroutine warn(held, wall, suite, record)
          type(c_history_type), intent(inout) :: held
          type(wall_type), intent(in) :: wall

@@ -1,4 +1,4 @@
-!> What handles of the C interface stand for, by name: numbers and texts.
+!> Numbers and texts of the objects of the C interface, by name.
 module dondolo_interface_c_results
    use, intrinsic :: ieee_arithmetic, only : ieee_quiet_nan, ieee_value
    use, intrinsic :: iso_c_binding, only : c_char, c_double, c_int, c_loc, c_null_char, c_ptr
@@ -50,7 +50,7 @@ module dondolo_interface_c_results
 
 contains
 
-   !> How many numbers something has of a name; -1: there is an error
+   !> How many numbers of a name an object has; -1: there is an error
    integer(c_int) function count_numbers(error, object, name) result(count) bind(c, name='dondolo_count')
       type(c_ptr), intent(in), value :: error, object, name
 

@@ -137,7 +137,7 @@ contains
       call study%set_rows(records%rows, error)
    end subroutine make_study
 
-   !> Note what a run would warn of
+   !> Note the warnings of a run
    subroutine warn(held, study)
       type(c_stripes_type), intent(inout) :: held
       type(study_type), intent(in) :: study

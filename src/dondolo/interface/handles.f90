@@ -25,7 +25,7 @@ module dondolo_interface_handles
       type(suite_type) :: suite
       !> Which of them run at which levels; without levels: all at all
       type(record_rows_type) :: rows
-      !> How their catalogue was read, where there is something to say of it; not allocated: there is no catalogue
+      !> How their catalogue was read: notes; not allocated: there is no catalogue
       character(len=:), allocatable :: note
    end type records_type
 

@@ -40,7 +40,7 @@ module dondolo_population_designs
       !> Median / that of the first, its interval, and probability of a ratio as far from 1 if the medians were equal
       real(wp) :: ratio = 0.0_wp, low = 0.0_wp, high = 0.0_wp, p_value = 1.0_wp
    contains
-      !> Take what follows from the wall alone
+      !> Take the numbers that follow from the wall alone
       procedure :: take_wall
       !> Relative increase of the median for each kg/m of steel more than in another design
       procedure :: gain_per_kg
@@ -48,7 +48,7 @@ module dondolo_population_designs
 
 contains
 
-   !> Take what follows from the wall alone
+   !> Take the numbers that follow from the wall alone
    subroutine take_wall(self, wall)
       class(design_type), intent(inout) :: self
       type(wall_type), intent(in) :: wall

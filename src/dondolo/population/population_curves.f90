@@ -36,7 +36,7 @@ module dondolo_population_curves
    contains
       !> Take the population
       procedure :: begin
-      !> Take what came of a row
+      !> Take the results of a row
       procedure :: add
       !> All rows have been
       procedure :: finish
@@ -106,7 +106,7 @@ contains
       end do
    end subroutine share_clusters
 
-   !> Take what came of a row, in the order of rows
+   !> Take the results of a row, in the order of rows
    subroutine add(self, row, name, population, change, error)
       class(population_curves_type), intent(inout) :: self
       !> What came of it

@@ -185,7 +185,7 @@ contains
       end do
    end subroutine add
 
-   !> Take what a curve has of a wall: the wall as a whole, or those of its rows that are of one mechanism
+   !> Take the part of a wall in a curve: the wall as a whole, or its rows of one mechanism
    pure subroutine take_columns(curve, population, columns, fraction, deviation, run)
       type(curve_sums_type), intent(inout) :: curve
       type(population_type), intent(in) :: population

@@ -65,7 +65,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
       !> Gravity [m/s2], standard if absent
       real(wp), intent(in), optional :: gravity
-      !> How the table was read, where there is something to say of it, else empty
+      !> How the table was read: a note, or empty
       character(len=:), allocatable, intent(out), optional :: note
       !> How the mechanisms of a wall occur whose row does not say it, one of occurrence_names; independent if absent
       character(len=*), intent(in), optional :: occurrence
@@ -79,7 +79,7 @@ contains
       call read_rows(table, rows, error)
    end subroutine read_population
 
-   !> Read all rows of a table, or of what stands for it
+   !> Read all rows of a table, or of the wall that takes its place
    subroutine read_rows(table, rows, error)
       type(population_table_type), intent(in) :: table
       !> Its rows
@@ -284,7 +284,7 @@ contains
       if (rows > 0) call self%next(table, row, found, error)
    end subroutine skip
 
-   !> Read what a row says of its wall
+   !> Read the wall of a row
    subroutine read_row(self, table, problems)
       !> The reader, with a row: what it says is set
       class(population_reader_type), intent(inout) :: self

@@ -21,7 +21,7 @@ module dondolo_population_table
 
    public :: population_table_type
 
-   !> A table and its columns, or what stands for it
+   !> A table and its columns, or the wall that takes its place
    type :: population_table_type
       !> Path of what is read, for messages
       character(len=:), allocatable :: file
@@ -174,7 +174,7 @@ contains
       type(csv_row_type), intent(in) :: row
       !> Columns of the properties
       integer, intent(in) :: columns(:)
-      !> What is said in the row
+      !> Contents of the row
       class(settings_type), intent(inout) :: settings
       !> Takes every cell that should be a number and is none
       type(problems_type), intent(inout) :: problems

@@ -192,8 +192,8 @@ contains
       is_complete = self%done == size(self%place)
    end function is_complete
 
-   !> Make it this run's to put rows in, until it is closed; what a killed run left of a row is cut off. Where all rows are
-   !> there nothing is done but to end what a run has left that was killed then
+   !> Claim the store for the rows of this run until it is closed; the incomplete row of a killed run is cut off. If all rows
+   !> are there, only the remains of a killed run are cleared
    subroutine claim(self, error)
       class(store_type), intent(inout) :: self
       !> Another run is writing it, or it cannot be written

@@ -124,7 +124,7 @@ contains
       row_of_end = self%samples + 2*source + end
    end function row_of_end
 
-   !> What a row says of its wall
+   !> The wall of a row
    subroutine vary(self, row, input)
       class(base_wall_type), intent(in) :: self
       !> Number of the row

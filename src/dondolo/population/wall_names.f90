@@ -152,7 +152,7 @@ contains
          & ' '''//whole//''' add up to '//rounded(self%total)//', must be at most 1', out_of_range, 'p_occ')
    end subroutine place_alternative
 
-   !> Note that a row was wrong: those behind it do not go on with the wall before it, unless it was of the same
+   !> Note an erroneous row: rows after it do not continue the wall before it, unless the row belonged to that wall
    pure subroutine pass_over(self, row)
       class(wall_names_type), intent(inout) :: self
       !> What is known of the row

@@ -10,7 +10,7 @@ module dondolo_population_weights
 
    public :: weights_type, weights_of, weighted_fractiles
 
-   !> What a part of a population is the weighted mean of
+   !> The members of a part of a population, whose weighted mean is its curve
    type :: weights_type
       !> Columns of the population: rows, or walls behind them
       integer, allocatable :: column(:)

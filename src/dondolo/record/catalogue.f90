@@ -59,7 +59,7 @@ contains
       type(record_type), allocatable, intent(out) :: records(:)
       !> The catalogue or one of its records is wrong: the first that is
       type(error_type), allocatable, intent(out) :: error
-      !> How the catalogue was read, where there is something to say of it, else empty
+      !> How the catalogue was read: a note, or empty
       character(len=:), allocatable, intent(out), optional :: note
       !> Its rows: which records run at which levels
       type(record_rows_type), intent(out), optional :: rows
@@ -108,7 +108,7 @@ contains
       end if
    end subroutine read_catalogue
 
-   !> Take what the rows say, up to one that is wrong
+   !> Take the rows, up to one that is wrong
    subroutine take_rows(table, with_verticals, runs, sources, count, error)
       !> The catalogue
       type(csv_table_type), intent(in) :: table

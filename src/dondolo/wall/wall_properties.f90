@@ -55,7 +55,7 @@ module dondolo_wall_properties
       & property_type('stress_block', owners=of_blocks, optional=.true., positive=.true., largest=1.0_wp, example='0.85', &
       &   meaning='stress in the compressed part of the base / that strength, 0.85 if not given')]
 
-   !> What every wall has of impacts
+   !> Properties of impacts, of every wall
    type(property_type), parameter :: impact_rows(*) = [ &
       & property_type('restitution', is_text, word='default', checked_by_owner=.true., column='restitution_model', &
       &   choices=reshape(restitution_models, [most_choices], pad=blank), meaning='model of the impacts', &

@@ -179,7 +179,7 @@ contains
    !> Give the lock back and remove its file; nothing happens if it was not taken
    subroutine release(self, keep_file)
       class(lock_type), intent(inout) :: self
-      !> Leave the file, for the next run to end what this one could not
+      !> Leave the file, so that the next run completes what this one could not
       logical, intent(in), optional :: keep_file
 
       logical :: is_kept

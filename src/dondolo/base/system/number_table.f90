@@ -21,7 +21,7 @@ contains
       type(cell_type), allocatable, intent(out) :: columns(:)
       !> Its numbers (columns, rows)
       real(wp), allocatable, intent(out) :: values(:, :)
-      !> How it was read, where there is something to say of it, else empty
+      !> How it was read: a note, or empty
       character(len=:), allocatable, intent(out) :: note
       !> No table, a cell that is no number, or too many numbers
       type(error_type), allocatable, intent(out) :: error

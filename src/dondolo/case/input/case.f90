@@ -57,7 +57,7 @@ module dondolo_case
       type(history_input_type) :: history
       !> Check by a building code; not allocated: none
       type(check_input_type), allocatable :: check
-      !> How its tables were read, where there is something to say of it
+      !> How its tables were read: notes
       type(lines_type) :: notes
    contains
       !> Are records scaled to levels?

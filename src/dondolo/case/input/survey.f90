@@ -47,11 +47,11 @@ module dondolo_case_survey
       integer(int64) :: histories = 0
       !> Its rows, without histories
       type(population_type) :: population
-      !> What there is to say of scale factors
+      !> Warnings of scale factors
       type(scale_warnings_type) :: scales
-      !> What there is to say of values that no masonry has
+      !> Warnings of values that no masonry has
       type(wall_warnings_type) :: wall_warnings
-      !> What there is to say of the probabilities that mechanisms can occur
+      !> Warnings of the probabilities that mechanisms can occur
       type(occurrence_warnings_type) :: occurrence_warnings
       !> Fingerprint of the walls
       type(fingerprint_type) :: walls_fingerprint
@@ -67,7 +67,7 @@ module dondolo_case_survey
       character(len=:), allocatable :: worst_fitted
       !> What its walls use of the methods of others, in the words of dondolo_base_references, each once
       type(lines_type) :: used
-      !> How the table was read, where there is something to say of it, else empty
+      !> How the table was read: a note, or empty
       character(len=:), allocatable :: note
    end type survey_type
 
@@ -137,7 +137,7 @@ contains
       call problems%raise(error)
    end subroutine survey_population
 
-   !> Add what a wall uses of the methods of others, unless it is listed: its mechanism, with its model of restitution, its building
+   !> Add the methods that a wall uses, unless they are listed: its mechanism, with its model of restitution, its building
    subroutine add_wall_words(used, wall)
       type(lines_type), intent(inout) :: used
       type(wall_type), intent(in) :: wall

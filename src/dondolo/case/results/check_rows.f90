@@ -109,7 +109,7 @@ contains
 
    contains
 
-      !> Put what a check comes to, nothing if it is not one for the wall
+      !> Put the result of a check, empty if it is not applicable to the wall
       subroutine put_outcome(name, quantity)
          !> Name of the column
          character(len=*), intent(in) :: name

@@ -78,7 +78,7 @@ contains
       if (ends > 1) case = ', of the case '''//text(at:at + ends - 2)//''''
    end subroutine find_case
 
-   !> List what was made of other results than those that are there
+   !> List the reports, workbooks and figures of other results than those that are there
    subroutine list_outdated(prefix, lines)
       !> What the names of the result files begin with
       character(len=*), intent(in) :: prefix

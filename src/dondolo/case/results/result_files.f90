@@ -68,7 +68,7 @@ module dondolo_case_result_files
       !> Has everything been written so far?
       logical, private :: ok = .true.
    contains
-      !> Take the lock of a prefix, and end what a killed run has left
+      !> Take the lock of a prefix, and complete or remove what a killed run has left
       procedure :: claim
       !> Begin a file
       procedure :: begin
@@ -201,7 +201,7 @@ contains
       folder_end = index(prefix, '/', back=.true.)
    end function folder_end
 
-   !> Take the lock of a prefix, and end what a killed run has left
+   !> Take the lock of a prefix, and complete or remove what a killed run has left
    subroutine claim(self, prefix, tables, error)
       class(result_files_type), intent(inout) :: self
       !> What the names of the files begin with

@@ -42,7 +42,7 @@ module dondolo_case_result_tables
          type(error_type), allocatable, intent(out) :: error
       end subroutine put_interface
 
-      !> List what is said above the names of the columns
+      !> List the facts above the names of the columns
       subroutine facts_interface(case, results, lines)
          import :: case_type, results_type, lines_type
          type(case_type), intent(in) :: case
@@ -64,7 +64,7 @@ module dondolo_case_result_tables
       procedure(row_interface), pointer, nopass, private :: put_row => null()
       !> Whether these come with their histories and ties
       logical, private :: is_stored = .false.
-      !> List what is said above it, besides what all tables say; null: nothing
+      !> List the facts above it, besides those of all tables; null: none
       procedure(facts_interface), pointer, nopass :: facts => null()
    contains
       !> Has a case such a table?

@@ -24,7 +24,7 @@ module dondolo_case_row_tables
 
    abstract interface
 
-      !> Put what a table has of a row of a population, or of the one wall of a case
+      !> Put the rows of a table for a row of a population, or for the one wall of a case
       subroutine row_interface(case, row, counts, verdicts, table, error)
          import :: case_type, wall_row_type, row_counts_type, verdicts_type, table_type, error_type
          type(case_type), intent(in), target :: case

@@ -352,7 +352,7 @@ contains
       call json%close_object()
    end subroutine put_counts
 
-   !> Put how tables were read, where there is something to say of it
+   !> Put the notes on how tables were read
    subroutine put_notes(case, json)
       type(case_type), intent(in) :: case
       type(json_type), intent(inout) :: json

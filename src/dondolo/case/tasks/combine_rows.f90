@@ -113,7 +113,7 @@ contains
       !> Its results: the population and the curves of its rows are there
       type(results_type), intent(inout) :: results
       type(study_type), intent(in) :: study
-      !> What there is to say of the curves
+      !> Warnings of the curves
       type(fit_warnings_type), intent(inout) :: fits
       !> A store has changed, counts that cannot be fitted, or lack of memory
       type(error_type), allocatable, intent(out) :: error

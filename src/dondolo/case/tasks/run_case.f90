@@ -92,7 +92,7 @@ contains
       type(case_type), intent(in), target :: case
       !> Work of all walls, see planned_work; a second run to estimate errors is not counted
       type(work_type), intent(out) :: work
-      !> What there is to say of scale factors
+      !> Warnings of scale factors
       type(scale_warnings_type), intent(out) :: scales
       !> What cannot be run
       type(error_type), allocatable, intent(out) :: error
