@@ -12,6 +12,7 @@ import time
 from pathlib import Path
 
 import pytest
+from refused_states import states
 
 import dondolo as dd
 
@@ -356,6 +357,42 @@ def test_italian_has_no_english_word(visit):
     assert seen - SHARED == set()
     assert named - SHARED == set()
     assert tips - SHARED - names == set()
+
+
+# The server's refusals of states, with the page's sentences of them
+REFUSALS = """
+async (several) => {
+  const [{ sentenceOf }, { state }] = await Promise.all([import("./refusals.js"), import("./state.js")]), found = [];
+  const before = state.settings;
+  for (const settings of several) {
+    const body = JSON.stringify({ settings, draft: true, lang: "it" });
+    const headers = { "content-type": "application/json" };
+    const response = await fetch("curve", { method: "POST", headers, body });
+    if (response.ok) continue;
+    state.settings = settings;
+    const answer = await response.json();
+    found.push([sentenceOf(answer), answer.error]);
+  }
+  state.settings = before;
+  return found;
+}
+"""
+
+
+def test_refusals_are_italian(visit):
+    """The sentence of a refusal has no word of the library's English one, but for names: of each field and part."""
+    page = visit()
+    tables = page.evaluate("fetch('begin').then((one) => one.json()).then((one) => one.properties)")
+    names = {part for table in tables.values() for name, row in table.items() for part in [name, *row["choices"]]}
+    found = page.evaluate(REFUSALS, list(states(tables)))
+    assert len(found) > 1000
+    for italian, english in found:
+        one, other = (
+            set(re.findall(r"[^\W\d_]{2,}", re.sub(r"\w*_\w*|&\w+|\(\w+\)|zz+", " ", text.lower())))
+            for text in (italian, english)
+        )
+        assert (one & other) - names - SHARED <= {"in", "true", "false"}, (italian, english)
+        assert len(one) >= 2, italian
 
 
 def test_cases_come_and_go(visit, root, tmp_path):

@@ -26,6 +26,7 @@ from dondolo.checks.ntc import Verdict
 from dondolo.exchange.case_text import case_text
 from dondolo.reporting.properties_it import MEANINGS
 from dondolo.serve.server import application, beginning_of
+from refused_states import states
 from starlette.testclient import TestClient
 
 pytestmark = pytest.mark.filterwarnings("ignore::DeprecationWarning", "ignore:&check")
@@ -287,6 +288,25 @@ def test_refusals_are_data(page):
     assert set(re.findall(r"(\w+): \"", table)) == set(get_args(dd.errors.Code))
 
 
+@pytest.mark.slow
+def test_refusals_of_every_field_have_codes(page):
+    """What the page can be refused has a code and its variable: of each field, and of each kind of part."""
+    tables, named = page.get("/begin").json()["properties"], set()
+    for settings in states(tables):
+        answer = curve(page, settings, draft=True)
+        if "error" not in answer:
+            continue
+        assert answer["errors"], answer
+        for one in answer["errors"]:
+            assert one["code"], one
+            assert one["variable"], one
+            named.add(one["variable"])
+    asked = {name for table in tables.values() for name in table}
+    # The last six are those of a wall given by a table, which no button of the page makes.
+    never = {"catalogue", "output", "histories", "table", "rotation", "inertia", "lever", "moment", "vertical_lever"}
+    assert asked - named <= never | {"sides", "top_share", "top_tilt"}
+
+
 def test_every_property_has_its_words(page):
     """Names and meanings of all variables are there in both languages."""
     words = page.get("/words.js").text
@@ -450,6 +470,11 @@ def test_documents(page):
     relazione = page.post("/document", json={"settings": settings, "kind": "relazione", "lang": "it"})
     assert 'lang="it"' in relazione.text
     assert page.post("/document", json={"settings": settings, "kind": "other"}).status_code == 422
+    del settings["check"]
+    refused = page.post("/document", json={"settings": settings, "kind": "relazione", "lang": "it"})
+    assert refused.status_code == 422
+    assert [(one["code"], one["variable"]) for one in refused.json()["errors"]] == [("not_given", "check")]
+    assert refused.json()["error"].startswith("case.nml: has no check")
 
 
 def test_starts_that_are_refused(root, tmp_path):

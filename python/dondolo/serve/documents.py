@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
 
 from dondolo._fortran.files import whole_file
-from dondolo.errors import DondoloError, InputError
+from dondolo.errors import DondoloError, InputError, Problem
 
 #: Kinds of documents and their media types
 DOCUMENTS = {
@@ -56,13 +57,22 @@ def make_document(text: str, kind: str, lang: str) -> bytes:
         except subprocess.TimeoutExpired:
             raise DondoloError(f"{kind}: takes more than {_LONGEST:g} s") from None
         if done.returncode != 0 or not made.exists():
-            sentence = done.stderr.strip().splitlines()[-1:] or ["no document was written"]
-            raise InputError(sentence[0].replace(f"{folder}/", ""))
+            raise _refused(done.stderr.replace(f"{folder}/", ""))
         return made.read_bytes()
 
 
+def _refused(said: str) -> InputError:
+    """The error that another process has written to stderr, by `_main` if it could be foreseen."""
+    last = said.strip().splitlines()[-1:] or ["no document was written"]
+    try:
+        errors = [Problem(*one) for one in json.loads(last[0])]
+    except (ValueError, TypeError):
+        errors = [Problem(last[0])]
+    return InputError("\n".join(one.message for one in errors), errors=errors)
+
+
 def _main(case: str, made: str, lang: str) -> int:
-    """Write the document of a case; what is wrong goes to stderr."""
+    """Write the document of a case; what is wrong goes to stderr, as JSON."""
     import matplotlib
 
     import dondolo as dd
@@ -75,7 +85,8 @@ def _main(case: str, made: str, lang: str) -> int:
         else:
             dd.report(results, made)
     except DondoloError as error:
-        print(error, file=sys.stderr)
+        problems = error.errors if isinstance(error, InputError) else (Problem(str(error)),)
+        print(json.dumps(problems), file=sys.stderr)
         return 1
     return 0
 

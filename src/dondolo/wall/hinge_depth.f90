@@ -46,7 +46,7 @@ contains
    end subroutine read_hinge_depth
 
    !> Check that a hinge is less deep than what it must hold
-   subroutine check_hinge(input, problems, name, depth, limit, what)
+   subroutine check_hinge(input, problems, name, depth, limit, what, placed_by)
       !> Settings of the wall
       class(settings_type), intent(in) :: input
       !> Takes what is wrong
@@ -55,8 +55,8 @@ contains
       character(len=*), intent(in) :: name
       !> Depth of the hinge, and of what it must hold [m]
       real(wp), intent(in) :: depth, limit
-      !> What that is, and where
-      character(len=*), intent(in) :: what
+      !> What that is, and where; name of the property that places it
+      character(len=*), intent(in) :: what, placed_by
 
       ! A hinge so many times too deep means that the strength is in another unit
       real(wp), parameter :: absurd = 10.0_wp
@@ -76,7 +76,7 @@ contains
          call problems%note(trim(name)//': puts the hinge at depth '//rounded(depth)//' m, must be less deep than '// &
             & what//hint, out_of_range, trim(name))
       else
-         call problems%note(what//': must be deeper than the hinge, which is at the outer face')
+         call problems%note(what//': must be deeper than the hinge, which is at the outer face', out_of_range, placed_by)
       end if
    end subroutine check_hinge
 

@@ -178,10 +178,11 @@ contains
       half = 0.5_wp*input%number('thickness')
       call read_hinge_depth(input, gravity*input%number('density')*2.0_wp*half*input%number('height') &
          & + input%number('overburden'), problems, depth, name)
-      call check_hinge(input, problems, name, depth, half, 'half the thickness, '//rounded(half)//' m')
+      call check_hinge(input, problems, name, depth, half, 'half the thickness, '//rounded(half)//' m', &
+         & 'thickness')
       load = half - input%number('eccentricity')
       if (input%number('overburden') > 0.0_wp .and. depth > 0.0_wp) call check_hinge(input, problems, name, depth, load, &
-         & 'the overburden, '//rounded(load)//' m behind the face of the active top hinge')
+         & 'the overburden, '//rounded(load)//' m behind the face of the active top hinge', 'eccentricity')
    end subroutine read_hinges
 
    !> Turn the bearing into the eccentricity of a wall that folds outwards: its top rotates about the outer face

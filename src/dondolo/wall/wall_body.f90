@@ -358,13 +358,15 @@ contains
       end if
       wall%actions%hinge = hinge
       wall%actions%edge = edge
-      call check_hinge(input, problems, name, hinge, wall%body%depth, 'the centroid of the wall, '//rounded(wall%body%depth)//' m')
+      call check_hinge(input, problems, name, hinge, wall%body%depth, 'the centroid of the wall, '// &
+         & rounded(wall%body%depth)//' m', 'section_offset')
       if (.not. edge < wall%body%height) call problems%note('edge_radius = '//to_text(edge)// &
          & ': must be less than the height of the centroid, '//rounded(wall%body%height)//' m', out_of_range, 'edge_radius')
       do i = 1, size(wall%actions%carried)
          depth = wall%actions%carried(i)%depth
          if (.not. wall%actions%carried(i)%weight > 0.0_wp .or. depth < 0.0_wp) cycle
-         call check_hinge(input, problems, name, hinge, depth, 'load '//to_text(i)//', load_depth = '//to_text(depth))
+         call check_hinge(input, problems, name, hinge, depth, 'load '//to_text(i)//', load_depth = '//to_text(depth), &
+            & 'load_depth')
       end do
    end subroutine read_hinge
 

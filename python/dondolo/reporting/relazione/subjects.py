@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from dondolo.checks.ntc import CodeCheck
 from dondolo.curves.fragility import Fragility
-from dondolo.errors import InputError
+from dondolo.errors import InputError, Problem
 from dondolo.exchange.results import Results
 from dondolo.walls.wall import MasonryWall, Wall
 
@@ -86,9 +86,8 @@ def subjects_of(found: Sequence[Results]) -> Subjects:
     for results in found:
         where = results.run.path or "results"
         if "check" not in results.run.settings:
-            raise InputError(
-                f"{where}: has no check: run the case with a group &check, which a calculation report is of"
-            )
+            sentence = f"{where}: has no check: run the case with a group &check, which a calculation report is of"
+            raise InputError(sentence, errors=[Problem(sentence, "not_given", "check", where)])
         if results.check is not None:
             several.append(Subject(_checked(results.check.wall), results.check, results.fragility, results))
             continue

@@ -52,7 +52,7 @@ export function expand() {
   for (const group of ["building", "check"]) for (const [name, value] of Object.entries(state.settings[group] || {})) if (state.properties[group][name]?.kind === "list" && !Array.isArray(value)) state.settings[group][name] = [value];
 }
 
-const inWords = (unit) => (unit === "year" ? t(unit) : unit);
+export const inWords = (unit) => (unit === "year" ? t(unit) : unit);
 // The meaning of a property, with its value as the case has it: the field beside may have another unit.
 function tip(group, name, place) {
   const { unit: given, meaning } = state.properties[group][name], unit = inWords(given), value = get(group, name, place), as = typeof value === "number" ? `\n${t("in_case", { name, value: value + (unit ? ` [${unit}]` : "") })}` : ` (${name}${unit ? `, ${unit}` : ""})`;

@@ -1,6 +1,6 @@
 // What is wrong with a case, in words: the library's sentence, or in Italian the meaning of its code with the value and its bounds.
 // What has no code keeps the library's sentence, which is better than none.
-import { fieldOf, heightOf, thicknessOf } from "./form.js";
+import { fieldOf, heightOf, inWords, thicknessOf } from "./form.js";
 import { state } from "./state.js";
 import { choiceOf, labelOf, language, num, t } from "./words.js";
 
@@ -18,6 +18,7 @@ const OWN = {
   "out_of_range.tie_bar": "deve essere minore del capochiave", "out_of_range.tie_spacing": "deve superare la larghezza del capochiave", "out_of_range.tie_leaf": "deve essere al più lo spessore della parete", "out_of_range.level": "deve essere al più l’altezza dell’edificio", "out_of_range.level_top": "deve stare tra la quota della base e l’altezza dell’edificio",
   "out_of_range.eccentricity": "deve stare entro la metà dello spessore, {t} m, da ogni parte", "out_of_range.bearing_distance": "deve stare tra 0 e lo spessore, {t} m", "out_of_range.hinge_depth": "la cerniera deve restare davanti al baricentro della parete e ai carichi", "out_of_range.compressive_strength": "troppo bassa: la cerniera deve restare davanti al baricentro della parete e ai carichi",
   "out_of_range.edge_radius": "deve essere minore della quota del baricentro", "out_of_range.hinge_inertia": "deve essere almeno quella della massa nel suo baricentro", "out_of_range.levels": "i livelli devono essere positivi, e nessuno deve portare un accelerogramma oltre ogni misura", "out_of_range.period": "il moto del piano avrebbe troppi campioni",
+  "out_of_range.load_depth": "deve stare tra le facce della parete, dietro la cerniera e fino a {t} m", "out_of_range.section_offset": "il baricentro della parete deve restare dietro la cerniera", "not_given.check": "manca il sito: la relazione è delle verifiche NTC 2018 della parete (Sito, NTC 2018)",
   "not_given.load_inertia": "va assegnato con i carichi: none, vertical o both", "not_given.tie_area": "va assegnata la sezione al metro, o diametro e interasse", "not_given.overburden_inertia": "va assegnata con il carico in sommità, da 0 (forza) a 1 (massa sollevata)", "not_given.participation": "va assegnata, oppure piani, quota della base e altezza dell’edificio", "not_given.levels": "i livelli vanno assegnati",
   "not_together.restitution": "non vale per questo meccanismo con una massa in sommità: usare impulse", "wrong_length.hinge_level": "una parete ha una sola cerniera; una facciata con più cerniere è una popolazione",
 };
@@ -37,14 +38,16 @@ function words({ code, variable, group, line, message }, isFile) {
   const where = isFile && line ? ` (riga ${line})` : "";
   if (!CODES[code]) return `${group ? `Il gruppo &${group} del caso non è ammesso` : "Richiesta non riuscita"}${where}: ${message.replace(/^case\.nml: /, "")}`;
   if (!variable) return `${CODES[code]}${where}`;
+  // Of a group as a whole
+  if (variable in state.properties) return `&${variable}: ${OWN[`${code}.${variable}`] ?? CODES[code]}${where}`;
   const property = state.properties[group]?.[variable] ?? Object.values(state.properties).map((table) => table[variable]).find(Boolean);
-  const field = fieldOf(variable), values = [].concat(state.settings[group]?.[variable] ?? []), factor = field?.[3] ?? 1, unit = field ? field[4] : property?.unit ?? "";
+  const field = fieldOf(variable), values = [].concat(state.settings[group]?.[variable] ?? []), factor = field?.[3] ?? 1, unit = field ? field[4] : inWords(property?.unit ?? "");
   const shown = (x) => num(x * factor) + (unit ? ` ${unit}` : "");
   const value = values.length ? ` = ${values.map((x) => (typeof x === "number" ? shown(x) : choiceOf(variable, x))).join("; ")}` : "";
   const own = OWN[`${code}.${variable}`] ?? (code === "out_of_range" && WITHIN.find(([name]) => name.test(variable))?.[1]);
   const allowed = code === "out_of_range" && property ? values.filter((x) => typeof x === "number").map((x) => bounds(property, x, shown)).find(Boolean) : code === "not_a_word" && property?.choices.length ? `deve essere una tra ${property.choices.join(", ")}` : "";
-  const size = { h: num(heightOf()), t: num(thicknessOf()) };
-  return `${labelOf(variable)} (${variable})${value}: ${(allowed || own || CODES[code]).replace(/\{(\w)\}/g, (_, name) => size[name])}${where}`;
+  const size = (name) => num(name === "h" ? heightOf() : thicknessOf());
+  return `${labelOf(variable)} (${variable})${value}: ${(allowed || own || CODES[code]).replace(/\{(\w)\}/g, (_, name) => size(name))}${where}`;
 }
 
 // The sentence of a refusal: what the server answered, or that it did not; lines are those of a file that was opened.
