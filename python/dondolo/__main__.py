@@ -214,10 +214,6 @@ def _parser() -> argparse.ArgumentParser:
 
 def _serve(options: argparse.Namespace) -> None:
     """Serve the page."""
-    if "OMP_WAIT_POLICY" not in os.environ:
-        # Threads that spin between two curves take the processor from the browser. OpenMP reads this when it is loaded.
-        words = [sys.executable, "-m", "dondolo", *sys.argv[1:]]
-        os.execve(sys.executable, words, {**os.environ, "OMP_WAIT_POLICY": "passive"})
     try:
         from dondolo.serve.server import serve
     except ModuleNotFoundError as error:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import re
 import shutil
 import statistics
@@ -37,9 +36,8 @@ addEventListener('painted', () => { if (pressed) { const from = pressed; pressed
 def address(root):
     """Where the page is served, in Italian."""
     command = [sys.executable, "-m", "dondolo", "serve", "--no-browser", "--lang", "it"]
-    environment = {**os.environ, "OMP_WAIT_POLICY": "passive"}
     catalogue = ["--records", root / "data/records/synthetic44.csv"]
-    with subprocess.Popen([*command, *catalogue], stdout=subprocess.PIPE, text=True, env=environment) as server:
+    with subprocess.Popen([*command, *catalogue], stdout=subprocess.PIPE, text=True) as server:
         yield server.stdout.readline().strip()
         server.terminate()
 

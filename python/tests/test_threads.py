@@ -29,6 +29,23 @@ with multiprocessing.get_context("fork").Pool(2) as pool:
 """
 
 
+IDLE = """
+import os, time
+import numpy as np
+import dondolo as dd
+
+wall = dd.OneSidedWall(3.0, 0.25)
+records = [dd.Record(3.0 * np.sin(0.05 * i * np.arange(400)), 0.01, f"r{i}") for i in range(1, 9)]
+spent = 0.0
+for _ in range(20):
+    dd.multiple_stripe(wall, records, [0.2, 0.4, 0.6], threads=2, progress=False)
+    start = time.process_time()
+    time.sleep(0.03)
+    spent += time.process_time() - start
+print(spent, os.environ.get("OMP_WAIT_POLICY"))
+"""
+
+
 def failures(wall, record, k):
     """What says what is wrong with several things, each with a number of its own."""
     small, large = 10.0**-k, 10.0**k
@@ -49,6 +66,17 @@ def sentence(call):
     except dd.errors.InputError as error:
         return str(error)
     return "no error"
+
+
+def test_threads_sleep_between_calls():
+    """They do not spin for 20 ms after each, as those of gfortran do by default; programs started later may choose."""
+    environment = {
+        name: value for name, value in os.environ.items() if name not in ("OMP_WAIT_POLICY", "GOMP_SPINCOUNT")
+    }
+    printed = subprocess.run([sys.executable, "-c", IDLE], capture_output=True, text=True, check=True, env=environment)
+    spent, policy = printed.stdout.split()
+    assert float(spent) < 0.05
+    assert policy == "None"
 
 
 def test_sentences_of_threads_are_whole(wall, sine):
