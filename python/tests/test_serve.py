@@ -25,7 +25,7 @@ pytest.importorskip("httpx", reason="httpx is not installed")
 from dondolo.checks.ntc import Verdict
 from dondolo.exchange.case_text import case_text
 from dondolo.reporting.properties_it import MEANINGS
-from dondolo.serve.server import application, beginning_of
+from dondolo.serve.server import application, beginning_of, warm_up
 from refused_states import states
 from starlette.testclient import TestClient
 
@@ -70,7 +70,12 @@ def stranger(bench):
 @pytest.fixture
 def page(stranger):
     """The page, once its address was opened."""
-    assert stranger.get(f"/?token={TOKEN}").status_code == 303
+    return opened(stranger)
+
+
+def opened(stranger):
+    """A client that has opened the address with the token."""
+    assert stranger.get(f"/?token={TOKEN}", follow_redirects=False).status_code == 303
     return stranger
 
 
@@ -445,6 +450,24 @@ def test_the_token_is_no_argument(root, tmp_path):
         finally:
             server.terminate()
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("case", [None, "data/cases/facade.nml"])
+def test_the_first_curve_is_computed_while_the_browser_starts(case, root):
+    """The first question of the page is that of the server's own, and its stripes are not run again."""
+    catalogue = None if case else str(root / "data/records/synthetic44.csv")
+    bench, start = beginning_of(case and str(root / case), catalogue, 0)
+    warm_up(bench, start, "it")
+    (before,) = bench._curves.values()
+    is_auto = "levels" not in start.get("stripes", {})
+    assert is_auto == (case is None)
+    shown = curve(
+        opened(TestClient(application(bench, start, "it", PORT, TOKEN), base_url=HOME)), start, auto=is_auto, lang="it"
+    )
+    assert shown["theta"] == before.fragility.theta
+    assert list(bench._curves.values()) == [before]
+    # A case that cannot be shown is refused when the page asks, not here.
+    warm_up(bench, {"wall": {"mechanism": "one_sided"}}, "it")
 
 
 def test_the_redirect_is_private(tmp_path, monkeypatch):

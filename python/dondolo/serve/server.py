@@ -7,6 +7,7 @@ The cookie is given for a token that is printed, and passed to the browser in a 
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import hmac
 import json
 import os
@@ -313,11 +314,18 @@ def serve(case: str | None, records: str | None, port: int, is_opened: bool, thr
         config = uvicorn.Config(
             app, log_level="warning", access_log=False, ws="none", lifespan="off", server_header=False
         )
+        threading.Thread(target=warm_up, args=(bench, start, lang), daemon=True).start()
         with tempfile.TemporaryDirectory(prefix="dondolo-") as folder:
             print(f"{address}\nThe page is for this computer only. Ctrl-C ends it.", flush=True)
             if is_opened:
                 _open(Path(folder), address)
             uvicorn.Server(config).run(sockets=[listener])
+
+
+def warm_up(bench: Bench, start: Mapping[str, Any], lang: str) -> None:
+    """Compute the curve that the page begins with while the browser starts: loading SciPy takes longer than a curve."""
+    with contextlib.suppress(DondoloError):
+        bench.curve({"settings": start, "auto": "levels" not in start.get("stripes", {}), "lang": lang})
 
 
 def beginning_of(case: str | None, records: str | None, threads: int) -> tuple[Bench, dict[str, Any]]:
