@@ -81,12 +81,13 @@ function row(group, name, place) {
     box.value = num(x); put(group, name, place, clean(x / factor)); fill(x); changed(false);
   });
   const isFan = () => state.fan && state.fan.group === group && state.fan.name === name && (state.fan.place ?? 0) === (place ?? 0);
-  const fan = make("button", { class: "small", type: "button", "aria-pressed": String(Boolean(isFan())), "aria-label": t("fan_button", { what: labelOf(name) }), title: t("fan_button", { what: labelOf(name) }), onclick: () => {
+  const part = isFan() ? `±${100 * state.fan.share} %` : "±";
+  const fan = make("button", { class: "small", type: "button", "aria-pressed": String(Boolean(isFan())), "aria-label": `${part} ${t("fan_button", { what: labelOf(name) })}`, title: t("fan_button", { what: labelOf(name) }), onclick: () => {
     const share = isFan() ? { 0.1: 0.2, 0.2: 0 }[state.fan.share] : 0.1;
     state.fan = share ? { group, name, place: place ?? null, share } : null;
     draw(); changed(false);
     document.querySelector(`[data-key="${element.dataset.key}"] button`)?.focus();
-  } }, isFan() ? `±${100 * state.fan.share} %` : "±");
+  } }, part);
   const element = make("div", { class: "row", "data-key": `${group}.${name}.${place ?? ""}`, "data-name": `${group}.${name}` }, make("label", { for: id }, labelOf(name)), make("span", { class: "value" }, box, make("span", { class: "unit" }, unit), fan), range);
   fill(value);
   return element;
@@ -170,6 +171,8 @@ export function draw() {
     if (word === "tie" && count) body.push(...rows("wall", ["masonry_compression", "masonry_shear", "masonry_tension"]));
     const adds = [make("button", { class: "small", type: "button", onclick: () => { opened[kind] = true; addPart(kind); } }, t(kind === "sections" && count ? "more_sections" : `add_${kind}`))];
     if (word === "tie" && count && !("tie_plate_width" in w) && !("tie_plate_diameter" in w) && !("tie_anchor_force" in w)) adds.push(make("button", { class: "small", type: "button", onclick: () => { Object.assign(w, { tie_plate_width: Array(count).fill(0.3), tie_plate_height: Array(count).fill(0.3), tie_plate_thickness: Array(count).fill(0.02), masonry_compression: 2e6, masonry_shear: 4e4, masonry_tension: 5e4 }); again(); } }, t("add_plates")));
+    // A change is seen beside the wall before it, which must be kept first.
+    if (word === "tie" && !count) body.push(make("p", { class: "hint" }, t("pin_hint")));
     parts.push(group(kind, opened[kind] ?? count > 0, count, ...body, make("div", { class: "adds" }, ...adds)));
   }
   const hasBuilding = "building" in state.settings, top = heightOf();
