@@ -1,15 +1,28 @@
-"""Tables of stripes, as the executable has them."""
+"""Tables of stripes, as the executable has them, and the set of files that they make."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+import os
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from dondolo._fortran.tables import TableColumns, history_columns
+from dondolo._fortran.library import constants
+from dondolo._fortran.tables import TableColumns, history_columns, stripe_columns
+from dondolo._storage.result_set import write_set
+from dondolo._storage.run_file import RunFile, sources_of_fits
+from dondolo.curves.table import fragility_table
+from dondolo.errors import silent
+from dondolo.walls.ties import number_of_ties, tie_table
+from dondolo.walls.wall import walls_table
 
 if TYPE_CHECKING:
-    from dondolo.analysis.stripes import Stripes
+    from dondolo.analysis.stripes import States, Stripes
+
+#: Names of the tables
+TableName = Literal["histories", "stripes", "walls"]
 
 # Columns that stripes have as matrices, or not at all
 _COLUMNS = (
@@ -38,3 +51,75 @@ def histories_table(stripes: Stripes) -> TableColumns:
         "has_uplifts": stripes.uplift is not None,
     }
     return history_columns(texts, stripes.im, columns, has)
+
+
+def tables_of(stripes: Stripes) -> dict[TableName, Callable[[], TableColumns]]:
+    """What makes each table of stripes."""
+    return {
+        "histories": lambda: histories_table(stripes),
+        "stripes": lambda: stripes_table(stripes, [stripes.edp_limit]),
+        "walls": lambda: walls_table((stripes.wall,)),
+    }
+
+
+def stripes_table(stripes: Stripes, edp_thresholds: Sequence[float]) -> TableColumns:
+    """Columns of ``_stripes.csv``."""
+    reached = np.array([stripes.exceedances(edp) for edp in edp_thresholds])[:, :, None]
+    wall = [(stripes.wall.name, stripes.wall.mechanism)]
+    sizes = stripes.histories[:, None]
+    return stripe_columns(wall, stripes.im, stripes.levels, np.array(edp_thresholds), sizes, reached, stripes.uplifts)
+
+
+def write_stripes(
+    stripes: Stripes,
+    prefix: str | os.PathLike[str],
+    edp_thresholds: ArrayLike | None,
+    states: States,
+    spreadsheet_safe: bool,
+) -> None:
+    """Write all tables, with the curves of damage states: see `Stripes.write_results`."""
+    levels = [stripes.edp_limit] if edp_thresholds is None else stripes._thresholds(edp_thresholds)
+    with silent():
+        curves = stripes.fit_damage_states(levels, states=states)
+        of_collapse = curves[-1] if states == "ordinal" else stripes.fit()
+    found = {
+        "_walls.csv": walls_table((stripes.wall,)),
+        "_histories.csv": histories_table(stripes),
+        "_stripes.csv": stripes_table(stripes, levels),
+        "_fragility.csv": fragility_table([stripes.wall] * len(curves), curves),
+    }
+    if number_of_ties(stripes.wall):
+        sizes = stripes.histories[:, None]
+        found["_ties.csv"] = tie_table((stripes.wall,), stripes.im, stripes.levels, (stripes.ties,), sizes)
+    names = stripes.record_names[: stripes.n_records]
+    facts = (
+        one or ("",) * stripes.n_records for one in (names, stripes.events, stripes.checksums, stripes.record_formats)
+    )
+    run = RunFile(
+        constants().version,
+        settings={
+            "job": {"task": "stripes"},
+            "stripes": {
+                "im": stripes.im,
+                "levels": stripes.levels.tolist(),
+                "edp_thresholds": levels,
+                "states": states,
+            },
+            "solver": {
+                "engine": stripes.engine,
+                "rtol": stripes.rtol,
+                "atol": stripes.atol,
+                "edp_limit": stripes.edp_limit,
+                "gravity": stripes.wall.gravity,
+            },
+        },
+        records=tuple(
+            {"name": name, "event": event, "checksum": checksum} | ({"format": form} if form else {})
+            for name, event, checksum, form in zip(*facts, strict=True)
+        ),
+        work=stripes.work._asdict(),
+        warnings=(*stripes.warnings, *stripes._warnings_of(of_collapse)),
+        shape={"walls": 1, "levels": len(stripes.levels), "states": len(levels), "records": stripes.n_records},
+    )
+    used = sources_of_fits(stripes.im, (stripes.wall,)) | {stripes.engine, states, *stripes.record_formats}
+    write_set(prefix, found, run.citing(*used), spreadsheet_safe=spreadsheet_safe)

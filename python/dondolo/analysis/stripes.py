@@ -15,26 +15,23 @@ from numpy.typing import ArrayLike
 from dondolo._base.arguments import FloatArray, as_array, as_number, one_of
 from dondolo._base.shown import Shown, span
 from dondolo._fortran.curves import warnings_of_curve
-from dondolo._fortran.library import constants, warn
+from dondolo._fortran.library import warn
 from dondolo._fortran.records import levels_in_words, unit_of
-from dondolo._fortran.tables import TableColumns, plain, stripe_columns
+from dondolo._fortran.tables import plain
 from dondolo._fortran.uncertainty import restitution_sentence
 from dondolo._storage import tables
-from dondolo._storage.result_set import write_set
-from dondolo._storage.run_file import RunFile, sources_of_fits
 from dondolo._storage.saved import Saved
 from dondolo.analysis.histories import cut, join
-from dondolo.analysis.stripe_tables import histories_table
+from dondolo.analysis.stripe_tables import TableName, tables_of, write_stripes
 from dondolo.analysis.work import Work
 from dondolo.curves.damage_states import fit_states
 from dondolo.curves.fitting import fit
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.sample import Sample, cluster_labels, given_labels
-from dondolo.curves.table import fragility_table
 from dondolo.errors import DondoloWarning, InputError, silent
 from dondolo.records.record import Record
-from dondolo.walls.ties import TieCounts, number_of_ties, tallies_of_ties, tie_table
-from dondolo.walls.wall import Wall, notes_on_supports, upload, walls_table
+from dondolo.walls.ties import TieCounts, tallies_of_ties
+from dondolo.walls.wall import Wall, notes_on_supports, upload
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -42,7 +39,6 @@ if TYPE_CHECKING:
     from dondolo.analysis.incremental import Incremental
 
 _Counts = np.ndarray[Any, np.dtype[np.int64]]
-_Table = Literal["histories", "stripes", "walls"]
 
 #: Fits of damage states: each on its own, or all with one dispersion
 States = Literal["separate", "ordinal"]
@@ -649,25 +645,12 @@ class Stripes(Shown, Saved):
             else given_labels(len(names), events),
         )
 
-    def _tables(self) -> dict[_Table, Any]:
-        return {
-            "histories": lambda: histories_table(self),
-            "stripes": lambda: self._stripes_table([self.edp_limit]),
-            "walls": lambda: walls_table((self.wall,)),
-        }
-
-    def _stripes_table(self, edp_thresholds: Sequence[float]) -> TableColumns:
-        reached = np.array([self.exceedances(edp) for edp in edp_thresholds])[:, :, None]
-        wall = [(self.wall.name, self.wall.mechanism)]
-        sizes = self.histories[:, None]
-        return stripe_columns(wall, self.im, self.levels, np.array(edp_thresholds), sizes, reached, self.uplifts)
-
-    def to_frame(self, table: _Table = "histories") -> Any:
+    def to_frame(self, table: TableName = "histories") -> Any:
         """One of the tables 'histories', 'stripes' and 'walls' as a pandas DataFrame."""
-        return tables.frame(plain(tables.choose(self._tables(), table)))
+        return tables.frame(plain(tables.choose(tables_of(self), table)))
 
     def to_csv(
-        self, path: str | os.PathLike[str], table: _Table = "histories", *, spreadsheet_safe: bool = False
+        self, path: str | os.PathLike[str], table: TableName = "histories", *, spreadsheet_safe: bool = False
     ) -> None:
         """Write one of the tables 'histories', 'stripes' and 'walls' as the executable does.
 
@@ -678,7 +661,7 @@ class Stripes(Shown, Saved):
             f"engine = '{self.engine}', rtol = {self.rtol!r}, atol = {self.atol!r}, edp_limit = {self.edp_limit!r}",
             f"unit of im_level: {unit_of(self.im) or '1'}",
         ]
-        chosen = plain(tables.choose(self._tables(), table))
+        chosen = plain(tables.choose(tables_of(self), table))
         tables.write_csv(path, chosen, comments, spreadsheet_safe=spreadsheet_safe)
 
     def write_results(
@@ -716,45 +699,7 @@ class Stripes(Shown, Saved):
         DondoloWarning
             Earlier results are replaced; reports, workbooks or figures are out of date.
         """
-        levels = [self.edp_limit] if edp_thresholds is None else self._thresholds(edp_thresholds)
-        with silent():
-            curves = self.fit_damage_states(levels, states=states)
-            of_collapse = curves[-1] if states == "ordinal" else self.fit()
-        found = {
-            "_walls.csv": walls_table((self.wall,)),
-            "_histories.csv": histories_table(self),
-            "_stripes.csv": self._stripes_table(levels),
-            "_fragility.csv": fragility_table([self.wall] * len(curves), curves),
-        }
-        if number_of_ties(self.wall):
-            found["_ties.csv"] = tie_table((self.wall,), self.im, self.levels, (self.ties,), self.histories[:, None])
-        facts = (
-            one or ("",) * self.n_records
-            for one in (self.record_names[: self.n_records], self.events, self.checksums, self.record_formats)
-        )
-        run = RunFile(
-            constants().version,
-            settings={
-                "job": {"task": "stripes"},
-                "stripes": {"im": self.im, "levels": self.levels.tolist(), "edp_thresholds": levels, "states": states},
-                "solver": {
-                    "engine": self.engine,
-                    "rtol": self.rtol,
-                    "atol": self.atol,
-                    "edp_limit": self.edp_limit,
-                    "gravity": self.wall.gravity,
-                },
-            },
-            records=tuple(
-                {"name": name, "event": event, "checksum": checksum} | ({"format": form} if form else {})
-                for name, event, checksum, form in zip(*facts, strict=True)
-            ),
-            work=self.work._asdict(),
-            warnings=(*self.warnings, *self._warnings_of(of_collapse)),
-            shape={"walls": 1, "levels": len(self.levels), "states": len(levels), "records": self.n_records},
-        )
-        used = sources_of_fits(self.im, (self.wall,)) | {self.engine, states, *self.record_formats}
-        write_set(prefix, found, run.citing(*used), spreadsheet_safe=spreadsheet_safe)
+        write_stripes(self, prefix, edp_thresholds, states, spreadsheet_safe)
 
     def _facts(self) -> list[tuple[str, str]]:
         facts = [

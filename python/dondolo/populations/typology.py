@@ -5,40 +5,37 @@ from __future__ import annotations
 import dataclasses
 import functools
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from dondolo._base.arguments import FloatArray, as_number, one_of
 from dondolo._base.shown import Shown, shown_dispersion
 from dondolo._fortran.curves import warnings_of_union
-from dondolo._fortran.library import constants, warn
+from dondolo._fortran.library import warn
 from dondolo._fortran.populations import FlatCurves, FlatPopulation
-from dondolo._fortran.records import levels_in_words, unit_of
-from dondolo._fortran.tables import TableColumns, plain, stripe_columns, typology_columns
+from dondolo._fortran.records import levels_in_words
+from dondolo._fortran.tables import plain
 from dondolo._storage import tables
-from dondolo._storage.result_set import write_set
-from dondolo._storage.run_file import RunFile, sources_of_fits
 from dondolo._storage.saved import Saved
 from dondolo.analysis.work import Work
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.fragility_model import Function
 from dondolo.curves.plots import parameters
-from dondolo.curves.table import flat, fragility_table
 from dondolo.errors import DondoloWarning, InputError
 from dondolo.populations.curve import Group, IntArray, PopulationCurve, flat_population
 from dondolo.populations.flags import Flags
 from dondolo.populations.stored_curves import StoredCurves
+from dondolo.populations.typology_tables import TableName, comments_of, tables_of, write_typology
 from dondolo.walls.population import Population
-from dondolo.walls.ties import TieCounts, tie_table
+from dondolo.walls.ties import TieCounts
 from dondolo.walls.wall import Wall, notes_on_supports
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-_Table = Literal["typology", "fragility", "stripes", "walls", "unions", "ties"]
 _MISSING = "unions: the results were read back from files without *_unions.csv"
 
 
@@ -514,40 +511,12 @@ class Typology(Shown, Saved):
 
         return draw_damage_states(self, ax, edp_thresholds, mechanism, group, options)
 
-    def _tables(self) -> dict[_Table, Any]:
-        found: dict[_Table, Any] = {} if self.are_alternatives else {"typology": lambda: typology_table(self)}
-        found |= {
-            "fragility": self._curves_table,
-            "stripes": lambda: stripe_columns(
-                [(wall.name, wall.mechanism) for wall in self.walls],
-                self.im,
-                self.levels,
-                self.edp_thresholds,
-                self.histories,
-                self.exceedances,
-            ),
-            "walls": lambda: self.population._table(),
-        }
-        if len(self.combined) < len(self.walls) and self.knows_unions:
-            from dondolo.populations.unions import unions_table
-
-            found["unions"] = lambda: unions_table(self)
-        ties = self.ties
-        if ties is not None and any(own.broken.size for own in ties):
-            found["ties"] = lambda: tie_table(self.walls, self.im, self.levels, ties, self.histories)
-        return found
-
-    def _curves_table(self) -> TableColumns:
-        states = [self.at(edp).curves for edp in self.edp_thresholds]
-        walls = [wall for wall in self.walls for _ in states]
-        return fragility_table(walls, [curve for row in zip(*states, strict=True) for curve in row])
-
-    def to_frame(self, table: _Table = "typology") -> Any:
+    def to_frame(self, table: TableName = "typology") -> Any:
         """One of the tables 'typology', 'fragility', 'stripes', 'walls', 'unions' and 'ties' as a pandas DataFrame."""
-        return tables.frame(plain(tables.choose(self._tables(), table)))
+        return tables.frame(plain(tables.choose(tables_of(self), table)))
 
     def to_csv(
-        self, path: str | os.PathLike[str], table: _Table = "typology", *, spreadsheet_safe: bool = False
+        self, path: str | os.PathLike[str], table: TableName = "typology", *, spreadsheet_safe: bool = False
     ) -> None:
         """Write one of the tables 'typology', 'fragility', 'stripes', 'walls', 'unions' and 'ties' like the executable.
 
@@ -556,17 +525,8 @@ class Typology(Shown, Saved):
 
         With `spreadsheet_safe`, names that a spreadsheet would read as formulas get an apostrophe.
         """
-        chosen = plain(tables.choose(self._tables(), table))
-        tables.write_csv(path, chosen, self._comments(), spreadsheet_safe=spreadsheet_safe)
-
-    def _comments(self) -> list[str]:
-        counts = ", ".join(f"{name} = {count}" for name, count in self.work._asdict().items())
-        return [
-            *(f"gravity = {tables.shortest(pull)}" for pull in dict.fromkeys(wall.gravity for wall in self.walls)),
-            f"unit of im_level and theta: {unit_of(self.im) or '1'}",
-            f"work: {counts}",
-            *(f"warning: {sentence}" for sentence in self.warnings),
-        ]
+        chosen = plain(tables.choose(tables_of(self), table))
+        tables.write_csv(path, chosen, comments_of(self), spreadsheet_safe=spreadsheet_safe)
 
     def _stored(self) -> dict[str, Any]:
         """What a file has of it: all but what follows from the rest."""
@@ -613,40 +573,7 @@ class Typology(Shown, Saved):
         DondoloWarning
             Earlier results are replaced; reports, workbooks or figures are out of date.
         """
-        self._write(prefix, spreadsheet_safe)
-
-    def _write(
-        self,
-        prefix: str | os.PathLike[str],
-        spreadsheet_safe: bool,
-        more: Mapping[str, TableColumns] | None = None,
-        settings: Mapping[str, dict[str, Any]] | None = None,
-        confidence: float = np.nan,
-    ) -> None:
-        """Write all tables and some more, with the settings and the confidence of these."""
-        pulls = {wall.gravity for wall in self.walls}
-        if len(pulls) > 1:
-            raise InputError(
-                f"gravity = {min(pulls):g} and {max(pulls):g}: must be the same for all walls that are saved"
-            )
-        found = {f"_{name}.csv": table() for name, table in self._tables().items()} | dict(more or {})
-        run = self._run_file(pulls.pop())
-        run = dataclasses.replace(run, settings={**run.settings, **(settings or {})}, confidence=confidence)
-        used = sources_of_fits(self.im, self.walls) | ({"check", "uncertainty"} & run.settings.keys())
-        used |= {*self.record_formats}
-        write_set(prefix, found, run.citing(*used), spreadsheet_safe=spreadsheet_safe)
-
-    def _shape(self) -> dict[str, int]:
-        return {"walls": len(self.walls), "levels": len(self.levels), "states": len(self.edp_thresholds)}
-
-    def _run_file(self, gravity: float) -> RunFile:
-        stripes = {"im": self.im, "levels": self.levels.tolist(), "edp_thresholds": self.edp_thresholds.tolist()}
-        solver = {"edp_limit": float(self.edp_thresholds[-1]), "gravity": gravity}
-        settings: dict[str, Any] = {"job": {"task": "typology"}, "stripes": stripes, "solver": solver}
-        if self.are_alternatives:
-            settings["population"] = {"designs": True}
-        version, work = constants().version, self.work._asdict()
-        return RunFile(version, settings=settings, work=work, warnings=self.warnings, shape=self._shape())
+        write_typology(self, prefix, spreadsheet_safe)
 
     def _facts(self) -> list[tuple[str, str]]:
         fitted = sum(curve.has_fit for curve in self.combined.values())
@@ -677,16 +604,3 @@ class Typology(Shown, Saved):
             text = f"{shown_dispersion(whole.beta_walls):.3g} between walls, {whole.beta_records:.3g} between records"
             facts.append(("dispersion", text))
         return [*facts, ("work", str(self.work)), *notes]
-
-
-def typology_table(typology: Typology) -> TableColumns:
-    """Columns of ``_typology.csv``, one block of rows a damage state."""
-    groups = [group for edp in typology.edp_thresholds for group in typology.at(edp).groups]
-    return typology_columns(
-        [(one.mechanism, one.group) for one in groups],
-        typology.im,
-        typology.levels,
-        [flat(one.fit) for one in groups],
-        [(one.weight, one.beta_walls, one.beta_records, one.saturation, one.fitted) for one in groups],
-        [np.array([one.mean_fraction, one.mean_curve, *one.level_fractiles]) for one in groups],
-    )

@@ -32,6 +32,7 @@ from dondolo.errors import DondoloError, DondoloWarning, InputError, silent
 from dondolo.populations.curve import PopulationCurve
 from dondolo.populations.study import typology
 from dondolo.populations.typology import Typology
+from dondolo.populations.typology_tables import write_typology
 from dondolo.records.building import Building
 from dondolo.records.level_rows import lasting
 from dondolo.records.record import Record
@@ -194,7 +195,7 @@ class UncertainWall(tables.Tabular, Saved):
         DondoloError
             A file cannot be written.
         """
-        self.typology._write(prefix, spreadsheet_safe, {"_sources.csv": self._columns()}, {"uncertainty": {}})
+        write_typology(self.typology, prefix, spreadsheet_safe, {"_sources.csv": self._columns()}, {"uncertainty": {}})
 
     def _comments(self) -> list[str]:
         return [f"unit of theta: {blank_unit(self.im).strip() or '1'}", *tables.lines_of(self._facts())]

@@ -13,6 +13,7 @@ from dondolo._fortran.tables import plain
 from dondolo.analysis.certificate import Certified
 from dondolo.analysis.plots_stripes import draw_damage_states
 from dondolo.analysis.response import Response
+from dondolo.analysis.stripe_tables import stripes_table
 from dondolo.analysis.stripes import States, Stripes
 from dondolo.curves.fragility import Fragility
 from dondolo.reporting.columns import chosen, of_curve, parameters_of, shown
@@ -74,7 +75,8 @@ def curves(stripes: Stripes, states: Sequence[Fragility]) -> dict[str, Any]:
 def numbers(stripes: Stripes, fits: Sequence[Fragility]) -> dict[str, Any]:
     """Tables of the damage states and of the stripes."""
     curve = fits[-1]
-    levels = chosen(plain(stripes._tables()["stripes"]()), "im_level", "histories", "collapses", "fraction")
+    table = plain(stripes_table(stripes, [stripes.edp_limit]))
+    levels = chosen(table, "im_level", "histories", "collapses", "fraction")
     levels |= of_curve(curve, stripes.levels) | {"median_edp": np.median(stripes.edp, axis=1)}
     names = [state_name(float(one.edp_threshold or 0.0), stripes.edp_limit) for one in fits]
     kept = ("theta", "se_ln_theta", "beta", "se_beta", "log_likelihood", "deviance", "deviance_dof", "status")

@@ -30,6 +30,7 @@ from dondolo.errors import InputError, silent
 from dondolo.populations.combination import combine_rows
 from dondolo.populations.flags import Flags
 from dondolo.populations.typology import Typology
+from dondolo.populations.typology_tables import write_typology
 from dondolo.records.codes import Site
 from dondolo.records.level_rows import lasting
 from dondolo.records.record import Record
@@ -165,7 +166,7 @@ class DesignComparison(tables.Tabular, Saved):
             settings["check"], site = self.checks[0]._settings()
             curves = [flat(curve) for curve in self.curves]
             more["_checks.csv"] = check_columns(upload(self.typology.walls), site, self.im, curves)
-        self.typology._write(prefix, spreadsheet_safe, more, settings, self.confidence)
+        write_typology(self.typology, prefix, spreadsheet_safe, more, settings, self.confidence)
 
     def _columns(self) -> TableColumns:
         """Columns of ``_designs.csv``."""
