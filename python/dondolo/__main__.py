@@ -130,6 +130,7 @@ def _parser() -> argparse.ArgumentParser:
     )
     report.set_defaults(run=_report)
     report.add_argument("--pdf", action="store_true", help="write PREFIX_report.pdf instead, by Chromium or WeasyPrint")
+    report.add_argument("--lang", help="en or it; DONDOLO_LANG by default, or en", metavar="LANGUAGE")
     relazione = commands.add_parser(
         "relazione",
         help="write a calculation report of checks by NTC 2018: Word, HTML or PDF",
@@ -244,7 +245,7 @@ def _report(options: argparse.Namespace) -> None:
     if options.pdf and not path.lower().endswith(".pdf"):
         raise dd.errors.InputError(f"--output {path}: must end in .pdf with --pdf")
     hazard = None if options.hazard is None else dd.HazardCurve.from_csv(options.hazard)
-    dd.report(dd.read_results(options.prefix), path, hazard=hazard)
+    dd.report(dd.read_results(options.prefix), path, hazard=hazard, lang=options.lang)
     _report_done("written", path)
 
 

@@ -490,6 +490,8 @@ def test_documents(page):
     settings = {**TIED, "stripes": {"im": "pga", "levels": shown["levels"]}}
     report = page.post("/document", json={"settings": settings, "kind": "report", "lang": "en"})
     assert report.text.startswith("<!doctype html>") or "<html" in report.text[:300]
+    report = page.post("/document", json={"settings": settings, "kind": "report", "lang": "it"})
+    assert 'lang="it"' in report.text
     relazione = page.post("/document", json={"settings": settings, "kind": "relazione", "lang": "it"})
     assert 'lang="it"' in relazione.text
     assert page.post("/document", json={"settings": settings, "kind": "other"}).status_code == 422

@@ -7,6 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from dondolo._base.wording import say
+
 # Dispersions below this are rounding
 _ROUNDING = 1e-6
 
@@ -19,7 +21,7 @@ def shown_dispersion(value: float) -> float:
 def span(counts: NDArray[np.integer]) -> str:
     """Counts in words: one number, or the least and the most."""
     few, many = int(counts.min()), int(counts.max())
-    return str(few) if few == many else f"{few} to {many}"
+    return str(few) if few == many else say("{few} to {many}", few=few, many=many)
 
 
 class Shown:

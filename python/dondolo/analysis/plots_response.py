@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
+from dondolo._base.wording import say
 from dondolo.analysis.response import Response
 from dondolo.figures import style
 from dondolo.figures.options import Options
@@ -50,7 +51,7 @@ def draw_history(response: Response, ax: Iterable[Axes] | None, given: dict[str,
     wall = response.wall
     if wall.support_share > 0.0:
         motions = response.record.under(wall, at="base"), response.record.under(wall, at="top")
-        looks = ("base", style.BLUE, "-"), ("top", style.PURPLE, (0, (3, 1)))
+        looks = (say("base"), style.BLUE, "-"), (say("top"), style.PURPLE, (0, (3, 1)))
         for support, (at, colour, dashes) in zip(motions, looks, strict=True):
             shown = support.time <= time[-1]
             values = response.scale * support.acceleration[shown] / wall.gravity
@@ -60,20 +61,30 @@ def draw_history(response: Response, ax: Iterable[Axes] | None, given: dict[str,
     for sign in (-1.0, 1.0) if wall.two_sided else (-1.0,):
         above.axhline(sign * trigger, color=style.RED, linewidth=0.9, linestyle="--")
     # Friction resists in full only where the wall has not been.
-    name = "trigger acceleration" if not parts_of(wall, "interlock") else "trigger, first motion"
+    name = say("trigger, first motion") if parts_of(wall, "interlock") else say("trigger acceleration")
     if name not in above.get_legend_handles_labels()[1]:
         above.plot([], [], color=style.RED, linewidth=0.9, linestyle="--", label=name)
-    style.y_label(above, f"{response._support}\nacceleration [g]")
-    style.title(above, f"{wall.name}, record {response.record.name}, scale {response.scale:.4g}", options)
+    style.y_label(
+        above,
+        {
+            "ground": say("ground\nacceleration [g]"),
+            "floor": say("floor\nacceleration [g]"),
+            "felt": say("felt\nacceleration [g]"),
+        }[response._support],
+    )
+    words = say(
+        "{wall}, record {record}, scale {scale:.4g}", wall=wall.name, record=response.record.name, scale=response.scale
+    )
+    style.title(above, words, options)
 
     ratio = rotation / wall.capacity_angle
     look = style.apart(below, options)
-    motion = {"color": look["color"], "linestyle": look["linestyle"], "label": "rotation"}
+    motion = {"color": look["color"], "linestyle": look["linestyle"], "label": say("rotation")}
     style.main(below, below.plot(time, ratio, **options.look(**motion))[0])
     if options.points:
         _draw_marks(response, below, time[after_impact], ratio, look["color"])
-    below.set_xlabel("time [s]")
-    style.y_label(below, "rotation / capacity")
+    below.set_xlabel(say("time [s]"))
+    style.y_label(below, say("rotation / capacity"))
     end = motion_span(response)[1]
     below.set_xlim(time[0], end if is_first else max(end, below.get_xlim()[1]))
     above.set_xlim(below.get_xlim())
@@ -93,7 +104,9 @@ def _draw_marks(response: Response, below: Axes, impacts: FloatArray, ratio: Flo
         markersize=9,
         markeredgewidth=0.8,
         color=style.BLACK if color == style.BLUE else color,
-        label=f"impacts ({response.impacts}{f', and {later} after the record' if later else ''})",
+        label=say("impacts ({impacts}, and {later} after the record)", impacts=response.impacts, later=later)
+        if later
+        else say("impacts ({impacts})", impacts=response.impacts),
     )
     peak = int(np.argmax(np.abs(ratio)))
     below.plot(
@@ -103,5 +116,7 @@ def _draw_marks(response: Response, below: Axes, impacts: FloatArray, ratio: Flo
         marker="o",
         color=style.RED if color == style.BLUE else color,
         markersize=5,
-        label=f"collapse, EDP = {response.edp:.3g}" if response.collapsed else f"peak, EDP = {response.edp:.3g}",
+        label=say("collapse, EDP = {edp:.3g}", edp=response.edp)
+        if response.collapsed
+        else say("peak, EDP = {edp:.3g}", edp=response.edp),
     )

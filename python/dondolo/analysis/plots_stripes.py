@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dondolo._base.shown import span
+from dondolo._base.wording import say
 from dondolo._fortran.records import blank_unit
 from dondolo.analysis.certificate import Certified
 from dondolo.analysis.incremental import Incremental
@@ -36,7 +37,7 @@ def draw_stripes(stripes: Stripes, ax: Axes | None, given: dict[str, Any]) -> Ax
     x = np.broadcast_to(levels[:, None], edp.shape)
     limit = stripes.edp_limit
     _draw_bounds(stripes, ax)
-    own = {"markersize": 4, "markerfacecolor": "none", "markeredgewidth": 0.8, "label": "survives"}
+    own = {"markersize": 4, "markerfacecolor": "none", "markeredgewidth": 0.8, "label": say("survives")}
     marks = options.look(**own | look) | {"linestyle": "none"}
     (drawn,) = ax.plot(x[survives], edp[survives], **marks if survives.any() else marks | {"label": None})
     style.main(ax, drawn)
@@ -50,18 +51,23 @@ def draw_stripes(stripes: Stripes, ax: Axes | None, given: dict[str, Any]) -> Ax
         marker="^",
         markersize=7,
         color=color,
-        label=f"collapses (of {span(stripes.histories)})" if reached.any() else None,
+        label=say("collapses (of {histories})", histories=span(stripes.histories)) if reached.any() else None,
     )
     is_new = "collapse limit" not in ax.get_legend_handles_labels()[1]
     ax.axhline(
-        limit, color=style.BLACK, linewidth=0.9, linestyle="--", label="collapse limit" if is_new else None, zorder=1
+        limit,
+        color=style.BLACK,
+        linewidth=0.9,
+        linestyle="--",
+        label=say("collapse limit") if is_new else None,
+        zorder=1,
     )
     ax.set_ylim(0.0, max((_TOP + _NEXT * others) * limit, ax.get_ylim()[1] if others else 0.0))
     ax.set_xlim(0.0, max(1.05 * levels.max(), ax.get_xlim()[1] if others else 0.0))
     if options.counts:
         style.count_texts(ax, levels[reached], row, collapsed.sum(axis=1)[reached], color=color)
     ax.set_xlabel(style.im_label(stripes.im))
-    style.y_label(ax, style.EDP)
+    style.y_label(ax, say(style.EDP))
     style.title(ax, stripes.wall.name, options)
     style.legend(ax, options)
     return ax
@@ -75,13 +81,17 @@ def _draw_bounds(stripes: Stripes, ax: Axes) -> None:
     if len(rows):
         lowest, highest = stripes.edp_lowest[rows, columns], stripes.edp_highest[rows, columns]
         ax.vlines(stripes.levels[rows], lowest, highest, color=style.PURPLE, linewidth=2.0, zorder=1)
-        text = f"not computable ({len(rows)}): between these"
+        text = say("not computable ({histories}): between these", histories=len(rows))
         ax.plot(stripes.levels[rows], highest, "_", color=style.PURPLE, markersize=7, label=text)
         ax.plot(stripes.levels[rows], lowest, "_", color=style.PURPLE, markersize=7)
     low, high = stripes.theta_bounds
     if np.isfinite([low, high]).all():
         unit = blank_unit(stripes.im)
-        text = f"certified: θ = {low:.5g}{unit}" if low == high else f"certified: θ from {low:.5g} to {high:.5g}{unit}"
+        text = (
+            say("certified: θ = {low:.5g}{unit}", low=low, unit=unit)
+            if low == high
+            else say("certified: θ from {low:.5g} to {high:.5g}{unit}", low=low, high=high, unit=unit)
+        )
         ax.axvspan(low, high, color=style.PURPLE, alpha=0.35, linewidth=1.0, label=text, zorder=0)
 
 
@@ -93,12 +103,12 @@ def draw_damage_states(stripes: Stripes, ax: Axes | None, fits: Sequence[Fragili
     grid = curves.grid(stripes.levels)
     for threshold, look, marks in curves.state_looks(list(states)):
         curve = states[threshold]
-        text = f"EDP ≥ {threshold:g}: {parameters(curve)}"
+        text = say("EDP ≥ {threshold:g}: {words}", threshold=threshold, words=parameters(curve))
         if options.points or not curve.has_fit:
             ax.plot(stripes.levels, curve.collapses / curve.histories, **marks, label=None if curve.has_fit else text)
         if curve.has_fit:
             ax.plot(grid, curve(grid), **options.look(**look, label=text))
-    return curves.finish(ax, options, stripes.im, grid[-1], stripes.wall.name, "probability to reach the state")
+    return curves.finish(ax, options, stripes.im, grid[-1], stripes.wall.name, say("probability to reach the state"))
 
 
 def draw_incremental(incremental: Incremental, ax: Axes | None, given: dict[str, Any]) -> Axes:
@@ -114,7 +124,7 @@ def draw_incremental(incremental: Incremental, ax: Axes | None, given: dict[str,
         before = levels < first[i]
         x, y = _until_collapse(stripes.edp[before, i], levels[before], first[i], edge)
         ax.plot(x, y, color=style.GREY, linewidth=0.6, alpha=0.8)
-    ax.plot([], [], color=style.GREY, linewidth=0.6, label=f"{len(first)} histories")
+    ax.plot([], [], color=style.GREY, linewidth=0.6, label=say("{histories} histories", histories=len(first)))
     again = ~stripes.collapsed & (levels[:, None] > first)
     if again.any() and options.points:
         ax.plot(
@@ -125,20 +135,27 @@ def draw_incremental(incremental: Incremental, ax: Axes | None, given: dict[str,
             markersize=3,
             markerfacecolor="white",
             markeredgecolor=style.RED,
-            label=f"survive above their first collapse ({incremental.resurrected.sum()} histories)",
+            label=say(
+                "survive above their first collapse ({histories} histories)", histories=incremental.resurrected.sum()
+            ),
         )
     for edp, (text, line) in zip(incremental.edp_fractiles, (("16", "--"), ("50", "-"), ("84", "-.")), strict=True):
         gone = np.isinf(edp)
         end = levels[np.argmax(gone)] if gone.any() else np.inf
         x, y = _until_collapse(edp[levels < end], levels[levels < end], end, edge)
-        look = {"color": color, "linewidth": 2.4, "linestyle": line, "label": f"{text} % fractile of the EDP"}
+        look = {
+            "color": color,
+            "linewidth": 2.4,
+            "linestyle": line,
+            "label": say("{fractile} % fractile of the EDP", fractile=text),
+        }
         (drawn,) = ax.plot(x, y, **options.look(**look))
         if text == "50":
             style.main(ax, drawn)
-    ax.axvline(stripes.edp_limit, color=style.BLACK, linewidth=0.9, linestyle=":", label="collapse limit")
+    ax.axvline(stripes.edp_limit, color=style.BLACK, linewidth=0.9, linestyle=":", label=say("collapse limit"))
     ax.set_xlim(0.0, edge)
     ax.set_ylim(0.0, max(1.05 * levels[-1], ax.get_ylim()[1] if others else 0.0))
-    ax.set_xlabel(style.EDP)
+    ax.set_xlabel(say(style.EDP))
     style.y_label(ax, style.im_label(stripes.im))
     style.title(ax, stripes.wall.name, options)
     style.legend(ax, options)

@@ -13,6 +13,7 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray, as_flag, as_number, instance_of
 from dondolo._base.shown import Shown
+from dondolo._base.wording import decimal, say
 from dondolo._fortran import _core
 from dondolo._fortran.histories import warnings_of_errors, warnings_of_motion
 from dondolo._fortran.library import Stoppable, as_text, check, receive, warn
@@ -239,7 +240,7 @@ class Response(Shown, Saved):
         """
         from dondolo.walls.drawing import draw_wall
 
-        return draw_wall(self.wall, self.peak_rotation, ax, options, f", EDP = {self.edp:.3g}")
+        return draw_wall(self.wall, self.peak_rotation, ax, options, decimal(f", EDP = {self.edp:.3g}"))
 
     def animate(self, *, frames_per_second: float = 25, speed: float = 1.0) -> FuncAnimation:
         """Animate the motion: the wall beside its rotation.
@@ -287,28 +288,31 @@ class Response(Shown, Saved):
 
     def _facts(self) -> list[tuple[str, str]]:
         facts = [
-            ("wall", self.wall.name),
-            ("record", self.record.name),
-            ("scale", f"{self.scale:.6g}"),
+            (say("wall"), self.wall.name),
+            (say("record"), self.record.name),
+            (say("scale"), decimal(f"{self.scale:.6g}")),
             *self._initial_state(),
-            ("EDP", f"{self.edp:.6g}"),
-            ("collapsed", "yes" if self.collapsed else "no"),
-            ("impacts", str(self.impacts)),
-            ("time of the peak", f"{self.time_of_peak:.6g} s"),
+            ("EDP", decimal(f"{self.edp:.6g}")),
+            (say("collapsed"), say("yes") if self.collapsed else say("no")),
+            (say("impacts"), str(self.impacts)),
+            (say("time of the peak"), decimal(f"{self.time_of_peak:.6g} s")),
         ]
         if self.edp_error is not None:
             both = self.collapsed and self.edp_error == 0.0
-            fact = ("twice more", "collapses too") if both else ("estimated error of the EDP", f"{self.edp_error:.2g}")
+            error = say("estimated error of the EDP"), decimal(f"{self.edp_error:.2g}")
+            fact = (say("twice more"), say("collapses too")) if both else error
             facts.insert(4, fact)
         for number, (elongation, energy, broken) in enumerate(zip(*self.ties, strict=True), 1):
-            end = "broken" if broken else "stretched for good" if elongation > 0.0 else "as it was"
-            facts.append((f"tie {number}", f"{end}, {elongation:.4g} m, {energy:.4g} J/m"))
+            end = say("broken") if broken else say("stretched for good") if elongation > 0.0 else say("as it was")
+            text = say("{end}, {elongation:.4g} m, {energy:.4g} J/m", end=end, elongation=elongation, energy=energy)
+            facts.append((say("tie {number}", number=number), text))
         return [*facts, *notes_on_supports((self.wall,))]
 
     def _initial_state(self) -> list[tuple[str, str]]:
         if self.initial_rotation == 0.0 and self.initial_velocity == 0.0:
             return []
-        return [("initial state", f"{self.initial_rotation:.6g} rad, {self.initial_velocity:.6g} rad/s")]
+        state = {"rotation": self.initial_rotation, "velocity": self.initial_velocity}
+        return [(say("initial state"), say("{rotation:.6g} rad, {velocity:.6g} rad/s", **state))]
 
     def _table(self) -> tables.Table:
         time, acceleration, rotation, after_impact = self._motion()

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from dondolo._base.wording import in_english, say
 from dondolo._fortran.buildings import drift_note
 from dondolo._fortran.library import constants
 from dondolo._storage.saved import part_of_results
@@ -85,7 +86,13 @@ class Work(NamedTuple):
     def _notes(self) -> list[tuple[str, str]]:
         """What there is to say of supports that drift apart, as facts."""
         note = drift_note(self.drifted, self.histories)
-        return [("note", note)] if note else []
+        if note and not in_english():
+            note = say(
+                "supports drift apart in {drifted} of {histories} histories",
+                drifted=self.drifted,
+                histories=self.histories,
+            )
+        return [(say("note"), note)] if note else []
 
     def __str__(self) -> str:
         return (

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
+from dondolo._base.wording import decimal, say
 from dondolo._fortran.library import shown_probability
 from dondolo.curves.fragility import Fragility
 from dondolo.figures import curves, style
@@ -15,6 +16,19 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from dondolo.checks.ntc import CodeCheck
+
+# What sentences that are said elsewhere are marked by for the catalogues
+_ = str
+_CHECKS = {
+    "linear": _("linear {state}"),
+    "nonlinear": _("nonlinear {state}"),
+    "dynamic": _("dynamic {state}"),
+}
+
+
+def check_name(method: str, state: str) -> str:
+    """A check in words."""
+    return say(_CHECKS[method], state=state)
 
 
 def draw_check(check: CodeCheck, curve: Fragility, ax: Axes | None, given: dict[str, Any]) -> Axes:
@@ -28,7 +42,12 @@ def draw_check(check: CodeCheck, curve: Fragility, ax: Axes | None, given: dict[
     )
     for i, ((method, state), chance) in enumerate(chances.items()):
         level = check.value(method, state, "pga" if method == "site" else "capacity_pga")
-        name = f"a_g S of the site {state}".strip() + ":" if method == "site" else f"{method} {state} withstands"
+        numbers = {"level": level, "chance": decimal(shown_probability(chance))}
+        if method == "site":
+            site = say("a_g S of the site {state}", state=state).strip()
+            label = say("{site}: {level:.3g} g, P = {chance}", site=site, **numbers)
+        else:
+            label = say("{check} withstands {level:.3g} g, P = {chance}", check=check_name(method, state), **numbers)
         look = (
             {"color": style.BLACK, "linewidth": 1.8}
             if method == "site"
@@ -38,7 +57,7 @@ def draw_check(check: CodeCheck, curve: Fragility, ax: Axes | None, given: dict[
                 "linestyle": style.LINES[i % len(style.LINES)],
             }
         )
-        ax.axvline(level, label=f"{name} {level:.3g} g, P = {shown_probability(chance)}", zorder=1, **look)
+        ax.axvline(level, label=label, zorder=1, **look)
         ax.plot(level, chance, marker="x", markersize=6, color=look["color"], zorder=4)
     ax.set_xlim(0.0, right)
     style.legend(ax, options)

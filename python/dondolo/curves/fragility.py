@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_levels, as_number, as_probabilities, shaped, tails
 from dondolo._base.shown import Shown
+from dondolo._base.wording import say
 from dondolo._fortran.curves import normal_or_student, probability
 from dondolo._fortran.library import constants
 from dondolo._fortran.records import blank_unit, name_of_measure, unit_of
@@ -36,13 +37,15 @@ if TYPE_CHECKING:
 
 Interval = tuple[float, float]
 
+# What sentences that are said elsewhere are marked by for the catalogues
+_ = str
 _WHY = {
-    "naive": "as if all histories were independent",
-    "few_clusters": "fewer than three clusters of records",
-    "one_cluster": "one cluster of records determines the curve",
-    "few_walls": "two walls: either one or at least three are needed",
-    "one_wall": "one wall determines the curve",
-    "given": "the parameters were given",
+    "naive": _("as if all histories were independent"),
+    "few_clusters": _("fewer than three clusters of records"),
+    "one_cluster": _("one cluster of records determines the curve"),
+    "few_walls": _("two walls: either one or at least three are needed"),
+    "one_wall": _("one wall determines the curve"),
+    "given": _("the parameters were given"),
 }
 
 
@@ -604,9 +607,11 @@ class Fragility(Curve, Shown, Saved):
     def _kind(self) -> str:
         """What the standard errors are, in words."""
         if self.errors == "clustered":
-            kinds = " and ".join(
-                f"{len(part.labels)} {'walls' if part.kind == 'walls' else f'clusters of {part.kind}'}"
+            kinds = say(" and ").join(
+                say("{walls} walls", walls=len(part.labels))
+                if part.kind == "walls"
+                else say("{clusters} clusters of {kind}", clusters=len(part.labels), kind=say(part.kind))
                 for part in self.parts
             )
-            return kinds or f"{self.clusters} clusters of records"
-        return _WHY[self.errors]
+            return kinds or say("{clusters} clusters of {kind}", clusters=self.clusters, kind=say("records"))
+        return say(_WHY[self.errors])

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dondolo._base.arguments import tails
+from dondolo._base.wording import say
 from dondolo._fortran.records import blank_unit
 from dondolo.curves.curve import Curve
 from dondolo.curves.fragility import Fragility
@@ -41,7 +42,9 @@ def draw_fragility(
             text = _of_band(fragility, confidence) if is_alone else None
             ax.fill_between(grid, band[0], band[1], color=look["color"], alpha=0.2, linewidth=0.0, label=text)
         unit = blank_unit(fragility.im)
-        text = label or f"θ = {fragility.theta:.3g}{unit}, β = {fragility.beta:.3g}"
+        text = label or say(
+            "θ = {theta:.3g}{unit}, β = {beta:.3g}", theta=fragility.theta, unit=unit, beta=fragility.beta
+        )
         style.main(ax, ax.plot(grid, fragility(grid), **line | {"label": text})[0])
     elif fragility.bracket[0] < fragility.bracket[1]:
         ax.axvspan(
@@ -50,7 +53,7 @@ def draw_fragility(
             color=style.LIGHT,
             alpha=0.6,
             linewidth=0.0,
-            label=f"median somewhere here ({fragility.status})",
+            label=say("median somewhere here ({status})", status=fragility.status),
             zorder=0,
         )
     # Where several curves share the axes
@@ -84,7 +87,11 @@ def _draw_fractions(
         markersize=4.5,
         elinewidth=0.8,
         capsize=2,
-        label=(f"fractions; {_of_bars(confidence)}" if options.bars else "fractions") if is_alone else None,
+        label=(
+            (say("fractions; {bars}", bars=_of_bars(confidence)) if options.bars else say("fractions"))
+            if is_alone
+            else None
+        ),
         zorder=3,
         **mark,
     )
@@ -104,25 +111,26 @@ def draw_any(curve: Curve, ax: Axes | None, label: str | None, given: dict[str, 
     style.main(ax, ax.plot(x, curve(x), **line | {"label": label})[0])
     if len(marked) and options.points:
         ax.plot(marked, curve(marked), color=look["color"], linestyle="none", marker=marker, markersize=3)
-    return curves.finish(ax, options, curve.im, float(x[-1]), "", "probability")
+    return curves.finish(ax, options, curve.im, float(x[-1]), "", say("probability"))
 
 
 def _of_bars(confidence: float) -> str:
     """What the bars are: another statistic than the band."""
-    return f"bars: {100.0 * confidence:.4g} % of one stripe, exact binomial"
+    return say("bars: {share:.4g} % of one stripe, exact binomial", share=100.0 * confidence)
 
 
 def _of_band(fragility: Fragility, confidence: float) -> str:
     """What the band is, by the standard errors of the curve."""
-    kinds = " and ".join(part.kind for part in fragility.parts) or "records"
-    how = f"clustered by {kinds}" if fragility.errors == "clustered" else "histories independent"
-    return f"band: {100.0 * confidence:.4g} % of the curve, {how}"
+    kinds = say(" and ").join(say(part.kind) for part in fragility.parts) or say("records")
+    if fragility.errors == "clustered":
+        return say("band: {share:.4g} % of the curve, clustered by {kinds}", share=100.0 * confidence, kinds=kinds)
+    return say("band: {share:.4g} % of the curve, histories independent", share=100.0 * confidence)
 
 
 def parameters(fit: Fragility) -> str:
     """Median and dispersion for a legend."""
     if not fit.has_fit:
-        return f"no fit ({fit.status.replace('_', ' ')})"
+        return say("no fit ({status})", status=say(fit.status.replace("_", " ")))
     unit = blank_unit(fit.im)
-    times = f", times {fit.saturation:.2g}" if fit.saturation < 1.0 else ""
-    return f"θ = {fit.theta:.3g}{unit}, β = {fit.beta:.3g}{times}"
+    times = say(", times {share:.2g}", share=fit.saturation) if fit.saturation < 1.0 else ""
+    return say("θ = {theta:.3g}{unit}, β = {beta:.3g}", theta=fit.theta, unit=unit, beta=fit.beta) + times

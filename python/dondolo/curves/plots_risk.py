@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from dondolo._base.wording import say
 from dondolo._fortran.records import blank_unit
 from dondolo.curves.risk import Risk, between, probability
 from dondolo.figures import style
@@ -33,17 +34,21 @@ def draw_risk(risk: Risk, ax: Iterable[Axes] | None, given: dict[str, Any]) -> A
     x, density = risk._smooth_density()
     plot_hazard(above, hazard, x, options, {})
     above.set_yscale("log")
-    style.y_label(above, "exceeded\n[1/year]")
-    style.title(above, f"mean annual frequency of collapse:\n{between(*risk.bounds, 'a year', 3)}", options)
+    style.y_label(above, say("exceeded\n[1/year]"))
+    style.title(
+        above,
+        say("mean annual frequency of collapse:\n{bounds}", bounds=between(*risk.bounds, say("a year"), 3)),
+        options,
+    )
     style.main(middle, middle.plot(x, probability(risk.fragility, x), **line)[0])
     middle.set_ylim(-0.02, 1.02)
-    style.y_label(middle, "probability\nof collapse")
+    style.y_label(middle, say("probability\nof collapse"))
     share = density / (risk.inside if risk.inside > 0.0 else 1.0)
     first = not style.mains(below)
     below.fill_between(x, share, color=style.BRICK if first else look["color"], linewidth=0.0, alpha=0.5)
     style.main(below, below.plot(x, share, **{**line, "color": style.RED if first else line["color"]})[0])
     below.set_ylim(bottom=0.0)
-    style.y_label(below, "share of the risk\nper unit of ln IM")
+    style.y_label(below, say("share of the risk\nper unit of ln IM"))
     intensity_axis(below, hazard.im, x[0], x[-1])
     style.legend(below, options, also=(above, middle))
     top: Axes = above

@@ -56,6 +56,7 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_count, as_levels, as_number, increasing, instance_of, shaped
 from dondolo._base.shown import Shown
+from dondolo._base.wording import decimal, say
 from dondolo._fortran.library import warn
 from dondolo._fortran.records import blank_unit
 from dondolo._storage.saved import Saved
@@ -463,5 +464,6 @@ def probability(fragility: Curve, x: FloatArray) -> FloatArray:
 
 def between(low: float, high: float, unit: str = "", digits: int = 4) -> str:
     """One number where both are the same to the digits shown, else both ends."""
-    ends = f"{low:.{digits}g}", f"{high:.{digits}g}"
-    return f"{ends[0] if ends[0] == ends[1] else f'between {ends[0]} and {ends[1]}'} {unit}".rstrip()
+    ends = decimal(f"{low:.{digits}g}"), decimal(f"{high:.{digits}g}")
+    both = ends[0] if ends[0] == ends[1] else say("between {low} and {high}", low=ends[0], high=ends[1])
+    return f"{both} {unit}".rstrip()

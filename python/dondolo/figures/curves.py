@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from dondolo._base.wording import say
 from dondolo.figures import style
 from dondolo.figures.options import Options
 
@@ -62,15 +63,13 @@ def state_looks(thresholds: Sequence[float]) -> Iterator[tuple[float, dict[str, 
         yield threshold, look, {"color": color, "linestyle": "none", "marker": style.MARKERS[i % 7], "markersize": 4}
 
 
-def finish(
-    ax: Axes, options: Options, im: str, right: float, title: str, ylabel: str = "probability of collapse"
-) -> Axes:
+def finish(ax: Axes, options: Options, im: str, right: float, title: str, ylabel: str | None = None) -> Axes:
     """Limits, labels, title and legend; axes that have a curve already get no narrower."""
     is_first = len(style.mains(ax)) <= 1
     ax.set_xlim(0.0, right if is_first else max(right, ax.get_xlim()[1]))
     ax.set_ylim(-0.02, 1.02)
     ax.set_xlabel(style.im_label(im))
-    style.y_label(ax, ylabel)
+    style.y_label(ax, ylabel or say("probability of collapse"))
     style.title(ax, title, options)
     style.legend(ax, options)
     return ax

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import textwrap
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
@@ -10,6 +11,7 @@ from weakref import WeakKeyDictionary, WeakSet
 import numpy as np
 from numpy.typing import NDArray
 
+from dondolo._base.wording import decimal, say
 from dondolo._fortran.records import describe_measure
 from dondolo.errors import InputError
 from dondolo.figures.options import Options
@@ -47,8 +49,20 @@ MECHANISMS: dict[str, tuple[str, Any]] = {
     "all": (RED, "-"),
 }
 
+# What sentences that are said elsewhere are marked by for the catalogues
+_ = str
+# Mechanisms in words
+_NAMES = {
+    "one_sided": _("one-sided"),
+    "two_block": _("two-block"),
+    "free_standing": _("free-standing"),
+    "tabulated": _("tabulated"),
+    "all": _("all mechanisms"),
+}
+# Periods in the names of measures
+_NUMBER = re.compile(r"\d+(?:\.\d+)?")
 # Label of the axis of rotations
-EDP = "EDP = largest rotation / capacity"
+EDP = _("EDP = largest rotation / capacity")
 
 # Main artists of results, from which one knows what an Axes shows
 _MAIN: WeakSet[Any] = WeakSet()
@@ -72,18 +86,26 @@ def im_label(im: str) -> str:
     try:
         measure = describe_measure(im)
     except InputError:
-        return im if im else "intensity measure"
-    return f"{measure.title} [{measure.unit or '-'}]"
+        return im if im else say("intensity measure")
+    return f"{_measure_name(measure.title)} [{measure.unit or '-'}]"
+
+
+def _measure_name(title: str) -> str:
+    """A measure in words: its periods apart."""
+    numbers = _NUMBER.findall(title)
+    places = ("first", "last")[: len(numbers)]
+    sentence = _NUMBER.sub("{}", title).format(*(f"{{{place}}}" for place in places))
+    return say(sentence, **dict(zip(places, map(decimal, numbers), strict=True)))
 
 
 def mechanism_name(mechanism: str) -> str:
     """A mechanism in words."""
-    return "all mechanisms" if mechanism == "all" else mechanism.replace("_", "-")
+    return say(_NAMES.get(mechanism, mechanism))
 
 
-def counted(number: int, noun: str) -> str:
+def counted_walls(number: int) -> str:
     """How many: 1 wall, 2 walls."""
-    return f"{number} {noun}{'' if number == 1 else 's'}"
+    return say("1 wall") if number == 1 else say("{number} walls", number=number)
 
 
 def label(text: str) -> str:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray
+from dondolo._base.wording import say
 from dondolo.figures import style
 from dondolo.figures.options import Options
 from dondolo.hazard.hazard import HazardCurve
@@ -31,9 +32,9 @@ def draw_hazard(hazard: HazardCurve, ax: Axes | None, given: dict[str, Any]) -> 
     low, high = hazard.levels[[0, -1]]
     plot_hazard(ax, hazard, np.geomspace(low, high, _POINTS), options, options.look(**look))
     ax.set_yscale("log")
-    style.y_label(ax, "annual frequency of exceedance [1/year]")
+    style.y_label(ax, say("annual frequency of exceedance [1/year]"))
     if is_first:
-        ax.secondary_yaxis("right", functions=(_inverse, _inverse)).set_ylabel("return period [years]")
+        ax.secondary_yaxis("right", functions=(_inverse, _inverse)).set_ylabel(say("return period [years]"))
     else:
         low, high = min(low, ax.get_xlim()[0]), max(high, ax.get_xlim()[1])
     intensity_axis(ax, hazard.im, low, high)
@@ -57,12 +58,18 @@ def plot_hazard(ax: Axes, hazard: HazardCurve, x: FloatArray, options: Options, 
         color = look.get("color", style.BLACK)
         if options.points:
             ax.plot(x, hazard.annual_frequency, linestyle="none", marker="o", markersize=4, color=color)
-    label = "mean" if hazard.fractiles else None
+    label = say("mean") if hazard.fractiles else None
     style.main(ax, ax.plot(x, hazard(x), **{"color": style.BLACK, "label": label} | look)[0])
     if not options.band:
         return
     for (q, fractile), line in zip(hazard._curves().items(), fractile_lines(), strict=False):
-        ax.plot(fractile.levels, fractile.annual_frequency, color=style.GREY, linestyle=line, label=f"fractile {q:g}")
+        ax.plot(
+            fractile.levels,
+            fractile.annual_frequency,
+            color=style.GREY,
+            linestyle=line,
+            label=say("fractile {q:g}", q=q),
+        )
 
 
 def fractile_lines() -> Iterator[object]:

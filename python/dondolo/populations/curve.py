@@ -12,6 +12,7 @@ import numpy as np
 
 from dondolo._base.arguments import FloatArray
 from dondolo._base.shown import Shown, shown_dispersion
+from dondolo._base.wording import say
 from dondolo._fortran.library import as_text
 from dondolo._fortran.populations import FlatPopulation, curve_of_population
 from dondolo._fortran.records import blank_unit
@@ -286,7 +287,7 @@ class PopulationCurve(Shown, Group, MeanCurve):
     def _title(self) -> str:
         """Mechanism and group."""
         grouped = any(self._source.population.groups)
-        group = f", group {self.group}" if self.group else ", population" if grouped else ""
+        group = say(", group {group}", group=self.group) if self.group else say(", population") if grouped else ""
         return style.mechanism_name(self.mechanism) + group
 
     def __repr__(self) -> str:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray, as_array
+from dondolo._base.wording import decimal, say
 from dondolo.curves.plots import parameters
 from dondolo.errors import InputError
 from dondolo.figures import curves, style
@@ -42,16 +43,20 @@ def draw_curve(curve: PopulationCurve, ax: Axes | None, given: dict[str, Any]) -
     if options.band:
         drawn = np.unique(np.linspace(0, walls - 1, _THIN).round().astype(int))
         curves.thin(ax, grid, probabilities[drawn], 0.5, 0.6 if len(drawn) > 20 else 1.0)
-        text = f"{len(drawn)} of {walls} walls" if len(drawn) < walls else style.counted(walls, "wall")
+        text = (
+            say("{drawn} of {walls} walls", drawn=len(drawn), walls=walls)
+            if len(drawn) < walls
+            else style.counted_walls(walls)
+        )
         ax.plot([], [], color=style.GREY, linewidth=0.5, label=text)
         _band(ax, grid, fractiles, style.BLUE)
-    line = options.look(**look, linewidth=_THICK, label="weighted mean", zorder=4)
+    line = options.look(**look, linewidth=_THICK, label=say("weighted mean"), zorder=4)
     style.main(ax, ax.plot(grid, mean, **line)[0])
     if curve.fit.has_fit:
-        fitted = f"lognormal, {parameters(curve.fit)}"
+        fitted = say("lognormal, {words}", words=parameters(curve.fit))
         ax.plot(grid, curve.fit(grid), color=style.BLACK, label=fitted, zorder=5, **_FITTED)
     if options.points:
-        _fractions(ax, curve, "weighted fractions")
+        _fractions(ax, curve, say("weighted fractions"))
     return curves.finish(ax, options, curve.im, grid[-1], curve._title())
 
 
@@ -72,7 +77,7 @@ def draw_combination(typology: Typology, ax: Axes | None, group: str, given: dic
     grid = curves.grid(typology.levels)
     if options.band:
         _band(ax, grid, whole.fractiles(grid, _FRACTILES), style.GREY)
-    where = " where it can occur" if np.any(typology.population.p_occ < 1.0) else ""
+    where = say(" where it can occur") if np.any(typology.population.p_occ < 1.0) else ""
     parts = [typology[name, group] for name in names]
     for curve in parts:
         look = options.look(**style.mechanism_look(curve.mechanism), linewidth=1.8, zorder=3)
@@ -80,7 +85,9 @@ def draw_combination(typology: Typology, ax: Axes | None, group: str, given: dic
     look = options.look(**style.mechanism_look("all"), linewidth=_THICK, zorder=4)
     _mean(ax, grid, whole, style.mechanism_name(whole.mechanism), look)
     _explain_fitted(ax, [*parts, whole])
-    return curves.finish(ax, options, typology.im, grid[-1], f"group {group}" if group else "population")
+    return curves.finish(
+        ax, options, typology.im, grid[-1], say("group {group}", group=group) if group else say("population")
+    )
 
 
 def draw_union(typology: Typology, name: str, ax: Axes | None, given: dict[str, Any]) -> Axes:
@@ -105,15 +112,15 @@ def draw_union(typology: Typology, name: str, ax: Axes | None, given: dict[str, 
     # Of mechanisms that never occur together, the product is the same.
     is_alone = people._has_single_alternatives(name)
     for curve, word, own in (
-        (product, "independent", {"color": style.BLACK, "linewidth": 1.2, "linestyle": ":"}),
-        (union, "same histories", style.mechanism_look("all") | {"linewidth": _THICK}),
+        (product, say("independent"), {"color": style.BLACK, "linewidth": 1.2, "linestyle": ":"}),
+        (union, say("same histories"), style.mechanism_look("all") | {"linewidth": _THICK}),
     ):
         if curve.has_fit and not (is_alone and curve is product):
             ax.plot(grid, curve(grid), **options.look(**own, label=f"{word}: {parameters(curve)}"))
     if options.points:
         fractions = union.saturation * union.collapses / union.histories
         looks: dict[str, Any] = {"color": style.RED, "linestyle": "none", "marker": "o", "markersize": 4}
-        ax.plot(union.levels, fractions, **looks, label="fractions of the same histories")
+        ax.plot(union.levels, fractions, **looks, label=say("fractions of the same histories"))
     return curves.finish(ax, options, typology.im, grid[-1], name)
 
 
@@ -134,9 +141,9 @@ def draw_groups(typology: Typology, ax: Axes | None, mechanism: str, given: dict
     colors = plt.get_cmap("viridis")(np.linspace(0.0, 0.85, len(names)))
     for i, (curve, color) in enumerate(zip(parts, colors, strict=True)):
         look = options.look(color=color, linestyle=style.LINES[(i + 1) % len(style.LINES)], linewidth=1.8)
-        _mean(ax, grid, curve, f"{curve.group} ({style.counted(curve.n_walls, 'wall')})", look)
+        _mean(ax, grid, curve, f"{curve.group} ({style.counted_walls(curve.n_walls)})", look)
     look = options.look(**style.mechanism_look("all"), linewidth=_THICK)
-    _mean(ax, grid, whole, f"population ({style.counted(whole.n_walls, 'wall')})", look)
+    _mean(ax, grid, whole, say("population ({walls})", walls=style.counted_walls(whole.n_walls)), look)
     _explain_fitted(ax, [*parts, whole])
     return curves.finish(ax, options, typology.im, grid[-1], style.mechanism_name(mechanism))
 
@@ -161,12 +168,12 @@ def draw_damage_states(
     for threshold, look, marks in curves.state_looks(thresholds):
         state = typology.at(threshold)[mechanism, group]
         states.append(state)
-        _mean(ax, grid, state, f"EDP ≥ {threshold:g}", options.look(**look))
+        _mean(ax, grid, state, decimal(f"EDP ≥ {threshold:g}"), options.look(**look))
         if options.points:
             ax.plot(state.levels, state.mean_fraction, **marks)
     _explain_fitted(ax, states)
     title = typology[mechanism, group]._title()
-    return curves.finish(ax, options, typology.im, grid[-1], title, "probability to reach the state")
+    return curves.finish(ax, options, typology.im, grid[-1], title, say("probability to reach the state"))
 
 
 def _draw_union_states(
@@ -176,12 +183,12 @@ def _draw_union_states(
     name = typology.facade
     for threshold, look, marks in curves.state_looks(thresholds):
         union = typology.at(threshold).unions[name]
-        text = style.label(f"EDP ≥ {threshold:g}: {parameters(union)}")
+        text = say("EDP ≥ {threshold:g}: {words}", threshold=threshold, words=parameters(union))
         if options.points:
             ax.plot(union.levels, union.saturation * union.collapses / union.histories, **marks)
         shown = union(grid) if union.has_fit else np.full(len(grid), np.nan)
         ax.plot(grid, shown, **options.look(**look, label=text))
-    return curves.finish(ax, options, typology.im, grid[-1], name, "probability to reach the state")
+    return curves.finish(ax, options, typology.im, grid[-1], name, say("probability to reach the state"))
 
 
 def _band(ax: Axes, grid: FloatArray, fractiles: FloatArray, color: str) -> None:
@@ -191,10 +198,10 @@ def _band(ax: Axes, grid: FloatArray, fractiles: FloatArray, color: str) -> None
     low, median, high = fractiles
     # As light as a fifth of the colour on white, but not seen through
     light = tuple(1.0 - 0.22 * (1.0 - part) for part in to_rgb(color))
-    ax.fill_between(grid, low, high, color=light, linewidth=0.0, label="16 to 84 % of the walls", zorder=1.4)
+    ax.fill_between(grid, low, high, color=light, linewidth=0.0, label=say("16 to 84 % of the walls"), zorder=1.4)
     for edge in (low, high):
         ax.plot(grid, edge, color=color, linewidth=0.7, zorder=2)
-    ax.plot(grid, median, color=color, linewidth=1.4, linestyle=":", label="median of the walls", zorder=3)
+    ax.plot(grid, median, color=color, linewidth=1.4, linestyle=":", label=say("median of the walls"), zorder=3)
 
 
 def _mean(ax: Axes, grid: FloatArray, curve: PopulationCurve, name: str, look: dict[str, Any]) -> None:
@@ -209,5 +216,9 @@ def _explain_fitted(ax: Axes, means: Sequence[PopulationCurve]) -> None:
     """What the thin lines beside means are."""
     if any(curve.fit.has_fit for curve in means):
         ax.plot(
-            [], [], color=style.BLACK, linewidth=_THIN_LINE, label="thick: means; thin: lognormals of these θ and β"
+            [],
+            [],
+            color=style.BLACK,
+            linewidth=_THIN_LINE,
+            label=say("thick: means; thin: lognormals of these θ and β"),
         )

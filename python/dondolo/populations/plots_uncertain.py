@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from dondolo._base.wording import say
 from dondolo._fortran.records import blank_unit
 from dondolo._fortran.walls import WALL_PROPERTIES
 from dondolo.figures import curves, style
@@ -22,13 +23,15 @@ if TYPE_CHECKING:
 # Most curves that are drawn one by one
 _THIN = 60
 _ROWS = {row.name: row for row in WALL_PROPERTIES}
+# What sentences that are said elsewhere are marked by for the catalogues
+_ = str
 # Words for properties whose names are those of variables
 _WORDS = {
-    "restitution_factor": "ratio of restitution",
-    "restitution_value": "restitution",
-    "hinge": "height of the hinge",
-    "hinge_depth": "depth of the hinge",
-    "compressive_strength": "strength",
+    "restitution_factor": _("ratio of restitution"),
+    "restitution_value": _("restitution"),
+    "hinge": _("height of the hinge"),
+    "hinge_depth": _("depth of the hinge"),
+    "compressive_strength": _("strength"),
 }
 
 
@@ -50,7 +53,8 @@ def _draw_curves(found: UncertainWall, ax: Any, options: Options) -> None:
     middle = found.at_medians
     if options.band:
         curves.thin(ax, grid, found.curve.probabilities(grid)[drawn], 0.5, 0.6)
-        ax.plot([], [], color=style.GREY, linewidth=0.5, label=f"sample of the model, {len(drawn)} of {walls} variants")
+        text = say("sample of the model, {drawn} of {walls} variants", drawn=len(drawn), walls=walls)
+        ax.plot([], [], color=style.GREY, linewidth=0.5, label=text)
         if middle.has_errors:
             ax.fill_between(
                 grid,
@@ -58,14 +62,14 @@ def _draw_curves(found: UncertainWall, ax: Any, options: Options) -> None:
                 color=style.BLUE,
                 alpha=0.3,
                 linewidth=0.0,
-                label="other records, 95 % band",
+                label=say("other records, 95 % band"),
             )
     if middle.has_fit:
-        ax.plot(grid, middle(grid), color=style.BLUE, linestyle="--", label="sources at their medians", zorder=3)
-    look = options.look(color=style.RED, linewidth=2.2, label="mean of the sample", zorder=2.5)
+        ax.plot(grid, middle(grid), color=style.BLUE, linestyle="--", label=say("sources at their medians"), zorder=3)
+    look = options.look(color=style.RED, linewidth=2.2, label=say("mean of the sample"), zorder=2.5)
     style.main(ax, ax.plot(grid, found.curve(grid), **look)[0])
     if found.as_given.has_fit:
-        ax.plot(grid, found.as_given(grid), color=style.BLACK, linestyle=":", label="wall as given", zorder=5)
+        ax.plot(grid, found.as_given(grid), color=style.BLACK, linestyle=":", label=say("wall as given"), zorder=5)
     curves.finish(ax, options, found.im, grid[-1], "")
 
 
@@ -77,12 +81,12 @@ def _draw_tornado(found: UncertainWall, ax: Any, options: Options) -> None:
         for name, (low, _, high), ends, share in zip(found.sources, found.values, found.ends, found.total, strict=True)
     ]
     if middle.has_errors:
-        bars.append(("records, 95 % interval", middle.parameter_interval()["theta"], None))
-    bars.append(("numerical error", found.numbers, None))
+        bars.append((say("records, 95 % interval"), middle.parameter_interval()["theta"], None))
+    bars.append((say("numerical error"), found.numbers, None))
     bars = [bar for bar in bars if np.isfinite(bar[1]).all()] if middle.has_fit else []
     if not bars:
         ax.set_axis_off()
-        ax.text(0.5, 0.5, "no medians", transform=ax.transAxes, ha="center")
+        ax.text(0.5, 0.5, say("no medians"), transform=ax.transAxes, ha="center")
         return
     bars.sort(key=lambda bar: max(*bar[1], middle.theta) - min(*bar[1], middle.theta))
     for row, (name, ends, share) in enumerate(bars):
@@ -98,38 +102,44 @@ def _draw_tornado(found: UncertainWall, ax: Any, options: Options) -> None:
         for end, marker, filled in zip(ends, marks, (face, color), strict=True):
             ax.plot(end, row, marker, color=color, markerfacecolor=filled, markersize=5.5, zorder=3)
         if share is not None and options.bars:
-            text = f"{100.0 * share:.0f} %" if np.isfinite(share) else "no index"
+            text = f"{100.0 * share:.0f} %" if np.isfinite(share) else say("no index")
             ax.annotate(text, (1.0, row), (3, 0), textcoords="offset points", va="center", **look)
-    for marker, filled, label in (("o", "white", "source at 5 %"), ("s", style.RED, "source at 95 %")):
+    for marker, filled, label in (("o", "white", say("source at 5 %")), ("s", style.RED, say("source at 95 %"))):
         ax.plot([], [], marker, color=style.RED, markerfacecolor=filled, label=label)
-    ax.axvline(middle.theta, color=style.BLUE, linestyle="--", linewidth=1.2, zorder=0, label="all at their medians")
+    ax.axvline(
+        middle.theta, color=style.BLUE, linestyle="--", linewidth=1.2, zorder=0, label=say("all at their medians")
+    )
     if found.as_given.has_fit:
-        ax.axvline(found.as_given.theta, color=style.BLACK, linestyle=":", zorder=0, label="wall as given")
+        ax.axvline(found.as_given.theta, color=style.BLACK, linestyle=":", zorder=0, label=say("wall as given"))
     if options.bars and np.isfinite(found.total).any():
         style.note(ax, _of_shares(found))
     ax.set_yticks([])
     ax.set_ylim(-0.5, len(bars) + 0.1)
     unit = blank_unit(found.im).strip()
-    ax.set_xlabel(f"median θ [{unit or '-'}]")
+    ax.set_xlabel(say("median θ [{unit}]", unit=unit or "-"))
     style.legend(ax, options)
 
 
 def _name_of(source: str, low: float, high: float) -> str:
     """A source in words, with the range between its fractiles 5 and 95 %."""
     unit = _ROWS[source].unit
-    words = _WORDS.get(source, source.replace("_", " "))
-    return f"{words}, {low:.4g} to {high:.4g} {unit}".rstrip()
+    text = say(
+        "{source}, {low:.4g} to {high:.4g} {unit}",
+        source=say(_WORDS.get(source, source.replace("_", " "))),
+        low=low,
+        high=high,
+        unit=unit,
+    )
+    return text.rstrip()
 
 
 def _of_shares(found: UncertainWall) -> str:
     """What the shares at the right are, and why their sum is not 100 %."""
     total = 100.0 * float(np.nansum(found.total))
-    words = f"right: shares in the variance of ln θ, each with its interactions: {total:.0f}\u00a0%"
-    return (
-        f"{words}; another {100.0 * found.rest:.0f}\u00a0% are noise of the counts"
-        if np.isfinite(found.rest)
-        else words
-    )
+    words = say("right: shares in the variance of ln θ, each with its interactions: {total:.0f}\u00a0%", total=total)
+    if not np.isfinite(found.rest):
+        return words
+    return words + say("; another {rest:.0f}\u00a0% are noise of the counts", rest=100.0 * found.rest)
 
 
 def draw_hinges(found: HingeSearch, ax: Axes | None, given: dict[str, Any]) -> Axes:

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_array, as_count, as_number, instance_of, one_of, wrong_type
 from dondolo._base.shown import html_of
+from dondolo._base.wording import decimal, say
 from dondolo._fortran import _core
 from dondolo._fortran.buildings import floor_motion
 from dondolo._fortran.library import as_text, check, receive
@@ -30,6 +31,11 @@ from dondolo.records.spectrum import Spectrum
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+# What sentences that are said elsewhere are marked by for the catalogues
+_ = str
+# What a header can say of a record
+_DESCRIBED = (_("event"), _("date"), _("station"), _("component"))
 
 
 @part_of_results
@@ -647,13 +653,17 @@ class Record:
 
     def _facts(self) -> list[tuple[str, str]]:
         return [
-            ("samples", str(len(self))),
-            ("dt", f"{self.dt:.6g} s"),
-            ("duration", f"{self.duration:.6g} s"),
-            ("PGA", f"{self.peak_acceleration:.6g} m/s2"),
-            *(() if self.vertical is None else (("vertical PGA", f"{np.abs(self.vertical).max():.6g} m/s2"),)),
-            *((key, self.metadata[key]) for key in ("event", "date", "station", "component") if key in self.metadata),
-            *(("processing", step) for step in self.processing),
+            (say("samples"), str(len(self))),
+            ("dt", decimal(f"{self.dt:.6g} s")),
+            (say("duration"), decimal(f"{self.duration:.6g} s")),
+            ("PGA", decimal(f"{self.peak_acceleration:.6g} m/s2")),
+            *(
+                ()
+                if self.vertical is None
+                else ((say("vertical PGA"), decimal(f"{np.abs(self.vertical).max():.6g} m/s2")),)
+            ),
+            *((say(one), self.metadata[one]) for one in _DESCRIBED if one in self.metadata),
+            *((say("processing"), step) for step in self.processing),
         ]
 
     def __repr__(self) -> str:

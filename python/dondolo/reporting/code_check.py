@@ -7,66 +7,78 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from dondolo._base.wording import decimal, in_english, say
+from dondolo._fortran.checks import SheetRow
 from dondolo.checks.ntc import CodeCheck
+from dondolo.checks.plots import check_name
 from dondolo.curves.fragility import Fragility
-from dondolo.reporting.content import Piece, Symbol, Table, figure
+from dondolo.reporting import headings
+from dondolo.reporting.content import Piece, Symbol, Table, figure, pieces
+from dondolo.reporting.language import Language
 from dondolo.reporting.numerals import NONE, number, probability, whole
+from dondolo.reporting.relazione.terms import MEANINGS, warning
+from dondolo.reporting.units import UNITS, Unit, cell
 from dondolo.walls.parts import parts_of
 from dondolo.walls.wall import Wall
 
 
-def code_check(check: CodeCheck, curve: Fragility | None) -> dict[str, Any]:
+def code_check(check: CodeCheck, curve: Fragility | None, language: Language) -> dict[str, Any]:
     """Tables of the verdicts and of the sheet, and the lines of the check on the curve."""
     drawn = None
     chances: dict[tuple[str, str], float] = {}
     if curve is not None and curve.has_fit and curve.im == "pga":
         chances = check.probabilities(curve)
         words = "; ".join(
-            f"{' '.join(key).strip()} {probability(value).text}"
+            f"{_name(*key)} {decimal(probability(value).text)}"
             for key, value in chances.items()
             if key not in check.not_applicable
         )
-        drawn = figure(
-            lambda: check.plot(curve=curve), f"Lines of the checks on the fragility curve. Probabilities: {words}."
-        )
+        alt = say("Lines of the checks on the fragility curve. Probabilities: {words}.", words=words)
+        drawn = figure(lambda: check.plot(curve=curve), alt)
     kinematic = list(check.capacities)
     dynamic = [key for key in check.verified if key[0] == "dynamic"]
+    verdicts = say("verdict")
     columns: dict[Piece, Sequence[Piece]] = {
-        "check": [f"{method}, {state}" for method, state in kinematic],
-        (Symbol("a", "g"), Symbol("S"), " of the site [g]"): [number(_site(check, state)) for _, state in kinematic],
-        "withstands [g]": [number(check._outcome(key, "capacity_pga")) for key in kinematic],
-        "capacity / demand": [number(check._outcome(key, "ratio"), 3) for key in kinematic],
-        "verdict": [check._verdict(key) for key in kinematic],
+        say("check"): [_name(*key, ", ") for key in kinematic],
+        pieces("{ag}{s} of the site [g]", ag=Symbol("a", "g"), s=Symbol("S")): [
+            number(_site(check, state)) for _, state in kinematic
+        ],
+        say("withstands [g]"): [number(check._outcome(key, "capacity_pga")) for key in kinematic],
+        say("capacity / demand"): [number(check._outcome(key, "ratio"), 3) for key in kinematic],
+        verdicts: [say(check._verdict(key)) for key in kinematic],
     }
     if chances:
-        columns["P(collapse) at the site"] = [
+        columns[say("P(collapse) at the site")] = [
             probability(chances.get(("site", state), chances.get(("site", ""), np.nan))) for _, state in kinematic
         ]
-        columns["at what it withstands"] = [
+        columns[say("at what it withstands")] = [
             probability(np.nan if key in check.not_applicable else chances[key]) for key in kinematic
         ]
-    histories: dict[Piece, Sequence[Piece]] = {"limit state": [state for _, state in dynamic]}
+    histories: dict[Piece, Sequence[Piece]] = {say("limit state"): [state for _, state in dynamic]}
     for name, head in _DYNAMIC.items():
-        histories[head] = [number(check.value(*key, name)) for key in dynamic]
-    histories["verdict"] = [check._verdict(key) for key in dynamic]
+        histories[say(head)] = [number(check.value(*key, name)) for key in dynamic]
+    histories[verdicts] = [say(check._verdict(key)) for key in dynamic]
     return {
-        "checks": Table.of(columns, ("verdict",)),
-        "histories": Table.of(histories, ("verdict",)) if dynamic else None,
+        "checks": Table.of(columns, (verdicts,)),
+        "histories": Table.of(histories, (verdicts,)) if dynamic else None,
         "figure": drawn,
-        "site": ", ".join(f"{name} {text}" for name, text in check.site._facts()),
+        "site": _site_in_words(check),
         "sheet": _sheet(check),
-        "notes": list(map(str, check.notes)),
+        "notes": [warning(language, note) for note in check.notes],
         "one_hazard": _site(check, "SLD") >= _site(check, "SLC"),
     }
 
 
+# What sentences that are said elsewhere are marked by for the catalogues
+_ = str
+_VERDICTS = (_("verified"), _("not verified"), _("not applicable"), _("verified if its ties are"))
 _DYNAMIC = {
-    "pga": "PGA [g]",
-    "records": "records",
-    "histories": "histories",
-    "beyond": "beyond collapse",
-    "mean_displacement": "mean displacement [m]",
-    "displacement": "capacity [m]",
+    "pga": _("PGA [g]"),
+    "records": _("records"),
+    "histories": _("histories"),
+    "beyond": _("beyond collapse"),
+    "mean_displacement": _("mean displacement [m]"),
+    "displacement": _("capacity [m]"),
 }
 
 
@@ -91,19 +103,21 @@ def code_checks(
         Whether each row has its calculation sheet, as designs and the mechanisms of a facade have.
     """
     made = [(check, curve) for check, curve in zip(checks, curves, strict=True) if check is not None]
-    columns: dict[Piece, Sequence[Piece]] = {"wall": [check.wall.name for check, _ in made]}
+    columns: dict[Piece, Sequence[Piece]] = {say("wall"): [check.wall.name for check, _ in made]}
     for key in _KINEMATIC:
-        columns[f"{' '.join(key)} [g]"] = [number(check._outcome(key, "capacity_pga"), 3) for check, _ in made]
-        columns[f"{' '.join(key)}, ratio"] = [number(check._outcome(key, "ratio"), 3) for check, _ in made]
+        columns[f"{_name(*key)} [g]"] = [number(check._outcome(key, "capacity_pga"), 3) for check, _ in made]
+        columns[say("{check}, ratio", check=_name(*key))] = [
+            number(check._outcome(key, "ratio"), 3) for check, _ in made
+        ]
     if curves[0].im == "pga":
-        columns["P(collapse) at the site"] = [
+        columns[say("P(collapse) at the site")] = [
             probability(float(curve(check.pga)) if curve.has_fit else np.nan) for check, curve in made
         ]
     held = [
-        (", ".join(key), whole(sum(check._verdict(key) == "verified" for check, _ in made)), len(made))
+        (_name(*key, ", "), whole(sum(check._verdict(key) == "verified" for check, _ in made)), len(made))
         for key in _KINEMATIC
     ]
-    site = ", ".join(f"{name} {text}" for name, text in made[0][0].site._facts()) if made else ""
+    site = _site_in_words(made[0][0]) if made else ""
     together: Piece | None = None
     if made and facade is not None and facade.has_fit and facade.im == "pga":
         # Far below the levels a curve that is fitted on its own may be less than that of a mechanism, which bounds it.
@@ -124,8 +138,8 @@ def code_checks(
 _YES_OR_NO = ("applicable", "hierarchy", "plate_verified", "anchor_checked")
 # What is open of ties whose anchors are known
 _OPEN_TIES = {
-    "hierarchy": "hierarchy of strengths not respected, the anchor gives way before the bar yields",
-    "plate_verified": "plate too thin",
+    "hierarchy": _("hierarchy of strengths not respected, the anchor gives way before the bar yields"),
+    "plate_verified": _("plate too thin"),
 }
 
 
@@ -162,29 +176,31 @@ def verdict(checks: Sequence[CodeCheck | None], walls: Sequence[Wall], *, withou
     made = [check for check in checks if check is not None]
     missed, doubts = _failed(made), []
     if made and len(made) < len(checks):
-        doubts.append(f"not checked: {len(checks) - len(made)} of {len(checks)} walls")
+        doubts.append(say("not checked: {left} of {walls} walls", left=len(checks) - len(made), walls=len(checks)))
     if made and (loose := unchecked_anchors(walls)):
-        doubts.append(f"anchors of the ties not checked: {_named(loose, walls)}")
+        doubts.append(say("anchors of the ties not checked: {walls}", walls=_named(loose, walls)))
     if without_soil:
-        doubts.append("the hazard is that of rigid, level ground, without the factor S of soil and topography")
+        doubts.append(say("the hazard is that of rigid, level ground, without the factor S of soil and topography"))
     if not made:
-        return Verdict("doubt", "Not checked by a building code", tuple(doubts)) if doubts else None
+        return Verdict("doubt", say("Not checked by a building code"), tuple(doubts)) if doubts else None
     for item, names in (
-        (f"{check.wall.name}, {item}", names) for check in made for item, names in check.open_ties.items()
+        (f"{check.wall.name}, {_item(item)}", names) for check in made for item, names in check.open_ties.items()
     ):
-        doubts += [f"{_OPEN_TIES[name]}: {item}" for name in names if name in _OPEN_TIES]
+        doubts += [f"{say(_OPEN_TIES[name])}: {item}" for name in names if name in _OPEN_TIES]
     verdicts = [holds for check in made for key, holds in check.verified.items() if key not in check.not_applicable]
     if missed:
-        words = f"{verdicts.count(False)} of {len(verdicts)} checks by NTC 2018 not satisfied"
+        words = say(
+            "{failed} of {checks} checks by NTC 2018 not satisfied", failed=verdicts.count(False), checks=len(verdicts)
+        )
     elif doubts:
         # What is open may turn any of them: nothing is called satisfied.
         reasons = "; ".join(one.partition(":")[0] for one in doubts)
-        words = f"open: {reasons}; none of {len(verdicts)} checks by NTC 2018 fails"
+        words = say("open: {reasons}; none of {checks} checks by NTC 2018 fails", reasons=reasons, checks=len(verdicts))
     else:
-        words = f"all {len(verdicts)} checks by NTC 2018 satisfied"
+        words = say("all {checks} checks by NTC 2018 satisfied", checks=len(verdicts))
     index = min(made, key=lambda check: check.value("nonlinear", "SLV", "ratio"))
     whose = f", {index.wall.name}" if len(made) > 1 else ""
-    words = f"{words[0].upper()}{words[1:]}; ζ_E {_ratio(index):.3g} (nonlinear SLV{whose})"
+    words = f"{words[0].upper()}{words[1:]}; ζ_E {decimal(f'{_ratio(index):.3g}')} ({_name('nonlinear', 'SLV')}{whose})"
     return Verdict("failed" if missed else "doubt" if doubts else "fine", words, (*missed, *doubts))
 
 
@@ -203,7 +219,11 @@ def _ratio(check: CodeCheck) -> float:
 
 def _named(some: Sequence[Wall], walls: Sequence[Wall]) -> str:
     """Walls by their names, or how many they are."""
-    return ", ".join(wall.name for wall in some) if len(some) <= _NAMED else f"{len(some)} of {len(walls)} walls"
+    return (
+        ", ".join(wall.name for wall in some)
+        if len(some) <= _NAMED
+        else say("{some} of {walls} walls", some=len(some), walls=len(walls))
+    )
 
 
 def _failed(made: Sequence[CodeCheck]) -> list[str]:
@@ -214,14 +234,50 @@ def _failed(made: Sequence[CodeCheck]) -> list[str]:
         if not missed:
             continue
         ratios = [check.value(*key, "ratio") for check in missed if key[0] != "dynamic"]
-        word = "capacity / demand" if len(missed) == 1 else "least capacity / demand"
-        least = f", {word} {min(ratios):.3g}" if ratios else ""
-        what = f"{' '.join(key)}{least}"
+        what = _name(*key)
+        if ratios and len(missed) == 1:
+            what = say("{check}, capacity / demand {ratio:.3g}", check=what, ratio=min(ratios))
+        elif ratios:
+            what = say("{check}, least capacity / demand {ratio:.3g}", check=what, ratio=min(ratios))
         if len(made) == 1:
             sentences.append(what)
         else:
             sentences.append(f"{what}: {_named([check.wall for check in missed], [check.wall for check in made])}")
     return sentences
+
+
+def _name(method: str, state: str, between: str = " ") -> str:
+    """A check in words."""
+    if method == "site":
+        return say("site {state}", state=state).strip()
+    return f"{method}{between}{state}".strip() if in_english() else check_name(method, state)
+
+
+def _item(name: str) -> str:
+    """An item of the sheet, such as 'tie 1', in words."""
+    return name if in_english() else headings.in_words("item", name)
+
+
+def _unit(row: SheetRow) -> Unit:
+    """The unit that a number of the sheet is shown in."""
+    return UNITS.get(row.unit, Unit(row.unit))
+
+
+def _method(name: str) -> str:
+    """A method of the sheet in words."""
+    return name if in_english() else headings.in_words("method", name)
+
+
+def _site_in_words(check: CodeCheck) -> str:
+    """The hazard of the site and its ground."""
+    site = check.site
+    facts = dict(site._facts())
+    facts["ground"] = say("soil {soil}, topography {topography}", soil=site.soil, topography=site.topography)
+    if "V_R" in facts:
+        facts["V_R"] = say("{years:g} years", years=site.reference_life)
+    return ", ".join(
+        f"{say(name)} {text if in_english() else decimal(text.replace(', ', '; '))}" for name, text in facts.items()
+    )
 
 
 def _site(check: CodeCheck, state: str) -> float:
@@ -232,19 +288,22 @@ def _sheet(check: CodeCheck) -> Table:
     """All numbers, in the order of the calculation."""
     counts = ("records", "histories", "beyond", "verified", *_YES_OR_NO)
     shown = [row for row in check.rows if row.quantity != "probability"]
+    texts = say("check"), say("symbol"), say("unit"), say("formula")
     columns: dict[Piece, Sequence[Piece]] = {
-        "quantity": [row.meaning for row in shown],
-        "check": [f"{row.item or row.method} {row.limit_state}".strip() for row in shown],
-        "symbol": [row.symbol or NONE for row in shown],
-        "value": [
+        say("quantity"): [row.meaning if in_english() else MEANINGS[row.quantity].partition(":")[0] for row in shown],
+        texts[0]: [
+            f"{_item(row.item) if row.item else _method(row.method)} {row.limit_state}".strip() for row in shown
+        ],
+        texts[1]: [row.symbol or NONE for row in shown],
+        say("value"): [
             NONE
             if check._is_void(row)
             else whole(row.value)
             if row.quantity in counts
-            else (f"{row.bound} " * bool(row.bound), number(row.value, 6))
+            else (f"{row.bound} " * bool(row.bound), cell(row.value, _unit(row), 6))
             for row in shown
         ],
-        "unit": [row.unit or NONE for row in shown],
-        "formula": [row.formula or NONE for row in shown],
+        texts[2]: [say(_unit(row).name) if row.unit else NONE for row in shown],
+        texts[3]: [row.formula or NONE for row in shown],
     }
-    return Table.of(columns, ("check", "symbol", "unit", "formula"))
+    return Table.of(columns, texts)

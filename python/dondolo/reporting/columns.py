@@ -12,10 +12,13 @@ from typing import Any, NamedTuple
 
 from dondolo._base.arguments import FloatArray
 from dondolo._base.shown import shown_dispersion
+from dondolo._base.wording import in_english, say
 from dondolo.curves.fragility import Fragility
 from dondolo.figures.style import mechanism_name
-from dondolo.reporting.content import BETA, THETA, Column, Piece, Symbol, Table, level_head, level_unit
+from dondolo.reporting.content import BETA, THETA, Column, Piece, Symbol, Table, level_head, level_unit, said
 from dondolo.reporting.numerals import NONE, number, parameter, percent, probability, whole
+from dondolo.reporting.statuses import short_status
+from dondolo.reporting.units import UNITS, cell
 
 
 class _Shown(NamedTuple):
@@ -29,6 +32,16 @@ class _Shown(NamedTuple):
 def _in_unit(*before: Any) -> Callable[[str], Piece]:
     """A head with the unit of the levels."""
     return lambda im: (*before, f" [{level_unit(im)}]")
+
+
+def source_name(name: str) -> str:
+    """A property whose uncertainty is a source."""
+    return name if in_english() else say(name.replace("_", " "))
+
+
+def _status(name: str) -> str:
+    """Status of a fit: its name in English, as in the tables of results."""
+    return name if in_english() else short_status(name)
 
 
 _two, _three, _significant = partial(number, figures=2), partial(number, figures=3), partial(number, figures=4)
@@ -46,7 +59,7 @@ _COLUMNS: dict[str, _Shown] = {
     "walls": _Shown("walls", whole),
     "weight": _Shown("weight", number),
     "p_occ": _Shown(Symbol("p", "occ"), number),
-    "occurrence": _Shown("occurrence", str, True),
+    "occurrence": _Shown("occurrence", say, True),
     "alternative": _Shown("alternative", str, True),
     "saturation": _Shown("can occur", percent),
     # Lognormal curves
@@ -66,7 +79,7 @@ _COLUMNS: dict[str, _Shown] = {
     "independent_theta": _Shown((THETA, ", independent"), parameter),
     "independent_beta": _Shown((BETA, ", independent"), parameter),
     "errors": _Shown("standard errors", str, True),
-    "status": _Shown("status", str, True),
+    "status": _Shown("status", _status, True),
     # Of populations
     "beta_walls": _Shown(Symbol("β", "walls"), lambda value: parameter(shown_dispersion(value))),
     "beta_records": _Shown(Symbol("β", "records"), parameter),
@@ -112,7 +125,7 @@ _COLUMNS: dict[str, _Shown] = {
     "zeta_e_change": _Shown(("Δ", Symbol("ζ", "E"), ", nonlinear SLV"), _three),
     "return_period_change": _Shown(("Δ", Symbol("T", "R,C"), " [years]"), _three),
     # Sources of uncertainty
-    "source": _Shown("source", str, True),
+    "source": _Shown("source", source_name, True),
     "distribution": _Shown("distribution", str, True),
     "value_5": _Shown("at 5 %", _significant),
     "value_50": _Shown("at 50 %", _significant),
@@ -131,7 +144,7 @@ _COLUMNS: dict[str, _Shown] = {
     "density": _Shown("density [kg/m3]", number),
     "table_misfit": _Shown("misfit of its table", number),
     "hinge": _Shown("hinge / height", number),
-    "overburden": _Shown("overburden [N/m]", number),
+    "overburden": _Shown("overburden [kN/m]", partial(cell, unit=UNITS["N/m"])),
     "overburden_inertia": _Shown("of it lifted", number),
     "eccentricity": _Shown("ecc. [m]", number),
     "trigger": _Shown((Symbol("a", "0"), " [g]"), number),
@@ -155,7 +168,7 @@ def shown(columns: Mapping[str, Any], im: str = "") -> Table:
     for place, (name, values) in enumerate(columns.items()):
         head, cell, is_text = _COLUMNS[name]
         title = head(im) if callable(head) else head
-        made.append(Column(title, [cell(value) for value in values], is_text or not place))
+        made.append(Column(said(title), [cell(value) for value in values], is_text or not place))
     return Table(tuple(made))
 
 

@@ -4,15 +4,24 @@ from __future__ import annotations
 
 import base64
 import io
-from collections.abc import Callable, Iterable, Sequence
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from typing import Any
 
+from dondolo._base.wording import decimal, in_english, say
 from dondolo._fortran.records import blank_unit, unit_of
 from dondolo.figures.layout import lay_out
 from dondolo.reporting.numerals import Numeral, number
 
+# What sentences that are said elsewhere are marked by for the catalogues
+_ = str
+MONTHS = (
+    _("January"), _("February"), _("March"), _("April"), _("May"), _("June"), _("July"), _("August"), _("September"),
+    _("October"), _("November"), _("December"),
+)  # fmt: skip
+_PLACE = re.compile(r"\{(\w+)\}")
 # Rows of a table that are written; what is left out is said
 ROWS = 500
 # Rows of a table that stays on one page, and columns of one that fills its width
@@ -129,6 +138,8 @@ def figure(draw: Callable[[], Any], alt: str) -> Figure:
     axes = draw()
     drawing = (axes if hasattr(axes, "figure") else axes[0]).figure
     try:
+        if not in_english():
+            _set_decimal_marks(drawing)
         lay_out(drawing)
         shown = drawing.get_tightbbox().padded(_MARGIN)
         # The same bytes every time: no date, and names in the drawing by a fixed salt.
@@ -144,9 +155,38 @@ def figure(draw: Callable[[], Any], alt: str) -> Figure:
     return Figure(f"data:image/{kind};base64,{base64.b64encode(stream.getvalue()).decode()}", alt)
 
 
+def _set_decimal_marks(drawing: Any) -> None:
+    """Numbers of axes have the decimal mark of the language in force; names beside ticks are those of the user."""
+    from matplotlib.ticker import FixedLocator
+
+    for ax in (one for main in drawing.axes for one in (main, *main.child_axes)):
+        for axis in (ax.xaxis, ax.yaxis):
+            if not isinstance(axis.get_major_locator(), FixedLocator):
+                ticks = axis.get_major_formatter()
+                ticks.format_ticks = lambda values, plain=ticks.format_ticks: [decimal(one) for one in plain(values)]
+
+
+def pieces(sentence: str, **values: Any) -> tuple[Any, ...]:
+    """A sentence in the language in force as pieces: numbers and symbols stay what they are in their places."""
+    return in_places(say(sentence), values)
+
+
+def in_places(sentence: str, values: Mapping[str, Any]) -> tuple[Any, ...]:
+    """A sentence in the pieces between the places that it names, and what is set there."""
+    parts = _PLACE.split(sentence)
+    return tuple(values[part] if place % 2 else part for place, part in enumerate(parts) if part)
+
+
+def said(piece: Piece) -> Piece:
+    """A piece whose words are those of the language in force."""
+    if isinstance(piece, tuple):
+        return tuple(map(said, piece))
+    return say(piece) if isinstance(piece, str) else piece
+
+
 def state_name(edp: float, limit: float) -> str:
     """A damage state in words."""
-    return "collapse" if edp == limit else f"EDP ≥ {edp:g}"
+    return say("collapse") if edp == limit else say("EDP ≥ {edp:g}", edp=float(edp))
 
 
 def level_unit(im: str) -> str:
@@ -166,4 +206,6 @@ def level(value: float, im: str) -> Numeral:
 
 def date_in_words(moment: datetime) -> str:
     """A date in words."""
-    return f"{moment.day} {moment:%B %Y, %H:%M %Z}".strip().replace(" ", "\N{NO-BREAK SPACE}")
+    return f"{moment.day} {say(MONTHS[moment.month - 1])} {moment:%Y, %H:%M %Z}".strip().replace(
+        " ", "\N{NO-BREAK SPACE}"
+    )

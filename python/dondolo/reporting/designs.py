@@ -7,7 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from dondolo.checks.plots import draw_safety
+from dondolo._base.wording import decimal, say
+from dondolo.checks.plots import check_name, draw_safety
 from dondolo.curves.fragility import Fragility
 from dondolo.figures import style
 from dondolo.figures.options import Options
@@ -20,6 +21,7 @@ from dondolo.reporting.content import (
     figure,
     level,
     level_head,
+    pieces,
     state_name,
 )
 from dondolo.reporting.numerals import number, probability
@@ -42,11 +44,17 @@ _CARDS = 8
 def summary(found: DesignComparison) -> dict[str, Any]:
     """The main numbers: the median of the first, and what the others make of it."""
     first = found.curves[0]
-    median = level(first.theta, found.im) if first.has_fit else "none"
-    cards: list[tuple[Piece, Piece, Piece]] = [(("median ", THETA, f", {found.names[0]}"), median, "of collapse")]
+    median = level(first.theta, found.im) if first.has_fit else say("none")
+    cards: list[tuple[Piece, Piece, Piece]] = [
+        (pieces("median {theta}, {first}", theta=THETA, first=found.names[0]), median, say("of collapse"))
+    ]
     for name, ratio, (low, high) in list(zip(found.names, found.ratio, found.ratio_interval, strict=True))[1:_CARDS]:
-        text = number(ratio, 3, " times") if np.isfinite(ratio) else "no ratio"
-        interval = f"{low:.3g} to {high:.3g} times the median of the first" if np.isfinite(ratio) else "of medians"
+        text = number(ratio, 3, say(" times")) if np.isfinite(ratio) else say("no ratio")
+        interval = (
+            say("{low:.3g} to {high:.3g} times the median of the first", low=low, high=high)
+            if np.isfinite(ratio)
+            else say("of medians")
+        )
         cards.append((name, text, interval))
     return {"cards": cards, "shares": []}
 
@@ -55,16 +63,21 @@ def designs(found: DesignComparison) -> dict[str, Any]:
     """What each design gains against the first."""
     low, high = found.ratio_interval.T
     pairs = zip(found.names, found.ratio, low, high, strict=True)
-    words = "; ".join(f"{name}: {ratio:.3g} ({least:.3g} to {most:.3g})" for name, ratio, least, most in pairs)
-    alt = f"Fragility curves of the designs, and the ratios of their medians to that of the first. {words}."
+    words = "; ".join(
+        say("{name}: {ratio:.3g} ({least:.3g} to {most:.3g})", name=name, ratio=ratio, least=least, most=most)
+        for name, ratio, least, most in pairs
+    )
+    alt = say(
+        "Fragility curves of the designs, and the ratios of their medians to that of the first. {words}.", words=words
+    )
     return {
         "first": found.names[0],
-        "confidence": f"{100.0 * found.confidence:.4g}",
+        "confidence": decimal(f"{100.0 * found.confidence:.4g}"),
         "figure": figure(found.plot, alt),
         "table": shown(chosen(found._table(), *_COMPARED), found.im),
         "has_checks": bool(found.checks) and found.im == "pga",
         "checks": _checks(found) if found.checks else None,
-        "indices": figure(lambda: _indices(found), "Safety indices of the designs, those of the table.")
+        "indices": figure(lambda: _indices(found), say("Safety indices of the designs, those of the table."))
         if found.checks
         else None,
     }
@@ -88,8 +101,8 @@ def _checks(found: DesignComparison) -> Table:
 def _indices(found: DesignComparison) -> Any:
     """Draw the safety indices of the designs."""
     ax = style.new_axes(1, (7.0, 0.9 + 0.6 * len(found.names)))
-    words = {key: " ".join(key) for key in (("linear", "SLV"), ("nonlinear", "SLV"), ("nonlinear", "SLC"))}
-    draw_safety(ax, found.names, found.checks, words, str, (style.GREY, style.RED, style.BLACK))
+    words = {key: check_name(*key) for key in (("linear", "SLV"), ("nonlinear", "SLV"), ("nonlinear", "SLC"))}
+    draw_safety(ax, found.names, found.checks, words, decimal, (style.GREY, style.RED, style.BLACK))
     style.legend(ax, Options({}))
     return ax
 

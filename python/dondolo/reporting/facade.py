@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
+from dondolo._base.wording import say
 from dondolo.populations.typology import Typology
 from dondolo.reporting import wall
 from dondolo.reporting.columns import of_curve, parameters_of, shown
-from dondolo.reporting.content import BETA, THETA, Piece, Table, figure, level, state_name
+from dondolo.reporting.content import BETA, THETA, Piece, Table, figure, level, pieces, state_name
 from dondolo.reporting.numerals import number
-from dondolo.reporting.statuses import crossings, in_words
+from dondolo.reporting.statuses import crossings, in_words, short_status
 
 # Mechanisms whose medians stand at the beginning
 _CARDS = 4
@@ -20,23 +21,24 @@ def summary(people: Typology) -> dict[str, Any]:
     curve = people.unions[people.facade]
     cards: list[tuple[Piece, Piece, Piece]] = []
     if curve.has_fit:
-        whose = "of collapse by any of its mechanisms, counted in the same histories"
+        whose = say("of collapse by any of its mechanisms, counted in the same histories")
         if curve.saturation < 1.0:
-            whose += f", if one can occur ({100.0 * curve.saturation:.3g} %)"
-        cards.append((("median ", THETA), level(curve.theta, people.im), whose))
-        cards.append((("dispersion ", BETA), number(curve.beta, 3), ("standard error ", number(curve.se_beta, 3))))
+            whose += say(", if one can occur ({share:.3g} %)", share=100.0 * curve.saturation)
+        cards.append((pieces("median {theta}", theta=THETA), level(curve.theta, people.im), whose))
+        error = pieces("standard error {error}", error=number(curve.se_beta, 3))
+        cards.append((pieces("dispersion {beta}", beta=BETA), number(curve.beta, 3), error))
     else:
-        cards.append(("fit", "none", curve.status.replace("_", " ")))
+        cards.append((say("fit"), say("none"), short_status(curve.status)))
     for row, one in list(zip(people.walls, people.curves, strict=True))[:_CARDS]:
-        median = level(one.theta, people.im) if one.has_fit else "none"
-        cards.append((("median ", THETA, " alone"), median, row.name))
+        median = level(one.theta, people.im) if one.has_fit else say("none")
+        cards.append((pieces("median {theta} alone", theta=THETA), median, row.name))
     return {"cards": cards, "shares": []}
 
 
 def curves(people: Typology) -> dict[str, Any]:
     """Figures of the curves, and of the damage states with those that cross."""
     name = people.facade
-    alt = f"Curves of the mechanisms of {name}, and of any of them in the same histories. "
+    alt = say("Curves of the mechanisms of {name}, and of any of them in the same histories.", name=name) + " "
     found: dict[str, Any] = {
         "name": name,
         "union": figure(people.plot_union, alt + f"{name}: {in_words(people.unions[name])}."),
@@ -45,8 +47,12 @@ def curves(people: Typology) -> dict[str, Any]:
     }
     if len(people.edp_thresholds) > 1:
         states = [people.at(float(edp)).unions[name] for edp in people.edp_thresholds]
-        words = "; ".join(f"EDP {curve.edp_threshold:g}: {in_words(curve)}." for curve in states)
-        found["states"] = figure(people.plot_damage_states, f"Probability to reach each damage state. {words}")
+        words = "; ".join(
+            say("EDP {threshold:g}: {words}.", threshold=curve.edp_threshold, words=in_words(curve)) for curve in states
+        )
+        found["states"] = figure(
+            people.plot_damage_states, say("Probability to reach each damage state. {words}", words=words)
+        )
         if all(curve.has_fit for curve in states):
             names = [state_name(float(edp), float(people.edp_thresholds[-1])) for edp in people.edp_thresholds]
             found["crossings"] = crossings({name: states}, names, people.levels, people.im)
@@ -73,7 +79,7 @@ def _curves_table(people: Typology) -> Table:
     curves = [union, *people.curves]
     columns = {
         "curve": [people.facade, *(row.name for row in people.walls)],
-        "mechanism": ["any of them", *(row.mechanism for row in people.walls)],
+        "mechanism": [say("any of them"), *(row.mechanism for row in people.walls)],
         **parameters_of(curves, "theta", "se_ln_theta", "beta", "se_beta"),
         "saturation": [union.saturation, *people.population.p_occ],
         "status": [curve.status for curve in curves],

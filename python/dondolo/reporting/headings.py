@@ -8,7 +8,8 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
-from dondolo.reporting.relazione.terms import FITS, ITEMS, MEANINGS, MECHANISMS
+from dondolo.reporting.relazione.terms import ITEMS, MEANINGS, MECHANISMS
+from dondolo.reporting.statuses import FITS
 
 SHEETS = {
     "case": "caso",
@@ -287,6 +288,7 @@ WORDS: Mapping[str, Mapping[str, str]] = {
     "unit": {"year": "anni"},
     "load_inertia": {"both": "orizzontale e verticale", "vertical": "verticale", "none": "nessuna"},
     "restitution_model": {"default": "predefinito"},
+    "restitution": {"default": "predefinito"},
 }
 _PART = re.compile(r"^([a-z]+?)(\d+)(_.*)?$")
 

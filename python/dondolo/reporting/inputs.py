@@ -8,7 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from dondolo._fortran.library import build_variant, constants
+from dondolo._base.wording import decimal, in_english, say
+from dondolo._fortran.library import Property, build_variant, constants
 from dondolo._fortran.walls import WALL_EXTRAS, WALL_PROPERTIES
 from dondolo._storage.run_file import RECORD_FACTS, RunFile
 from dondolo.analysis.response import Response
@@ -17,6 +18,7 @@ from dondolo.exchange.case_text import case_text
 from dondolo.figures.style import mechanism_name
 from dondolo.populations.typology import Typology
 from dondolo.records.record import Record
+from dondolo.reporting import headings
 from dondolo.reporting.columns import parameters_of, shown
 from dondolo.reporting.content import (
     Facts,
@@ -26,24 +28,26 @@ from dondolo.reporting.content import (
     date_in_words,
     figure,
     level_unit,
+    pieces,
     state_name,
 )
 from dondolo.reporting.numerals import number, percent, whole
 from dondolo.reporting.run import Run
 from dondolo.reporting.statuses import status_table
+from dondolo.reporting.units import UNITS, Unit
 from dondolo.walls.mechanisms import TERMS, TabulatedWall
 from dondolo.walls.population import Population
 from dondolo.walls.table import occurrence_columns
 from dondolo.walls.wall import Wall, effective_property, notes_on_supports
 
+# What sentences that are said elsewhere are marked by for the catalogues
+_ = str
 # What stands behind properties of a wall in place of their units
-_UNITS = {"hinge": "of the height", "eccentricity": "m, to the outer side", "restitution": "model"}
+_INSTEAD = {"hinge": _("of the height"), "eccentricity": _("m, to the outer side"), "restitution": _("model")}
 
 # Properties of every wall of a population, and those that a wall of its mechanism has
 _SIZES = ("height", "thickness", "density")
 _OF_TWO_BLOCKS = ("hinge", "overburden", "overburden_inertia", "eccentricity")
-# Units that make numbers of a usual size of what is given in others, and what these are times
-_SHOWN = {"m2/m": ("cm2/m", 1e4), "Pa": ("MPa", 1e-6)}
 # Designs, or mechanisms of a facade, that are drawn one by one and have their calculation sheets
 DRAWN = 24
 # Columns of a table of further properties: what fits across a page
@@ -64,21 +68,26 @@ def inputs(run: Run) -> dict[str, Any]:
 
 def _files_table(file: RunFile) -> Table:
     """Input files with their checksums."""
-    missing = "removed during the run"
+    missing, role = say("removed during the run"), say("role")
     columns: dict[Piece, Sequence[Piece]] = {
-        "file": [str(one["path"]) for one in file.inputs],
-        "role": [str(one["role"]) for one in file.inputs],
-        "bytes": [missing if one["bytes"] is None else whole(one["bytes"]) for one in file.inputs],
+        say("file"): [str(one["path"]) for one in file.inputs],
+        role: [say(str(one["role"])) for one in file.inputs],
+        say("bytes"): [missing if one["bytes"] is None else whole(one["bytes"]) for one in file.inputs],
         "CRC-32": [missing if one["crc32"] is None else str(one["crc32"]) for one in file.inputs],
     }
-    return Table.of(columns, ("role",))
+    return Table.of(columns, (role,))
 
 
 def _levels(run: Run) -> Facts:
     """The levels of stripes and populations."""
     if isinstance(run.results, Response):
         return []
-    return [(f"levels of {run.results.im}", ", ".join(f"{level:g}" for level in run.results.levels))]
+    return [
+        (
+            say("levels of {im}", im=run.results.im),
+            (", " if in_english() else "; ").join(decimal(f"{level:g}") for level in run.results.levels),
+        )
+    ]
 
 
 def walls(run: Run) -> dict[str, Any]:
@@ -87,28 +96,36 @@ def walls(run: Run) -> dict[str, Any]:
     if len(people) == 1:
         drawing = None
         if not isinstance(run.results, Response):
-            alt = (
+            alt = say(
                 "The wall at rest and at half of its capacity, with what it carries and what holds it, drawn to scale."
             )
             drawing = figure(people.walls[0].plot, alt)
         return {"facts": _wall_facts(run), "tables": [], "drawing": drawing, "drawings": []}
     further = _further_properties(people.walls)
-    part = "" if len(further) == 1 else ", part {} of " + str(len(further))
     facts, drawings = people._facts(), []
     if run.is_alike and len(people) <= DRAWN:
-        alt = "{}, at rest and at half of its capacity, with what it carries and what holds it, drawn to scale."
-        drawings = [(wall.name, figure(wall.plot, alt.format(wall.name))) for wall in people.walls]
+        alt = _("{wall}, at rest and at half of its capacity, with what it carries and what holds it, drawn to scale.")
+        drawings = [(wall.name, figure(wall.plot, say(alt, wall=wall.name))) for wall in people.walls]
     if run.designs is not None:
-        facts = [("designs", str(len(people)))]
+        facts = [(say("designs"), str(len(people)))]
     elif run.is_alike:
-        facts = [("facade", people.wholes[0]), ("mechanisms", str(len(people)))]
+        facts = [(say("facade"), people.wholes[0]), (say("mechanisms"), str(len(people)))]
     tables = [
-        ("Walls and mechanisms with their main properties.", _main_properties(people, run.is_alike)),
+        (say("Walls and mechanisms with their main properties."), _main_properties(people, run.is_alike)),
         *(
-            (f"Further properties of the walls that have them{part.format(number)}.", table)
+            (
+                say("Further properties of the walls that have them.")
+                if len(further) == 1
+                else say(
+                    "Further properties of the walls that have them, part {number} of {parts}.",
+                    number=number,
+                    parts=len(further),
+                ),
+                table,
+            )
             for number, table in enumerate(further, 1)
         ),
-        ("Statics of the walls, and their curves of collapse.", _statics(run)),
+        (say("Statics of the walls, and their curves of collapse."), _statics(run)),
     ]
     return {
         "facts": [*facts, *people._ranges(), *notes_on_supports(people.walls)],
@@ -121,33 +138,39 @@ def walls(run: Run) -> dict[str, Any]:
 def _wall_facts(run: Run) -> Facts:
     """Properties and statics of the one wall."""
     wall = run.population.walls[0]
-    pairs: Facts = [("name", wall.name), ("mechanism", mechanism_name(wall.mechanism))]
+    pairs: Facts = [(say("name"), wall.name), (say("mechanism"), mechanism_name(wall.mechanism))]
     for row in WALL_PROPERTIES[2:]:
         if row.name in TERMS:
             continue
-        unit, factor = _SHOWN.get(row.unit, (_UNITS.get(row.name, row.unit), 1.0))
-        if value := _set(effective_property(wall, row.name), factor):
-            pairs.append((row.name.replace("_", " "), (value, f" {unit}" if unit else "")))
+        unit, factor = _unit(row)
+        if value := _set(row.name, effective_property(wall, row.name), factor):
+            pairs.append((say(row.name.replace("_", " ")), (value, f" {unit}" if unit else "")))
     if isinstance(wall, TabulatedWall):
         pairs += wall._facts()[:1]
     if wall.base_hinge_depth > 0.0 and getattr(wall, "hinge_depth", None) is None:
-        pairs.append(("depth of the hinge", number(wall.base_hinge_depth, unit=" m")))
+        pairs.append((say("depth of the hinge"), number(wall.base_hinge_depth, unit=" m")))
     pairs += [
-        (("trigger ", Symbol("a", "0")), number(wall.trigger_acceleration / wall.gravity, unit=" g")),
-        ("capacity", number(wall.capacity_angle, unit=" rad")),
-        (("frequency parameter ", Symbol("p")), number(wall.frequency_parameter, unit=" rad/s")),
-        ("restitution e of impacts", number(wall.restitution_coefficient)),
-        ("gravity", number(wall.gravity, unit=" m/s2")),
+        (pieces("trigger {a0}", a0=Symbol("a", "0")), number(wall.trigger_acceleration / wall.gravity, unit=" g")),
+        (say("capacity"), number(wall.capacity_angle, unit=" rad")),
+        (pieces("frequency parameter {p}", p=Symbol("p")), number(wall.frequency_parameter, unit=" rad/s")),
+        (say("restitution e of impacts"), number(wall.restitution_coefficient)),
+        (say("gravity"), number(wall.gravity, unit=" m/s²")),
     ]
     if wall.support_share > 0.0:
         pairs += [
-            (("share ", Symbol("k"), " of the relative acceleration of its supports"), number(wall.support_share)),
-            (("tilt ", Symbol("τ"), " by their relative displacement"), number(wall.support_tilt, unit=" 1/s2")),
+            (
+                pieces("share {k} of the relative acceleration of its supports", k=Symbol("k")),
+                number(wall.support_share),
+            ),
+            (
+                pieces("tilt {tau} by their relative displacement", tau=Symbol("τ")),
+                number(wall.support_tilt, unit=" 1/s²"),
+            ),
         ]
     pairs += notes_on_supports((wall,))
     if isinstance(run.results, Typology):
         weights, p_occ = run.population.weights, run.population.p_occ
-        pairs += [("weight", number(weights[0])), (Symbol("p", "occ"), number(p_occ[0]))]
+        pairs += [(say("weight"), number(weights[0])), (Symbol("p", "occ"), number(p_occ[0]))]
     return pairs
 
 
@@ -176,21 +199,22 @@ def _main_properties(people: Population, is_alike: bool) -> Table:
 def _further_properties(walls: Sequence[Wall]) -> list[Table]:
     """Sections, loads, ties, floors: what some of the walls have, as many columns a table as a page is wide."""
     rows = [row for row in WALL_PROPERTIES if row.name in WALL_EXTRAS and row.name not in (*_OF_TWO_BLOCKS, *TERMS)]
-    units = {row.name: _SHOWN.get(row.unit, (row.unit, 1.0)) for row in rows}
+    units = {row.name: _unit(row) for row in rows}
     known = {
-        name: [_set(effective_property(wall, name), factor) for wall in walls] for name, (_, factor) in units.items()
+        name: [_set(name, effective_property(wall, name), unit.factor) for wall in walls]
+        for name, unit in units.items()
     }
     having = [i for i in range(len(walls)) if any(cells[i] for cells in known.values())]
     # Plates of ties and the like are 0 where they are not given: they have a column only where a wall has them.
     absent = {name for name in units if all(_is_absent(effective_property(wall, name)) for wall in walls)}
     columns: list[tuple[Piece, Sequence[Piece]]] = [
-        (name.replace("_", " ") + (f" [{unit}]" if unit else ""), cells)
-        for name, (unit, _) in units.items()
+        (say(name.replace("_", " ")) + (f" [{unit.name}]" if unit.name else ""), cells)
+        for name, unit in units.items()
         if name not in absent and any(cells := [known[name][i] for i in having])
     ]
     tables = []
     for first in range(0, len(columns), _ACROSS):
-        part: dict[Piece, Sequence[Piece]] = {"wall": [walls[i].name for i in having]}
+        part: dict[Piece, Sequence[Piece]] = {say("wall"): [walls[i].name for i in having]}
         part |= dict(columns[first : first + _ACROSS])
         tables.append(Table.of(part, map(str, part)))
     return tables
@@ -202,13 +226,21 @@ def _is_absent(values: Any) -> bool:
     return all(value is None or value == 0.0 for value in several)
 
 
-def _set(value: Any, factor: float = 1.0) -> Piece:
+def _unit(row: Property) -> Unit:
+    """The unit that a property is shown in."""
+    if row.name in _INSTEAD:
+        return Unit(say(_INSTEAD[row.name]))
+    return UNITS.get(row.unit, Unit(row.unit))
+
+
+def _set(name: str, value: Any, factor: float = 1.0) -> Piece:
     """A property to be set, times a factor if it is a number; empty if it is not given."""
     if isinstance(value, tuple):
-        pieces = [part for one in value for part in (", ", _set(one, factor))]
-        return tuple(pieces[1:])
+        between = ", " if in_english() else "; "
+        parts = [part for one in value for part in (between, _set(name, one, factor))]
+        return tuple(parts[1:])
     if value is None or isinstance(value, str):
-        return value or ""
+        return value or "" if in_english() else headings.in_words(name, value or "")
     return "" if np.isnan(value) else number(factor * value, 6)
 
 
@@ -249,17 +281,23 @@ def records(run: Run) -> dict[str, Any]:
     pairs: Facts = []
     if run.file is not None:
         catalogue = run.file.setting("records", "catalogue", "")
-        polarity = run.file.setting("records", "polarity", "").replace("_", " ")
-        pairs += [(name, text) for name, text in (("catalogue", catalogue), ("polarity", polarity)) if text]
+        polarity = say(run.file.setting("records", "polarity", "").replace("_", " "))
+        pairs += [(name, text) for name, text in ((say("catalogue"), catalogue), (say("polarity"), polarity)) if text]
     if has_vertical(run):
         factor = 1.0 if run.file is None else run.file.setting("records", "vertical_factor", 1.0)
-        scaled = "" if factor == 1.0 else f", times {factor:g}"
-        pairs.append(("vertical motion", f"applied: recorded components, scaled as their records{scaled}"))
+        scaled = "" if factor == 1.0 else say(", times {factor:g}", factor=float(factor))
+        applied = say("applied: recorded components, scaled as their records")
+        pairs.append((say("vertical motion"), applied + scaled))
     if isinstance(results, Typology):
         few, many = int(results.histories.min()), int(results.histories.max())
-        pairs.append(("histories of a stripe", f"{few} to {many}, by mechanism" if few < many else str(few)))
+        text = say("{few} to {many}, by mechanism", few=few, many=many) if few < many else str(few)
+        pairs.append((say("histories of a stripe"), text))
     if isinstance(results, Response):
-        pairs += [*run.records[0]._facts(), ("record", results.record.name), ("factor", number(results.scale))]
+        pairs += [
+            *run.records[0]._facts(),
+            (say("record"), results.record.name),
+            (say("factor"), number(results.scale)),
+        ]
     found: dict[str, Any] = {"facts": pairs, "histories": None, "records": None}
     found["is_motion"] = isinstance(results, Response)
     if isinstance(results, Stripes):
@@ -276,54 +314,58 @@ def records(run: Run) -> dict[str, Any]:
 
 def _stored_records_table(stored: Sequence[Mapping[str, str]]) -> Table:
     """Records of result files, which have their names and headers, and not their samples."""
-    columns: dict[Piece, Sequence[Piece]] = {"record": [one["name"] for one in stored]}
-    return Table.of(columns | _described(stored), _DESCRIBED)
+    columns: dict[Piece, Sequence[Piece]] = {say("record"): [one["name"] for one in stored]}
+    described = _described(stored)
+    return Table.of(columns | described, tuple(map(str, described)))
 
 
 def _described(headers: Sequence[Mapping[str, str]]) -> dict[Piece, Sequence[Piece]]:
     """What headers and catalogue state of each record, and that they do not."""
-    return {name: [one.get(name) or "not given" for one in headers] for name in _DESCRIBED}
+    missing = say("not given")
+    return {say(name): [one.get(name) or missing for one in headers] for name in _DESCRIBED}
 
 
 def _histories_table(stripes: Stripes) -> Table:
     """The histories of a stripe; the level over the factor is the intensity of the record as it is."""
+    polarity = say("polarity")
     unscaled = np.nanmax(stripes.levels[:, None] / stripes.scale, axis=0)
     columns: dict[Piece, Sequence[Piece]] = {
-        "record": list(stripes.record_names),
-        "polarity": ["reversed" if sign < 0 else "as recorded" for sign in stripes.polarity],
-        f"{stripes.im} unscaled [{level_unit(stripes.im)}]": [number(x) for x in unscaled],
-        "factor from": [number(x) for x in np.nanmin(stripes.scale, axis=0)],
-        "to": [number(x) for x in np.nanmax(stripes.scale, axis=0)],
-        "collapses": [whole(z) for z in stripes.collapsed.sum(axis=0)],
+        say("record"): list(stripes.record_names),
+        polarity: [say("reversed") if sign < 0 else say("as recorded") for sign in stripes.polarity],
+        say("{im} unscaled [{unit}]", im=stripes.im, unit=level_unit(stripes.im)): [number(x) for x in unscaled],
+        say("factor from"): [number(x) for x in np.nanmin(stripes.scale, axis=0)],
+        say("to"): [number(x) for x in np.nanmax(stripes.scale, axis=0)],
+        say("collapses"): [whole(z) for z in stripes.collapsed.sum(axis=0)],
     }
-    return Table.of(columns, ("polarity",))
+    return Table.of(columns, (polarity,))
 
 
 def _records_table(records: Sequence[Record]) -> Table:
     """Records that are at hand."""
-    columns: dict[Piece, Sequence[Piece]] = {"record": [one.name for one in records]}
-    columns |= _described([one.metadata for one in records])
+    columns: dict[Piece, Sequence[Piece]] = {say("record"): [one.name for one in records]}
+    described = _described([one.metadata for one in records])
+    columns |= described
     columns |= {
         "PGA [g]": [number(one.intensity("pga")) for one in records],
         "PGV [m/s]": [number(one.intensity("pgv")) for one in records],
-        "duration [s]": [number(one.duration) for one in records],
-        "time step [s]": [number(one.dt) for one in records],
+        say("duration [s]"): [number(one.duration) for one in records],
+        say("time step [s]"): [number(one.dt) for one in records],
     }
     if any(one.processing for one in records):
-        columns["processing"] = ["; ".join(one.processing) for one in records]
+        columns[say("processing")] = ["; ".join(one.processing) for one in records]
     if any("reading" in one.metadata for one in records):
-        columns["reading"] = [one.metadata.get("reading", "") for one in records]
-    return Table.of(columns, (*_DESCRIBED, "processing", "reading"))
+        columns[say("reading")] = [one.metadata.get("reading", "") for one in records]
+    return Table.of(columns, (*map(str, described), say("processing"), say("reading")))
 
 
 def checks(run: Run) -> dict[str, Any]:
     """What to look at before the numbers are believed."""
     results = run.results
     if isinstance(results, Response):
-        rows: Piece = "none" if results.time is None else whole(len(results.time))
-        pairs: Facts = [("limit of the EDP", number(results.edp_limit)), ("rows of the time history", rows)]
+        rows: Piece = say("none") if results.time is None else whole(len(results.time))
+        pairs: Facts = [(say("limit of the EDP"), number(results.edp_limit)), (say("rows of the time history"), rows)]
         if results.edp_error is not None:
-            pairs.insert(0, ("largest estimated error of an EDP", number(results.edp_error, 3)))
+            pairs.insert(0, (say("largest estimated error of an EDP"), number(results.edp_error, 3)))
         return {"statuses": None, "facts": pairs}
     if isinstance(results, Typology):
         limit = float(results.edp_thresholds[-1])
@@ -332,24 +374,26 @@ def checks(run: Run) -> dict[str, Any]:
     else:
         states = {state_name(float(one.edp_threshold or 0.0), results.edp_limit): (one,) for one in run.states}
         error = results.edp_error
-    scales: Piece = "none"
+    scales: Piece = say("none")
     if run.scales is not None:
         share = percent(run.scales.many / run.scales.histories)
-        scales = (share, " of the histories, the largest ", number(run.scales.largest))
-    pairs = [("scale factors above 10", scales)]
+        scales = pieces(
+            "{share} of the histories, the largest {largest}", share=share, largest=number(run.scales.largest)
+        )
+    pairs = [(say("scale factors above 10"), scales)]
     if error is not None:
-        pairs.append(("largest estimated error of an EDP", number(float(np.max(error)), 3)))
+        pairs.append((say("largest estimated error of an EDP"), number(float(np.max(error)), 3)))
     work = results.work
     histories, runs = counted_histories(results)
     still = (whole(work.still // runs), " (", percent(work.still / max(work.histories, 1)), ")")
-    pairs += [("histories", whole(histories)), ("of these never move", still)]
+    pairs += [(say("histories"), whole(histories)), (say("of these never move"), still)]
     if runs > 1:
-        pairs.append(("runs of each history, to estimate its error; what follows counts all", whole(runs)))
+        pairs.append((say("runs of each history, to estimate its error; what follows counts all"), whole(runs)))
     pairs += [
-        ("sample intervals", whole(work.intervals)),
-        ("of these with rocking", (whole(work.rocked), " (", percent(work.rocked / max(work.intervals, 1)), ")")),
-        ("steps of the integration", whole(work.steps)),
-        ("impacts located", whole(work.impacts)),
+        (say("sample intervals"), whole(work.intervals)),
+        (say("of these with rocking"), (whole(work.rocked), " (", percent(work.rocked / max(work.intervals, 1)), ")")),
+        (say("steps of the integration"), whole(work.steps)),
+        (say("impacts located"), whole(work.impacts)),
         *work._notes(),
     ]
     return {"statuses": status_table(states), "facts": pairs}
@@ -368,15 +412,15 @@ def software(run: Run) -> Facts:
 
     pairs: Facts = []
     if run.file is None:
-        pairs.append(("build variant of this machine", build_variant()))
+        pairs.append((say("build variant of this machine"), build_variant()))
     else:
-        pairs.append(("run by", f"dondolo {run.file.version}"))
+        pairs.append((say("run by"), f"dondolo {run.file.version}"))
         known = {
-            "compiler": run.file.compiler and f"{run.file.compiler}, real{run.file.real_bits}",
-            "engine and build variant": run.file.engine,
+            say("compiler"): run.file.compiler and f"{run.file.compiler}, real{run.file.real_bits}",
+            say("engine and build variant"): run.file.engine,
         }
         pairs += [(name, text) for name, text in known.items() if text]
         if run.file.written is not None:
-            pairs.append(("result files written", date_in_words(run.file.written)))
-    pairs += [("report by", f"dondolo {constants().version}"), ("Python", platform.python_version())]
+            pairs.append((say("result files written"), date_in_words(run.file.written)))
+    pairs += [(say("report by"), f"dondolo {constants().version}"), ("Python", platform.python_version())]
     return pairs + [(name, version(name.lower())) for name in ("NumPy", "SciPy", "Matplotlib")]

@@ -7,22 +7,19 @@ from __future__ import annotations
 
 import gettext
 import os
-import re
+from contextlib import AbstractContextManager
 from datetime import datetime
 from importlib import resources
 from typing import Any
 
 from dondolo._base.arguments import one_of
+from dondolo._base.wording import ENGLISH, Wording, in_words_of
 from dondolo.errors import DondoloError
-from dondolo.reporting.content import Symbol
+from dondolo.reporting.content import MONTHS, Symbol, in_places
 from dondolo.reporting.numerals import Numeral
+from dondolo.reporting.properties_it import property_name
 
 LANGUAGES = ("en", "it")
-_PLACE = re.compile(r"\{(\w+)\}")
-_MONTHS = {
-    "en": "January February March April May June July August September October November December",
-    "it": "gennaio febbraio marzo aprile maggio giugno luglio agosto settembre ottobre novembre dicembre",
-}
 
 
 class Language:
@@ -47,6 +44,15 @@ class Language:
             except OSError as error:
                 raise DondoloError(f"lang = {self.code!r}: its catalogue cannot be read: {error.strerror}") from None
 
+    def in_force(self) -> AbstractContextManager[None]:
+        """Say the sentences of all rooms in this language until the end of a block."""
+        return in_words_of(ENGLISH if self.code == "en" else Wording(self._said, self.decimal(".")))
+
+    def _said(self, sentence: str) -> str:
+        """A sentence, or a property of a wall, in Italian."""
+        found = self._catalogue.gettext(sentence)
+        return property_name(sentence) if found == sentence else found
+
     def text(self, sentence: str, **values: object) -> str:
         """A sentence, with values in the places that it names."""
         found = self._catalogue.gettext(sentence)
@@ -54,8 +60,7 @@ class Language:
 
     def pieces(self, sentence: str, **values: Any) -> tuple[Any, ...]:
         """A sentence as pieces: numbers, symbols and fields stay what they are in the places that it names."""
-        parts = _PLACE.split(self._catalogue.gettext(sentence))
-        return tuple(values[part] if place % 2 else part for place, part in enumerate(parts) if part)
+        return in_places(self._catalogue.gettext(sentence), values)
 
     def decimal(self, text: str) -> str:
         """The digits of a number with the decimal mark of the language."""
@@ -71,4 +76,4 @@ class Language:
 
     def date(self, moment: datetime) -> str:
         """A date in words."""
-        return f"{moment.day} {_MONTHS[self.code].split()[moment.month - 1]} {moment.year}"
+        return f"{moment.day} {self.text(MONTHS[moment.month - 1])} {moment.year}"

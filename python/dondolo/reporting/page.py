@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from dondolo._base.arguments import instance_of
 from dondolo._base.files import as_file
+from dondolo._base.wording import say
 from dondolo._fortran.library import as_text, constants
 from dondolo._fortran.origins import check_replaced, derived_mark
 from dondolo._fortran.records import blank_unit
@@ -32,6 +33,7 @@ from dondolo.reporting.content import BETA, THETA, Symbol, date_in_words
 from dondolo.reporting.language import Language
 from dondolo.reporting.numerals import NONE, whole
 from dondolo.reporting.pdf import write_pdf
+from dondolo.reporting.relazione.terms import warning
 from dondolo.reporting.risk import risk_facts
 from dondolo.reporting.run import Run, run_of
 from dondolo.reporting.ties import ties
@@ -57,6 +59,7 @@ def report(
     hazard: HazardCurve | None = None,
     check: CodeCheck | None = None,
     title: str | None = None,
+    lang: str | None = None,
 ) -> None:
     """Write a report of a run: one file that appears whole or not at all, HTML that opens offline, or PDF on A4.
 
@@ -74,6 +77,9 @@ def report(
         Adds the calculation sheet of the check of the wall, and its lines on the curve; files bring their own.
     title : str, optional
         Title of the page; that of the case if left out.
+    lang : {'en', 'it'}, optional
+        Language; that of the environment variable ``DONDOLO_LANG`` if left out, or English. Names, identifiers of the
+        case and messages of the library are not translated.
 
     Raises
     ------
@@ -95,10 +101,23 @@ def report(
     >>> response = dd.simulate(dd.OneSidedWall(height=1.5, thickness=0.25), record, scale=2.0)
     >>> dd.report(response, "report.html", title="Parapet")
     """
-    import matplotlib.pyplot as plt
-
     target = as_file("path", path, ".html", ".htm", ".pdf")
     check_replaced(target, "report")
+    language = Language(lang)
+    with language.in_force():
+        text, mark = _page(results, hazard, check, title, language)
+    if target.suffix.lower() == ".pdf":
+        write_pdf(path, text, mark)
+    else:
+        tables.write_lines(path, [text.rstrip("\n")])
+
+
+def _page(
+    results: Any, hazard: HazardCurve | None, check: CodeCheck | None, title: str | None, language: Language
+) -> tuple[str, str]:
+    """The text of the page and the mark of its run."""
+    import matplotlib.pyplot as plt
+
     run = run_of(results)
     if title is not None:
         run.title = as_text("title", title).decode()
@@ -115,10 +134,11 @@ def report(
     # Choose the backend first: that may turn interactive mode on, and ioff restores the mode it finds.
     plt.draw_if_interactive()  # type: ignore[no-untyped-call]
     with plt.ioff(), silent():
-        chapters = _chapters(run, hazard)
-    version, template = constants().version, environment(Language("en")).get_template("page.html.j2")
+        chapters = _chapters(run, hazard, language)
+    version, template = constants().version, environment(language).get_template("page.html.j2")
     mark = derived_mark("report", "" if run.file is None else run.file.run)
     text = template.render(
+        lang=language.code,
         title=run.title,
         generator=mark,
         lead=_lead(run),
@@ -126,10 +146,7 @@ def report(
         version=version,
         made=date_in_words(datetime.now().astimezone()),
     )
-    if target.suffix.lower() == ".pdf":
-        write_pdf(path, text, mark)
-    else:
-        tables.write_lines(path, [text.rstrip("\n")])
+    return text, mark
 
 
 def _check_ground(run: Run) -> None:
@@ -157,42 +174,52 @@ def environment(language: Language) -> Environment:
     )
     letters = {f"beta_{index}": Symbol("β", index) for index in ("walls", "records", "total")}
     made.filters["decimal"] = language.decimal
-    made.globals |= {"theta": THETA, "beta": BETA, "none_text": NONE.text, **letters}
+    made.globals |= {"say": _said, "theta": THETA, "beta": BETA, "none_text": NONE.text, **letters}
     return made
 
 
-def _chapters(run: Run, hazard: HazardCurve | None) -> list[Chapter]:
+def _said(sentence: str, **values: Any) -> Any:
+    """A sentence of a template in the language in force, escaped as its values are."""
+    from markupsafe import Markup, escape
+
+    found = Markup(escape(say(sentence)))
+    return found.format(**values) if values else found
+
+
+def _chapters(run: Run, hazard: HazardCurve | None, language: Language) -> list[Chapter]:
     """All chapters of a page."""
     results = run.results
     if run.designs is not None and isinstance(results, Typology):
         summary = designs.summary(run.designs)
         chapters = [
-            Chapter("designs", "Designs", "designs", designs.designs(run.designs)),
-            Chapter("numbers", "Parameters of each design", "designs_numbers", designs.numbers(results)),
+            Chapter("designs", say("Designs"), "designs", designs.designs(run.designs)),
+            Chapter("numbers", say("Parameters of each design"), "designs_numbers", designs.numbers(results)),
         ]
     elif run.facade and isinstance(results, Typology):
         summary = facade.summary(results)
         chapters = [
-            Chapter("curves", "Fragility curves", "facade_curves", facade.curves(results)),
-            Chapter("numbers", "Parameters and levels", "facade_numbers", facade.numbers(results)),
-            Chapter("uncertainty", "Uncertainty of the curve", "wall_uncertainty", facade.uncertainty(results)),
+            Chapter("curves", say("Fragility curves"), "facade_curves", facade.curves(results)),
+            Chapter("numbers", say("Parameters and levels"), "facade_numbers", facade.numbers(results)),
+            Chapter("uncertainty", say("Uncertainty of the curve"), "wall_uncertainty", facade.uncertainty(results)),
         ]
     elif isinstance(results, Typology):
         summary = typology.summary(results)
-        words = typology.WALLS if run.uncertain is None else typology.VARIANTS
+        words = typology.words_of(run.uncertain is not None)
         chapters = [
-            Chapter("curves", "Fragility curves", "typology_curves", typology.curves(results) | {"words": words}),
-            Chapter("numbers", "Parameters and fractiles", "typology_numbers", typology.numbers(results, words)),
+            Chapter("curves", say("Fragility curves"), "typology_curves", typology.curves(results) | {"words": words}),
+            Chapter("numbers", say("Parameters and fractiles"), "typology_numbers", typology.numbers(results, words)),
             Chapter(
                 "uncertainty",
-                f"Uncertainty of the {words.curve}",
+                words.uncertainty,
                 "typology_uncertainty",
                 typology.uncertainty(results) | {"words": words},
             ),
         ]
         if run.uncertain is not None:
             summary = uncertain.summary(run.uncertain)
-            model = Chapter("model", "Uncertainty of the model", "model_uncertainty", uncertain.model(run.uncertain))
+            model = Chapter(
+                "model", say("Uncertainty of the model"), "model_uncertainty", uncertain.model(run.uncertain)
+            )
             chapters.insert(0, model)
     elif isinstance(results, Stripes):
         assert run.curve is not None
@@ -200,23 +227,25 @@ def _chapters(run: Run, hazard: HazardCurve | None) -> list[Chapter]:
         figures = wall.curves(results, run.states)
         numbers = wall.numbers(results, run.states)
         chapters = [
-            Chapter("curves", "Histories and fragility curve", "wall_curves", figures),
-            Chapter("numbers", "Stripes and damage states", "wall_numbers", numbers),
-            Chapter("uncertainty", "Uncertainty of the curve", "wall_uncertainty", wall.uncertainty(run.curve)),
+            Chapter("curves", say("Histories and fragility curve"), "wall_curves", figures),
+            Chapter("numbers", say("Stripes and damage states"), "wall_numbers", numbers),
+            Chapter("uncertainty", say("Uncertainty of the curve"), "wall_uncertainty", wall.uncertainty(run.curve)),
         ]
         if results.status is not None:
             told = wall.certificates(results, run.states, run.how)
-            chapters.insert(2, Chapter("certificates", "Certified histories", "certificates", told))
+            chapters.insert(2, Chapter("certificates", say("Certified histories"), "certificates", told))
     else:
         summary = wall.motion_summary(results)
         chapters = [
-            Chapter("motion", "Motion", "motion", wall.motion(results)),
-            Chapter("numbers", "Numbers", "facts", results._facts()),
+            Chapter("motion", say("Motion"), "motion", wall.motion(results)),
+            Chapter("numbers", say("Numbers"), "facts", results._facts()),
         ]
     if not isinstance(results, Response) and (found_ties := ties(results)) is not None:
-        chapters.append(Chapter("ties", "Ties", "ties", found_ties))
+        chapters.append(Chapter("ties", say("Ties"), "ties", found_ties))
     if run.check is not None:
-        chapters.append(Chapter("code_check", "Check by NTC 2018", "code_check", code_check(run.check, run.curve)))
+        chapters.append(
+            Chapter("code_check", say("Check by NTC 2018"), "code_check", code_check(run.check, run.curve, language))
+        )
     if run.checks and isinstance(results, Typology):
         facts = code_checks(
             run.checks,
@@ -224,11 +253,11 @@ def _chapters(run: Run, hazard: HazardCurve | None) -> list[Chapter]:
             facade=results.unions[run.facade] if run.facade else None,
             with_sheets=run.is_alike and len(run.checks) <= inputs.DRAWN,
         )
-        chapters.append(Chapter("code_checks", "Checks by NTC 2018", "code_checks", facts))
-    found = [str(one) for one in run.warnings]
+        chapters.append(Chapter("code_checks", say("Checks by NTC 2018"), "code_checks", facts))
+    found = [warning(language, one) for one in run.warnings]
     if hazard is not None:
-        facts, short = risk_facts(run, hazard)
-        chapters.append(Chapter("risk", "Annual frequency of collapse", "risk", facts))
+        facts, short = risk_facts(run, hazard, language)
+        chapters.append(Chapter("risk", say("Annual frequency of collapse"), "risk", facts))
         found += short
     measure = style.im_label(getattr(results, "im", "pga"))
     checked = run.checks if run.check is None else (run.check,)
@@ -236,15 +265,15 @@ def _chapters(run: Run, hazard: HazardCurve | None) -> list[Chapter]:
     known = run.file is not None and run.file.references
     cited = [run.file] if known else [results, run.curve, run.check, run.uncertain, *run.records]
     return [
-        Chapter("summary", "Summary", "summary", {"verdict": found_verdict, "warnings": found, **summary}),
+        Chapter("summary", say("Summary"), "summary", {"verdict": found_verdict, "warnings": found, **summary}),
         *chapters,
-        Chapter("inputs", "What was run", "inputs", inputs.inputs(run)),
+        Chapter("inputs", say("What was run"), "inputs", inputs.inputs(run)),
         Chapter("walls", _title_of_walls(run), "walls", inputs.walls(run)),
-        Chapter("records", "Records", "records", inputs.records(run)),
-        Chapter("checks", "Checks", "checks", inputs.checks(run)),
+        Chapter("records", say("Records"), "records", inputs.records(run)),
+        Chapter("checks", say("Checks"), "checks", inputs.checks(run)),
         Chapter(
             "limits",
-            "Limits of the models",
+            say("Limits of the models"),
             "limits",
             {
                 "is_population": isinstance(results, Typology) and not run.is_alike,
@@ -254,21 +283,21 @@ def _chapters(run: Run, hazard: HazardCurve | None) -> list[Chapter]:
                 "on_ground": inputs.on_ground(run),
             },
         ),
-        Chapter("symbols", "Symbols and terms", "symbols", {"measure": measure, "is_alike": run.is_alike}),
-        Chapter("software", "Software", "facts", inputs.software(run)),
-        Chapter("references", "References", "references", cite(*(one for one in cited if one is not None))),
+        Chapter("symbols", say("Symbols and terms"), "symbols", {"measure": measure, "is_alike": run.is_alike}),
+        Chapter("software", say("Software"), "facts", inputs.software(run)),
+        Chapter("references", say("References"), "references", cite(*(one for one in cited if one is not None))),
     ]
 
 
 def _title_of_walls(run: Run) -> str:
     """Title of the chapter on the walls."""
     if run.designs is not None:
-        return "The designs"
+        return say("The designs")
     if run.facade:
-        return "The facade and its mechanisms"
+        return say("The facade and its mechanisms")
     if run.uncertain is not None:
-        return "The wall and its variants"
-    return "Walls" if len(run.population) > 1 else "The wall"
+        return say("The wall and its variants")
+    return say("Walls") if len(run.population) > 1 else say("The wall")
 
 
 def _lead(run: Run) -> str:
@@ -277,29 +306,49 @@ def _lead(run: Run) -> str:
     parts = []
     if run.uncertain is not None:
         everything, many = run.uncertain.typology.walls, len(run.uncertain.sample)
-        wall, names = everything[many], ", ".join(run.uncertain.sources).replace("_", " ")
-        parts.append(f"{wall.name}: {mechanism_name(wall.mechanism)}, its {names} uncertain")
-        parts.append(f"{many} variants, and {len(everything) - many} beside them")
+        wall, names = everything[many], ", ".join(say(name.replace("_", " ")) for name in run.uncertain.sources)
+        words = {"wall": wall.name, "mechanism": mechanism_name(wall.mechanism), "names": names}
+        parts.append(say("{wall}: {mechanism}, its {names} uncertain", **words))
+        parts.append(say("{variants} variants, and {others} beside them", variants=many, others=len(everything) - many))
     elif run.designs is not None and isinstance(results, Typology):
-        parts.append(f"{len(results.walls)} designs of one wall")
+        parts.append(say("{designs} designs of one wall", designs=len(results.walls)))
     elif run.facade and isinstance(results, Typology):
-        parts.append(f"{run.facade}: {len(results.walls)} mechanisms, under the same records")
+        many = len(results.walls)
+        parts.append(
+            say("{facade}: {mechanisms} mechanisms, under the same records", facade=run.facade, mechanisms=many)
+        )
     elif isinstance(results, Typology):
         rows, walls = len(results.walls), len(results.combined)
         counted = results["all"].n_walls
-        parts.append(f"{walls} walls" + (f" with {rows} mechanisms" if rows > walls else ""))
+        parts.append(
+            say("{walls} walls with {mechanisms} mechanisms", walls=walls, mechanisms=rows)
+            if rows > walls
+            else say("{walls} walls", walls=walls)
+        )
         if counted < walls:
-            parts[-1] += f", {walls - counted} of them of weight 0 and in no curve of the population"
+            parts[-1] += say(
+                ", {without} of them of weight 0 and in no curve of the population", without=walls - counted
+            )
     else:
         parts.append(f"{results.wall.name}: {mechanism_name(results.wall.mechanism)}")
     if isinstance(results, Response):
-        parts.append(f"one motion under {results.record.name}, scale {results.scale:.4g}")
+        parts.append(
+            say("one motion under {record}, scale {scale:.4g}", record=results.record.name, scale=results.scale)
+        )
     else:
         levels = results.levels
-        number_of = f"{len(levels)} level{'s' if len(levels) > 1 else ''} of {results.im}"
-        parts.append(f"{number_of}, {levels[0]:g} to {levels[-1]:g}{blank_unit(results.im)}")
+        span = {"im": results.im, "first": levels[0], "last": levels[-1], "unit": blank_unit(results.im)}
+        parts.append(
+            say("{levels} levels of {im}, {first:g} to {last:g}{unit}", levels=len(levels), **span)
+            if len(levels) > 1
+            else say("1 level of {im}, {first:g} to {last:g}{unit}", **span)
+        )
         histories, runs = inputs.counted_histories(results)
-        parts.append(f"{whole(histories).text} histories" + (f", each run {runs} times" if runs > 1 else ""))
+        parts.append(
+            say("{histories} histories, each run {runs} times", histories=whole(histories).text, runs=runs)
+            if runs > 1
+            else say("{histories} histories", histories=whole(histories).text)
+        )
     if run.file is not None and run.file.written is not None:
-        parts.append(f"run of {date_in_words(run.file.written)}")
+        parts.append(say("run of {date}", date=date_in_words(run.file.written)))
     return "; ".join(parts) + "."

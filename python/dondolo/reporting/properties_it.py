@@ -160,3 +160,11 @@ MEANINGS = {
     "exceedance": "probabilità di superamento in quel periodo di SLD, SLV e SLC, i cui periodi di ritorno hanno ag, f0"
     " e tc_star",
 }
+
+
+def property_name(english: str) -> str:
+    """A property of a wall, named in English with blanks, in Italian; what is none is left as it is."""
+    from dondolo.reporting.headings import COLUMNS
+
+    name = english.replace(" ", "_")
+    return COLUMNS.get(name, MEANINGS[name]) if name in MEANINGS else english

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 from numpy.typing import ArrayLike
 
+from dondolo._base.wording import say
 from dondolo._fortran.histories import warnings_of_scales
 from dondolo._storage.run_file import RunFile
 from dondolo.analysis.response import Response
@@ -121,18 +122,22 @@ def run_of(results: Any) -> Run:
         run = run_of(results.typology)
         run.uncertain, run.title = (
             results,
-            f"Fragility of {results.typology.walls[results._samples].name}, its model uncertain",
+            say("Fragility of {wall}, its model uncertain", wall=results.typology.walls[results._samples].name),
         )
         return run
     if isinstance(results, Typology):
         walls = len(results.combined)
-        title = f"Fragility of {walls} walls" if walls > 1 else f"Fragility of {results.population.wholes[0]}"
+        title = (
+            say("Fragility of {walls} walls", walls=walls)
+            if walls > 1
+            else say("Fragility of {wall}", wall=results.population.wholes[0])
+        )
         found = list(results.warnings)
         return Run(results, results.population, title, warnings=found, scales=LargeScales.among(found))
     if isinstance(results, Stripes):
         return _of_stripes(results)
     if isinstance(results, Response):
-        title = f"{results.wall.name} in {results.record.name}"
+        title = say("{wall} in {record}", wall=results.wall.name, record=results.record.name)
         return Run(results, Population((results.wall,)), title, records=(results.record,))
     raise InputError(f"results: must be results of an analysis, such as Stripes, not {type(results).__name__}")
 
@@ -173,14 +178,14 @@ def _of_stripes(stripes: Stripes) -> Run:
     of_run = [one for one in stripes.warnings if one.code != _LARGE_SCALES]
     found = [*of_run, *of_scales, *found]
     settings: Facts = [
-        ("engine", stripes.engine),
+        (say("engine"), stripes.engine),
         ("rtol, atol", f"{stripes.rtol:g}, {stripes.atol:g}"),
         ("edp_limit", f"{stripes.edp_limit:g}"),
     ]
     run = Run(
         stripes,
         Population((stripes.wall,)),
-        f"Fragility of {stripes.wall.name}",
+        say("Fragility of {wall}", wall=stripes.wall.name),
         settings=settings,
         warnings=found,
         scales=LargeScales.among(of_scales),

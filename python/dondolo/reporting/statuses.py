@@ -9,6 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
+from dondolo._base.wording import in_english, say
 from dondolo._fortran.records import blank_unit
 from dondolo.curves.fragility import Fragility
 from dondolo.reporting.content import Piece, Table, level_head
@@ -28,23 +29,52 @@ STATUSES = {
     "decreasing": "the state does not become more frequent with the level: no curve",
     "not_converged": "the maximum of the likelihood was not found: no curve",
 }
+# Their Italian
+FITS = {
+    "ok": "curva determinata",
+    "extrapolated": "mediana fuori dai livelli dell'analisi: da usare con cautela",
+    "nearly_flat": "pendenza non significativa: parametri non affidabili",
+    "no_collapse": "nessun collasso ad alcun livello: nessuna curva",
+    "all_collapse": "collasso in tutte le analisi: nessuna curva",
+    "separated": "nessuna sovrapposizione tra livelli con e senza collassi: nessuna curva",
+    "single_level": "un solo livello: nessuna curva",
+    "decreasing": "collassi non crescenti con il livello: nessuna curva",
+    "not_converged": "stima non convergente: nessuna curva",
+}
+
+
+def status_meaning(status: str) -> str:
+    """A status of a fit in words."""
+    return STATUSES[status] if in_english() else FITS[status]
+
+
+def short_status(status: str) -> str:
+    """A status of a fit in few words."""
+    return say(status.replace("_", " "))
 
 
 def in_words(curve: Fragility) -> str:
     """A curve in words, for those who cannot see it."""
     if not curve.has_fit:
-        return f"no fit ({curve.status})"
-    return f"median {curve.theta:.3g}{blank_unit(curve.im)}, dispersion {curve.beta:.3g}"
+        return say("no fit ({status})", status=curve.status if in_english() else short_status(curve.status))
+    return say(
+        "median {theta:.3g}{unit}, dispersion {beta:.3g}",
+        theta=curve.theta,
+        unit=blank_unit(curve.im),
+        beta=curve.beta,
+    )
 
 
 def status_table(states: Mapping[str, Sequence[Fragility]]) -> Table:
     """How many curves have which status, a column for each damage state."""
     counts = {name: Counter(curve.status for curve in curves) for name, curves in states.items()}
     found = [status for status in STATUSES if any(count[status] for count in counts.values())]
-    columns: dict[Piece, Sequence[Piece]] = {"status": found}
+    shown = found if in_english() else [short_status(status) for status in found]
+    columns: dict[Piece, Sequence[Piece]] = {say("status"): shown}
     columns |= {name: [whole(count[status]) for status in found] for name, count in counts.items()}
-    columns["meaning"] = [STATUSES[status] for status in found]
-    return Table.of(columns, ("meaning",))
+    meaning = say("meaning")
+    columns[meaning] = [status_meaning(status) for status in found]
+    return Table.of(columns, (meaning,))
 
 
 def crossings(
@@ -81,5 +111,11 @@ def crossings(
                 rows.append((whose, names[i + 1], names[i], number(heavier[most] - lighter[most], 2), number(x[most])))
     if not rows:
         return None
-    heads = ("curve", "more probable is", "than", "by up to", f"at {level_head(im)}")
+    heads = (
+        say("curve"),
+        say("more probable is"),
+        say("than"),
+        say("by up to"),
+        say("at {level}", level=level_head(im)),
+    )
     return Table.of(dict(zip(heads, zip(*rows, strict=True), strict=True)), heads[:3])

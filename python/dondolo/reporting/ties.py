@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
+from dondolo._base.wording import say
 from dondolo.analysis.stripes import Stripes
 from dondolo.populations.typology import Typology
 from dondolo.reporting.content import Piece, Table, level_unit
@@ -16,6 +17,8 @@ from dondolo.walls.parts import parts_of
 from dondolo.walls.ties import number_of_ties
 from dondolo.walls.wall import Wall
 
+# What sentences that are said elsewhere are marked by for the catalogues
+_ = str
 # Columns of levels of a table: what fits across a page
 _ACROSS = 10
 
@@ -39,20 +42,29 @@ def _tables(
 ) -> dict[str, Any]:
     """Tables with a row a tie and a column a level, as many as a page is wide."""
     names = [
-        f"{wall.name}, tie {number} at {tie.height:g} m"
+        say("{wall}, tie {number} at {height:g} m", wall=wall.name, number=number, height=tie.height)
         for wall in walls
         for number, tie in enumerate(parts_of(wall, "ties"), 1)
     ]
     tables = []
-    for what, shares in (("stretch each tie for good", yielded), ("break each tie", broken)):
+    stretched = _("Share of the histories that stretch each tie for good, {levels}.")
+    for sentence, shares in (
+        (stretched, yielded),
+        (_("Share of the histories that break each tie, {levels}."), broken),
+    ):
         rows = np.hstack(shares)
         for first in range(0, len(results.levels), _ACROSS):
-            columns: dict[Piece, Sequence[Piece]] = {"tie": names}
+            columns: dict[Piece, Sequence[Piece]] = {say("tie"): names}
             for place in range(first, min(first + _ACROSS, len(results.levels))):
                 columns[number(results.levels[place], unit=f" {level_unit(results.im)}")] = list(
                     map(percent, rows[place])
                 )
             last = results.levels[min(first + _ACROSS, len(results.levels)) - 1]
-            span = f"levels {results.levels[first]:g} to {last:g} {level_unit(results.im)}"
-            tables.append((f"Share of the histories that {what}, {span}.", Table.of(columns)))
+            span = say(
+                "levels {first:g} to {last:g} {unit}",
+                first=results.levels[first],
+                last=last,
+                unit=level_unit(results.im),
+            )
+            tables.append((say(sentence, levels=span), Table.of(columns)))
     return {"tables": tables}

@@ -9,10 +9,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from dondolo._base.shown import shown_dispersion
+from dondolo._base.wording import decimal, in_english, say
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloError
 from dondolo.figures import style
-from dondolo.figures.style import counted, mechanism_name
+from dondolo.figures.style import counted_walls, mechanism_name
 from dondolo.populations.curve import Group
 from dondolo.populations.typology import Typology
 from dondolo.reporting.columns import parameters_of, shown
@@ -25,10 +26,11 @@ from dondolo.reporting.content import (
     figure,
     level,
     level_unit,
+    pieces,
     state_name,
 )
 from dondolo.reporting.numerals import number, parameter, percent
-from dondolo.reporting.statuses import crossings, in_words
+from dondolo.reporting.statuses import crossings, in_words, short_status
 
 
 class Words(NamedTuple):
@@ -40,18 +42,21 @@ class Words(NamedTuple):
         All of it.
     singles : str
         Its members.
-    curve : str
-        Its curve.
+    uncertainty : str
+        Title of the chapter on the uncertainty of its curve.
     """
 
     whole: str
     singles: str
-    curve: str
+    uncertainty: str
 
 
-WALLS = Words("whole population", "single walls", "typological curve")
-# Of one wall whose properties are uncertain
-VARIANTS = Words("all variants", "single variants", "mean curve of the variants")
+def words_of(variants: bool) -> Words:
+    """Words for walls, or for the variants of one wall whose properties are uncertain."""
+    if variants:
+        return Words(say("all variants"), say("single variants"), say("Uncertainty of the mean curve of the variants"))
+    return Words(say("whole population"), say("single walls"), say("Uncertainty of the typological curve"))
+
 
 # Samples of the bootstrap
 _SAMPLES = 500
@@ -64,19 +69,27 @@ def summary(people: Typology) -> dict[str, Any]:
     curve = people["all"]
     cards: list[tuple[Piece, Piece, Piece]] = []
     if curve.fit.has_fit:
-        whose: Piece = "of collapse, whole population"
+        whose: Piece = say("of collapse, whole population")
         if curve.saturation < 1.0:
             # Theta of the walls that can collapse is below the level at which half of all do.
             half = float(curve.fit.ppf(0.5))
-            of_all = ("half of all at ", level(half, people.im)) if np.isfinite(half) else ("half of all at no level",)
-            share = f"{100.0 * curve.saturation:.3g} %"
-            whose = (f"of collapse, the {share} of the population that can collapse; ", *of_all)
-        cards.append((("median ", THETA), level(curve.fit.theta, people.im), whose))
-        cards.append((("dispersion ", BETA), number(curve.fit.beta, 3), "of the lognormal fitted to the mean"))
+            of_all = (
+                pieces("half of all at {level}", level=level(half, people.im))
+                if np.isfinite(half)
+                else (say("half of all at no level"),)
+            )
+            share = say(
+                "of collapse, the {share:.3g} % of the population that can collapse; ", share=100.0 * curve.saturation
+            )
+            whose = (share, *of_all)
+        cards.append((pieces("median {theta}", theta=THETA), level(curve.fit.theta, people.im), whose))
+        of_mean = say("of the lognormal fitted to the mean")
+        cards.append((pieces("dispersion {beta}", beta=BETA), number(curve.fit.beta, 3), of_mean))
     else:
-        cards.append(("lognormal fit", "none", curve.fit.status.replace("_", " ")))
-    cards.append((Symbol("β", "walls"), number(shown_dispersion(curve.beta_walls), 3), "dispersion between walls"))
-    cards.append((Symbol("β", "records"), number(curve.beta_records, 3), "dispersion between records"))
+        cards.append((say("lognormal fit"), say("none"), short_status(curve.fit.status)))
+    between = number(shown_dispersion(curve.beta_walls), 3)
+    cards.append((Symbol("β", "walls"), between, say("dispersion between walls")))
+    cards.append((Symbol("β", "records"), number(curve.beta_records, 3), say("dispersion between records")))
     chosen = dict.fromkeys(int(i) for i in np.linspace(0, len(people.levels) - 1, 5)[1:-1]) or [0]
     shares = [(percent(curve.mean_curve[i]), level(people.levels[i], people.im)) for i in chosen]
     return {"cards": cards, "shares": shares, "measure": style.im_label(people.im).split(" [")[0]}
@@ -87,27 +100,28 @@ def curves(people: Typology) -> dict[str, Any]:
     of_all = [curve for curve in people.groups if not curve.group]
     found: dict[str, Any] = dict.fromkeys(("combination", "groups", "states", "crossings"))
     if len(of_all) > 1:
-        alt = "Mean fragility curve of each mechanism and of all together. " + _in_words(of_all)
+        alt = say("Mean fragility curve of each mechanism and of all together.") + " " + _in_words(of_all)
         found["combination"] = figure(people.plot_combination, alt)
     found["mechanisms"] = []
     for curve in sorted(of_all, key=lambda one: one.mechanism == "all"):
         name = mechanism_name(curve.mechanism)
-        alt = f"Fragility curves of {counted(curve.n_walls, 'wall')}, {name}, their mean and fractiles. "
+        words = {"walls": counted_walls(curve.n_walls), "mechanism": name}
+        alt = say("Fragility curves of {walls}, {mechanism}, their mean and fractiles.", **words) + " "
         drawn = figure(people[curve.mechanism].plot, alt + _in_words([curve]))
         found["mechanisms"].append((name[0].upper() + name[1:], drawn))
     if grouped := [curve for curve in combined(people) if curve.group]:
-        alt = "Mean fragility curve of each group beside that of the population. " + _in_words(grouped)
+        alt = say("Mean fragility curve of each group beside that of the population.") + " " + _in_words(grouped)
         found["groups"] = figure(people.plot_groups, alt)
     found["facades"] = []
     for name, union in list(unions(people).items())[:_FACADES]:
         if name not in people.population.facades:
             continue
-        alt = f"Curves of the walls of facade {name}, their product and the union of the same histories. "
-        texts = _curve_in_words(f"facade {name}", union) + "."
+        alt = say("Curves of the walls of facade {name}, their product and the union of the same histories.", name=name)
+        texts = " " + _curve_in_words(say("facade {name}", name=name), union) + "."
         found["facades"].append((name, figure(functools.partial(people.plot_union, name=name), alt + texts)))
     if len(people.edp_thresholds) > 1:
-        alt = "Probability to reach each damage state. "
-        alt += _in_words([people.at(edp)["all"] for edp in people.edp_thresholds])
+        of_states = _in_words([people.at(edp)["all"] for edp in people.edp_thresholds])
+        alt = say("Probability to reach each damage state. {words}", words=of_states)
         found["states"] = figure(people.plot_damage_states, alt)
         found["crossings"] = _crossings(people)
     return found
@@ -117,7 +131,7 @@ def _crossings(people: Typology) -> Table | None:
     """Mean curves of damage states that cross."""
     limit = float(people.edp_thresholds[-1])
     states = {
-        f"{curve.group or 'whole population'}, {mechanism_name(curve.mechanism)}": [
+        f"{curve.group or say('whole population')}, {mechanism_name(curve.mechanism)}": [
             people.at(edp)[curve.mechanism, curve.group] for edp in people.edp_thresholds
         ]
         for curve in people.groups
@@ -134,15 +148,18 @@ def _in_words(curves: Sequence[Group]) -> str:
     """Curves in words, for those who cannot see them."""
     texts = []
     for curve in curves:
-        who = f"{curve.group or 'population'}, {mechanism_name(curve.mechanism)}"
+        who = f"{curve.group or say('population')}, {mechanism_name(curve.mechanism)}"
         texts.append(_curve_in_words(who, curve.fit))
     return "; ".join(texts) + "."
 
 
 def _curve_in_words(who: str, fit: Fragility) -> str:
     """A curve of a damage state in words."""
-    state = "" if fit.edp_threshold is None or not fit.has_fit else f", EDP {fit.edp_threshold:g}"
-    return f"{who}{state}: {in_words(fit)}"
+    if fit.edp_threshold is None or not fit.has_fit:
+        return f"{who}: {in_words(fit)}"
+    return say(
+        "{whose}, EDP {threshold:g}: {words}", whose=who, threshold=float(fit.edp_threshold), words=in_words(fit)
+    )
 
 
 def unions(people: Typology) -> dict[str, Fragility]:
@@ -173,7 +190,9 @@ def numbers(people: Typology, words: Words) -> dict[str, Any]:
         "curves": _curves_table(people, words),
         "unions": _unions_table(people),
         "has_alternatives": bool(people.population.alternative_numbers.any()),
-        "states": [(f"EDP ≥ {edp:g}", _curves_table(people.at(edp), words)) for edp in people.edp_thresholds[:-1]],
+        "states": [
+            (state_name(edp, limit), _curves_table(people.at(edp), words)) for edp in people.edp_thresholds[:-1]
+        ],
         "levels": [
             (state_name(edp, limit), _levels_table(people, people.at(float(edp))["all"]))
             for edp in people.edp_thresholds[::-1]
@@ -232,8 +251,10 @@ def _parameters(people: Typology, ends: Mapping[str, tuple[float, float]]) -> Ta
     """Parameters of the whole population with their intervals, a row each."""
     fit = people["all"].fit
     rows = [(fit.theta, *ends["theta"]), (fit.beta, *ends["beta"])]
-    columns: dict[Piece, Sequence[Piece]] = {"parameter": [(THETA, f" [{level_unit(people.im)}]"), BETA]}
-    columns |= {head: [parameter(row[i]) for row in rows] for i, head in enumerate(("estimate", "from", "to"))}
+    columns: dict[Piece, Sequence[Piece]] = {say("parameter"): [(THETA, f" [{level_unit(people.im)}]"), BETA]}
+    columns |= {
+        head: [parameter(row[i]) for row in rows] for i, head in enumerate((say("estimate"), say("from"), say("to")))
+    }
     return Table.of(columns)
 
 
@@ -247,11 +268,10 @@ def _fitted(people: Typology) -> dict[str, Any]:
     fit = people["all"].fit
     if not fit.has_errors:
         return {"fitted": None}
-    return {
-        "fitted": _parameters(people, fit.parameter_interval()),
-        "clusters": fit._kind(),
-        "over_walls": len(people.combined) > 1,
-    }
+    clusters = fit._kind()
+    if len(people.combined) > 1 and not any(part.kind == "walls" for part in fit.parts):
+        clusters += say(", and walls")
+    return {"fitted": _parameters(people, fit.parameter_interval()), "clusters": clusters}
 
 
 def _drawn(people: Typology) -> dict[str, Any]:
@@ -262,15 +282,15 @@ def _drawn(people: Typology) -> dict[str, Any]:
         samples = people["all"].bootstrap(n_resamples=_SAMPLES, over=("walls",) if stored else ("records", "walls"))
         intervals = samples.parameter_interval()
     except DondoloError as error:
-        return {"problem": str(error)}
+        return {"problem": str(error) if in_english() else "v. messaggio della libreria in inglese"}
     low, high = samples.mean_interval()
     levels = {"im_level": people.levels, "mean_fraction": curve.mean_fraction, "mean_low": low, "mean_high": high}
     return {
         "problem": "",
         "samples": _SAMPLES,
-        "drawn": " and ".join(samples.over),
+        "drawn": say(" and ").join(map(say, samples.over)),
         "stored": stored,
-        "without_fit": f"{100.0 * samples.without_fit:.3g} %" if samples.without_fit else "",
+        "without_fit": decimal(f"{100.0 * samples.without_fit:.3g} %") if samples.without_fit else "",
         "parameters": _parameters(people, intervals),
         "levels": shown(levels, people.im),
     }

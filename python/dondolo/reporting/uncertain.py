@@ -6,20 +6,21 @@ from typing import Any
 
 import numpy as np
 
+from dondolo._base.wording import say
 from dondolo.populations.uncertain_wall import UncertainWall
-from dondolo.reporting.columns import shown
-from dondolo.reporting.content import BETA, THETA, Facts, Piece, Symbol, figure, level
+from dondolo.reporting.columns import shown, source_name
+from dondolo.reporting.content import BETA, THETA, Facts, Piece, Symbol, figure, level, pieces
 from dondolo.reporting.numerals import number
 
 
 def summary(found: UncertainWall) -> dict[str, Any]:
     """The main numbers of the wall."""
-    of_model = ("dispersion of the model, standard deviation of ln ", THETA)
+    of_model = pieces("dispersion of the model, standard deviation of ln {theta}", theta=THETA)
     cards: list[tuple[Piece, Piece, Piece]] = [
-        (("median ", THETA), level(found.theta, found.im), "geometric mean of the variants"),
+        (pieces("median {theta}", theta=THETA), level(found.theta, found.im), say("geometric mean of the variants")),
         (Symbol("β", "model"), number(found.beta_model, 3), of_model),
-        (Symbol("β", "records"), number(found.beta_records, 3), "dispersion between records"),
-        (Symbol("β", "total"), number(found.beta_total, 3), "both together"),
+        (Symbol("β", "records"), number(found.beta_records, 3), say("dispersion between records")),
+        (Symbol("β", "total"), number(found.beta_total, 3), say("both together")),
     ]
     return {"cards": cards, "shares": []}
 
@@ -27,17 +28,22 @@ def summary(found: UncertainWall) -> dict[str, Any]:
 def model(found: UncertainWall) -> dict[str, Any]:
     """What the curve owes to each source."""
     facts: Facts = [
-        (("median ", THETA, " of the sample"), level(found.theta, found.im)),
-        ((BETA, " of the model"), number(found.beta_model, 3)),
-        ((BETA, " of the records"), number(found.beta_records, 3)),
-        ((BETA, " of both"), number(found.beta_total, 3)),
-        ((THETA, " of the wall as given"), level(found.as_given.theta, found.im)),
-        ((THETA, " with all sources at their medians"), level(found.at_medians.theta, found.im)),
-        ("variants", str(len(found.sample))),
+        (pieces("median {theta} of the sample", theta=THETA), level(found.theta, found.im)),
+        (pieces("{beta} of the model", beta=BETA), number(found.beta_model, 3)),
+        (pieces("{beta} of the records", beta=BETA), number(found.beta_records, 3)),
+        (pieces("{beta} of both", beta=BETA), number(found.beta_total, 3)),
+        (pieces("{theta} of the wall as given", theta=THETA), level(found.as_given.theta, found.im)),
+        (pieces("{theta} with all sources at their medians", theta=THETA), level(found.at_medians.theta, found.im)),
+        (say("variants"), str(len(found.sample))),
     ]
     spans = zip(found.sources, found.ends, strict=True)
-    words = "; ".join(f"{name}: {low.theta:.3g} to {high.theta:.3g}" for name, (low, high) in spans)
-    alt = f"Curves of the variants, and what moves their median, with each source at its fractiles: {words}."
+    words = "; ".join(
+        say("{source}: {low:.3g} to {high:.3g}", source=source_name(name), low=low.theta, high=high.theta)
+        for name, (low, high) in spans
+    )
+    alt = say(
+        "Curves of the variants, and what moves their median, with each source at its fractiles: {words}.", words=words
+    )
     return {
         "facts": facts,
         "figure": figure(found.plot, alt),

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from dondolo._base.shown import span
+from dondolo._base.wording import decimal, in_english, say
 from dondolo._fortran.records import blank_unit
 from dondolo._fortran.tables import plain
 from dondolo.analysis.certificate import Certified
@@ -25,11 +26,20 @@ from dondolo.reporting.content import (
     figure,
     level,
     level_head,
+    pieces,
     state_name,
 )
 from dondolo.reporting.numerals import number, percent, probability, whole
-from dondolo.reporting.statuses import STATUSES, crossings, in_words
+from dondolo.reporting.statuses import crossings, in_words, short_status, status_meaning
 
+# What sentences that are said elsewhere are marked by for the catalogues
+_ = str
+_SUPPORTS = {"ground": _("Ground"), "floor": _("Floor"), "felt": _("Felt")}
+_CERTIFIED = {
+    Certified.DOUBLE: _("double"),
+    Certified.QUADRUPLE: _("quadruple"),
+    Certified.NOT_COMPUTABLE: _("not_computable"),
+}
 # Samples of the bootstrap
 _SAMPLES = 2000
 
@@ -38,17 +48,19 @@ def summary(stripes: Stripes, curve: Fragility) -> dict[str, Any]:
     """The main numbers of a wall."""
     cards: list[tuple[Piece, Piece, Piece]] = []
     if curve.has_fit:
-        spread = ("standard error of ln ", THETA, " ", number(curve.se_ln_theta, 3))
-        cards.append((("median ", THETA), level(curve.theta, stripes.im), spread))
-        cards.append((("dispersion ", BETA), number(curve.beta, 3), ("standard error ", number(curve.se_beta, 3))))
+        spread = pieces("standard error of ln {theta} {error}", theta=THETA, error=number(curve.se_ln_theta, 3))
+        cards.append((pieces("median {theta}", theta=THETA), level(curve.theta, stripes.im), spread))
+        error = pieces("standard error {error}", error=number(curve.se_beta, 3))
+        cards.append((pieces("dispersion {beta}", beta=BETA), number(curve.beta, 3), error))
     else:
         low, high = curve.bracket
-        cards.append(("fit", "none", curve.status.replace("_", " ")))
-        cards.append(("median between", (number(low, 3), " and ", level(high, stripes.im)), "levels"))
-    histories = f"{len(stripes.levels)} levels of {span(stripes.histories)}"
-    cards.append(("histories", whole(stripes.ran.sum()), histories))
-    share = (percent(stripes.collapsed.sum() / stripes.ran.sum()), " of the histories")
-    cards.append(("collapses", whole(stripes.collapsed.sum()), share))
+        cards.append((say("fit"), say("none"), short_status(curve.status)))
+        ends = pieces("{low} and {high}", low=number(low, 3), high=level(high, stripes.im))
+        cards.append((say("median between"), ends, say("levels")))
+    histories = say("{levels} levels of {histories}", levels=len(stripes.levels), histories=span(stripes.histories))
+    cards.append((say("histories"), whole(stripes.ran.sum()), histories))
+    share = pieces("{share} of the histories", share=percent(stripes.collapsed.sum() / stripes.ran.sum()))
+    cards.append((say("collapses"), whole(stripes.collapsed.sum()), share))
     return {"cards": cards, "shares": []}
 
 
@@ -56,16 +68,21 @@ def curves(stripes: Stripes, states: Sequence[Fragility]) -> dict[str, Any]:
     """Figures of the histories, the curve and the damage states."""
     unit, curve = blank_unit(stripes.im), states[-1]
     counts = zip(stripes.levels, stripes.collapses, stripes.histories, strict=True)
-    levels = ", ".join(f"{z} of {n} at {x:g}{unit}" for x, z, n in counts)
+    levels = ", ".join(say("{many} of {of} at {level:g}{unit}", many=z, of=n, level=x, unit=unit) for x, z, n in counts)
     return {
         "stripes": figure(
             stripes.plot,
-            f"Largest rotation over capacity of every history at every level. Collapses: {levels}.",
+            say("Largest rotation over capacity of every history at every level. Collapses: {levels}.", levels=levels),
         ),
-        "fragility": figure(curve.plot, f"Fractions of collapse and fitted fragility curve: {in_words(curve)}."),
+        "fragility": figure(
+            curve.plot, say("Fractions of collapse and fitted fragility curve: {words}.", words=in_words(curve))
+        ),
         "states": figure(
             lambda: draw_damage_states(stripes, None, states, {}),
-            f"Fragility curves of the damage states EDP {', '.join(f'{one.edp_threshold:g}' for one in states)}.",
+            say(
+                "Fragility curves of the damage states EDP {thresholds}.",
+                thresholds=(", " if in_english() else "; ").join(decimal(f"{one.edp_threshold:g}") for one in states),
+            ),
         )
         if len(states) > 1
         else None,
@@ -96,14 +113,14 @@ def uncertainty(curve: Fragility) -> dict[str, Any]:
             "intervals": None,
             "low": number(low),
             "high": level(high, curve.im),
-            "status": curve.status,
-            "meaning": STATUSES[curve.status],
+            "status": curve.status if in_english() else short_status(curve.status),
+            "meaning": status_meaning(curve.status),
         }
     methods = {}
     if curve.has_errors:
-        methods[f"covariance, {curve._kind()}"] = curve.parameter_interval()
+        methods[say("covariance, {kind}", kind=curve._kind())] = curve.parameter_interval()
     if curve.sample is not None:
-        methods[f"bootstrap of the records, {_SAMPLES} samples"] = curve.bootstrap(
+        methods[say("bootstrap of the records, {samples} samples", samples=_SAMPLES)] = curve.bootstrap(
             n_resamples=_SAMPLES
         ).parameter_interval()
     ends = {
@@ -119,14 +136,16 @@ def certificates(stripes: Stripes, curves: Sequence[Fragility], states: States) 
     assert stripes.status is not None
     columns: dict[Piece, Sequence[Piece]] = {level_head(stripes.im): [number(x) for x in stripes.levels]}
     for kind in Certified:
-        columns[kind.name.lower()] = [whole(n) for n in (stripes.status == kind).sum(axis=1)]
+        columns[say(_CERTIFIED[kind])] = [whole(n) for n in (stripes.status == kind).sum(axis=1)]
     thresholds = [float(one.edp_threshold or 0.0) for one in curves]
     bounds = stripes.state_bounds(thresholds, states=states)
     for threshold in thresholds:
         name = state_name(threshold, stripes.edp_limit)
         ends = zip(*stripes.exceedance_bounds(threshold), stripes.histories, strict=True)
-        columns[f"fraction, {name}"] = [
-            probability(low / n) if low == high else (probability(low / n), " to ", probability(high / n))
+        columns[say("fraction, {state}", state=name)] = [
+            probability(low / n)
+            if low == high
+            else pieces("{low} to {high}", low=probability(low / n), high=probability(high / n))
             for low, high, n in ends
         ]
     medians = {
@@ -135,31 +154,42 @@ def certificates(stripes: Stripes, curves: Sequence[Fragility], states: States) 
         "theta_lowest": [low for low, _ in bounds],
         "theta_greatest": [high for _, high in bounds],
     }
-    counts = [(kind.name.lower(), whole(int(np.count_nonzero(stripes.status == kind)))) for kind in Certified]
+    counts = [(say(_CERTIFIED[kind]), whole(int(np.count_nonzero(stripes.status == kind)))) for kind in Certified]
     return {"counts": counts, "levels": Table.of(columns), "medians": shown(medians, stripes.im)}
 
 
 def motion_summary(motion: Response) -> dict[str, Any]:
     """The main numbers of a motion."""
     cards: list[tuple[Piece, Piece, Piece]] = [
-        ("EDP", number(motion.edp), "largest rotation / capacity"),
-        ("collapse", "yes" if motion.collapsed else "no", f"limit: EDP = {motion.edp_limit:g}"),
-        ("impacts", whole(motion.impacts), "before the end of the record"),
-        ("time of the peak", number(motion.time_of_peak, unit=" s"), "of the largest rotation"),
+        ("EDP", number(motion.edp), say("largest rotation / capacity")),
+        (
+            say("collapse"),
+            say("yes") if motion.collapsed else say("no"),
+            say("limit: EDP = {limit:g}", limit=float(motion.edp_limit)),
+        ),
+        (say("impacts"), whole(motion.impacts), say("before the end of the record")),
+        (say("time of the peak"), number(motion.time_of_peak, unit=" s"), say("of the largest rotation")),
     ]
     return {"cards": cards, "shares": []}
 
 
 def motion(motion: Response) -> dict[str, Any]:
     """Figures of a motion."""
-    outcome = "it overturns" if motion.collapsed else f"largest rotation {motion.edp:.4g} of the capacity"
-    alt = (
-        f"{motion._support.capitalize()} acceleration and rotation over time: {outcome} at {motion.time_of_peak:.4g} s."
+    outcome = (
+        say("it overturns")
+        if motion.collapsed
+        else say("largest rotation {edp:.4g} of the capacity", edp=float(motion.edp))
+    )
+    alt = say(
+        "{support} acceleration and rotation over time: {outcome} at {time:.4g} s.",
+        support=say(_SUPPORTS[motion._support]),
+        outcome=outcome,
+        time=float(motion.time_of_peak),
     )
     return {
         "record": motion.record.name,
-        "scale": f"{motion.scale:.4g}",
+        "scale": decimal(f"{motion.scale:.4g}"),
         "support": motion._support,
         "history": None if motion.time is None else figure(motion.plot, alt),
-        "wall": figure(motion.plot_peak, f"The wall at its largest rotation: {outcome}."),
+        "wall": figure(motion.plot_peak, say("The wall at its largest rotation: {outcome}.", outcome=outcome)),
     }

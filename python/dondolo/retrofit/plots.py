@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from dondolo._base.wording import decimal, say
 from dondolo.figures import curves, style
 from dondolo.figures.options import Options
 from dondolo.figures.themes import theme
@@ -39,7 +40,7 @@ def draw_designs(found: DesignComparison, ax: Iterable[Any] | None, given: dict[
         for i, (check, curve, color) in enumerate(zip(found.checks, found.curves, colors, strict=False)):
             stood = check.capacities["nonlinear", "SLV"]
             at = float(curve(stood)) if curve.has_fit else 0.0
-            label = "withstands by the nonlinear check, SLV" if i == 0 else None
+            label = say("withstands by the nonlinear check, SLV") if i == 0 else None
             left.plot(stood, at, linestyle="none", marker="v", markersize=7, color=color, label=label, zorder=4)
     curves.finish(left, options, found.im, grid[-1], "")
 
@@ -55,7 +56,7 @@ def draw_designs(found: DesignComparison, ax: Iterable[Any] | None, given: dict[
         markersize=5,
         color=style.BLACK,
         capsize=3,
-        label=f"median of the records, {100.0 * found.confidence:.4g} % intervals",
+        label=say("median of the records, {share:.4g} % intervals", share=100.0 * found.confidence),
     )
     right.plot(
         found.static_ratio,
@@ -65,7 +66,7 @@ def draw_designs(found: DesignComparison, ax: Iterable[Any] | None, given: dict[
         markersize=6,
         markerfacecolor="none",
         color=style.RED,
-        label="by forces: static acceleration, ties at yield",
+        label=say("by forces: static acceleration, ties at yield"),
     )
     known = [*found.static_ratio, *high[shown], 1.0]
     limit = 1.15 * float(max(known))
@@ -73,12 +74,12 @@ def draw_designs(found: DesignComparison, ax: Iterable[Any] | None, given: dict[
         if np.isfinite(ratio):
             # Above the interval, and within the axes
             at, side = (least, "left") if least < 0.5 * limit else (most, "right")
-            factor = f"\u00d7 {ratio:.2f} ({least:.2f} to {most:.2f})"
+            factor = say("\u00d7 {ratio:.2f} ({least:.2f} to {most:.2f})", ratio=ratio, least=least, most=most)
             right.annotate(
                 factor, (at, row), (0, 6), textcoords="offset points", ha=side, va="bottom", fontsize=theme().note
             )
     for row, ratio in zip(rows[1:], found.static_ratio[1:], strict=True):
-        factor = f"\u00d7 {ratio:.2f}"
+        factor = decimal(f"\u00d7 {ratio:.2f}")
         right.annotate(
             factor,
             (ratio, row),
@@ -90,14 +91,18 @@ def draw_designs(found: DesignComparison, ax: Iterable[Any] | None, given: dict[
             fontsize=theme().note,
         )
     names = [
-        style.in_lines(f"{name}\n{mass:.3g} kg/m of steel" if np.isfinite(mass) and mass > 0.0 else name, right, 0.4)
+        style.in_lines(
+            say("{name}\n{mass:.3g} kg/m of steel", name=name, mass=mass) if np.isfinite(mass) and mass > 0.0 else name,
+            right,
+            0.4,
+        )
         for name, mass in zip(found.names, found.steel, strict=True)
     ]
     right.set_yticks(rows, names, parse_math=False)
     right.grid(visible=False, axis="y")
     right.set_ylim(-0.6, len(found.names) - 0.4)
     right.set_xlim(0.0, limit)
-    right.set_xlabel(style.in_lines(f"ratio to '{found.names[0]}'", right, 0.6), parse_math=False)
+    right.set_xlabel(style.in_lines(say("ratio to '{first}'", first=found.names[0]), right, 0.6), parse_math=False)
     style.legend(right, options)
     first: Axes = left
     return first

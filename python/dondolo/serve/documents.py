@@ -31,7 +31,7 @@ def make_document(text: str, kind: str, lang: str) -> bytes:
     kind : str
         One of `DOCUMENTS`.
     lang : {'en', 'it'}
-        Language of a relazione.
+        Its language.
 
     Returns
     -------
@@ -83,7 +83,7 @@ def _main(case: str, made: str, lang: str) -> int:
         if Path(made).name.startswith("relazione"):
             dd.calculation_report([results], made, lang=lang)
         else:
-            dd.report(results, made)
+            dd.report(results, made, lang=lang)
     except DondoloError as error:
         problems = error.errors if isinstance(error, InputError) else (Problem(str(error)),)
         print(json.dumps(problems), file=sys.stderr)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray
+from dondolo._base.wording import say
 from dondolo.figures import style
 from dondolo.figures.options import Options
 from dondolo.figures.themes import theme
@@ -43,7 +44,7 @@ def draw_wall(wall: Wall, rotation: float, ax: Axes | None, given: dict[str, Any
     for block in now.blocks:
         own = {"facecolor": style.BRICK, "edgecolor": style.BLACK, "linewidth": 1.1, "alpha": 0.9}
         ax.fill(*block.T, **options.look(Polygon, **own))
-    ax.plot(*now.hinges.T, linestyle="none", marker="o", color=style.RED, markersize=6, label="hinge", zorder=4)
+    ax.plot(*now.hinges.T, linestyle="none", marker="o", color=style.RED, markersize=6, label=say("hinge"), zorder=4)
     frame(ax, wall)
     _draw_supports(ax, wall)
     draw_loads(ax, wall, rotation, now)
@@ -51,13 +52,15 @@ def draw_wall(wall: Wall, rotation: float, ax: Axes | None, given: dict[str, Any
         size, text = theme().note, "\n".join(lines)
         style.make_room(ax, 1.3 * size * len(lines))
         ax.annotate(text, (0.0, 0.0), (-30, -34), "axes fraction", textcoords="offset points", fontsize=size, va="top")
-    style.title(ax, f"{wall.name}\nrotation {rotation:.3g} rad{note}", options)
+    style.title(
+        ax, say("{wall}\nrotation {rotation:.3g} rad{note}", wall=wall.name, rotation=rotation, note=note), options
+    )
     # A legend's own marker would pass for one more hinge.
     base = now.hinges[0]
     right = base[0] > 0.5 * wall.thickness
     depth = wall.base_hinge_depth
     ax.annotate(
-        f"hinge, {1e3 * depth:.3g} mm deep" if depth > 0.0 else "hinge",
+        say("hinge, {depth:.3g} mm deep", depth=1e3 * depth) if depth > 0.0 else say("hinge"),
         base,
         (9 if right else -9, 6),
         textcoords="offset points",
@@ -72,17 +75,24 @@ def _draw_moment(wall: TabulatedWall, rotation: float, ax: Axes | None, options:
     """Draw the restoring moment of a tabulated wall, which has no shape, and where it is."""
     ax = style.axes(ax, (4.6, 3.4))
     q = np.linspace(0.0, float(np.max(wall.rotation)), 201)
-    ax.plot(q, _moment(wall, q), **options.look(color=style.BLUE, label="as computed"))
+    ax.plot(q, _moment(wall, q), **options.look(color=style.BLUE, label=say("as computed")))
     table = np.asarray(wall.rotation)
-    ax.plot(table, 1e-3 * np.asarray(wall.moment), color=style.GREY, label="table", **_MARKS)
+    ax.plot(table, 1e-3 * np.asarray(wall.moment), color=style.GREY, label=say("table"), **_MARKS)
     ax.plot(
-        abs(rotation), _moment(wall, abs(rotation)), color=style.RED, linestyle="none", marker="o", label="rotation"
+        abs(rotation),
+        _moment(wall, abs(rotation)),
+        color=style.RED,
+        linestyle="none",
+        marker="o",
+        label=say("rotation"),
     )
     ax.axhline(0.0, color=style.BLACK, linewidth=0.8)
-    ax.axvline(wall.capacity_angle, color=style.BLACK, linewidth=0.8, linestyle="--", label="capacity")
-    ax.set_xlabel("rotation [rad]")
-    ax.set_ylabel("restoring moment [kN m per metre]")
-    style.title(ax, f"{wall.name}\nrotation {rotation:.3g} rad{note}", options)
+    ax.axvline(wall.capacity_angle, color=style.BLACK, linewidth=0.8, linestyle="--", label=say("capacity"))
+    ax.set_xlabel(say("rotation [rad]"))
+    ax.set_ylabel(say("restoring moment [kN m per metre]"))
+    style.title(
+        ax, say("{wall}\nrotation {rotation:.3g} rad{note}", wall=wall.name, rotation=rotation, note=note), options
+    )
     style.legend(ax, options)
     return ax
 
@@ -101,12 +111,12 @@ def draw_surroundings(ax: Axes, wall: MasonryWall) -> None:
     if isinstance(wall, TwoBlockWall):
         for left in (-0.5 * reach, t):
             ax.fill_between([left, left + 0.5 * reach], h, 1.03 * h, facecolor=style.LIGHT, linewidth=0.0)
-        ax.annotate("held at the top", (t + 0.1 * reach, 0.955 * h), fontsize=theme().note)
+        ax.annotate(say("held at the top"), (t + 0.1 * reach, 0.955 * h), fontsize=theme().note)
     elif not wall.two_sided:
         ax.fill_betweenx([0.0, h], -reach, 0.0, facecolor=style.LIGHT, hatch="//", edgecolor="white", linewidth=0.0)
         middle, is_whole = _free_height(wall)
         # Between labels of what holds the wall there is half the room.
-        text = "transverse wall" if is_whole else "transverse\nwall"
+        text = say("transverse wall") if is_whole else say("transverse wall").replace(" ", "\n")
         ax.annotate(text, (-0.5 * reach, middle), rotation=90, ha="center", va="center", fontsize=theme().note)
 
 
@@ -119,7 +129,7 @@ def _draw_supports(ax: Axes, wall: MasonryWall) -> None:
     end = -0.1 * reach
     ax.annotate("", (end, 0.0), (end - 0.7 * reach, 0.0), arrowprops=arrow, zorder=5)
     ax.annotate(
-        "base moves",
+        say("base moves"),
         (end - 0.35 * reach, 0.0),
         (0, 3),
         textcoords="offset points",
@@ -132,7 +142,7 @@ def _draw_supports(ax: Axes, wall: MasonryWall) -> None:
         ax.plot([0.0, lean * top], [0.0, top], color=style.BLUE, linewidth=1.4, linestyle="--", zorder=3)
         end += lean * top
         ax.annotate("", (end, top), (end - 0.7 * reach, top), arrowprops={**arrow, "arrowstyle": "->"}, zorder=5)
-        words = "top moves" if isinstance(wall, TwoBlockWall) else "building leans"
+        words = say("top moves") if isinstance(wall, TwoBlockWall) else say("building leans")
         ax.annotate(
             words,
             (end - 0.35 * reach, top),

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from dondolo._base.wording import decimal, say
 from dondolo.figures import style
 from dondolo.figures.themes import theme
 from dondolo.walls.mechanisms import TwoBlockWall
@@ -24,27 +25,29 @@ if TYPE_CHECKING:
 
 # Parts of a load that the wall lifts and pushes
 _PARTS = {"none": (0.0, 0.0), "vertical": (1.0, 0.0), "both": (1.0, 1.0)}
+# What sentences that are said elsewhere are marked by for the catalogues
+_ = str
 # What ties and friction are made of: words, property, factor and unit
 _OF_TIES = (
-    ("length", "tie_length", 1.0, " m"),
-    ("modulus", "tie_modulus", 1e-9, " GPa"),
-    ("yield stress", "tie_strength", 1e-6, " MPa"),
-    ("preload", "tie_preload", 1e-6, " MPa"),
-    ("breaks at a strain of", "tie_strain", 1.0, ""),
-    ("anchor gives way at", "tie_anchor_force", 1e-3, " kN/m"),
-    ("bar", "tie_bar", 1e3, " mm"),
-    ("every", "tie_spacing", 1.0, " m"),
-    ("plate wide", "tie_plate_width", 1e3, " mm"),
-    ("high", "tie_plate_height", 1e3, " mm"),
-    ("diameter", "tie_plate_diameter", 1e3, " mm"),
-    ("thick", "tie_plate_thickness", 1e3, " mm"),
+    (_("length"), "tie_length", 1.0, " m"),
+    (_("modulus"), "tie_modulus", 1e-9, " GPa"),
+    (_("yield stress"), "tie_strength", 1e-6, " MPa"),
+    (_("preload"), "tie_preload", 1e-6, " MPa"),
+    (_("breaks at a strain of"), "tie_strain", 1.0, ""),
+    (_("anchor gives way at"), "tie_anchor_force", 1e-3, " kN/m"),
+    (_("bar"), "tie_bar", 1e3, " mm"),
+    (_("every"), "tie_spacing", 1.0, " m"),
+    (_("plate wide"), "tie_plate_width", 1e3, " mm"),
+    (_("high"), "tie_plate_height", 1e3, " mm"),
+    (_("diameter"), "tie_plate_diameter", 1e3, " mm"),
+    (_("thick"), "tie_plate_thickness", 1e3, " mm"),
 )
 _OF_FRICTION = (
-    ("coefficient", "interlock_friction", 1.0, ""),
-    ("overlap", "interlock_overlap", 1.0, " m"),
-    ("course", "interlock_course", 1.0, " m"),
-    ("transverse walls thick", "interlock_thickness", 1.0, " m"),
-    ("every", "interlock_spacing", 1.0, " m"),
+    (_("coefficient"), "interlock_friction", 1.0, ""),
+    (_("overlap"), "interlock_overlap", 1.0, " m"),
+    (_("course"), "interlock_course", 1.0, " m"),
+    (_("transverse walls thick"), "interlock_thickness", 1.0, " m"),
+    (_("every"), "interlock_spacing", 1.0, " m"),
 )
 # Characters of a line below the drawing
 _ACROSS = 44
@@ -82,13 +85,13 @@ def draw_loads(ax: Axes, wall: MasonryWall, rotation: float, now: Shape) -> None
     for mass in parts_of(wall, "pushed_masses"):
         at = _place(wall, mass.depth, mass.height, rotation)
         ax.plot(*at, marker="s", color=style.BLACK, markersize=7, zorder=5)
-        _words(ax, at, f"{mass.mass:.4g} kg/m pushed", (9, -3))
+        _words(ax, at, say("{mass:.4g} kg/m pushed", mass=mass.mass), (9, -3))
     for thrust in parts_of(wall, "thrusts"):
         depth = _inner_face(wall, thrust.height) if thrust.depth is None else thrust.depth
         at = _place(wall, depth, thrust.height, rotation)
         arrow = {"arrowstyle": "-|>", "color": style.RED, "linewidth": 1.8}
         ax.annotate("", tuple(at), tuple(np.subtract(at, (1.4 * size, 0.0))), arrowprops=arrow, zorder=5)
-        words = f"{_with_prefix(thrust.force, 'N/m')} thrust"
+        words = say("{force} thrust", force=_with_prefix(thrust.force, "N/m"))
         _words(ax, np.subtract(at, (1.4 * size, 0.0)), words, (0, 4), ha="center")
     for spring in parts_of(wall, "springs"):
         at = _place(wall, spring.depth, spring.height, rotation)
@@ -97,7 +100,11 @@ def draw_loads(ax: Axes, wall: MasonryWall, rotation: float, now: Shape) -> None
         _frustum(ax, wall, tie, rotation)
         plate = tie.plate_height or tie.plate_diameter or 0.5 * size
         _tie(
-            ax, _place(wall, tie.depth or 0.0, tie.height, rotation), size, plate, f"tie {1e4 * tie.section:.3g} cm²/m"
+            ax,
+            _place(wall, tie.depth or 0.0, tie.height, rotation),
+            size,
+            plate,
+            say("tie {area:.3g} cm²/m", area=1e4 * tie.section),
         )
     for stones in parts_of(wall, "interlock"):
         _teeth(ax, wall, stones, rotation)
@@ -120,13 +127,13 @@ def caption(wall: MasonryWall) -> list[str]:
     list of str
     """
     lines = []
-    for head, rows in (("Ties", _OF_TIES), ("Friction", _OF_FRICTION)):
+    for head, rows in ((say("Ties"), _OF_TIES), (say("Friction"), _OF_FRICTION)):
         parts = []
         for words, name, factor, unit in rows:
             # 0 is none, of all but preload
             if (value := effective_property(wall, name)) is not None and (np.any(value) or name == "tie_preload"):
-                numbers = dict.fromkeys(f"{factor * one:.4g}" for one in np.atleast_1d(value))
-                parts.append(f"{words} {', '.join(numbers)}{unit}")
+                numbers = dict.fromkeys(decimal(f"{factor * one:.4g}") for one in np.atleast_1d(value))
+                parts.append(f"{say(words)} {', '.join(numbers)}{unit}")
         if parts:
             lines += textwrap.wrap(f"{head}: {'; '.join(parts)}", _ACROSS)
     return lines
@@ -162,15 +169,15 @@ def _teeth(ax: Axes, wall: MasonryWall, stones: Any, rotation: float) -> None:
         places = [_place(wall, depth, height, rotation) for depth, height in corners]
         ax.fill(*np.transpose(places), facecolor=style.BRICK, edgecolor=style.BLACK, linewidth=0.8, zorder=3)
     at = _place(wall, _inner_face(wall, wall.height / 3.0) + overlap, wall.height / 3.0, rotation)
-    _words(ax, at, "friction", (-4, -4), ha="right")
+    _words(ax, at, say("friction"), (-4, -4), ha="right")
 
 
 def _in_words(lifted: float, pushed: float) -> str:
     """Which parts of a load are masses that the wall moves."""
     if not lifted and not pushed:
-        return "dead"
-    parts = ((lifted, "lifted"), (pushed, "pushed"))
-    return ", ".join(what if part == 1.0 else f"{100.0 * part:.3g} % {what}" for part, what in parts if part)
+        return say("dead")
+    parts = ((lifted, say("lifted")), (pushed, say("pushed")))
+    return ", ".join(what if part == 1.0 else decimal(f"{100.0 * part:.3g} % {what}") for part, what in parts if part)
 
 
 def _inner_face(wall: MasonryWall, height: float) -> float:
@@ -194,7 +201,7 @@ def _place(wall: MasonryWall, depth: float, height: float, rotation: float) -> P
 def _with_prefix(value: float, unit: str) -> str:
     """A value with a prefix of its unit."""
     factor, prefix = next((pair for pair in _PREFIXES if value >= pair[0]), _PREFIXES[-1])
-    return f"{value / factor:.4g} {prefix}{unit}"
+    return decimal(f"{value / factor:.4g} {prefix}{unit}")
 
 
 def _words(ax: Axes, at: Points, text: str, shift: tuple[float, float], ha: str = "left") -> None:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_array, as_path
+from dondolo._base.wording import say
 from dondolo._fortran.walls import WallData
 from dondolo._storage.saved import part_of_results
 from dondolo.walls.parts import Bed, Interlock, Load, PushedMass, Section, Spring, Thrust, Tie
@@ -375,7 +376,8 @@ class TabulatedWall(Wall):
         """What a reader wants to know: of the table how far it goes."""
         facts = dict(super()._facts())
         rotation = np.asarray(self.rotation)
-        own = {"table": f"{rotation.size} rotations up to {rotation[-1]:.6g} rad, misfit {self.misfit:.2g}"}
+        table = {"rotations": rotation.size, "last": float(rotation[-1]), "misfit": float(self.misfit)}
+        own = {say("table"): say("{rotations} rotations up to {last:.6g} rad, misfit {misfit:.2g}", **table)}
         left_out = (*TERMS, "R", "alpha")
         return [*own.items(), *((what, text) for what, text in facts.items() if what not in left_out)]
 

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from dondolo._base.arguments import FloatArray, instance_of, one_of
 from dondolo._base.shown import Shown, html_of
+from dondolo._base.wording import decimal, say
 from dondolo._fortran.library import as_text
 from dondolo._fortran.tables import TableColumns, plain
 from dondolo._fortran.walls import (
@@ -529,10 +530,10 @@ class Population(Shown):
         """How many there are, name and text."""
         groups = Counter(self.groups[i] for i in self.first_rows)
         facts = [
-            ("walls", str(len(self.first_rows))),
-            ("mechanisms", str(len(self))),
-            ("sum of the weights", f"{self.weights[self.first_rows].sum():.6g}"),
-            ("groups", ", ".join(f"{name!r} ({count})" for name, count in groups.items())),
+            (say("walls"), str(len(self.first_rows))),
+            (say("mechanisms"), str(len(self))),
+            (say("sum of the weights"), decimal(f"{self.weights[self.first_rows].sum():.6g}")),
+            (say("groups"), ", ".join(f"{name!r} ({count})" for name, count in groups.items())),
         ]
         return facts if any(groups) else facts[:-1]
 
@@ -541,16 +542,17 @@ class Population(Shown):
 
         def between(what: str, values: Iterable[float], unit: str = "") -> tuple[str, str]:
             values = list(values)
-            return what, f"{min(values):.4g} to {max(values):.4g} {unit}".strip()
+            text = say("{low:.4g} to {high:.4g} {unit}", low=float(min(values)), high=float(max(values)), unit=unit)
+            return what, text.strip()
 
         sizes = [(wall.height, wall.thickness) for wall in self.walls if isinstance(wall, MasonryWall)]
-        facts = [between("height", (wall.height for wall in self.walls), "m")]
+        facts = [between(say("height"), (wall.height for wall in self.walls), "m")]
         if sizes:
-            facts.append(between("thickness", (thickness for _, thickness in sizes), "m"))
-            facts.append(between("height / thickness", (height / thickness for height, thickness in sizes)))
+            facts.append(between(say("thickness"), (thickness for _, thickness in sizes), "m"))
+            facts.append(between(say("height / thickness"), (height / thickness for height, thickness in sizes)))
         return [
             *facts,
-            between("trigger", (wall.trigger_acceleration / wall.gravity for wall in self.walls), "g"),
+            between(say("trigger"), (wall.trigger_acceleration / wall.gravity for wall in self.walls), "g"),
             between("p_occ", self.p_occ),
         ]
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import dataclasses
 import functools
+import re
 from collections.abc import Iterable, Mapping
 from dataclasses import KW_ONLY, dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
@@ -14,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_number, instance_of, one_of
 from dondolo._base.shown import html_of
+from dondolo._base.wording import in_english, say
 from dondolo._fortran import _core
 from dondolo._fortran.buildings import BUILDING_NAMES, Motion, felt_motion, support_notes
 from dondolo._fortran.handles import Handle
@@ -44,6 +46,8 @@ DEFAULT: Any = None
 # What walls without parts share
 _NO_LISTS: dict[str, Any] = {}
 
+# Walls as notes of the library name them
+_COUNTED = re.compile(r"the wall|(\d+) walls")
 _GREEK = (("R", "radius", "m"), ("alpha", "slenderness_angle", "rad"), ("p", "frequency_parameter", "rad/s"))
 
 
@@ -425,7 +429,19 @@ def walls_table(
 
 def notes_on_supports(walls: tuple[Wall, ...]) -> list[tuple[str, str]]:
     """Notes on the motion of the bases and supports of walls, as facts, as the executable prints them."""
-    return [("note", note) for note in support_notes(upload(walls))]
+    return [(say("note"), _said(note)) for note in support_notes(upload(walls))]
+
+
+def _said(note: str) -> str:
+    """A note of the library in the language in force; walls that it counts are set in their place."""
+    if in_english():
+        return note
+    subject = _COUNTED.search(note)
+    for template in (note, _COUNTED.sub("{walls}", note, count=1)):
+        if (found := say(template)) != template:
+            count = subject[1] if subject else None
+            return found.format(walls=say("{number} walls", number=count) if count else say("the wall"))
+    return note
 
 
 def property_of(wall: Wall, name: str) -> Any:

@@ -10,7 +10,7 @@ from collections import defaultdict
 from dondolo.errors import DondoloWarning
 from dondolo.reporting.language import Language
 from dondolo.reporting.numerals import number
-from dondolo.reporting.statuses import STATUSES
+from dondolo.reporting.statuses import FITS, STATUSES
 
 # Quantities of the sheet
 MEANINGS = {
@@ -106,19 +106,6 @@ MECHANISMS = {
     "one_sided": "ribaltamento semplice verso l'esterno",
     "free_standing": "parete libera, oscillazione sui due lati",
     "two_block": "flessione verticale",
-}
-
-# Statuses of fits
-FITS = {
-    "ok": "curva determinata",
-    "extrapolated": "mediana fuori dai livelli dell'analisi: da usare con cautela",
-    "nearly_flat": "pendenza non significativa: parametri non affidabili",
-    "no_collapse": "nessun collasso ad alcun livello: nessuna curva",
-    "all_collapse": "collasso in tutte le analisi: nessuna curva",
-    "separated": "nessuna sovrapposizione tra livelli con e senza collassi: nessuna curva",
-    "single_level": "un solo livello: nessuna curva",
-    "decreasing": "collassi non crescenti con il livello: nessuna curva",
-    "not_converged": "stima non convergente: nessuna curva",
 }
 
 _NO_CURVE = "nessuna curva di fragilità per la parete {wall}: "

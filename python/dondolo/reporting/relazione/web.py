@@ -27,13 +27,14 @@ def page(blocks: Sequence[Block], document: Document, mark: str, *, formulas: bo
         Whether formulas are set as such, by MathML, or in one line.
     """
     template = environment(document.language).get_template("document.html.j2")
-    return template.render(
-        lang=document.language.code,
-        title=next(block.text for block in blocks if isinstance(block, Heading)),
-        generator=mark,
-        formulas=formulas,
-        blocks=[(type(block).__name__, _shown(block)) for block in numbered(blocks, document)],
-    )
+    with document.language.in_force():
+        return template.render(
+            lang=document.language.code,
+            title=next(block.text for block in blocks if isinstance(block, Heading)),
+            generator=mark,
+            formulas=formulas,
+            blocks=[(type(block).__name__, _shown(block)) for block in numbered(blocks, document)],
+        )
 
 
 def numbered(blocks: Sequence[Block], document: Document) -> list[Block]:

@@ -1,6 +1,6 @@
 // Words of the page, English and Italian, and numbers as the language writes them.
 const WORDS = {
-  open: ["Open case…", "Apri caso…"], save: ["Case (.nml)", "Caso (.nml)"], report: ["Report", "Rapporto (in inglese)"],
+  open: ["Open case…", "Apri caso…"], save: ["Case (.nml)", "Caso (.nml)"], report: ["Report", "Rapporto"],
   relazione: ["Calculation report", "Relazione di calcolo"], figure: ["Figure (SVG)", "Figura (SVG)"], other_language: ["Italiano", "English"],
   case_title: ["Title of the case", "Titolo del caso"], untitled: ["Untitled wall", "Parete senza titolo"],
   one_sided: ["overturns outwards", "ribaltamento semplice"], free_standing: ["free on both sides", "libera sui due lati"],

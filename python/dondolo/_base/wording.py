@@ -1,0 +1,77 @@
+"""Sentences in the language of the document that is being written, which is English outside of one."""
+
+from __future__ import annotations
+
+import re
+import string
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from typing import Any, NamedTuple
+
+
+class Wording(NamedTuple):
+    """A language.
+
+    Attributes
+    ----------
+    translate : callable
+        Gives the sentence of an English one, or the same where there is none.
+    mark : str
+        Decimal mark.
+    """
+
+    translate: Callable[[str], str] = str
+    mark: str = "."
+
+
+ENGLISH = Wording()
+_CURRENT: ContextVar[Wording] = ContextVar("wording", default=ENGLISH)
+_LINE_END = re.compile(r"\s*\n\s*")
+
+
+class _Formatter(string.Formatter):
+    """Values in their places, numbers with the decimal mark of the language."""
+
+    def format_field(self, value: Any, format_spec: str) -> Any:
+        text = format(value, format_spec)
+        return decimal(text) if isinstance(value, float) else text
+
+
+@contextmanager
+def in_words_of(wording: Wording) -> Iterator[None]:
+    """Write in a language until the end of the block."""
+    token = _CURRENT.set(wording)
+    try:
+        yield
+    finally:
+        _CURRENT.reset(token)
+
+
+def in_english() -> bool:
+    """Whether English is written."""
+    return _CURRENT.get() is ENGLISH
+
+
+def key(sentence: str) -> str:
+    """A sentence as catalogues have it: in one line."""
+    return _LINE_END.sub(" ", sentence)
+
+
+def say(sentence: str, **values: Any) -> str:
+    """A sentence in the language in force, with values in the places that it names.
+
+    Catalogues are made of the sentences that are literals in calls of this function, and of those marked by ``_``.
+    """
+    current = _CURRENT.get()
+    if current is ENGLISH:
+        return sentence.format(**values) if values else sentence
+    known = key(sentence)
+    found = current.translate(known)
+    found = sentence if found == known else found
+    return _Formatter().format(found, **values) if values else found
+
+
+def decimal(text: str) -> str:
+    """The digits of a number with the decimal mark of the language in force."""
+    return text.replace(".", _CURRENT.get().mark)

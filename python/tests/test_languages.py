@@ -1,0 +1,215 @@
+"""Languages of reports: every sentence has its Italian, and nothing English is left but what a user has named."""
+
+import ast
+import base64
+import html
+import re
+import subprocess
+
+import matplotlib
+import numpy as np
+import pytest
+from dondolo._base.wording import in_english, key, say
+from dondolo._fortran.records import describe_measure
+from dondolo._fortran.walls import WALL_PROPERTIES
+from dondolo.reporting.columns import _COLUMNS
+from dondolo.reporting.language import Language
+from dondolo.reporting.statuses import STATUSES
+from test_relazione import ENGLISH
+
+import dondolo as dd
+
+MEASURES = ["pga", "pgv", "pgd", "arias", "cav", "arias-trapz", "cav-trapz", "hi", "sa(0.5)", "saavg(0.2:2)", "pga/a0", "p*pgv/a0"]  # fmt: skip
+# What is said by a name that the library knows: statuses, roles of files, settings, facts of records, clusters
+NAMES = [
+    *(status.replace("_", " ") for status in STATUSES),
+    *["case", "catalogue", "record", "vertical", "population", "table"],
+    *["as recorded", "reversed", "both"],
+    *[
+        "events",
+        "records",
+        "walls",
+        "event",
+        "date",
+        "magnitude",
+        "station",
+        "component",
+        "ground",
+        "year",
+        "years",
+        "model",
+        "total",
+    ],
+]
+
+
+def marked(package):
+    """Sentences of the sources and of the templates, as catalogues have them."""
+    from jinja2 import Environment, nodes
+
+    found = set()
+    for source in package.rglob("*.py"):
+        for call in ast.walk(ast.parse(source.read_text())):
+            if isinstance(call, ast.Call) and getattr(call.func, "id", "") in ("_", "say", "pieces") and call.args:
+                sentence = getattr(call.args[0], "value", None)
+                found |= {key(sentence)} if isinstance(sentence, str) else set()
+    for template in (package / "reporting/templates").glob("*.j2"):
+        for call in Environment().parse(template.read_text()).find_all(nodes.Call):
+            # Indices of symbols are said by their names.
+            if getattr(call.node, "name", "") == "say" and isinstance(call.args[0], nodes.Const):
+                found.add(key(call.args[0].value))
+    return found
+
+
+def named(root):
+    """Sentences that are made of names that the library knows."""
+    found = set(NAMES)
+    for measure in MEASURES:
+        places = iter(("{first}", "{last}"))
+        found.add(re.sub(r"\d+(?:\.\d+)?", lambda _: next(places), describe_measure(measure).title))  # noqa: B023
+    for column in _COLUMNS.values():
+        head = column.head("pga") if callable(column.head) else column.head
+        found |= {part for part in (head if isinstance(head, tuple) else (head,)) if isinstance(part, str)}
+    notes = re.sub(r"'// &\s*& '", "", (root / "src/dondolo/wall/support_notes.f90").read_text())
+    notes = re.sub(r"'//trim\(walls\([^)]*\)\)//'", "{walls}", notes)
+    return found | set(re.findall(r"notes%add\('([^']*)'\)", notes))
+
+
+def test_every_sentence_is_translated(root):
+    pofile = pytest.importorskip("babel.messages.pofile")
+    package = root / "python/dondolo"
+    found = marked(package) | named(root)
+    # Units and formulas are the same in both languages.
+    worded = {one for one in found if re.search("[A-Za-z]{2}", re.sub(r"\{[^}]*\}", "", one))}
+    catalogue = pofile.read_po((package / "reporting/locale/it.po").open("rb"))
+    known = {one.id: one for one in catalogue if one.id}
+    assert worded - set(known) == {" [rad/s]", "pga [g]"}
+    assert set(known) - found == set()
+    assert len(known) > 900
+    for sentence, one in known.items():
+        assert one.string
+        assert not one.fuzzy
+        places = [sorted(re.findall(r"\{[^}]*\}", text)) for text in (sentence, one.string)]
+        assert places[0] == places[1], sentence
+        assert Language("it").text(sentence) == one.string, "build again"
+
+
+def test_properties_have_names():
+    with Language("it").in_force():
+        for row in WALL_PROPERTIES:
+            name = row.name.replace("_", " ")
+            assert say(name) != name or name in ("spring", "bed"), name
+
+
+def test_a_language_is_in_force_for_a_block_alone():
+    assert in_english()
+    with Language("it").in_force():
+        assert say("time [s]") == "tempo [s]"
+        assert say("median {theta:.3g}{unit}, dispersion {beta:.3g}", theta=0.5, unit=" g", beta=0.25) == (
+            "mediana 0,5 g, dispersione 0,25"
+        )
+        with Language("en").in_force():
+            assert say("time [s]") == "time [s]"
+        assert say("no such sentence") == "no such sentence"
+    assert say("time [s]") == "time [s]"
+
+
+# --- Reports
+
+CASES = [
+    "designs",
+    "facade",
+    "facade_hinges",
+    "facades",
+    "gable",
+    "history",
+    "parapet",
+    "population",
+    "tied_facade",
+    "uncertain_strip",
+]
+
+
+@pytest.fixture(scope="module")
+def pages(tmp_path_factory, executable, root):
+    """Reports of ready cases, which between them have all templates, in both languages."""
+    folder = tmp_path_factory.mktemp("languages")
+    levels = np.array([0.05, 0.1, 0.2, 0.4, 0.8, 1.6])
+    hazard = dd.HazardCurve(levels, 1e-4 * levels**-2.5, im="pga", fractiles={0.16: 5e-5 * levels**-2.5})
+    made = {}
+    for name in CASES:
+        text = (root / f"data/cases/{name}.nml").read_text()
+        text = re.sub(r"output = '[^']*'", f"output = '{folder / name}'", text)
+        for place in ("records", "walls"):
+            text = text.replace(f"'../{place}/", f"'{root}/data/{place}/")
+        (folder / f"{name}.nml").write_text(text)
+        subprocess.run([executable, "--quiet", f"{name}.nml"], cwd=folder, capture_output=True, check=True)
+        results = dd.read_results(folder / name)
+        for lang in ("en", "it"):
+            given = hazard if name in ("parapet", "designs", "facade") else None
+            dd.report(results, folder / f"{name}_{lang}.html", hazard=given, title="T", lang=lang)
+            made[name, lang] = (folder / f"{name}_{lang}.html").read_text(encoding="utf-8")
+    return made
+
+
+def of_page(page):
+    """Text of a page, with that of its figures and of their descriptions; without what is a user's or a file's."""
+    figures = re.findall(r"data:image/svg\+xml;base64,([A-Za-z0-9+/=]+)", page)
+    drawn = [" ".join(re.findall("<!--(.*?)-->", base64.b64decode(one).decode(), re.DOTALL)) for one in figures]
+    alts = re.findall(r'(?:alt|aria-label|title)="([^"]*)"', page)
+    page = re.sub(r"<pre>.*?</pre>", "", page.partition("<body>")[2], flags=re.DOTALL)
+    return html.unescape(re.sub(r"<[^>]+>", " ", page) + " ".join(alts) + " ".join(drawn))
+
+
+def words(text):
+    return set(re.findall(r"(?<![\w./-])[a-z]+(?![\w./-])", re.sub(r"\S*[_/]\S*", " ", text.lower())))
+
+
+def numbers(text):
+    """Numbers of a text, however many times they are there."""
+    return set(re.findall(r"(?<![\w,.])\d+(?:[.,]\d+)?(?![\w,.]\d)", text.replace("\N{NARROW NO-BREAK SPACE}", "")))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", CASES)
+def test_no_english_in_an_italian_report(name, pages, root):
+    """But names of walls, designs, groups and files, which are those of the case."""
+    page = pages[name, "it"]
+    assert '<html lang="it">' in page
+    given = (root / f"data/cases/{name}.nml").read_text() + " ".join(
+        path.read_text() for path in (root / "data/walls").glob("*.csv") if path.name in page or path.name in name
+    )
+    text = " ".join(of_page(page).split())
+    names = {
+        one.strip() for one in re.findall(r"'([^'\n]*)'|([^,\n]+)", given) for one in one if re.search("[a-z]", one)
+    }
+    # Of the walls that dondolo names itself, by their levels, hinges and sources
+    names |= set(re.findall(r"[\w ]+, \w+ at [\d.]+ ?%?|[\w ]+ at [\d.]+|\w+\([\d., ]+\)", text))
+    for one in sorted(names, key=len, reverse=True):
+        text = text.replace(one, " ")
+    assert words(text) & set(ENGLISH.split()) == set()
+    assert not re.search(r"(?<![.\d])\d+\.\d{2,}(?![.\d])", re.sub(r"(GCC|Python|NumPy|SciPy|Matplotlib) .*", "", text))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", CASES)
+def test_both_languages_have_the_same_numbers(name, pages):
+    found = [
+        {one.replace(",", ".") for one in numbers(re.sub(r"\d+:\d+", "", of_page(pages[name, lang])))}
+        for lang in ("en", "it")
+    ]
+    assert found[0] ^ found[1] <= {"5", "82", "0.2"}
+
+
+def test_english_is_the_default(tmp_path, monkeypatch):
+    (record,) = dd.synthetic_records(magnitude=6.5, distance=10.0, site="shallow")
+    response = dd.simulate(dd.OneSidedWall(height=1.5, thickness=0.25), record, scale=2.0)
+    matplotlib.use("agg")
+    dd.report(response, tmp_path / "a.html")
+    assert '<html lang="en">' in (tmp_path / "a.html").read_text()
+    monkeypatch.setenv("DONDOLO_LANG", "it")
+    dd.report(response, tmp_path / "a.html")
+    assert "Pareti murarie che oscillano" in (tmp_path / "a.html").read_text()
+    assert in_english()
+    with pytest.raises(dd.errors.InputError, match="lang"):
+        dd.report(response, tmp_path / "a.html", lang="fr")
