@@ -19,7 +19,20 @@ from test_relazione import ENGLISH
 
 import dondolo as dd
 
-MEASURES = ["pga", "pgv", "pgd", "arias", "cav", "arias-trapz", "cav-trapz", "hi", "sa(0.5)", "saavg(0.2:2)", "pga/a0", "p*pgv/a0"]  # fmt: skip
+MEASURES = [
+    "pga",
+    "pgv",
+    "pgd",
+    "arias",
+    "cav",
+    "arias-trapz",
+    "cav-trapz",
+    "hi",
+    "sa(0.5)",
+    "saavg(0.2:2)",
+    "pga/a0",
+    "p*pgv/a0",
+]
 # What is said by a name that the library knows: statuses, roles of files, settings, facts of records, clusters
 NAMES = [
     *(status.replace("_", " ") for status in STATUSES),
