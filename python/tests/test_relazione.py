@@ -496,6 +496,29 @@ def test_a_brittle_anchor_and_return_periods(brittle):
     assert "7.19999" not in (place / "a.html").read_text()
 
 
+def test_ties_that_break_one_after_the_other(executable, root, tmp_path):
+    """Which tie has broken at d_C, where and at what force; the steps are with those that hold."""
+    several = TIE.replace("= 6.6", "= 3.8, 6.6").replace("= 1e-4", "= 2e-5, 1e-4").replace("= 0.02", "= 0.002, 0.02")
+    for name in ("tie_length = 10", "tie_strength = 235e6", "tie_preload = 50e6", "tie_modulus = 2.06e11"):
+        several = several.replace(name, f"{name}, {name.partition('= ')[2]}")
+    results = run_in(tmp_path, executable, root, "a", WALL.format(name="a", tie=several))
+    dd.calculation_report(results, tmp_path / "a.html", lang="en")
+    text = of_page(tmp_path / "a.html")
+    assert "is that of the capacity curve" not in text
+    table = text.partition("Ties at the displacement of SLV")[2].split("sin")[0].split("\n")
+    rows = [[cell for cell in table[place : place + 14] if cell][:7] for place in map(table.index, ("tie 1", "tie 2"))]
+    assert [row[-1] for row in rows] == ["broken", "holds"]
+    depth = float(re.search(r"u = ([\d.]+) m", text)[1])
+    for row, height, stress in zip(rows, (3.8, 6.6), (0.002, 0.02), strict=True):
+        stretch = (stress - 50e6 / 2.06e11) * 10
+        theta = float(row[4])
+        assert float(row[3]) == pytest.approx(stretch, rel=1e-5)
+        assert height * math.sin(theta) - depth * (1 - math.cos(theta)) == pytest.approx(stretch, rel=1e-5)
+    assert [float(row[1]) for row in rows] == pytest.approx([4.7, 23.5])
+    acceleration = results.check.value("nonlinear", "SLV", "acceleration")
+    assert f"{acceleration:.6g}" in text
+
+
 def test_states_beside_each_other(brittle):
     """Differences to the state as it stands are those of the two checks."""
     place, results = brittle

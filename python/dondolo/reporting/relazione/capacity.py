@@ -14,7 +14,7 @@ from dondolo._fortran.checks import CalculationItem
 from dondolo._fortran.walls import WALL_ABSENT
 from dondolo.reporting.blocks import Block, CaptionedTable, Formula, Fraction, symbol_of
 from dondolo.reporting.content import Piece, Symbol, Table
-from dondolo.reporting.numerals import Numeral
+from dondolo.reporting.numerals import NONE, Numeral
 from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.subjects import Subject
 from dondolo.reporting.units import UNITS, Unit, cell
@@ -73,9 +73,10 @@ class _Turning(NamedTuple):
         return self.first - self.pushed + self.thrust_arms
 
 
-def _turning(items: tuple[CalculationItem, ...]) -> _Turning:
+def _turning(items: tuple[CalculationItem, ...], broken: frozenset[str] = frozenset()) -> _Turning:
+    """The sums without the ties that have broken."""
     weights = [one for one in items if not math.isnan(one.arm) and one.item != "masonry"]
-    ties = [one for one in items if one.item.startswith(("tie", "friction"))]
+    ties = [one for one in items if one.item.startswith(("tie", "friction")) and one.item not in broken]
     thrusts = [one for one in items if not math.isnan(one.overturning)]
     hinge = weights[0].depth - weights[0].arm
     return _Turning(
@@ -162,11 +163,20 @@ def capacity_of(document: Document, one: Subject, state: str) -> list[Block]:
         (kept for kept in (True, False) if math.isclose(sums.multiplier(sine, with_ties=kept), alpha, rel_tol=_SAME)),
         None,
     )
+    ties = sorted(_fractures(one), key=lambda tie: tie.angle)
+    if held is None:
+        # Ties break one after the other.
+        for many in range(1, len(ties)):
+            left = _turning(check.items, frozenset(tie.name for tie in ties[:many]))
+            if math.isclose(left.multiplier(sine, with_ties=True), alpha, rel_tol=_SAME):
+                sums, held = left, True
+    if len(ties) > 1 and sine >= math.sin(ties[0].angle) * (1.0 - _SAME):
+        blocks += _of_ties(document, one, ties, sine, state)
     words = (symbol_of("a(d_C)"), (symbol_of("alpha(d_C)"), " ", symbol_of("g"), "/(", symbol_of("e*"), " FC)"))
     if held is None:
         text = _(
             "{a} = {value} m/s² is that of the capacity curve, with friction of interlocking, springs, a rounded edge"
-            " of the hinge or ties of which some have broken, which the sums of the table do not have."
+            " of the hinge or ties that have not yielded, which the sums of the table do not have."
         )  # fmt: skip
         return [*blocks, document.say(text, a=symbol_of("a(d_C)"), value=shown(a))]
     moment = UNITS["N m/m"]
@@ -292,6 +302,86 @@ def _fracture(document: Document, one: Subject, d: float) -> list[Block]:
             Formula(symbol),
         ]
     return []
+
+
+class _Fracture(NamedTuple):
+    """Where a tie breaks.
+
+    Attributes
+    ----------
+    name : str
+        Its item of the calculation.
+    force : float
+        At which it breaks [N/m].
+    anchor : float
+        Force at which its anchor gives way [N/m]; infinite if that is not known.
+    elongation : float
+        At which it breaks [m].
+    angle : float
+        Of the wall then [rad].
+    """
+
+    name: str
+    force: float
+    anchor: float
+    elongation: float
+    angle: float
+
+
+def _fractures(one: Subject) -> list[_Fracture]:
+    """Where each tie breaks: at its ultimate strain, or at once where its anchor is weaker than the bar."""
+    hinge = _turning(one.check.items).hinge
+    items = [item for item in one.check.items if item.item.startswith("tie")]
+    found = []
+    for tie, item in zip(parts_of(one.wall, "ties"), items, strict=False):
+        strain, preload, modulus, strength = (
+            given if (given := getattr(tie, name)) is not None else WALL_ABSENT[f"tie_{name}"]
+            for name in ("strain", "preload", "modulus", "strength")
+        )
+        elongation = (strain - preload / modulus) * tie.length
+        is_brittle = item.force < (1.0 - _SAME) * strength * tie.section
+        if is_brittle:
+            elongation = (item.force / tie.section - preload) / modulus * tie.length
+        arm, height = item.depth - hinge, item.lever
+        # z sin θ + e (1 - cos θ) is the elongation
+        reach = (elongation - arm) / math.hypot(height, arm)
+        angle = math.asin(reach) + math.atan2(arm, height) if abs(reach) <= 1.0 else math.inf
+        row = next(
+            (row for row in one.check.rows if row.item == item.item and row.quantity == "anchor_force_per_m"), None
+        )
+        anchor = tie.anchor_force or (item.force if is_brittle else math.inf) if row is None else row.value
+        found.append(_Fracture(item.item, item.force, anchor, elongation, angle))
+    return found
+
+
+def _of_ties(document: Document, one: Subject, ties: list[_Fracture], sine: float, state: str) -> list[Block]:
+    """A table of which ties have broken at d_C, where, and at what force."""
+    sums = _turning(one.check.items)
+    has_broken = [math.sin(min(tie.angle, 0.5 * math.pi)) <= sine * (1.0 + _SAME) for tie in ties]
+    theta = Symbol("θ", "u")
+    columns: dict[Piece, Any] = {
+        document.text(_("tie")): [document.item(tie.name) for tie in ties],
+        (symbol_of("T"), " [kN/m]"): [shown(tie.force, UNITS["N/m"]) for tie in ties],
+        (symbol_of("T_anchor"), " [kN/m]"): [
+            NONE if math.isinf(tie.anchor) else shown(tie.anchor, UNITS["N/m"]) for tie in ties
+        ],
+        (symbol_of("D_u"), " [m]"): [shown(tie.elongation) for tie in ties],
+        (theta, " [rad]"): [NONE if math.isinf(tie.angle) else shown(tie.angle) for tie in ties],
+        (symbol_of("d"), "(", theta, ") [m]"): [
+            NONE if math.isinf(tie.angle) else shown(math.sin(tie.angle) * sums.second / sums.first) for tie in ties
+        ],
+        (document.text(_("at")), " ", symbol_of("d_C")): [
+            document.text(_("broken")) if broken else document.text(_("holds")) for broken in has_broken
+        ],
+    }
+    words = _(
+        "Each tie breaks where {z} sin {theta} + {e} (1 - cos {theta}) is its ultimate elongation {elongation}. In what"
+        " follows, {moment} and the products of {force} are those of the ties that hold at {d}:"
+    )
+    symbols = {"z": symbol_of("z"), "theta": theta, "e": symbol_of("e"), "elongation": symbol_of("D_u")}
+    symbols |= {"moment": symbol_of("M_stab"), "force": symbol_of("T"), "d": symbol_of("d_C")}
+    caption = document.text(_("Ties at the displacement of {state}, in the order in which they break."), state=state)
+    return [document.say(words, **symbols), CaptionedTable(Table.of(columns), caption)]
 
 
 class _Bent(NamedTuple):
