@@ -167,9 +167,9 @@ def capacity_of(document: Document, one: Subject, state: str) -> list[Block]:
     if held is None:
         # Ties break one after the other.
         for many in range(1, len(ties)):
-            left = _turning(check.items, frozenset(tie.name for tie in ties[:many]))
-            if math.isclose(left.multiplier(sine, with_ties=True), alpha, rel_tol=_SAME):
-                sums, held = left, True
+            unbroken = _turning(check.items, frozenset(tie.name for tie in ties[:many]))
+            if math.isclose(unbroken.multiplier(sine, with_ties=True), alpha, rel_tol=_SAME):
+                sums, held = unbroken, True
     if len(ties) > 1 and sine >= math.sin(ties[0].angle) * (1.0 - _SAME):
         blocks += _of_ties(document, one, ties, sine, state)
     words = (symbol_of("a(d_C)"), (symbol_of("alpha(d_C)"), " ", symbol_of("g"), "/(", symbol_of("e*"), " FC)"))
