@@ -225,6 +225,12 @@ def test_designs_and_motions(visit):
     assert "stessi accelerogrammi" in page.text_content("#under")
     page.click("[data-name='wall.thickness'] button")
     page.wait_for_selector("#chart path.line.fan")
+    # A wall that is 10 % lower does not reach up to its tie.
+    page.click("[data-name='wall.height'] button")
+    until(page, "document.querySelector('#under').textContent.includes('deve stare')")
+    said = page.text_content("#under")
+    assert "Altezza 5,40 m: Quota (tie_height) = 5,7 m: deve stare" in said
+    assert "non oltre la sommità, 5,4 m" in said
     page.select_option("#record", index=3)
     page.click("#play")
     until(page, "document.querySelector('#outcome').textContent !== ''")

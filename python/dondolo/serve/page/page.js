@@ -1,7 +1,7 @@
 // The page: what the answers of the server become.
 import { chart, standalone } from "./chart.js";
 import { draw, expand, fieldOf, markWrong } from "./form.js";
-import { sentenceOf } from "./refusals.js";
+import { sentenceFor, sentenceOf } from "./refusals.js";
 import { changed, post, state, whenTold } from "./state.js";
 import { labelOf, language, make, num, probability, sig, speak, t } from "./words.js";
 import { drawing, trace } from "./wall.js";
@@ -110,9 +110,10 @@ function under(a, unit) {
   rows.push(make("span", { class: "said" }, a.draft ? t("draft") : t("histories", { n: a.histories, ms: num(a.ms, 0) })));
   if (state.b && a.comparison && !a.draft) rows.push(make("div", { class: "compare" }, t(a.comparison.unchecked ? "better_if" : "better", { x: `${num(100 * a.comparison.ratio, 0)} %`, a: num(100 * a.comparison.interval[0], 0), b: num(100 * a.comparison.interval[1], 0) })));
   if (state.fan && a.fan) {
-    const [low, high] = a.fan, field = fieldOf(state.fan.name), value = [].concat(state.settings[state.fan.group][state.fan.name])[state.fan.place ?? 0];
+    const [low, high] = a.fan, { group, name, place } = state.fan, field = fieldOf(name), given = state.settings[group][name], value = [].concat(given)[place ?? 0];
+    const refused = a.fan.find((one) => one.refused), other = ({ factor }) => ({ ...state.settings, [group]: { ...state.settings[group], [name]: Array.isArray(given) ? given.with(place ?? 0, factor * value) : factor * value } });
     const shown = (one) => (field ? `${num(one.factor * value * field[3], field[5])} ${field[4]}` : sig(one.factor * value));
-    rows.push(make("div", { class: "compare" }, low.refused || high.refused ? sentenceOf(low.refused || high.refused) : t("fan", { what: labelOf(state.fan.name), low: shown(low), high: shown(high), x: low.theta ? sig(Math.min(low.theta, high.theta ?? low.theta)) : "–", y: high.theta ? sig(Math.max(high.theta, low.theta ?? high.theta)) : "–" })));
+    rows.push(make("div", { class: "compare" }, refused ? `${labelOf(state.fan.name)} ${shown(refused)}: ${sentenceFor(other(refused), refused.refused)}` : t("fan", { what: labelOf(state.fan.name), low: shown(low), high: shown(high), x: low.theta ? sig(Math.min(low.theta, high.theta ?? low.theta)) : "–", y: high.theta ? sig(Math.max(high.theta, low.theta ?? high.theta)) : "–" })));
   }
   at("under").replaceChildren(...rows);
 }

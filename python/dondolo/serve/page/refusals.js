@@ -56,3 +56,10 @@ export function sentenceOf(answer, isFile = false) {
   if (language() === "en") return answer.error.replace(/^case\.nml: /, "");
   return answer.errors?.length ? answer.errors.map((one) => words(one, isFile)).join(". ") : `Richiesta non riuscita: ${answer.error}`;
 }
+
+// The same of another state than that of the sliders
+export function sentenceFor(settings, answer) {
+  const own = state.settings;
+  state.settings = settings;
+  try { return sentenceOf(answer); } finally { state.settings = own; }
+}
