@@ -272,12 +272,13 @@ def _site_in_words(check: CodeCheck) -> str:
     """The hazard of the site and its ground."""
     site = check.site
     facts = dict(site._facts())
-    facts["ground"] = say("soil {soil}, topography {topography}", soil=site.soil, topography=site.topography)
+    if not in_english():
+        facts = {name: decimal(text.replace(", ", "; ")) for name, text in facts.items()}
+    ground = say("soil {soil}, topography {topography}", soil=site.soil, topography=site.topography)
+    facts = {say("ground") if name == "ground" else name: text for name, text in (facts | {"ground": ground}).items()}
     if "V_R" in facts:
         facts["V_R"] = say("{years:g} years", years=site.reference_life)
-    return ", ".join(
-        f"{say(name)} {text if in_english() else decimal(text.replace(', ', '; '))}" for name, text in facts.items()
-    )
+    return ", ".join(f"{name} {text}" for name, text in facts.items())
 
 
 def _site(check: CodeCheck, state: str) -> float:

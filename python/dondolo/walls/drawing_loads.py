@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dondolo._base.wording import decimal, say
+from dondolo._base.wording import decimal, in_english, say
 from dondolo.figures import style
 from dondolo.figures.themes import theme
 from dondolo.walls.mechanisms import TwoBlockWall
@@ -133,7 +133,7 @@ def caption(wall: MasonryWall) -> list[str]:
             # 0 is none, of all but preload
             if (value := effective_property(wall, name)) is not None and (np.any(value) or name == "tie_preload"):
                 numbers = dict.fromkeys(decimal(f"{factor * one:.4g}") for one in np.atleast_1d(value))
-                parts.append(f"{say(words)} {', '.join(numbers)}{unit}")
+                parts.append(f"{say(words)} {(', ' if in_english() else ' e ').join(numbers)}{unit}")
         if parts:
             lines += textwrap.wrap(f"{head}: {'; '.join(parts)}", _ACROSS)
     return lines
