@@ -73,7 +73,7 @@ MEANINGS = {
     "tie_plate_diameter": "diametro di un capochiave circolare, al posto di larghezza e altezza",
     "tie_plate_thickness": "spessore del capochiave, di acciaio come quello della barra",
     "tie_leaf": "spessore della muratura su cui appoggia il capochiave: un paramento, se i paramenti non sono"
-    " collegati; tutta la parete se non assegnato",
+    " collegati; altrimenti tutta la parete, del piano più sottile se due sono vicini",
     "tie_compression": "tensione verticale della muratura al capochiave, con masonry_friction; nessun attrito se non"
     " assegnata",
     "masonry_compression": "resistenza media a compressione della muratura ai capochiave; compressive_strength se non"

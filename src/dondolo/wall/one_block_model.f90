@@ -201,7 +201,7 @@ module dondolo_wall_one_block_model
       & property_type('tie_leaf', is_list, unit='m', owners=one_sided, optional=.true., smallest=0.0_wp, largest=10.0_wp, &
       &   usual_least=0.05_wp, usual_most=3.0_wp, example='0.25', absent=0.0_wp, zero='wall', &
       &   meaning='thickness of the masonry that the plate of each tie bears on: one leaf of a wall whose leaves are not '// &
-      &   'connected; the whole wall there if not given'), &
+      &   'connected; else the whole wall, the thinner storey where two are near'), &
       & property_type('tie_compression', is_list, unit='Pa', owners=one_sided, optional=.true., smallest=0.0_wp, &
       &   largest=1.0e8_wp, usual_least=1.0e3_wp, usual_most=1.0e6_wp, if_less='is it in MPa?', example='5.0e4', &
       &   absent=0.0_wp, zero='none', &

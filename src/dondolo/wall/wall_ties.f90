@@ -207,8 +207,7 @@ contains
       type(problems_type), intent(inout) :: problems
       type(anchor_type), intent(inout) :: anchor
 
-      real(wp) :: half, bottom, thickness, slack
-      integer :: i
+      real(wp) :: half, behind, slack
 
       half = 0.5_wp*max(anchor%height, anchor%diameter)
       slack = same*sum(sections%height)
@@ -216,18 +215,32 @@ contains
       if (anchor%edge < -slack .or. height - half < -slack) call problems%note(name//': its tie_height = '//to_text(height)// &
          & ' must be at least '//rounded(half)//' m, half its plate, from the base and from the top of the wall', &
          & out_of_range, 'tie_height')
-      ! Where sections of different thickness meet behind the plate only the thinner one is certain to be there
+      behind = least_thickness(sections, height - half, height + half)
+      ! The frustum spreads by its depth on all sides: of a thinner storey that it would reach, only that thickness is certain
+      if (.not. anchor%leaf > 0.0_wp) anchor%leaf = least_thickness(sections, height - half - behind, height + half + behind)
+      if (anchor%leaf > behind*(1.0_wp + same)) call problems%note(name//': its tie_leaf = '//to_text(anchor%leaf)// &
+         & ' must be at most '//rounded(behind)//' m, the thickness of the wall there', out_of_range, 'tie_leaf')
+   end subroutine place_plate
+
+   !> The thickness of the thinnest storey between two heights; of one that they only touch, nothing counts
+   pure real(wp) function least_thickness(sections, from, to) result(thickness)
+      !> Storeys of the wall
+      type(section_type), intent(in) :: sections(:)
+      !> The two heights above the base [m]
+      real(wp), intent(in) :: from, to
+
+      real(wp) :: bottom, slack
+      integer :: i
+
+      slack = same*sum(sections%height)
       thickness = huge(1.0_wp)
       bottom = 0.0_wp
       do i = 1, size(sections)
-         if (height + half > bottom + slack .and. height - half < bottom + sections(i)%height - slack) thickness = &
-            & min(thickness, sections(i)%thickness)
+         if (to > bottom + slack .and. from < bottom + sections(i)%height - slack) &
+            & thickness = min(thickness, sections(i)%thickness)
          bottom = bottom + sections(i)%height
       end do
-      if (.not. anchor%leaf > 0.0_wp) anchor%leaf = thickness
-      if (anchor%leaf > thickness*(1.0_wp + same)) call problems%note(name//': its tie_leaf = '//to_text(anchor%leaf)// &
-         & ' must be at most '//rounded(thickness)//' m, the thickness of the wall there', out_of_range, 'tie_leaf')
-   end subroutine place_plate
+   end function least_thickness
 
    !> Strengths of the masonry at anchors
    subroutine read_masonry(input, has_plates, problems, masonry)
