@@ -187,24 +187,27 @@ def test_interrupted(walls, root, tmp_path, monkeypatch):
         f"&stripes levels = {', '.join(map(str, levels))} /\n"
     )
 
+    watched = running._watched
+
     @contextmanager
-    def listening(wanted):
-        heard, over = np.zeros(2, dtype=np.int32), threading.Event()
+    def listening(is_shown, interrupts):
+        over = threading.Event()
+        with watched(is_shown, interrupts) as heard:
 
-        def interrupt():
-            while not over.is_set():
-                done, total = heard.tolist()
-                if total and done >= 0.5 * total:
-                    os.kill(os.getpid(), signal.SIGINT)
-                    return
+            def interrupt():
+                while not over.is_set():
+                    done, total = heard[:2].tolist()
+                    if total and done >= 0.5 * total:
+                        os.kill(os.getpid(), signal.SIGINT)
+                        return
 
-        watcher = threading.Thread(target=interrupt)
-        watcher.start()
-        yield heard
-        over.set()
-        watcher.join()
+            watcher = threading.Thread(target=interrupt)
+            watcher.start()
+            yield heard
+            over.set()
+            watcher.join()
 
-    monkeypatch.setattr(running, "_shown", listening)
+    monkeypatch.setattr(running, "_watched", listening)
     with pytest.raises(dd.errors.Interrupted) as caught:
         dd.run_case(case)
     partial = caught.value.partial
@@ -222,8 +225,8 @@ def test_interrupted(walls, root, tmp_path, monkeypatch):
 def test_progress_is_told(root):
     """How far a run is is told while it runs: all histories at the end."""
     path = bytes(root / "data/cases/parapet.nml")
-    heard = np.zeros(2, dtype=np.int32)
+    heard = np.zeros(3, dtype=np.int32)
     case, _, results = map(receive, _core.cases.run_case(path, heard.ctypes.data))
     running._tables(results)
     case_of(case)
-    assert heard.tolist() == [44 * 9, 44 * 9]
+    assert heard.tolist() == [44 * 9, 44 * 9, 0]
