@@ -30,8 +30,10 @@ _FRAMES, _FILM = 15, 30.0
 def main(arguments: list[str] | None = None) -> int:
     """Run a command and return its exit code: 0 success, 1 failure while running, 2 invalid input."""
     options = _parser().parse_args(arguments)
-    # A warning is one line, as the executable's.
-    warnings.showwarning = lambda message, *rest: _tell(f"warning: {message}")
+    # A warning, or a note on how a table was read, is one line, as the executable's.
+    warnings.showwarning = lambda message, *rest: _tell(
+        f"{'note' if getattr(message, 'code', '') == 'note' else 'warning'}: {message}"
+    )
     try:
         options.run(options)
         sys.stdout.flush()

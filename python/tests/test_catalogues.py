@@ -205,6 +205,25 @@ def test_nothing_to_read(tmp_path):
     code, _, err = run("catalogue", tmp_path / "none")
     assert code == 2
     assert "no such folder" in err
+    file = tmp_path / "1.txt"
+    file.write_text("0.0\n0.1\n-0.2\n0.1\n")
+    code, _, err = run("catalogue", file)
+    assert code == 2
+    assert "1.txt: is a file: must be the folder of the accelerograms" in err
+    code, _, err = run("catalogue", tmp_path)
+    assert code == 2
+    assert "does not state its time step and its units: dt and units" in err
+    assert "(options --dt and --units)" in err
+    # One taken for a catalogue
+    code, _, err = run("records", file)
+    assert code == 2
+    assert "1.txt: no column 'file': it looks like an accelerogram, not a catalogue" in err
+    (tmp_path / "one.csv").write_text("file;dt_s;units\n1.txt;0,01;g\n")
+    code, _, err = run("records", tmp_path / "one.csv")
+    assert code == 0
+    assert "note: " in err
+    assert "semicolons, decimal commas" in err
+    assert "warning" not in err
 
 
 @pytest.mark.slow

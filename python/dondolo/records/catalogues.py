@@ -82,6 +82,11 @@ def build_catalogue(
     """
     as_flag("vertical", vertical)
     root = Path(folder)
+    if root.is_file():
+        raise InputError(
+            f"{root}: is a file: must be the folder of the accelerograms. A catalogue of one file is a table of one"
+            f" row, 'file,dt_s,units' and below it '{root.name},0.01,g' with its own time step [s] and units"
+        )
     if not root.is_dir():
         raise InputError(f"{root}: no such folder")
     target = root / "catalogue.csv" if file is None else Path(file)
@@ -105,7 +110,8 @@ def build_catalogue(
             problems.append(f"{path}: a name that UTF-8 does not know")
             continue
         except InputError as error:
-            problems.append(str(error))
+            options = " (options --dt and --units)" if "must be given" in str(error) else ""
+            problems.append(f"{error}{options}")
             continue
         for record in records:
             quantity = other_quantity(record, path)

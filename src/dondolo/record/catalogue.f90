@@ -21,6 +21,7 @@ module dondolo_record_catalogue
    use dondolo_record, only : record_type
    use dondolo_record_catalogue_source, only : describe_source, read_source, source_type, take_source
    use dondolo_record_channel, only : stem
+   use dondolo_record_reader, only : read_records
    implicit none
    private
 
@@ -77,6 +78,14 @@ contains
 
       call table%read(file, error)
       if (.not. allocated(error)) call count_rows(table, number, error)
+      if (allocated(error)) then
+         if (is_accelerogram(file)) then
+            deallocate (error)
+            call raise_input(error, file//': no column ''file'': it looks like an accelerogram, not a catalogue, which is '// &
+               & 'a table of records: write one with a row for it, its path in the column file, or make one of a folder by '// &
+               & 'dondolo catalogue FOLDER')
+         end if
+      end if
       if (.not. allocated(error)) call check_room(bytes_of_row*real(number, wp), error)
       if (allocated(error)) return
       call table%find_decimal_mark([table%column('dt_s'), table%column('level'), table%column('factor')])
@@ -223,6 +232,29 @@ contains
       if (.not. (value > 0.0_wp .and. value <= huge(value))) call raise_input(error, table%place(row)//': '//name//' = '// &
          & to_text(value)//': must be positive')
    end subroutine read_positive
+
+   !> Can a file be read as an accelerogram, perhaps with a time step and units that it does not state?
+   logical function is_accelerogram(file)
+      !> Its path
+      character(len=*), intent(in) :: file
+
+      type(record_type), allocatable :: records(:)
+      type(error_type), allocatable :: error
+      real(wp), allocatable :: dt
+      character(len=1) :: units
+      integer :: attempt
+
+      is_accelerogram = .false.
+      do attempt = 0, 3
+         units = ' '
+         if (mod(attempt, 2) == 1) units = 'g'
+         if (attempt == 2) allocate (dt, source=0.01_wp)
+         ! A dt that is not allocated is an argument that is not present
+         call read_records(file, records, error, dt, units)
+         is_accelerogram = .not. allocated(error)
+         if (is_accelerogram) return
+      end do
+   end function is_accelerogram
 
    !> Look through a catalogue before its records are read
    subroutine count_rows(table, rows, error)

@@ -44,7 +44,10 @@ contains
 
       character(len=:), allocatable :: stated, name
       real(wp) :: step, factor
+      logical :: is_given
 
+      is_given = .false.
+      if (present(units)) is_given = len_trim(units) > 0
       associate (channel => samples%channels(number))
          if (allocated(channel%refusal)) then
             call raise_input(error, channel%refusal)
@@ -52,7 +55,10 @@ contains
          end if
          stated = ''
          if (allocated(channel%units)) stated = channel%units
-         call choose_step(channel%dt, channel%dt_doubt, step, error, dt)
+         if (.not. (present(dt) .or. channel%dt > 0.0_wp) .and. len_trim(stated) == 0 .and. .not. is_given) call raise_input( &
+            & error, 'the file does not state its time step and its units: dt and units, such as ''g'' or ''m/s2'', must be '// &
+            & 'given; in a catalogue they are the columns dt_s and units')
+         if (.not. allocated(error)) call choose_step(channel%dt, channel%dt_doubt, step, error, dt)
          if (.not. allocated(error) .and. step > largest_step) call raise_input(error, 'time step '//to_text(step)// &
             & ' s: must be at most '//to_text(largest_step)//' s for an accelerogram')
          if (.not. allocated(error)) call choose_units(stated, factor, error, units)

@@ -11,7 +11,7 @@ module dondolo_record_table
    implicit none
    private
 
-   public :: record_table, find_problems, pga_limit, describe_pga, pace_limit, describe_pace
+   public :: record_table, find_problems, pga_limit, describe_pga, pace_limit, describe_pace, start_limit, describe_start
 
    !> First acceleration that is odd, as a part of the peak: the recorder was triggered late
    real(wp), parameter :: abrupt = 0.1_wp
@@ -137,8 +137,10 @@ contains
          call describe_pga(pga/gravity, pga_limit(pga/gravity), sentence)
          call append(sentence)
       end if
-      if (abs(record%acceleration(1)) > abrupt*pga) call append('begins at '// &
-         & to_text(nint(100.0_wp*(abs(record%acceleration(1))/pga)))//' % of its PGA')
+      if (start_limit(abs(record%acceleration(1))/pga) > 0.0_wp) then
+         call describe_start(abs(record%acceleration(1))/pga, sentence)
+         call append(sentence)
+      end if
       velocity = ground_velocity(record)
       peak = peak_velocity(record)
       if (abs(velocity(n)) > drifted*peak) call append('ends at '// &
@@ -192,6 +194,25 @@ contains
       if (pga < limit) text = ' g, less than '
       text = 'a PGA of '//rounded(pga)//text//to_text(limit)//' g: wrong units?'
    end subroutine describe_pga
+
+   !> The limit that the first acceleration / PGA of a record that moves is beyond; 0 if it is not
+   pure real(wp) function start_limit(share)
+      !> Size of the first acceleration / PGA
+      real(wp), intent(in) :: share
+
+      start_limit = 0.0_wp
+      if (share > abrupt) start_limit = abrupt
+   end function start_limit
+
+   !> What looks odd about the first acceleration
+   pure subroutine describe_start(share, text)
+      !> Its size / PGA
+      real(wp), intent(in) :: share
+      !> A sentence
+      character(len=:), allocatable, intent(out) :: text
+
+      text = 'begins at '//to_text(nint(100.0_wp*share))//' % of its PGA'
+   end subroutine describe_start
 
    !> The limit that PGV / PGA of a record that moves is beyond [s]; 0 if it is beyond none
    pure real(wp) function pace_limit(ratio)

@@ -126,6 +126,8 @@ WARNINGS = {
     " considerano indipendenti",
     "record_pga": "accelerogramma {record}: accelerazione di picco {pga_g} g fuori dal campo usuale (limite"
     " {limit_g} g)",
+    "record_start": "accelerogramma {record}: la prima accelerazione è {share} volte quella di picco (limite {limit}):"
+    " da controllare se la registrazione è tagliata",
     "record_pgv_pga": "accelerogramma {record}: rapporto PGV/PGA di {ratio_s} s fuori dal campo usuale (limite"
     " {limit_s} s)",
     "vertical_beyond_g": "accelerazione verticale verso il basso maggiore di g in {histories_beyond} analisi su"

@@ -8,7 +8,7 @@ module dondolo_case_motion_warnings
    use dondolo_fragility_study, only : study_type
    use dondolo_record, only : record_type
    use dondolo_record_suite, only : suite_type
-   use dondolo_record_table, only : describe_pace, describe_pga, pace_limit, pga_limit
+   use dondolo_record_table, only : describe_pace, describe_pga, describe_start, pace_limit, pga_limit, start_limit
    use dondolo_wall, only : wall_type
    implicit none
    private
@@ -19,7 +19,7 @@ module dondolo_case_motion_warnings
    character(len=*), parameter :: levels_above_usual = 'levels_above_usual', scale_factors_large = 'scale_factors_large', &
       & factors_off_levels = 'factors_off_levels', vertical_beyond_g = 'vertical_beyond_g', &
       & record_without_motion = 'record_without_motion', record_pga = 'record_pga', record_pgv_pga = 'record_pgv_pga', &
-      & records_without_event = 'records_without_event'
+      & record_start = 'record_start', records_without_event = 'records_without_event'
 
    !> A record scaled by more than this hardly is the earthquake it was
    real(wp), parameter :: large_scale = 10.0_wp
@@ -298,7 +298,8 @@ contains
          & ''' at level '//rounded(self%level)//')')
    end subroutine warn_of_scales
 
-   !> Warn of records without motion, and of those whose PGA or PGV / PGA no accelerograph has measured
+   !> Warn of records without motion, of those whose PGA or PGV / PGA no accelerograph has measured, and of those that begin
+   !> in the middle of the motion
    subroutine warn_of_records(suite, gravity, warnings, number, moves)
       type(suite_type), intent(in) :: suite
       !> What g is [m/s2]
@@ -313,7 +314,7 @@ contains
       type(warning_type) :: warning
       character(len=:), allocatable :: text
       real(wp) :: pga, ratio
-      integer :: first, last, i, beyond(2), strange(2)
+      integer :: first, last, i, beyond(3), strange(3)
 
       first = 1
       last = size(suite%records)
@@ -335,7 +336,7 @@ contains
                & 'moves no wall')
             cycle
          end if
-         where ([pga_limit(pga), pace_limit(suite%velocities(i)/suite%peaks(i))] > 0.0_wp)
+         where ([pga_limit(pga), pace_limit(suite%velocities(i)/suite%peaks(i)), start_limit(start_of(i))] > 0.0_wp)
             strange = merge(i, strange, beyond == 0)
             beyond = beyond + 1
          end where
@@ -358,6 +359,27 @@ contains
          call describe_pace(ratio, pace_limit(ratio), text)
          call add_first(warning, suite%records(strange(2))%name, text, beyond(2), last - first + 1, warnings)
       end if
+      if (beyond(3) > 0) then
+         ratio = start_of(strange(3))
+         warning = warning_type(record_start)
+         call warning%about('record', suite%records(strange(3))%name)
+         call warning%with('share', ratio)
+         call warning%with('limit', start_limit(ratio))
+         call describe_start(ratio, text)
+         call add_first(warning, suite%records(strange(3))%name, text//': triggered late, or cut?', beyond(3), &
+            & last - first + 1, warnings)
+      end if
+
+   contains
+
+      !> Size of the first acceleration of a record / PGA
+      pure real(wp) function start_of(i)
+         !> Its number
+         integer, intent(in) :: i
+
+         start_of = abs(suite%records(i)%acceleration(1))/suite%peaks(i)
+      end function start_of
+
    end subroutine warn_of_records
 
    !> Add a warning of the first of some records, and how many there are
