@@ -69,9 +69,9 @@ contains
       case ('few_clusters')
          text = counted(curve%clusters, 'cluster')//' of records, at least '//to_text(fewest_clusters)//' are needed'
       case ('few_walls')
-         text = counted(curve%clusters, 'wall')//', either one or at least '//to_text(fewest_clusters)//' are needed'
+         text = counted(curve%clusters, 'wall')//', at least '//to_text(fewest_clusters)//' are needed for the spread between walls'
       case ('one_wall')
-         text = 'one wall determines the curve'
+         text = 'without one of the walls no curve can be fitted'
       case default
          text = 'one cluster of records determines the curve'
       end select
@@ -83,21 +83,24 @@ contains
       type(fragility_type), intent(in) :: curve
       !> Share that can collapse
       real(wp), intent(in) :: saturation
-      !> The levels and their unit; a dash where so many cannot collapse; filled up with blanks
+      !> The levels and their unit, then 'never' where so many cannot collapse; filled up with blanks
       character(len=160) :: text
 
       real(wp), parameter :: shares(3) = [0.16_wp, 0.50_wp, 0.84_wp]
       integer :: i
 
+      ! The shares increase, so that those that are never reached come last
       text = ''
       do i = 1, size(shares)
          if (shares(i) < saturation) then
-            text = trim(text)//' '//rounded(curve%level(shares(i)/saturation))//','
+            text = trim(text)//' '//rounded(curve%level(shares(i)/saturation))
+            if (i == count(shares < saturation)) text = trim(text)//case%stripes%scaling%unit_after_blank()
          else
-            text = trim(text)//' -,'
+            text = trim(text)//' never'
          end if
+         if (i < size(shares)) text = trim(text)//','
       end do
-      text = text(2:len_trim(text) - 1)//case%stripes%scaling%unit_after_blank()
+      text = adjustl(text)
    end function fractiles
 
    !> The share that can collapse, in brackets after a blank; empty if all can
@@ -118,7 +121,8 @@ contains
       associate (fit => typology%fit)
          if (fit%has_errors()) then
             bounds = parameter_intervals(fit)
-            write (output_unit, '(a)') '  standard errors over records and walls: '//rounded(fit%se_ln_theta())// &
+            write (output_unit, '(a)') '  standard errors over records'//trim(merge(' and walls', '          ', &
+               & typology%walls > 1))//': '//rounded(fit%se_ln_theta())// &
                & ' of ln theta, '//rounded(fit%se_beta())//' of beta; 95 % intervals: theta '//rounded(bounds(1, 1))// &
                & ' to '//rounded(bounds(2, 1))//', beta '//rounded(bounds(1, 2))//' to '//trim(upper_end(bounds(2, 2)))
          else

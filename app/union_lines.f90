@@ -26,16 +26,27 @@ contains
       type(results_type), intent(in) :: results
 
       type(union_type) :: union
+      logical :: can_coincide
       integer :: i, state, walls
 
       state = size(case%stripes%thresholds)
       walls = size(results%unions%wall)
-      write (output_unit, '(a)') '', 'walls with several mechanisms, counted in the same histories and '// &
-         & 'by the product of independent mechanisms:'
+      can_coincide = any([(results%population%can_coincide(i), i=1, results%population%walls)])
+      if (can_coincide) then
+         write (output_unit, '(a)') '', 'walls with several mechanisms, counted in the same histories; independent: by the '// &
+            & 'product of their probabilities, as the curves ''all'' above, which are the ones to quote for population and groups:'
+      else
+         write (output_unit, '(a)') '', 'walls with several mechanisms, of which one occurs (exclusive); the curves of '// &
+            & 'population and groups are those above:'
+      end if
       do i = 1, results%unions%count()
-         if (i <= shown_rows .or. i > walls) then
+         if (i <= min(shown_rows, walls)) then
             call results%unions%get(i, results%population, union)
-            call print_line(case, union, state)
+            call print_line(case, union, state, results%population%can_coincide(results%population%row(union%rows(1))%wall))
+         else if (i > walls .and. can_coincide) then
+            ! Where mechanisms never occur together, the means in the same histories are the curves printed before
+            call results%unions%get(i, results%population, union)
+            call print_line(case, union, state, .true.)
          end if
          if (i == shown_rows .and. walls > shown_rows) write (output_unit, '(a)') '... and '// &
             & to_text(walls - shown_rows)//' more'
@@ -120,24 +131,27 @@ contains
    end subroutine print_stripes_of
 
    !> Print a wall or a mean in one line
-   subroutine print_line(case, union, state)
+   subroutine print_line(case, union, state, with_product)
       type(case_type), intent(in) :: case
       type(union_type), intent(in) :: union
       !> Number of the damage state
       integer, intent(in) :: state
+      !> Print the product too? It is another curve where mechanisms can occur together
+      logical, intent(in) :: with_product
 
-      character(len=:), allocatable :: who
+      character(len=:), allocatable :: who, product
 
+      product = ''
+      if (with_product) product = '; independent: '//trim(parameters(case, union%product(state), union%saturation))
       if (len(union%name) > 0) then
          who = union%name
       else if (len(union%group) > 0) then
-         who = 'group '''//union%group//''''
+         who = 'group '''//union%group//''', same histories'
       else
-         who = 'population'
+         who = 'population, same histories'
       end if
       write (output_unit, '(a)') who//trim(occurring(union%saturation))//': '// &
-         & trim(parameters(case, union%curve(state), union%saturation))// &
-         & '; independent: '//trim(parameters(case, union%product(state), union%saturation))
+         & trim(parameters(case, union%curve(state), union%saturation))//product
    end subroutine print_line
 
    !> Parameters of a curve

@@ -323,7 +323,7 @@ rm -rf out
 population | sed '1s/$/,p_occ/; 2s/$/,0.4/; 3s/$/,0/' >walls.csv
 run people.nml
 check "typology: no level where so many cannot collapse" grep -qE \
-   '^population, all \(can occur: .* status [a-z]+; at 16, 50, 84 %: [0-9.]+, -, - g$' stdout
+   '^population, all \(can occur: .* status [a-z]+; at 16, 50, 84 %: [0-9.]+ g, never, never$' stdout
 printf 'mechanism,height,thickness,overburden,overburden_inertia,bearing,bearing_distance,eccentricity\n%s\n%s\n' \
    'two_block,3,0.25,8000,0,inner,0.06,' 'two_block,3,0.25,8000,0,,,-0.065' >walls.csv
 run people.nml

@@ -214,7 +214,7 @@ def test_population_of_facades(run, root, tmp_path, records):
     alone = result.combined["c"].collapses / result.combined["c"].histories
     assert means == pytest.approx((2 * fractions["a"] + fractions["b"] + alone) / 4.0, rel=1e-9)
     assert "a: theta = " in done.stdout
-    assert re.search(r"^population \(can occur: [\d.]+ %\): theta = ", done.stdout, re.MULTILINE)
+    assert re.search(r"^population, same histories \(can occur: [\d.]+ %\): theta = ", done.stdout, re.MULTILINE)
 
 
 def test_unions_of_files(ran, tmp_path):

@@ -43,8 +43,8 @@ _WHY = {
     "naive": _("as if all histories were independent"),
     "few_clusters": _("fewer than three clusters of records"),
     "one_cluster": _("one cluster of records determines the curve"),
-    "few_walls": _("two walls: either one or at least three are needed"),
-    "one_wall": _("one wall determines the curve"),
+    "few_walls": _("two walls: at least three are needed for the spread between walls"),
+    "one_wall": _("without one of the walls no curve can be fitted"),
     "given": _("the parameters were given"),
 }
 
@@ -88,8 +88,8 @@ class Fragility(Curve, Shown, Saved):
         'clustered': histories of one record or event (of typological curves also: of one wall) depend on each other
         (Mancl and DeRouen 2001); 'naive': all histories are taken for independent, for curves fitted to counts. There
         are no standard errors for 'few_clusters', less than three, 'one_cluster', which alone determines the curve,
-        'few_walls' and 'one_wall', the same of the walls of a population, and 'given', a curve that was not fitted
-        here.
+        'few_walls', two walls of a population (one alone has errors over records), 'one_wall', without which no curve
+        can be fitted, and 'given', a curve that was not fitted here.
     clusters : int
         Number of clusters of records, or of the walls that are too few; 0 for 'naive'.
     degrees_of_freedom : float

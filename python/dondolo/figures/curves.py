@@ -33,11 +33,11 @@ def axes(ax: Axes | None) -> Axes:
 
 
 def thin(ax: Axes, x: NDArray[np.float64], many: NDArray[np.float64], width: float, alpha: float) -> None:
-    """Many thin curves (curves, points) as one artist, under everything else; the limits of the axes stay."""
+    """Many thin curves (curves, points) as one artist, above bands and under all else; the limits of the axes stay."""
     from matplotlib.collections import LineCollection
 
     lines = [np.column_stack([x[kept], y[kept]]) for y, kept in zip(many, _corners(many), strict=True)]
-    drawn = LineCollection(lines, colors=style.GREY, linewidths=width, alpha=alpha, zorder=1)
+    drawn = LineCollection(lines, colors=style.GREY, linewidths=width, alpha=alpha, zorder=1.6)
     ax.add_collection(drawn, autolim=False)
 
 

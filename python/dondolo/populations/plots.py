@@ -192,7 +192,7 @@ def _draw_union_states(
 
 
 def _band(ax: Axes, grid: FloatArray, fractiles: FloatArray, color: str) -> None:
-    """Fractiles of the walls: a band that covers the lines in it, with edges, and the median."""
+    """Fractiles of the walls: a band under the lines in it, with edges, and the median."""
     from matplotlib.colors import to_rgb
 
     low, median, high = fractiles
