@@ -108,7 +108,7 @@ contains
       call check(warnings%count == 1, 'one warning')
       call warnings%put_sentences(sentences)
       call check_text(sentences%line(1)%text, &
-         & 'theta = 5.86 lies outside the levels 1 to 2: the fit extrapolates', 'warning')
+         & 'theta = 5.86 lies outside the levels 1 to 2: the fit extrapolates, higher levels are needed', 'warning')
    end subroutine test_published
 
    !> Every case without a finite maximum has a status, and a bracket instead of a number

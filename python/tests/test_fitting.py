@@ -65,7 +65,7 @@ def test_two_stripes_in_closed_form():
 
 def test_extrapolation_warns():
     with pytest.warns(
-        dd.errors.DondoloWarning, match=r"theta = 5.86 lies outside the levels 1 to 2: the fit extrapolates"
+        dd.errors.DondoloWarning, match=r"5.86 lies outside the levels 1 to 2: the fit extrapolates, higher levels are"
     ):
         curve = dd.fit_fragility([1.0, 1.5, 2.0], [0, 2, 2], [59, 50, 44])
     assert curve.status == "extrapolated"

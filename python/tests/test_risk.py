@@ -507,7 +507,7 @@ def test_refused(hazard, curve):
         curve.risk([1.0])
     for levels, frequency, sentence in (
         ([0.1, 0.2], [0.01], "2 levels, 1 annual_frequency: must be as many"),
-        ([0.1], [0.01], "levels: must be at least two"),
+        ([0.1], [0.01], "levels: must be at least two.*an integral over a hazard curve"),
         ([0.0, 0.1], [0.02, 0.01], "levels = 0: must be positive"),
         ([0.1, 0.2], [0.01, 0.0], "annual_frequency = 0: must be positive; leave out"),
         ([0.1, 0.2], [0.01, np.nan], "annual_frequency = nan: must be positive"),

@@ -63,12 +63,12 @@ def as_array(name: str, values: ArrayLike) -> FloatArray:
     return array
 
 
-def increasing(name: str, values: ArrayLike, *, from_zero: bool = False) -> FloatArray:
+def increasing(name: str, values: ArrayLike, *, from_zero: bool = False, why: str = "") -> FloatArray:
     """Convert levels of a curve to positive numbers that increase, the first may be 0: a copy that is read-only."""
     levels = as_array(name, values).copy()
     allowed = "not negative" if from_zero else "positive"
     if len(levels) < 2:
-        raise _wrong("wrong_length", name, f": must be at least two, {allowed} and increasing")
+        raise _wrong("wrong_length", name, f": must be at least two, {allowed} and increasing{why}")
     wrong = ~(((levels >= 0.0) if from_zero else (levels > 0.0)) & (levels < np.inf))
     if wrong.any():
         sentence = f" = {levels[wrong][0]:g}: must {'not be negative' if from_zero else 'be positive'}"

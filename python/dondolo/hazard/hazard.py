@@ -58,6 +58,8 @@ if TYPE_CHECKING:
 
 # Levels that make a curve
 _FEWEST = 2
+# Behind the error of a hazard curve with one level
+_WHY_TWO = ": an annual frequency of collapse is an integral over a hazard curve, for which one point is not enough"
 
 
 @dataclass(frozen=True, eq=False, repr=False, init=False)
@@ -129,7 +131,7 @@ class HazardCurve(Shown, Saved):
         source: Iterable[str] = (),
         rigid_ground: bool = False,
     ) -> None:
-        x = increasing("levels", levels)
+        x = increasing("levels", levels, why=_WHY_TWO)
         h = as_array("annual_frequency", annual_frequency).copy()
         if len(x) != len(h):
             raise InputError(f"{len(x)} levels, {len(h)} annual_frequency: must be as many")

@@ -148,7 +148,8 @@ contains
             & ', more levels there are needed'
       case (fit_extrapolated)
          call warning%with('theta', fragility%theta)
-         text = 'theta = '//rounded(fragility%theta)//' lies outside the levels '//levels//': the fit extrapolates'
+         text = 'theta = '//rounded(fragility%theta)//' lies outside the levels '//levels//': the fit extrapolates, '// &
+            & trim(merge('higher', 'lower ', fragility%theta > maxval(stripes%levels)))//' levels are needed'
       case (fit_nearly_flat)
          call warning%with('theta', fragility%theta)
          call warning%with('beta', fragility%beta)
