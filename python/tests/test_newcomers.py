@@ -135,3 +135,14 @@ def test_codes(call, code, variable, sentence):
     error = pickle.loads(pickle.dumps(caught.value))
     assert error.errors == (dd.errors.Problem(str(error), code, variable),)
     assert str(error).startswith(sentence)
+
+
+def test_one_record_in_a_case(tmp_path):
+    """More levels do not help a case of one record, and its warning does not ask for them."""
+    dd.RecordSet(RECORDS[:1]).to_catalogue(tmp_path / "one.csv")
+    (tmp_path / "case.nml").write_text(
+        "&job task='stripes' output='out/one' /\n&wall name='w' mechanism='one_sided' height=1.5 thickness=0.25 /\n"
+        "&records catalogue='one.csv' /\n&stripes levels=0.2,2.0,4.0,8.0 /\n"
+    )
+    with pytest.warns(dd.errors.DondoloWarning, match="one record gives one threshold, whatever the levels"):
+        dd.run_case(tmp_path / "case.nml", progress=False)

@@ -144,8 +144,12 @@ contains
                text = 'above '//to_text(low)
             end if
          end associate
-         text = 'collapses and survivals do not overlap over two or more levels'//no_curve//'the median lies '//text// &
-            & ', more levels there are needed'
+         text = 'collapses and survivals do not overlap over two or more levels'//no_curve//'the median lies '//text
+         if (is_of_one_record(stripes)) then
+            text = text//'; one record gives one threshold, whatever the levels: more records are needed'
+         else
+            text = text//', more levels there are needed'
+         end if
       case (fit_extrapolated)
          call warning%with('theta', fragility%theta)
          text = 'theta = '//rounded(fragility%theta)//' lies outside the levels '//levels//': the fit extrapolates, '// &
@@ -159,6 +163,14 @@ contains
       end select
       call warnings%add(warning, text)
    end subroutine warn_of_fit
+
+   !> Are all histories of one record? Not known of counts
+   pure logical function is_of_one_record(stripes)
+      type(stripes_type), intent(in) :: stripes
+
+      is_of_one_record = .false.
+      if (allocated(stripes%record)) is_of_one_record = size(stripes%record) > 0 .and. all(stripes%record == stripes%record(1))
+   end function is_of_one_record
 
    !> Look at the curve of a wall, or of its mechanisms one after the other
    subroutine look(self, curve, name)
