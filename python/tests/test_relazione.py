@@ -17,10 +17,10 @@ from dondolo.reporting.content import Symbol
 from dondolo.reporting.language import Language
 from dondolo.reporting.numerals import Numeral
 from dondolo.reporting.relazione import project, terms
-from dondolo.reporting.relazione.checks import sums_of
 from dondolo.reporting.relazione.document import Document
 from dondolo.reporting.relazione.drawings import draw_anchor
 from dondolo.reporting.relazione.subjects import subjects_of
+from dondolo.reporting.relazione.sums import sums_of
 from dondolo.reporting.statuses import STATUSES
 from dondolo.reporting.units import CENTIMETRES, UNITS, quantity
 
@@ -274,6 +274,95 @@ def test_plate_and_frustum(brittle):
     colours = [one.get_facecolor() for one in drawn.figure.findobj(matplotlib.patches.Polygon)]
     assert all(len(set(colour[:3])) == 1 for colour in colours)
     matplotlib.pyplot.close(drawn.figure)
+
+
+ONE_HAZARD = "&check ag = 0.2, f0 = 2.5, tc_star = 0.35, soil = 'B', knowledge_factor = 1.2 /\n"
+
+
+@pytest.fixture(scope="module")
+def one_hazard(tmp_path_factory, executable, root):
+    """The same walls with one hazard, another confidence factor than that at the plate, and names of their states."""
+    place = tmp_path_factory.mktemp("one_hazard")
+    walls = {"fatto": WALL.format(name="stato di fatto", tie=""), "progetto": WALL.format(name="catena", tie=PLATE)}
+    walls["progetto"] = walls["progetto"].replace("tie_preload = 50e6, ", "")
+    results = [run_in(place, executable, root, name, wall, ONE_HAZARD) for name, wall in walls.items()]
+    pages = {}
+    for lang in ("en", "it"):
+        dd.calculation_report(results, place / f"{lang}.html", lang=lang)
+        pages[lang] = " ".join(of_page(place / f"{lang}.html").split())
+    return results, pages
+
+
+def test_what_governs_a_nonlinear_check(one_hazard):
+    """Both ratios are rows, which is the greater is said, and activation by ties that are not yet taut is in doubt."""
+    results, pages = one_hazard
+    check = results[1].check
+    displacement = check.value("nonlinear", "SLV", "displacement") / check.value("nonlinear", "SLV", "demand")
+    activation = check.value("mechanism", "SLV", "a_0") / (9.81 * check.pga)
+    assert check.value("nonlinear", "SLV", "ratio") == pytest.approx(max(displacement, activation), rel=1e-12)
+    assert activation > displacement
+    page = pages["en"]
+    assert "(nonlinear SLV, activation)" in page
+    assert re.search(rf"ratio of displacements nonlinear SLV .*?{displacement:.5g}", page)
+    assert re.search(rf"ratio at activation nonlinear SLV .*?{activation:.5g}", page)
+    assert "For SLV it is the Circolare, C8.7.1.2.1.8, that takes the acceleration of activation" in page
+    assert f"By displacements alone the ratio is {displacement:.4g}." in page
+    assert "(SLV, non lineare: attivazione)" in pages["it"]
+    assert "(SLV, non lineare: spostamento)" in pages["it"]
+
+
+def test_a_hazard_that_is_not_of_slc(one_hazard, brittle):
+    place, results = brittle
+    assert "not results of SLC at this site" in one_hazard[1]["en"]
+    assert "SLC con l'unica pericolosità assegnata" in one_hazard[1]["it"]
+    assert "non lineare SLC (pericolosità non propria), esito" in one_hazard[1]["it"]
+    dd.calculation_report(results, place / "three.html", lang="it")
+    assert "pericolosità non propria" not in of_page(place / "three.html")
+
+
+def test_strengths_with_their_factors_and_origins(one_hazard):
+    results, pages = one_hazard
+    wall, check = results[1].check.wall, results[1].check
+    assert "masonry_knowledge_factor \N{EN DASH} 1,35 (predefinito)" in pages["it"]
+    assert "bearing_factor \N{EN DASH} 1 (predefinito)" in pages["it"]
+    assert re.search("C8.7.1\\) \N{GREEK SMALL LETTER GAMMA}M \N{EN DASH} \N{EN DASH} 2 ", pages["it"])
+    assert "due fattori di confidenza, 1,35 per la muratura alle piastre" in pages["it"]
+    for name in ("masonry_shear", "masonry_tension", "masonry_compression", "tie_strength", "tie_preload"):
+        assert f" {name} " in pages["it"]
+    # The depth of the hinge with f_m/FC, by a wall whose strength is that
+    weaker = dataclasses.replace(wall, compressive_strength=wall.compressive_strength / 1.2, masonry_compression=2e6)
+    found = dd.check_ntc(weaker, check.site, knowledge_factor=1.2).value("mechanism", "SLV", "alpha_0")
+    assert f"= {found:.4g} instead of {check.value('mechanism', 'SLV', 'alpha_0'):.4g}" in pages["en"]
+    strengths = {row.quantity: row for row in check.rows if row.method == "tie"}
+    for name, expression in (("bearing_strength", "k f_m"), ("shear_strength", "f_v0"), ("tensile_strength", "f_t")):
+        row = strengths[name]
+        assert row.expression == f"{expression}/(FC gamma_M)"
+        assert eval(row.numbers) == pytest.approx(row.value, rel=1e-7)
+
+
+def test_forces_at_rest_and_at_activation(one_hazard):
+    """A tie without preload holds nothing at rest; what the base holds, and how far the anchor moves until it does."""
+    results, pages = one_hazard
+    check = results[1].check
+    sums = sums_of(check.items)
+    tie, force = check.wall.ties[0], sums["held"]
+    table = pages["en"].partition("force on the base [kN/m]")[2]
+    assert re.search(r"without earthquake, outwards, ΣH - Σ σ₀ A 2\.5 2\.5 ", table)
+    activated = 1e-3 * (sums["thrust"] + sums["alpha_0"] * sums["weight"] - force)
+    assert f"{activated:.5g}".replace("-", "\N{MINUS SIGN}") in table
+    travel = 100 * force / tie.section / 2.06e11 * 10
+    assert f"design (catena), tie 1: {travel:.4g} cm." in pages["en"]
+    assert "as it stands (stato di fatto)" in pages["en"]
+    assert "stato di fatto (stato di fatto)" not in pages["it"]
+
+
+def test_the_weights_alone_at_the_control_point_of_the_check(one_hazard):
+    """d_0* of the weights alone is that of a check of the wall without its thrust."""
+    results, pages = one_hazard
+    bare = dd.check_ntc(dataclasses.replace(results[0].check.wall, thrusts=()), results[0].check.site)
+    d0 = bare.value("mechanism", "SLV", "d_0")
+    assert f"{100 * d0:.6g}" in pages["en"].partition("Reasoned judgement")[2]
+    assert f"{d0:.6g} m" in pages["en"].partition("of the weights alone leaves thrusts")[2]
 
 
 # --- What the engineer writes

@@ -81,7 +81,7 @@ module dondolo_check_sheet
       & quantity_type('plate_thickness', 's_p', 'm', 'thickness of the plate'), &
       & quantity_type('plate_verified', '', '', '1: the plate is thick enough, 0: it is not'), &
       & quantity_type('hierarchy', '', '', '1: the bar yields before the anchor gives way, 0: it does not'), &
-      & quantity_type('anchor_checked', '', '', '1: the anchor is checked or its force is given, 0: it is not'), &
+      & quantity_type('anchor_checked', '', '', '1: strength of the anchor computed or given; 0: not, or with less FC'), &
       & quantity_type('applicable', '', '', '0: not applicable, an anchor gives way before its bar yields'), &
       & quantity_type('capacity_ag', 'a_gC', 'g', 'a_g that the wall withstands'), &
       & quantity_type('capacity_pga', 'a_gC S', 'g', 'peak acceleration at the site that the wall withstands'), &

@@ -3,7 +3,7 @@ module dondolo_check_tie_rows
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : to_text
    use dondolo_check_sheet, only : sheet_type, shown, working_type
-   use dondolo_wall_anchor, only : anchor_type
+   use dondolo_wall_anchor, only : anchor_type, partial_factor
    implicit none
    private
 
@@ -67,9 +67,6 @@ contains
       !> Name of the tie
       character(len=*), intent(in) :: item
 
-      !> Place of gamma_M
-      character(len=*), parameter :: factor = 'C8.7.1'
-
       associate (masonry => anchor%masonry)
          call put('bar', anchor%bar)
          call put('spacing', anchor%spacing)
@@ -83,9 +80,9 @@ contains
          call put('masonry_thickness', anchor%leaf)
          if (anchor%edge < anchor%leaf) call put('edge_distance', anchor%edge)
          call put('anchor_knowledge', masonry%knowledge_factor)
-         call put('bearing_strength', masonry%bearing_factor*masonry%design_strength(masonry%compression), factor)
-         call put('shear_strength', masonry%design_strength(masonry%shear), factor)
-         call put('tensile_strength', masonry%design_strength(masonry%tension), factor)
+         call put_strength('bearing_strength', masonry%compression, 'f_m', masonry%bearing_factor)
+         call put_strength('shear_strength', masonry%shear, 'f_v0')
+         call put_strength('tensile_strength', masonry%tension, 'f_t')
          if (masonry%friction*anchor%compression > 0.0_wp) call put('friction_stress', masonry%friction*anchor%compression)
       end associate
       call put_forces(sheet, anchor, item)
@@ -93,16 +90,42 @@ contains
    contains
 
       !> Put a number of the tie
-      subroutine put(name, value, formula)
+      subroutine put(name, value)
          !> Name of the quantity
          character(len=*), intent(in) :: name
          !> Value, in its unit
          real(wp), intent(in) :: value
-         !> Where the code has the formula; absent: it has none
-         character(len=*), intent(in), optional :: formula
 
-         call sheet%add('tie', '', name, value, formula, item)
+         call sheet%add('tie', '', name, value, item=item)
       end subroutine put
+
+      !> Put a design strength of the masonry, with the place of gamma_M
+      subroutine put_strength(name, mean, symbol, multiple)
+         !> Name of the quantity
+         character(len=*), intent(in) :: name
+         !> Mean strength [Pa]
+         real(wp), intent(in) :: mean
+         !> Its symbol
+         character(len=*), intent(in) :: symbol
+         !> Factor k of the strength; absent: it has none
+         real(wp), intent(in), optional :: multiple
+
+         character(len=:), allocatable :: expression, numbers
+         real(wp) :: strength
+
+         associate (masonry => anchor%masonry)
+            strength = masonry%design_strength(mean)
+            expression = symbol//'/(FC gamma_M)'
+            numbers = trim(shown(mean))//'/('//trim(shown(masonry%knowledge_factor))//' * '// &
+               & trim(shown(partial_factor))//')'
+         end associate
+         if (present(multiple)) then
+            strength = multiple*strength
+            expression = 'k '//expression
+            numbers = trim(shown(multiple))//' * '//numbers
+         end if
+         call sheet%add('tie', '', name, strength, 'C8.7.1', item, working=working_type(expression, numbers))
+      end subroutine put_strength
 
    end subroutine put_plate
 

@@ -16,7 +16,7 @@ module dondolo_wall_anchor
    implicit none
    private
 
-   public :: anchor_type, masonry_type, compute_anchor
+   public :: anchor_type, masonry_type, partial_factor, compute_anchor
 
    !> Partial factor of masonry gamma_M in seismic checks: Circolare 7/2019, C8.7.1
    real(wp), parameter :: partial_factor = 2.0_wp

@@ -10,13 +10,12 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from dondolo._fortran.checks import CalculationItem
-from dondolo._fortran.walls import WALL_ABSENT
 from dondolo.reporting.blocks import Block, CaptionedTable, Formula, Fraction, symbol_of
 from dondolo.reporting.content import Piece, Symbol, Table
 from dondolo.reporting.numerals import NONE, Numeral
 from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.subjects import Subject
+from dondolo.reporting.relazione.sums import Turning, of_tie, turning_of
 from dondolo.reporting.units import UNITS, Unit, cell
 from dondolo.walls.mechanisms import TwoBlockWall
 from dondolo.walls.parts import parts_of
@@ -24,6 +23,8 @@ from dondolo.walls.parts import parts_of
 # Figures of what is to be calculated again by hand, and how well the steps give the numbers of the check
 FIGURES = 6
 _SAME = 1e-9
+# Of a cosine, which is close to 1
+_COSINE = 10
 _THETA = Symbol("θ")
 
 
@@ -32,72 +33,11 @@ def shown(value: float, unit: Unit = UNITS[""], figures: int = FIGURES) -> Numer
     return cell(value, unit, figures)
 
 
-class _Turning(NamedTuple):
-    """Sums over the items of a wall that turns about its base: moments at rest, and products with arms.
-
-    Attributes
-    ----------
-    weights, ties, thrusts : float
-        Moments at rest, without earthquake.
-    pushed : float
-        Weight times height of masses that the wall only pushes.
-    first, second, arms : float
-        ΣP z, ΣP z² and ΣP e.
-    thrust_arms, tie_arms : float
-        ΣH e and ΣT e.
-    hinge : float
-        Depth u of the hinge.
-    """
-
-    weights: float
-    ties: float
-    thrusts: float
-    pushed: float
-    first: float
-    second: float
-    arms: float
-    thrust_arms: float
-    tie_arms: float
-    hinge: float
-
-    def multiplier(self, sine: float, *, with_ties: bool) -> float:
-        """Multiplier at a rotation."""
-        cosine = math.sqrt(1.0 - sine**2)
-        ties, arms = (self.ties, self.tie_arms) if with_ties else (0.0, 0.0)
-        top = (self.weights + ties - self.thrusts) * cosine - (self.lowered - arms) * sine
-        return top / (self.first * cosine + self.arms * sine)
-
-    @property
-    def lowered(self) -> float:
-        """What loses height for a unit of rotation."""
-        return self.first - self.pushed + self.thrust_arms
-
-
-def _turning(items: tuple[CalculationItem, ...], broken: frozenset[str] = frozenset()) -> _Turning:
-    """The sums without the ties that have broken."""
-    weights = [one for one in items if not math.isnan(one.arm) and one.item != "masonry"]
-    ties = [one for one in items if one.item.startswith(("tie", "friction")) and one.item not in broken]
-    thrusts = [one for one in items if not math.isnan(one.overturning)]
-    hinge = weights[0].depth - weights[0].arm
-    return _Turning(
-        weights=math.fsum(one.stabilising for one in weights if not math.isnan(one.stabilising)),
-        ties=math.fsum(one.stabilising for one in ties),
-        thrusts=math.fsum(one.overturning for one in thrusts),
-        pushed=math.fsum(one.force_lever for one in weights if math.isnan(one.stabilising)),
-        first=math.fsum(one.force_lever for one in weights),
-        second=math.fsum(one.force_lever2 for one in items if not math.isnan(one.force_lever2)),
-        arms=math.fsum(one.force * one.arm for one in weights),
-        thrust_arms=math.fsum(one.force * (one.depth - hinge) for one in thrusts),
-        tie_arms=math.fsum(one.force * (one.depth - hinge) for one in ties),
-        hinge=hinge,
-    )
-
-
 def end_of(document: Document, one: Subject) -> list[Block]:
     """Steps to d_0*."""
     if isinstance(one.wall, TwoBlockWall):
         return _strip(document, one)
-    sums, d0 = _turning(one.check.items), one.check.value("mechanism", "SLV", "d_0")
+    sums, d0 = turning_of(one.check.items), one.check.value("mechanism", "SLV", "d_0")
     tangent = (sums.weights - sums.thrusts) / sums.lowered
     sine = tangent / math.hypot(1.0, tangent)
     if not math.isclose(sine * sums.second / sums.first, d0, rel_tol=_SAME):
@@ -133,7 +73,7 @@ def end_of(document: Document, one: Subject) -> list[Block]:
     ]  # fmt: skip
 
 
-def _set_back(one: Subject, sums: _Turning) -> list[Block]:
+def _set_back(one: Subject, sums: Turning) -> list[Block]:
     """The depth of the hinge, if it follows from the strength of the masonry, 0.85 f over twice that depth."""
     weight = math.fsum(item.force for item in one.check.items if item.item != "masonry" and item.stabilising > 0.0
                        and not math.isnan(item.arm))  # fmt: skip
@@ -157,7 +97,7 @@ def capacity_of(document: Document, one: Subject, state: str) -> list[Block]:
         return blocks
     factor, ratio = (check.value("mechanism", state, name) for name in ("knowledge_factor", "mass_ratio"))
     alpha = a * ratio * factor / one.wall.gravity
-    sums = _turning(check.items)
+    sums = turning_of(check.items)
     sine = d * sums.first / sums.second
     held = next(
         (kept for kept in (True, False) if math.isclose(sums.multiplier(sine, with_ties=kept), alpha, rel_tol=_SAME)),
@@ -167,7 +107,7 @@ def capacity_of(document: Document, one: Subject, state: str) -> list[Block]:
     if held is None:
         # Ties break one after the other.
         for many in range(1, len(ties)):
-            unbroken = _turning(check.items, frozenset(tie.name for tie in ties[:many]))
+            unbroken = turning_of(check.items, frozenset(tie.name for tie in ties[:many]))
             if math.isclose(unbroken.multiplier(sine, with_ties=True), alpha, rel_tol=_SAME):
                 sums, held = unbroken, True
     if len(ties) > 1 and sine >= math.sin(ties[0].angle) * (1.0 - _SAME):
@@ -190,12 +130,13 @@ def capacity_of(document: Document, one: Subject, state: str) -> list[Block]:
     left, moved = symbol_of("M_C"), symbol_of("B_C")
     rest, fall = symbol_of("A"), symbol_of("B")
     at_rest, falling = stabilising - sums.thrusts, sums.lowered - (sums.tie_arms if held else 0.0)
+    near_one = shown(cosine, figures=_COSINE)
     top_numbers = (
-        shown(at_rest, moment), " · ", shown(cosine), " - ", shown(falling, moment), " · ", shown(sine),
+        shown(at_rest, moment), " · ", near_one, " - ", shown(falling, moment), " · ", shown(sine),
     )  # fmt: skip
     bottom = (*_sum("P", "z"), *cos, " + ", *_sum("P", "e"), *sin)
     bottom_numbers = (
-        shown(sums.first, moment), " · ", shown(cosine), *_signed(" + ", sums.arms), " · ", shown(sine),
+        shown(sums.first, moment), " · ", near_one, *_signed(" + ", sums.arms), " · ", shown(sine),
     )  # fmt: skip
     # In symbols once: those of SLC are the same.
     symbols = [Formula((left, (rest, *cos, " - ", fall, *sin))), Formula((moved, bottom))] if state == "SLV" else []
@@ -223,7 +164,7 @@ def _sum(force: str, lever: str) -> tuple[Any, ...]:
     return ("Σ", symbol_of(force), " ", symbol_of(lever))
 
 
-def _lowered(sums: _Turning, *, with_ties: bool) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
+def _lowered(sums: Turning, *, with_ties: bool) -> tuple[tuple[Any, ...], tuple[Any, ...]]:
     """What loses height, in symbols and in numbers."""
     moment = UNITS["N m/m"]
     symbols: list[Any] = [*_sum("P", "z")]
@@ -237,10 +178,9 @@ def _lowered(sums: _Turning, *, with_ties: bool) -> tuple[tuple[Any, ...], tuple
     return tuple(symbols), tuple(numbers)
 
 
-def _signed(sign: str, moment: float) -> tuple[Piece, Numeral]:
-    """A term of a sum that is added (' + ') or taken away (' - '), whose value may be less than 0."""
-    turned = {" + ": " - ", " - ": " + "}[sign] if moment < 0.0 else sign
-    return turned, shown(abs(moment), UNITS["N m/m"])
+def _signed(sign: str, value: float, unit: Unit = UNITS["N m/m"]) -> tuple[Piece, ...]:
+    """A term of a sum that is added (' + ') or taken away (' - '), with its sign: in brackets if it is less than 0."""
+    return (sign, "(", shown(value, unit), ")") if value < 0.0 else (sign, shown(value, unit))
 
 
 def _displacement(document: Document, one: Subject, state: str, d: float, d0: float) -> list[Block]:
@@ -264,22 +204,20 @@ def _displacement(document: Document, one: Subject, state: str, d: float, d0: fl
 
 def _fracture(document: Document, one: Subject, d: float) -> list[Block]:
     """The elongation at which a tie breaks: that of its strain, or of its yield if the anchor gives way first."""
-    sums = _turning(one.check.items)
+    sums = turning_of(one.check.items)
     sine = d * sums.first / sums.second
     cosine = math.sqrt(1.0 - sine**2)
     items = [item for item in one.check.items if item.item.startswith("tie")]
     for tie, item in zip(parts_of(one.wall, "ties"), items, strict=False):
         arm, height = item.depth - sums.hinge, item.lever
         travel = height * sine + arm * (1.0 - cosine)
-        strain, preload, modulus = (
-            given if (given := getattr(tie, name)) is not None else WALL_ABSENT[f"tie_{name}"]
-            for name in ("strain", "preload", "modulus")
-        )
+        strain, preload, modulus = (of_tie(tie, name) for name in ("strain", "preload", "modulus"))
         force = item.force / tie.section
         of_bar = (strain - preload / modulus) * tie.length
         of_anchor = (force - preload) / modulus * tie.length
         symbol = (symbol_of("D_u"), (symbol_of("z"), " sin ", Symbol("θ", "C"), " + ", symbol_of("e"), " (1 - cos ",
-                  Symbol("θ", "C"), ")"), (shown(travel), " m"))  # fmt: skip
+                  Symbol("θ", "C"), ")"), (shown(height), " · ", shown(sine), *_signed(" + ", arm, UNITS["m"]), " · ",
+                  shown(sine**2 / (1.0 + cosine))), (shown(travel), " m"))  # fmt: skip
         stiff = (shown(modulus, UNITS["Pa"]), " MPa")
         if math.isclose(of_bar, travel, rel_tol=1e-6):
             before = Fraction((shown(preload, UNITS["Pa"]), " MPa"), stiff)
@@ -330,13 +268,12 @@ class _Fracture(NamedTuple):
 
 def _fractures(one: Subject) -> list[_Fracture]:
     """Where each tie breaks: at its ultimate strain, or at once where its anchor is weaker than the bar."""
-    hinge = _turning(one.check.items).hinge
+    hinge = turning_of(one.check.items).hinge
     items = [item for item in one.check.items if item.item.startswith("tie")]
     found = []
     for tie, item in zip(parts_of(one.wall, "ties"), items, strict=False):
         strain, preload, modulus, strength = (
-            given if (given := getattr(tie, name)) is not None else WALL_ABSENT[f"tie_{name}"]
-            for name in ("strain", "preload", "modulus", "strength")
+            of_tie(tie, name) for name in ("strain", "preload", "modulus", "strength")
         )
         elongation = (strain - preload / modulus) * tie.length
         is_brittle = item.force < (1.0 - _SAME) * strength * tie.section
@@ -356,7 +293,7 @@ def _fractures(one: Subject) -> list[_Fracture]:
 
 def _of_ties(document: Document, one: Subject, ties: list[_Fracture], sine: float, state: str) -> list[Block]:
     """A table of which ties have broken at d_C, where, and at what force."""
-    sums = _turning(one.check.items)
+    sums = turning_of(one.check.items)
     has_broken = [math.sin(min(tie.angle, 0.5 * math.pi)) <= sine * (1.0 + _SAME) for tie in ties]
     theta = Symbol("θ", "u")
     columns: dict[Piece, Any] = {

@@ -1,13 +1,13 @@
 """The chapters of a calculation report, in their order: functions that give blocks of a document."""
 
-from dondolo.reporting.relazione import checks, opening, outcome, ties
+from dondolo.reporting.relazione import checks, comparisons, materials, opening, outcome, ties
 
 CHAPTERS = (
     opening.title_page,
     opening.description,
     opening.norms,
     opening.site,
-    opening.materials,
+    materials.materials,
     opening.modelling,
     opening.actions,
     opening.analysis,
@@ -19,6 +19,6 @@ CHAPTERS = (
     outcome.fragility,
     outcome.summary,
     outcome.run,
-    outcome.comparisons,
+    comparisons.comparisons,
     outcome.annexes,
 )

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from dondolo._fortran.checks import CalculationItem, SheetRow, ntc_parameters
+from dondolo._fortran.checks import SheetRow, ntc_parameters
 from dondolo.checks.ntc import CodeCheck
 from dondolo.reporting.blocks import (
     Block,
@@ -14,6 +14,7 @@ from dondolo.reporting.blocks import (
     Formula,
     Fraction,
     Heading,
+    Note,
     Picture,
     Root,
     symbol_of,
@@ -24,14 +25,18 @@ from dondolo.reporting.relazione.capacity import FIGURES, capacity_of, end_of, s
 from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.drawings import draw_capacity, draw_wall
 from dondolo.reporting.relazione.subjects import Subject
+from dondolo.reporting.relazione.sums import Ratios, of_tie, ratios_of, reactions_of, sums_of, turning_of
 from dondolo.reporting.units import CENTIMETRES, UNITS, Unit, cell
 from dondolo.walls.mechanisms import TwoBlockWall
+from dondolo.walls.parts import parts_of
 
 # Displacements of the sheet, which are small
 _LENGTHS = (
     "d_0", "tie_fracture", "displacement", "demand", "mean_displacement", "bar", "plate_width", "plate_height",
     "plate_diameter", "plate_thickness", "plate_needed", "masonry_thickness", "edge_distance",
 )  # fmt: skip
+# What a limit state without a hazard of its own is not to be taken for
+_VERDICTS = ("ratio", "zeta_e", "verified")
 _COUNTS = ("records", "histories", "beyond")
 # What is 1 or 0
 _FLAGS = ("extrapolated", "hierarchy", "plate_verified", "anchor_checked")
@@ -46,30 +51,16 @@ def mechanism(document: Document) -> list[Block]:
         blocks.append(
             Picture(
                 lambda one=one: draw_wall(document, one),  # type: ignore[misc]
-                document.titled(document.text(_("Loads, hinge and reactions, and the mechanism displaced")), name),
+                document.titled(
+                    document.text(
+                        _("Loads and hinge; the mechanism displaced, with the reactions of the base at activation")
+                    ),
+                    name,
+                ),
                 document.text(_("The wall at rest with its loads, and displaced about its hinge.")),
             )
         )
     return [*blocks, *_reactions(document)]
-
-
-def sums_of(items: Sequence[CalculationItem]) -> dict[str, float]:
-    """Sums of the items: moments, weights times levers, weight, and horizontal forces outwards."""
-    names = ("stabilising", "overturning", "force_lever", "force_lever2")
-    found = {name: math.fsum(x for item in items if not math.isnan(x := getattr(item, name))) for name in names}
-    weights = [one.force for one in items if not math.isnan(one.force_lever) and one.item != "masonry"]
-    found["weight"] = math.fsum(weights)
-    # What rests on the hinge: masses that are pushed do not
-    found["carried"] = math.fsum(one.force for one in items if not math.isnan(one.arm) and one.item != "masonry"
-                                 and not math.isnan(one.stabilising))  # fmt: skip
-    found["thrust"] = math.fsum(one.force for one in items if not math.isnan(one.overturning))
-    found["held"] = math.fsum(one.force for one in items if _is_tie(one))
-    found["alpha_0"] = (found["stabilising"] - found["overturning"]) / found["force_lever"]
-    return found
-
-
-def _is_tie(item: CalculationItem) -> bool:
-    return item.item.startswith(("tie", "friction"))
 
 
 def _reactions(document: Document) -> list[Block]:
@@ -79,27 +70,38 @@ def _reactions(document: Document) -> list[Block]:
         return []
     unit = UNITS["N/m"]
     columns: dict[Piece, Sequence[Piece]] = {
-        document.text(_("reaction at the hinge [kN/m]")): [
-            document.text(_("vertical, V = ΣP")),
-            document.text(_("horizontal without earthquake, outwards, ΣH - ΣT")),
+        document.text(_("force on the base [kN/m]")): [
+            document.text(_("vertical, downwards, ΣP")),
+            document.text(_("horizontal without earthquake, outwards, ΣH - Σ σ₀ A")),
             document.text(_("horizontal at activation, outwards, ΣH + α₀ Σ(P + Q) - ΣT")),
         ]
     }
     for name, one in several:
-        sums = sums_of(one.check.items)
-        rest = sums["thrust"] - sums["held"]
-        moved = rest + sums["alpha_0"] * sums["weight"]
-        columns[name] = [cell(value, unit, 5) for value in (sums["carried"], rest, moved)]
+        columns[name] = [cell(value, unit, 5) for value in reactions_of(one)]
+    words = _(
+        "The reactions V and H of the base on the wall, drawn at activation, are equal and opposite to these forces."
+        " Without earthquake a tie has its preload {preload} alone."
+    )
     return [
-        CaptionedTable(
-            Table.of(columns), document.text(_("Horizontal forces that the base holds, and its vertical reaction."))
-        )
+        CaptionedTable(Table.of(columns), document.text(_("Forces that the wall transmits to its base, per metre."))),
+        document.say(words, preload=symbol_of("sigma_0")),
     ]
 
 
 def checks(document: Document) -> list[Block]:
     """Chapter 11."""
-    blocks: list[Block] = [Heading(document.text(_("Checks at SLD, SLV and SLC")))]
+    words = _(
+        "{zeta} of a nonlinear check is the greater of two ratios, of the displacements {capacity}/{demand} and of the"
+        " accelerations {a0}/({peak} {g}): a wall whose mechanism does not start is verified. For SLV it is the"
+        " Circolare, C8.7.1.2.1.8, that takes the acceleration of activation (C8.7.1.2.1.5) where the one from the"
+        " displacement is less; for SLC, of which it asks for an analogous calculation, the same is assumed."
+    )
+    peak = "a_Z" if document.subjects.several[0].is_on_floor else "a_g S"
+    names = {"zeta": "ζ_E", "capacity": "d_C", "demand": "d_D", "a0": "a_0*", "peak": peak, "g": "g"}
+    blocks: list[Block] = [
+        Heading(document.text(_("Checks at SLD, SLV and SLC"))),
+        document.say(words, **{key: symbol_of(name) for key, name in names.items()}),
+    ]
     for name, one in document.each():
         if len(document.names) > 1:
             blocks.append(Heading(name, 2))
@@ -144,11 +146,24 @@ def _items(document: Document, one: Subject, name: str) -> CaptionedTable:
 
     sums = sums_of(items)
     lever, arm = ("d_x", "d_y") if strip else ("z", "e")
-    columns: dict[Piece, list[Piece]] = {document.text(_("item")): [document.item(item.item) for item in items]}
-    columns[(symbol_of("P"), ", ", symbol_of("H"), ", ", symbol_of("T"), " [kN/m]")] = column("force", force)
+    # The masonry as one body has the weight of its sections, which the sum has once.
+    counted = f" ({document.text(_('counted above'))})"
+    names = [document.item(item.item) + (counted if item.item == "masonry" else "") for item in items]
+    columns: dict[Piece, list[Piece]] = {document.text(_("item")): names}  # type: ignore[dict-item]
+    forces = (symbol_of("P"), ", ", symbol_of("H"), ", ", symbol_of("T"), " [kN/m]")
+    columns[forces] = [
+        ("(", value, ")") if item.item == "masonry" else value
+        for item, value in zip(items, column("force", force), strict=True)
+    ]
     if not strip:
         columns[(symbol_of("d"), " [m]")] = column("depth", UNITS["m"])
     columns[(symbol_of(arm), " [m]")] = column("arm", UNITS["m"])
+    if not strip:
+        # Thrusts and ties have an arm too, of which their moments change as the wall turns.
+        hinge = turning_of(items).hinge
+        columns[(symbol_of(arm), " [m]")] = [
+            "" if math.isnan(item.depth) else shown(item.depth - hinge, UNITS["m"]) for item in items
+        ]
     columns[(symbol_of(lever), " [m]")] = column("lever", UNITS["m"])
     stab, over = document.text(_("stabilising [kNm/m]")), document.text(_("overturning [kNm/m]"))
     columns[stab] = column("stabilising", moment)
@@ -158,7 +173,10 @@ def _items(document: Document, one: Subject, name: str) -> CaptionedTable:
     square = (symbol_of("P"), " ", symbol_of(lever), "² [kNm²/m]")
     columns[product] = column("force_lever", moment)
     columns[square] = column("force_lever2", second)
+    pushes = sums["weight"] > sums["carried"] and not strip
+    weights = ("Σ(", symbol_of("P"), " + ", symbol_of("Q"), ") = ") if pushes else ("Σ", symbol_of("P"), " = ")
     ends: dict[Piece, Piece] = {
+        forces: (*weights, cell(sums["weight"], force, FIGURES)),
         stab: cell(sums["stabilising"], moment, FIGURES),
         over: cell(sums["overturning"], moment, FIGURES),
         product: cell(sums["force_lever"], moment, FIGURES),
@@ -226,7 +244,27 @@ def _formulas(document: Document, one: Subject) -> list[Block]:
     blocks += end_of(document, one)
     for state in ("SLV", "SLC"):
         blocks += _nonlinear(document, one, state)
+    governing = ", ".join(f"{state}: {governed(document, ratios_of(one, state))}" for state in ("SLV", "SLC"))
+    blocks.append(document.say(_("The ratios are governed by: {what}."), what=governing))
+    found = ratios_of(one, "SLV")
+    items = [item for item in check.items if item.item.startswith("tie")]
+    late = any(
+        of_tie(tie, "preload") * tie.section < item.force
+        for tie, item in zip(parts_of(wall, "ties"), items, strict=False)
+    )
+    if found.is_of_activation and late:
+        words = _(
+            "The activation that governs {zeta} of SLV counts the ties with their full force, which beyond their"
+            " preload they have only after the wall has moved. By displacements alone the ratio is {ratio}."
+        )
+        note = document.say(words, zeta=symbol_of("ζ_E"), ratio=number(found.displacement))
+        blocks.append(Note("doubt", note.pieces))
     return blocks
+
+
+def governed(document: Document, ratios: Ratios) -> str:
+    """Which of its two ratios the ratio of a nonlinear check is."""
+    return document.text(_("activation") if ratios.is_of_activation else _("displacement"))
 
 
 def _nonlinear(document: Document, one: Subject, state: str) -> list[Block]:
@@ -235,7 +273,7 @@ def _nonlinear(document: Document, one: Subject, state: str) -> list[Block]:
     names = ("displacement", "acceleration", "period", "spectral_demand", "demand", "ratio")
     d, a, period, ordinate, demand, ratio = (check.value("nonlinear", state, name) for name in names)
     factor, damping = _PERIODS[state]
-    g, a0 = one.wall.gravity, check.value("mechanism", state, "a_0")
+    g = one.wall.gravity
     blocks: list[Block] = [
         *capacity_of(document, one, state),
         Formula(
@@ -260,15 +298,14 @@ def _nonlinear(document: Document, one: Subject, state: str) -> list[Block]:
             )
         )
     )
-    peak = check.value("site", state, "pga" if on_ground else "floor_pga")
-    starts = a0 / (g * peak)
+    found = ratios_of(one, state)
     symbol = (symbol_of("a_g S" if on_ground else "a_Z"), " ", symbol_of("g"))
     blocks.append(
         Formula(
             (
                 symbol_of("ζ_E"),
                 ("max(", Fraction(symbol_of("d_C"), symbol_of("d_D")), "; ", Fraction(symbol_of("a_0*"), symbol), ")"),
-                ("max(", shown(d / demand), "; ", shown(starts), ")"),
+                ("max(", shown(found.displacement), "; ", shown(found.activation), ")"),
                 shown(ratio),
             )
         )
@@ -322,21 +359,27 @@ def _ordinate(one: Subject, state: str, period: float, damping: float, ordinate:
 
 def _sheet(document: Document) -> CaptionedTable:
     """The sheets of all walls beside each other, each number with its place in the norm."""
+    sheets = [_sheet_rows(one) for one in document.subjects.several]
     rows: dict[tuple[str, str, str], SheetRow] = {}
-    for one in document.subjects.several:
-        for row in one.check.rows:
-            if row.method in ("mechanism", "linear", "nonlinear") and row.quantity != "probability":
-                rows.setdefault((row.method, row.limit_state, row.quantity), row)
+    for sheet in sheets:
+        for key, row in sheet.items():
+            rows.setdefault(key, row)
     # What the first wall has not comes after it
     rows = dict(sorted(rows.items(), key=lambda item: ("mechanism", "linear", "nonlinear").index(item[0][0])))
     columns: dict[Piece, list[Piece]] = {
-        document.text(_("quantity")): [document.meaning(row) for row in rows.values()],
+        document.text(_("quantity")): [
+            document.text(_RATIOS[row.quantity]) if row.quantity in _RATIOS else document.meaning(row)
+            for row in rows.values()
+        ],
         document.text(_("check")): [_check_name(document, row) for row in rows.values()],
         document.text(_("symbol")): [symbol_of(row.symbol) if row.symbol else NONE for row in rows.values()],
     }
-    for name, one in document.each():
-        known = {(row.method, row.limit_state, row.quantity): row for row in one.check.rows}
-        columns[name] = [value_of(document, one.check, known.get(key)) for key in rows]
+    for (name, one), sheet in zip(document.each(), sheets, strict=True):
+        columns[name] = [
+            governed(document, ratios_of(one, key[1])) if key[2] == "governing"
+            else value_of(document, one.check, sheet.get(key))
+            for key in rows
+        ]  # fmt: skip
     columns[document.text(_("unit"))] = [document.unit(unit_of(row).name) for row in rows.values()]
     columns[document.text(_("place"))] = [row.formula for row in rows.values()]
     words = [document.text(word) for word in (_("check"), _("symbol"), _("unit"), _("place"))]
@@ -344,9 +387,39 @@ def _sheet(document: Document) -> CaptionedTable:
     return CaptionedTable(Table.of(columns, words), caption)  # type: ignore[arg-type]
 
 
+# What the ratio of a nonlinear check is the greater of, and which
+_RATIOS = {
+    "displacement_ratio": _("ratio of displacements"),
+    "activation_ratio": _("ratio at activation"),
+    "governing": _("governed by"),
+}
+
+
+def _sheet_rows(one: Subject) -> dict[tuple[str, str, str], SheetRow]:
+    """The rows of a sheet that are shown, with the two ratios of each nonlinear check after its demand."""
+    rows: dict[tuple[str, str, str], SheetRow] = {}
+    for row in one.check.rows:
+        if row.method not in ("mechanism", "linear", "nonlinear") or row.quantity == "probability":
+            continue
+        rows[row.method, row.limit_state, row.quantity] = row
+        if (row.method, row.quantity) == ("nonlinear", "demand"):
+            found = ratios_of(one, row.limit_state)
+            peak = "a_Z" if one.is_on_floor else "a_g S"
+            for name, symbol, value in (
+                ("displacement_ratio", "d_C/d_D", found.displacement),
+                ("activation_ratio", f"a_0*/({peak} g)", found.activation),
+                ("governing", "", 0.0),
+            ):
+                place = "C8.7.1.2.1.8" if row.limit_state == "SLV" else ""
+                made = row._replace(quantity=name, symbol=symbol, value=value, unit="", formula=place, expression="")
+                rows[row.method, row.limit_state, name] = made
+    return rows
+
+
 def _check_name(document: Document, row: SheetRow) -> str:
     """Method and limit state."""
-    return f"{method_name(document, row.method)} {row.limit_state}".strip()
+    state = document.state(row.limit_state) if row.quantity in _VERDICTS else row.limit_state
+    return f"{method_name(document, row.method)} {state}".strip()
 
 
 def method_name(document: Document, method: str) -> str:

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
+import numpy as np
+
 from dondolo._fortran.checks import SheetRow
 from dondolo.reporting.blocks import Block, CaptionedTable, Field, Paragraph
 from dondolo.reporting.content import Piece, Table
@@ -66,7 +68,19 @@ class Document:
         many = len(several) - 1
         for number in range(1, many + 1):
             states.append(self.text(_("design {number}"), number=number) if many > 1 else self.text(_("design")))
-        return tuple(f"{state} ({one.wall.name})" for state, one in zip(states, several, strict=True))
+        return tuple(
+            state if one.wall.name.casefold() == state.casefold() else f"{state} ({one.wall.name})"
+            for state, one in zip(states, several, strict=True)
+        )
+
+    @property
+    def has_one_hazard(self) -> bool:
+        """Whether one a_g serves all limit states."""
+        return np.size(self.subjects.several[0].check.site.ag) == 1
+
+    def state(self, name: str) -> str:
+        """A limit state; of SLC it is said if it has no hazard of its own."""
+        return self.text(_("SLC (hazard not its own)")) if name == "SLC" and self.has_one_hazard else name
 
     def titled(self, what: str, name: str) -> str:
         """A caption, with the wall if there are several."""

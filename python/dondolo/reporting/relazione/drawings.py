@@ -15,6 +15,7 @@ from dondolo.records.building import Building
 from dondolo.records.codes import LimitState
 from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.subjects import Subject
+from dondolo.reporting.relazione.sums import is_held, reactions_of
 from dondolo.walls.mechanisms import TwoBlockWall
 from dondolo.walls.shape import shape
 from dondolo.walls.wall import upload
@@ -46,7 +47,7 @@ def _axes(document: Document, size: tuple[float, float], columns: int = 1) -> An
 def draw_wall(document: Document, one: Subject) -> Any:
     """A wall at rest with the items of its table, and displaced with the reactions at its hinge."""
     rest, moved = _axes(document, (6.6, 5.2), 2)
-    wall, items = one.wall, one.check.items
+    wall = one.wall
     rotation = 0.45 * wall.capacity_angle
     if not isinstance(wall, TwoBlockWall):
         rotation = max(rotation, _SEEN)
@@ -67,14 +68,13 @@ def draw_wall(document: Document, one: Subject) -> Any:
         ax.plot(*points.T, linestyle="none", marker="o", markersize=5, color=_DARK, zorder=5)
     _dimensions(document, rest, one, reach)
     _items(document, rest, one, reach)
-    held = sum(item.force for item in items if _is_held(item.item))
-    weight = sum(item.force for item in items if item.item.startswith(("section", "load", "lower", "upper")))
-    pushed = sum(item.force for item in items if item.item.startswith("thrust"))
     base = later.hinges[0]
     if not isinstance(wall, TwoBlockWall):
-        _arrow(moved, base, (base[0], -0.11 * wall.height), f"V = {_kilo(document, weight)} kN/m", up=True)
-        words = f"H = {_kilo(document, abs(pushed - held))} kN/m"
-        side = -1.0 if pushed >= held else 1.0
+        forces = reactions_of(one)
+        _arrow(moved, base, (base[0], -0.11 * wall.height), f"V = {_kilo(document, forces.vertical)} kN/m", up=True)
+        words = f"H = {_kilo(document, abs(forces.activated))} kN/m"
+        # The base holds the wall against the force that it takes from it.
+        side = -1.0 if forces.activated >= 0.0 else 1.0
         moved.annotate("", base, (base[0] - side * 0.7 * reach, 0.0), arrowprops=_ARROW)
         moved.annotate(words, (base[0] - side * 0.42 * reach, 0.015 * wall.height), ha="center", fontsize=7.5)
     rest.set_title(document.text(_("at rest")), fontsize=9)
@@ -87,10 +87,6 @@ _SIZE = {
     "arrowstyle": "|-|, widthA=0.25, widthB=0.25", "color": _MIDDLE, "linewidth": 0.7, "shrinkA": 0.0, "shrinkB": 0.0,
 }  # fmt: skip
 _ARROW = {"arrowstyle": "-|>", "color": _DARK, "linewidth": 1.1, "shrinkA": 0.0, "shrinkB": 0.0}
-
-
-def _is_held(name: str) -> bool:
-    return name.startswith(("tie", "friction"))
 
 
 def _kilo(document: Document, value: float) -> str:
@@ -136,7 +132,7 @@ def _items(document: Document, ax: Axes, one: Subject, reach: float) -> None:
         if word == "thrust":
             _arrow(ax, (x, z), (x - 0.75 * reach, z), "")
             ax.annotate(words, (x - 0.75 * reach, z), (0, 3), textcoords="offset points", fontsize=7.5)
-        elif _is_held(word):
+        elif is_held(item):
             ax.plot([right, -0.9 * reach], [z, z], color=_DARK, linewidth=1.4)
             ax.plot(
                 [right + 0.02, right + 0.02], [z - 0.03 * wall.height, z + 0.03 * wall.height], color=_DARK, linewidth=3

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Sequence
 from typing import Any, Literal
 
@@ -17,13 +16,14 @@ from dondolo.records.codes import LimitState
 from dondolo.reporting.blocks import Block, CaptionedTable, Facts, Heading, Note, Picture, symbol_of
 from dondolo.reporting.content import Piece, Table
 from dondolo.reporting.numerals import NONE, number, whole
-from dondolo.reporting.relazione.checks import method_name
+from dondolo.reporting.relazione.checks import governed, method_name
 from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.drawings import draw_spectra
 from dondolo.reporting.relazione.subjects import Subject
+from dondolo.reporting.relazione.sums import of_tie, ratios_of
 from dondolo.reporting.relazione.terms import MECHANISMS
 from dondolo.reporting.relazione.ties import open_ties_of
-from dondolo.reporting.units import CENTIMETRES, UNITS, cell, quantity
+from dondolo.reporting.units import CENTIMETRES, UNITS, quantity
 from dondolo.walls.mechanisms import OneSidedWall, TwoBlockWall
 from dondolo.walls.parts import parts_of
 
@@ -66,19 +66,22 @@ def _verdict(document: Document, name: str, one: Subject) -> Note:
     check = one.check
     verdicts = [holds for key, holds in check.verified.items() if key not in check.not_applicable]
     values = {"wall": name, "many": whole(len(verdicts)), "zeta": symbol_of("ζ_E"), "index": number(one.index)}
+    values["what"] = governed(document, ratios_of(one, "SLV"))
     found = {name for names in open_ties_of(check).values() for name in names}
     reasons = [document.text(words) for name, words in _OPEN.items() if name in found]
+    if document.has_one_hazard:
+        reasons.append(document.text(_("SLC with the only hazard given, not that of SLC at the site")))
     for method, state in check.not_applicable:
         reasons.append(f"{method_name(document, method)} {state} {document.text(_('not applicable'))}")
     more: tuple[Any, ...] = ("; " + "; ".join(reasons) + ".",) if reasons else (".",)
     if not all(verdicts):
-        sentence = _("{wall}: {failed} of {many} checks NOT satisfied; {zeta} = {index} (nonlinear SLV)")
+        sentence = _("{wall}: {failed} of {many} checks NOT satisfied; {zeta} = {index} (nonlinear SLV, {what})")
         return Note("failed", (*document.say(sentence, failed=whole(verdicts.count(False)), **values).pieces, *more))
     if found:
         # What is open of a tie may turn any of them: nothing is called satisfied.
-        sentence = _("{wall}: ties open, none of {many} checks fails; {zeta} = {index} (nonlinear SLV)")
+        sentence = _("{wall}: ties open, none of {many} checks fails; {zeta} = {index} (nonlinear SLV, {what})")
         return Note("doubt", (*document.say(sentence, **values).pieces, *more))
-    sentence = _("{wall}: {many} of {many} checks satisfied; {zeta} = {index} (nonlinear SLV)")
+    sentence = _("{wall}: {many} of {many} checks satisfied; {zeta} = {index} (nonlinear SLV, {what})")
     return Note("fine", (*document.say(sentence, **values).pieces, *more))
 
 
@@ -215,65 +218,16 @@ def site(document: Document) -> list[Block]:
         symbols = {"symbol": symbol_of("T_R"), "life": symbol_of("V_R"), "chance": symbol_of("P_VR")}
         blocks.append(document.say(words, **symbols))
     if len(states) == 1:
-        words = _("One hazard is given for all limit states: that of the code is lower for SLD and higher for SLC.")
+        words = _(
+            "One hazard is given for all limit states: that of the code is lower for SLD and higher for SLC. The rows"
+            " of SLC are not results of SLC at this site, and those of SLD are on the safe side."
+        )
         blocks.append(Note("doubt", document.say(words).pieces))
     return blocks
 
 
 def _years(document: Document) -> str:
     return " " + document.text(_("years"))
-
-
-def materials(document: Document) -> list[Block]:
-    """Chapter 4."""
-    walls = [one.wall for one in document.subjects.several]
-    strengths = [getattr(wall, "compressive_strength", None) for wall in walls]
-    rows: list[tuple[Piece, Sequence[Piece]]] = [
-        (document.text(_("density [kg/m³]")), [number(wall.density) for wall in walls]),
-        (
-            document.text(_("compressive strength [MPa]")),
-            [cell(one, UNITS["Pa"]) if one else NONE for one in strengths],
-        ),
-        (
-            document.text(_("depth of the hinge [cm]")),
-            [cell(wall.base_hinge_depth, CENTIMETRES) for wall in walls],
-        ),
-        (
-            document.text(_("confidence factor FC")),
-            [number(one.check.value("mechanism", "SLV", "knowledge_factor")) for one in document.subjects.several],
-        ),
-    ]
-    for one in document.subjects.several:
-        _check_level(document.project.words.get("knowledge_level", ""), one)
-    level = document.word("knowledge_level", _("level of knowledge: LC1, LC2 or LC3"))
-    return [
-        Heading(document.text(_("Materials and level of knowledge"))),
-        Facts(((document.text(_("Level of knowledge")), level),)),
-        document.beside(document.text(_("property")), rows, document.text(_("Masonry and confidence factor."))),
-        document.say(_("The confidence factor divides the capacity (Circolare, C8.7.1.2.1.3).")),
-        *document.written("tests", _("tests and inspections, and the strengths that follow from them")),
-    ]
-
-
-# Least confidence factors of the levels of knowledge, and their names in a text
-_FACTORS = {"LC1": 1.35, "LC2": 1.2, "LC3": 1.0}
-_LEVEL = re.compile(r"\bLC\d+\b", re.IGNORECASE)
-
-
-def _check_level(level: str, one: Subject) -> None:
-    """Refuse a text that names not one level of knowledge, or one whose confidence factor is above that of a check."""
-    if not level:
-        return
-    named = {found.upper() for found in _LEVEL.findall(level)}
-    if len(named) != 1 or not named <= _FACTORS.keys():
-        raise InputError(f"knowledge_level = {level!r}: must name one of {', '.join(_FACTORS)}")
-    least = _FACTORS[named.pop()]
-    factor = one.check.value("mechanism", "SLV", "knowledge_factor")
-    if factor < least:
-        raise InputError(
-            f"knowledge_level = {level!r}: asks for a confidence factor of {least:g}, but wall '{one.wall.name}' is"
-            f" checked with {factor:g}"
-        )
 
 
 def modelling(document: Document) -> list[Block]:
@@ -300,9 +254,13 @@ def modelling(document: Document) -> list[Block]:
                 _(
                     "The wall is a macroelement of rigid blocks without tensile strength that turns about a"
                     " hinge near its"
-                    " outer face. The masonry is one rigid body: the fraction of participating mass has its overall"
-                    " centroid (Circolare, C8.7.1.2.1.1)."
-                )
+                    " outer face. The masonry moves as one rigid body, since the wall is taken as monolithic over its"
+                    " height: the fraction {ratio} of participating mass has its overall centroid (Circolare,"
+                    " C8.7.1.2.1.1). Cut into parts it would have a smaller {ratio} and a greater {a0}, so that one"
+                    " body is on the safe side for {a0}."
+                ),
+                ratio=symbol_of("e*"),
+                a0=symbol_of("a_0*"),
             )
         )
     if any(wall.base_hinge_depth > 0.0 for wall in walls):
@@ -326,8 +284,15 @@ def modelling(document: Document) -> list[Block]:
     if any(isinstance(wall, OneSidedWall) for wall in walls):
         blocks.append(document.say(_("Transverse walls prevent rotation inwards.")))
     if any(parts_of(wall, "ties") for wall in walls):
+        words = _(
+            "Ties act with the least of the yield force of the bar and the strength of the anchor, if that is known,"
+            " until they break; they do not act up to collapse. The limit analysis of {alpha} counts this force {force}"
+            " in full, as if the ties were already active, whatever their preload {preload}; the anchor has to move"
+            " outwards by ({force}/{area} - {preload}) {length}/{modulus} before they reach it: {travels}."
+        )
+        names = {"alpha": "alpha_0", "force": "T", "preload": "sigma_0", "area": "A", "length": "l", "modulus": "E"}
         blocks.append(
-            document.say(_("Ties hold with their yield force until they break; they do not act up to collapse."))
+            document.say(words, travels=_travels(document), **{key: symbol_of(name) for key, name in names.items()})
         )
     if any(parts_of(wall, "interlock") for wall in walls):
         blocks.append(document.say(_("Interlocking with the transverse walls acts by friction, course by course.")))
@@ -338,6 +303,19 @@ def modelling(document: Document) -> list[Block]:
             )
         )
     return blocks + document.written("mechanism", _("reasons for the mechanism chosen, from survey and details"))
+
+
+def _travels(document: Document) -> tuple[Any, ...]:
+    """How far the anchor of each tie moves until the tie has its full force."""
+    pieces: list[Any] = []
+    for name, one in document.each():
+        items = [item for item in one.check.items if item.item.startswith("tie")]
+        for tie, item in zip(parts_of(one.wall, "ties"), items, strict=False):
+            stress = item.force / tie.section - of_tie(tie, "preload")
+            which = ", ".join([name] * (len(document.names) > 1) + [document.item(item.item)])
+            travel = quantity(stress * tie.length / of_tie(tie, "modulus"), CENTIMETRES)
+            pieces += ["; ", f"{which}: ", travel]
+    return tuple(pieces[1:])
 
 
 def actions(document: Document) -> list[Block]:
@@ -354,6 +332,18 @@ def actions(document: Document) -> list[Block]:
                 " {psi} of variable ones."
             ),
             psi=(symbol_of("ψ_2"), " ", symbol_of("Q_k")),
+        ),
+        document.say(
+            _(
+                "{p} are the weights that a wall carries, its own among them, {q} those of masses that it pushes"
+                " without carrying them, {h} thrusts and {t} forces of ties. {q} count in the sums of weights"
+                " times heights and in {ratio}, but hold nothing."
+            ),
+            p=symbol_of("P"),
+            q=symbol_of("Q"),
+            h=symbol_of("H"),
+            t=symbol_of("T"),
+            ratio=symbol_of("e*"),
         ),
         *document.written("load_analysis", _("analysis of loads of floors and roof")),
         *document.written("combinations", _("combinations of loads, and why they are exhaustive (NTC 10.2.1)")),

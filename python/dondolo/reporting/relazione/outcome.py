@@ -1,11 +1,10 @@
-"""Chapters 13 to 17 of a calculation report and its annexes: histories, fragility, summary, run and comparisons."""
+"""Chapters 13 to 16 of a calculation report and its annexes: histories, fragility, summary and run."""
 
 from __future__ import annotations
 
 import math
 import re
 from collections.abc import Mapping, Sequence
-from fractions import Fraction as Exact
 
 import numpy as np
 
@@ -24,20 +23,17 @@ from dondolo.reporting.blocks import (
 )
 from dondolo.reporting.content import BETA, THETA, Piece, Table
 from dondolo.reporting.numerals import NONE, Numeral, number, probability, whole
-from dondolo.reporting.relazione.checks import method_name, outcome, sums_of, value_of
+from dondolo.reporting.relazione.checks import governed, method_name, outcome, value_of
 from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.drawings import draw_fragility, draw_indices
-from dondolo.reporting.relazione.subjects import Subject
+from dondolo.reporting.relazione.sums import ratios_of
 from dondolo.reporting.relazione.terms import status, warning
 from dondolo.reporting.units import CENTIMETRES, UNITS, cell
-from dondolo.walls.mechanisms import TwoBlockWall
 
 _CHECKS = (("linear", "SLD"), ("linear", "SLV"), ("nonlinear", "SLV"), ("nonlinear", "SLC"))
 _DYNAMIC = (("dynamic", "SLV"), ("dynamic", "SLC"))
 _STATES = ("SLD", "SLV", "SLC")
 _DECIMAL = re.compile(r"\d+\.\d+")
-# T_SLV of a curve of capacity that is a straight line: 1.68 pi sqrt(0.4/0.6)
-_STRAIGHT = 1.68 * math.pi * math.sqrt(0.4 / 0.6)
 
 
 def histories(document: Document) -> list[Block]:
@@ -55,7 +51,7 @@ def histories(document: Document) -> list[Block]:
     made = [(name, one, key) for name, one in document.each() for key in _DYNAMIC if key in one.check.verified]
     columns: dict[Piece, Sequence[Piece]] = {
         document.text(_("wall")): [name for name, *_rest in made],
-        document.text(_("limit state")): [state for *_rest, (_method, state) in made],
+        document.text(_("limit state")): [document.state(state) for *_rest, (_method, state) in made],
         "PGA [g]": [number(one.check.value(*key, "pga")) for _name, one, key in made],
     }
     for quantity, head in heads.items():
@@ -69,6 +65,13 @@ def histories(document: Document) -> list[Block]:
         CaptionedTable(
             Table.of(columns, (document.text(_("limit state")), text)),
             document.text(_("Time histories at the peak acceleration of the site (Circolare, C8.7.1.2.1.9).")),
+        ),
+        document.say(
+            _(
+                "A history that goes beyond {d0} enters the mean with {d0}; one such history fails the check, whatever"
+                " the mean."
+            ),
+            d0=symbol_of("d_0*"),
         ),
         document.say(
             _(
@@ -138,11 +141,14 @@ def summary(document: Document) -> list[Block]:
         head = (symbol_of("a_0*"), " [m/s²]") if name == "a_0" else (symbol_of("alpha_0"),)
         rows.append((head, [cell(one.check.value("mechanism", "SLV", name), unit, 5) for one in several]))
     for method, state in _CHECKS:
-        name = f"{method_name(document, method)} {state}"
+        name = f"{method_name(document, method)} {document.state(state)}"
         ratios = [one.check._outcome((method, state), "ratio") for one in several]
         words = ", ".join((name, document.text(_("capacity / demand"))))
         head_of: Piece = (f"{name}, ", symbol_of("ζ_E")) if state == "SLV" else words
         rows.append((head_of, [number(ratio, 4) for ratio in ratios]))
+        if (method, state) == ("nonlinear", "SLV"):
+            words = ", ".join((name, document.text(_("governed by"))))
+            rows.append((words, [governed(document, ratios_of(one, state)) for one in several]))
         rows.append(
             (
                 f"{name}, {document.text(_('outcome'))}",
@@ -157,7 +163,7 @@ def summary(document: Document) -> list[Block]:
         rows.append((head_of, found))
     for method, state in _DYNAMIC:
         if document.subjects.has_histories:
-            name = f"{method_name(document, method)} {state}, {document.text(_('outcome'))}"
+            name = f"{method_name(document, method)} {document.state(state)}, {document.text(_('outcome'))}"
             key = (method, state)
             found = [outcome(document, one.check, key) if key in one.check.verified else NONE for one in several]
             rows.append((name, found))
@@ -238,7 +244,8 @@ def _differences(document: Document) -> list[Block]:
         ("mechanism", "", "a_0"): ("Δ", symbol_of("a_0*"), " [m/s²]"),
     }
     for method, state in _CHECKS[1:]:
-        heads[method, state, "zeta_e"] = ("Δ", symbol_of("ζ_E"), f", {method_name(document, method)} {state}")
+        name = f"{method_name(document, method)} {document.state(state)}"
+        heads[method, state, "zeta_e"] = ("Δ", symbol_of("ζ_E"), f", {name}")
     if first.check._has("nonlinear", "SLV", "return_period_capacity"):
         years = f" [{document.unit('years')}]"
         heads["nonlinear", "SLV", "return_period_capacity"] = ("Δ", symbol_of("T_R,C"), ", SLV", years)
@@ -289,83 +296,6 @@ def _runs(document: Document) -> list[tuple[str, RunFile]]:
     for name, one in document.each():
         found.setdefault(id(one.results), ([], one.results.run))[0].append(name)
     return [(", ".join(names), one) for names, one in found.values()]
-
-
-def comparisons(document: Document) -> list[Block]:
-    """Chapter 17."""
-    rows: list[tuple[Piece, Sequence[Piece]]] = []
-    several = document.subjects.several
-
-    def compare(head: Piece, values: Sequence[float], figures: int = 6) -> None:
-        rows.append((head, [number(value, figures) for value in values]))
-
-    exact = [_exact_multiplier(one) for one in several]
-    compare((symbol_of("alpha_0"), document.text(_(" of the check"))), [_of(one, "alpha_0") for one in several])
-    compare((symbol_of("alpha_0"), document.text(_(" from the items, in fractions"))), exact)
-    balance = [_balance(one) for one in several]
-    compare(document.text(_("sum of moments at activation / stabilising moment")), balance, 1)
-    compare((symbol_of("d_0*"), document.text(_(" of the check [cm]"))), [100.0 * _of(one, "d_0") for one in several])
-    compare(
-        (symbol_of("d_0*"), document.text(_(" of the weights alone, from their moment [cm]"))),
-        [100.0 * _bare_displacement(one) for one in several],
-    )
-    periods = [one.check.value("nonlinear", "SLV", "period") for one in several]
-    compare((symbol_of("T_SLV"), document.text(_(" of the check [s]"))), periods)
-    straight = [_STRAIGHT * math.sqrt(_of(one, "d_0") / _of(one, "a_0")) for one in several]
-    compare((symbol_of("T_SLV"), document.text(_(" of a straight capacity curve [s]"))), straight)
-    return [
-        Heading(document.text(_("Reasoned judgement of acceptability of the results"))),
-        document.beside(
-            document.text(_("comparison")), rows, document.text(_("Comparisons with simple calculations (NTC 10.2.1)."))
-        ),
-        document.say(
-            _(
-                "Fractions use the items of the table of the calculation alone. A straight line from {a0} to"
-                " {d0} has the period"
-                " {period}; ties and thrusts make the capacity curve another one."
-            ),
-            a0=symbol_of("a_0*"),
-            d0=symbol_of("d_0*"),
-            period=("1.68 π √(0.4/0.6) √(", symbol_of("d_0*"), "/", symbol_of("a_0*"), ")")
-            if document.language.code == "en"
-            else ("1,68 π √(0,4/0,6) √(", symbol_of("d_0*"), "/", symbol_of("a_0*"), ")"),
-        ),
-        *document.written("judgement", _("reasoned judgement of the designer on the results")),
-    ]
-
-
-def _of(one: Subject, name: str) -> float:
-    return one.check.value("mechanism", "SLV", name)
-
-
-def _exact_multiplier(one: Subject) -> float:
-    """alpha_0 from the items, in exact arithmetic."""
-    top = bottom = Exact(0)
-    for item in one.check.items:
-        for name, sign in (("stabilising", 1), ("overturning", -1)):
-            if not math.isnan(value := getattr(item, name)):
-                top += sign * Exact(value)
-        if not math.isnan(item.force_lever):
-            bottom += Exact(item.force_lever)
-    return float(top / bottom)
-
-
-def _balance(one: Subject) -> float:
-    """Moments about the hinge that are left at activation, by the sheet, over those that hold."""
-    sums = sums_of(one.check.items)
-    left = sums["stabilising"] - sums["overturning"] - _of(one, "alpha_0") * sums["force_lever"]
-    return abs(left) / sums["stabilising"]
-
-
-def _bare_displacement(one: Subject) -> float:
-    """Displacement at which the weights alone hold no longer: where their centroid is above the hinge."""
-    if isinstance(one.wall, TwoBlockWall):
-        return one.check.items[0].arm
-    weights = [item for item in one.check.items if not math.isnan(item.arm) and not math.isnan(item.stabilising)]
-    sums = sums_of(one.check.items)
-    arm = math.fsum(item.stabilising for item in weights) / sums["carried"]
-    height = sums["force_lever"] / sums["weight"]
-    return arm * height / math.hypot(arm, height)
 
 
 def annexes(document: Document) -> list[Block]:

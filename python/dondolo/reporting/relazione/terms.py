@@ -36,7 +36,7 @@ MEANINGS = {
     "masonry_thickness": "spessore della muratura interessata",
     "edge_distance": "distanza tra piastra e sommità della parete",
     "anchor_knowledge": "fattore di confidenza delle resistenze della muratura",
-    "bearing_strength": "resistenza sotto la piastra",
+    "bearing_strength": "resistenza di progetto sotto la piastra",
     "shear_strength": "resistenza a taglio di progetto",
     "tensile_strength": "resistenza a trazione di progetto",
     "friction_stress": "attrito sulle facce orizzontali",
@@ -53,7 +53,8 @@ MEANINGS = {
     "plate_thickness": "spessore della piastra",
     "plate_verified": "spessore della piastra sufficiente: 1 sì, 0 no",
     "hierarchy": "gerarchia delle resistenze rispettata: 1 sì, 0 no",
-    "anchor_checked": "ancoraggio verificato o di resistenza assegnata: 1 sì, 0 no",
+    "anchor_checked": "resistenza dell'ancoraggio calcolata con un FC non minore di quello della verifica, o assegnata:"
+    " 1 sì, 0 no",
     "applicable": "verifica applicabile: 0 no, rottura fragile dell'ancoraggio",
     "soil_factor": "coefficiente di sottosuolo e topografico, prodotto di S_S e S_T",
     "tc": "periodo d'inizio del tratto a velocità costante nel sito",

@@ -62,8 +62,24 @@ def ties(document: Document) -> list[Block]:
         ]
         if several:
             blocks.append(Note("doubt", document.say(words, ties="; ".join(several)).pieces))
-    blocks += document.written("anchors", _("check of the anchors: bar, plate, bearing and punching of the masonry"))
-    return blocks
+    blocks.append(
+        document.say(
+            _(
+                "{fyd} is the strength given in the field {field}, taken as the design value: neither {gamma} nor FC"
+                " divides it here. Not checked: the anchor at the other end of a tie and what it pulls on, threads and"
+                " welds, plates with ribs, and openings beside the plate."
+            ),
+            fyd=symbol_of("f_yd"),
+            field="tie_strength",
+            gamma=symbol_of("gamma_M0"),
+        )
+    )
+    # An anchor that is computed here needs no other check of the same.
+    if None in anchored:
+        prompt = _("check of the anchors: bar, plate, bearing and punching of the masonry")
+    else:
+        prompt = _("what the strengths of the anchors above leave open: other end of the ties, threads and welds")
+    return blocks + document.written("anchors", prompt)
 
 
 def open_ties_of(check: CodeCheck) -> dict[str, tuple[str, ...]]:
