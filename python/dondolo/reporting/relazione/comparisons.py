@@ -8,7 +8,7 @@ from fractions import Fraction as Exact
 from typing import Any
 
 from dondolo.reporting.blocks import Block, Heading, symbol_of
-from dondolo.reporting.content import Piece, Symbol
+from dondolo.reporting.content import Piece
 from dondolo.reporting.numerals import number
 from dondolo.reporting.relazione.capacity import shown
 from dondolo.reporting.relazione.document import Document, _
@@ -104,7 +104,6 @@ def _bare_sine(sums: Turning) -> float:
 def _bare_steps(document: Document) -> list[Block]:
     """The formula of that displacement with its numbers, of walls that turn about their base."""
     moment, second = UNITS["N m/m"], UNITS["N m2/m"]
-    total = ("Σ", symbol_of("P"), " ", symbol_of("z"))
     found: dict[float, Any] = {}
     for one in document.subjects.several:
         if isinstance(one.wall, TwoBlockWall):
@@ -118,18 +117,11 @@ def _bare_steps(document: Document) -> list[Block]:
         found.setdefault(sine, numbers)
     if not found:
         return []
-    words = _(
-        "{d0} of the weights alone leaves thrusts and ties out; it is that of the same control point, {formula} with"
-        " {theta} where the moment {moment} of the weights vanishes: {numbers}."
-    )
-    theta = Symbol("θ", "P")
+    words = _("{d0} of the weights alone, without thrusts and ties, at the same control point: {numbers}.")
     return [
         document.say(
             words,
             d0=symbol_of("d_0*"),
-            formula=("sin ", theta, " ", *total, "²/", *total),
-            theta=theta,
-            moment=symbol_of("M_stab,P"),
             numbers=tuple(piece for numbers in found.values() for piece in ("; ", *numbers))[1:],
         )
     ]
