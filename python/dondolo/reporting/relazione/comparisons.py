@@ -36,7 +36,7 @@ def comparisons(document: Document) -> list[Block]:
     compare(document.text(_("sum of moments at activation / stabilising moment")), balance, 1)
     compare((symbol_of("d_0*"), document.text(_(" of the check [cm]"))), [100.0 * _of(one, "d_0") for one in several])
     compare(
-        (symbol_of("d_0*"), document.text(_(" of the weights alone, from their moment [cm]"))),
+        (symbol_of("d_0*"), document.text(_(" of the weights alone, same control point [cm]"))),
         [100.0 * _bare_displacement(one) for one in several],
     )
     periods = [one.check.value("nonlinear", "SLV", "period") for one in several]
@@ -117,7 +117,7 @@ def _bare_steps(document: Document) -> list[Block]:
         found.setdefault(sine, numbers)
     if not found:
         return []
-    words = _("{d0} of the weights alone, without thrusts and ties, at the same control point: {numbers}.")
+    words = _("{d0} of the weights alone: {numbers}.")
     return [
         document.say(
             words,

@@ -294,7 +294,7 @@ def draw_fragility(document: Document) -> Any:
 def draw_indices(document: Document) -> Any:
     """Safety indices of the states."""
     several = document.each()
-    ax = _axes(document, (6.0, 0.6 + 0.42 * len(several)))
+    ax = _axes(document, (6.0, 0.5 + 0.4 * len(several)))
     words = {
         (method, state): f"{document.text(name)} {state}"
         for method, state, name in (
