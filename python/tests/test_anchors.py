@@ -85,7 +85,9 @@ def test_a_thinner_leaf_and_neighbours():
     assert values(storeys)["masonry_thickness"] == 0.55
     # And where the frustum of the thicker one would reach the thinner: 0.175 + 0.7 m above the tie
     for height, thickness in ((3.13, 0.55), (3.12, 0.70)):
-        storeys = dd.OneSidedWall(sections=[dd.Section(4.0, 0.7), dd.Section(3.2, 0.55)], ties=[tie(height=height)], **MASONRY)
+        storeys = dd.OneSidedWall(
+            sections=[dd.Section(4.0, 0.7), dd.Section(3.2, 0.55)], ties=[tie(height=height)], **MASONRY
+        )
         assert values(storeys)["masonry_thickness"] == thickness
     near = values(wall(tie(spacing=0.8)))
     assert near["band_force"] == pytest.approx(2.0 * 0.55 * 0.8 * 4e4 / 2.7, rel=1e-12) == near["anchor_force"]
