@@ -236,8 +236,9 @@ contains
       thickness = huge(1.0_wp)
       bottom = 0.0_wp
       do i = 1, size(sections)
-         if (to > bottom + slack .and. from < bottom + sections(i)%height - slack) &
-            & thickness = min(thickness, sections(i)%thickness)
+         if (to > bottom + slack .and. from < bottom + sections(i)%height - slack) then
+            thickness = min(thickness, sections(i)%thickness)
+         end if
          bottom = bottom + sections(i)%height
       end do
    end function least_thickness
