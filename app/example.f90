@@ -8,7 +8,7 @@ module dondolo_example
    implicit none
    private
 
-   public :: example_names, print_example
+   public :: example_names, installed_files, print_example, substitute
 
    !> The cases in data/cases
    character(len=*), parameter :: example_names(*) = [character(len=19) :: &
@@ -34,9 +34,7 @@ contains
       character(len=:), allocatable :: folder, file, line
       integer :: i
 
-      call own_folder(folder)
-      ! bin and share are side by side.
-      folder = folder(:max(index(folder, '/', back=.true.), 1))//'share/dondolo/'
+      folder = installed_files()
       file = folder//'cases/'//name//'.nml'
       if (.not. file_exists(file)) then
          call raise_missing(error, '--example: '//file//': no such file; the examples come with an installation by pip')
@@ -51,6 +49,15 @@ contains
          write (output_unit, '(a)') line
       end do
    end subroutine print_example
+
+   !> The folder, ending in a slash, where an installation has cases, records and walls; beside other executables there is none
+   function installed_files() result(folder)
+      character(len=:), allocatable :: folder
+
+      call own_folder(folder)
+      ! bin and share are side by side.
+      folder = folder(:max(index(folder, '/', back=.true.), 1))//'share/dondolo/'
+   end function installed_files
 
    !> Put something else in the place of a part, where a line has it
    pure subroutine substitute(line, part, by)

@@ -1,16 +1,22 @@
-!> What --template prints: a commented case with every variable, its meaning, its unit and its default, that runs as it is.
+!> What --template prints: a commented case with every variable, its meaning, its unit and its default, that runs as it is,
+!> with the installed records and walls, or in the root of the repository.
 !> It follows from the tables of properties.
 module dondolo_template
    use, intrinsic :: iso_fortran_env, only : output_unit
    use dondolo_base_property, only : default_text, has_owner, is_many, is_text, item_name, number_of_choices, property_type
+   use dondolo_base_system, only : file_exists
    use dondolo_base_text, only : join
    use dondolo_case_job_group, only : history_task, task_names, typology_task
    use dondolo_case_property_tables, only : property_table
+   use dondolo_example, only : installed_files, substitute
    use dondolo_wall_properties, only : mechanism_names
    implicit none
    private
 
    public :: print_template
+
+   !> How examples of properties begin that are files of the repository
+   character(len=*), parameter :: from_root = '''data/'
 
    !> Longest line
    integer, parameter :: width = 118
@@ -50,9 +56,11 @@ contains
       logical, intent(in), optional :: is_commented
 
       type(property_type), allocatable :: table(:)
-      character(len=:), allocatable :: assignment, comment, before
+      character(len=:), allocatable :: assignment, comment, before, files
       integer :: i, pass, margin
 
+      files = installed_files()
+      if (.not. file_exists(files//'cases/parapet.nml')) files = 'data/'
       before = ''
       if (present(is_commented)) before = '! '
       table = property_table(name)
@@ -65,6 +73,7 @@ contains
             if (len(before) > 0) assignment = before//'   '//assignment(verify(assignment, ' !'):)
             if (pass == 1) margin = max(margin, len(assignment) + 2)
             if (pass == 1) cycle
+            call substitute(assignment, from_root, ''''//files)
             call make_comment(table(i), comment)
             call print_commented(assignment, comment, margin)
          end do
@@ -179,6 +188,11 @@ contains
       integer :: first, last
 
       start = text
+      if (len(text) > margin) then
+         ! The path of an installed file leaves no room beside it
+         call print_line(text)
+         start = ''
+      end if
       first = 1
       do while (first <= len(comment))
          last = len(comment)
