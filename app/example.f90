@@ -8,7 +8,7 @@ module dondolo_example
    implicit none
    private
 
-   public :: example_names, installed_files, print_example, substitute
+   public :: example_names, find_installed, print_example, substitute
 
    !> The cases in data/cases
    character(len=*), parameter :: example_names(*) = [character(len=19) :: &
@@ -34,7 +34,7 @@ contains
       character(len=:), allocatable :: folder, file, line
       integer :: i
 
-      folder = installed_files()
+      call find_installed(folder)
       file = folder//'cases/'//name//'.nml'
       if (.not. file_exists(file)) then
          call raise_missing(error, '--example: '//file//': no such file; the examples come with an installation by pip')
@@ -50,14 +50,15 @@ contains
       end do
    end subroutine print_example
 
-   !> The folder, ending in a slash, where an installation has cases, records and walls; beside other executables there is none
-   function installed_files() result(folder)
-      character(len=:), allocatable :: folder
+   !> Where an installation has cases, records and walls, with a slash at the end
+   subroutine find_installed(folder)
+      !> Folder, which exists only in an installation
+      character(len=:), allocatable, intent(out) :: folder
 
       call own_folder(folder)
       ! bin and share are side by side.
       folder = folder(:max(index(folder, '/', back=.true.), 1))//'share/dondolo/'
-   end function installed_files
+   end subroutine find_installed
 
    !> Put something else in the place of a part, where a line has it
    pure subroutine substitute(line, part, by)

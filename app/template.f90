@@ -8,7 +8,7 @@ module dondolo_template
    use dondolo_base_text, only : join
    use dondolo_case_job_group, only : history_task, task_names, typology_task
    use dondolo_case_property_tables, only : property_table
-   use dondolo_example, only : installed_files, substitute
+   use dondolo_example, only : find_installed, substitute
    use dondolo_wall_properties, only : mechanism_names
    implicit none
    private
@@ -59,7 +59,7 @@ contains
       character(len=:), allocatable :: assignment, comment, before, files
       integer :: i, pass, margin
 
-      files = installed_files()
+      call find_installed(files)
       if (.not. file_exists(files//'cases/parapet.nml')) files = 'data/'
       before = ''
       if (present(is_commented)) before = '! '

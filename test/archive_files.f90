@@ -16,7 +16,7 @@ module archive_files
    !> What a COSMOS record is written with
    type :: cosmos_type
       character(len=40) :: title = 'Corrected acceleration    (Format v01.20'
-      character(len=20) :: text_lines = 'with 13 text lines)'
+      character(len=21) :: text_lines = 'with 13 text lines)'
       character(len=40) :: channel = 'Sta Cha:  1: 340 deg (Rcrdr Chan  1)'
       character(len=60) :: marks = 'is unknown/unspecified:   -999, -999.0'
       character(len=40) :: comment = '| sample remark'

@@ -50,7 +50,7 @@ contains
          call wall('free_standing', restitution=1.0_wp - 1.0e-6_wp)
          call record([-0.82_wp, -0.9176_wp, (0.0_wp, i=1, 1000), 3.0_wp], 0.01_wp)
       case (6)
-         what = 'the time of a late peak overflowed, with the limit at the peak'
+         what = 'the time of a late peak overflowed, the limit at the peak'
          history = new_history(808)
       case (7)
          what = 'a limit that is next to nothing'

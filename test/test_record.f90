@@ -49,7 +49,7 @@ contains
 
    !> Strict numbers
    subroutine test_numbers()
-      character(len=*), parameter :: bad(*) = [character(len=12) :: '', ' ', '+', '-', '.', 'e5', '1,5', '1.5x', &
+      character(len=*), parameter :: bad(*) = [character(len=13) :: '', ' ', '+', '-', '.', 'e5', '1,5', '1.5x', &
          & 'nan', &
          & 'NaN', 'inf', '-Infinity', '1e400', '3*1.0', '1/', '1 2', '1e', '1e+', '1.0.0', '--1', '1+5', '0x10', &
          & '1q5', &

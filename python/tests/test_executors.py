@@ -253,12 +253,16 @@ def test_a_worker_of_dask_is_killed(whole, tmp_path, crews, cluster):
 
 
 MPI = """
-import os, signal, sys, warnings
+import os, signal, sys, time, warnings
 from pathlib import Path
 from mpi4py.futures import MPIPoolExecutor
 import dondolo as dd, study
 from dondolo.populations import blocks, crew
 warnings.simplefilter("ignore")
+def lose(worker):
+    os.kill(worker, signal.SIGKILL)
+    # Nothing more is taken in until MPI ends this process too.
+    time.sleep(60)
 class Watched(crew.Crew):
     def __exit__(self, *given):
         print("sends", self.sends, flush=True)
@@ -269,7 +273,7 @@ if __name__ == "__main__":
         if after:
             workers = {executor.submit(os.getpid).result() for _ in range(20)}
             from test_executors import Disturbed
-            executor = Disturbed(executor, after, lambda: os.kill(workers.pop(), signal.SIGKILL))
+            executor = Disturbed(executor, after, lambda: lose(workers.pop()))
         study.write(dd.typology(**study.arguments(executor=executor, block=1, checkpoint=checkpoint)), folder)
 """
 

@@ -238,7 +238,7 @@ def test_populations_without_standard_errors(people, records, hazard):
     walls = [dd.OneSidedWall(1.5, 0.25, name="a"), dd.OneSidedWall(1.8, 0.25, name="b")]
     two = dd.typology(walls, records, [0.2, 0.4, 0.6, 0.8, 1.0, 1.3], progress=False)["all"]
     assert two.fit.errors == "few_walls"
-    with pytest.raises(dd.errors.DondoloError, match="two walls: either one"):
+    with pytest.raises(dd.errors.DondoloError, match="two walls: at least three are needed"):
         two.risk(hazard).uncertainty()
 
 

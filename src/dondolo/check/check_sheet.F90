@@ -21,7 +21,7 @@ module dondolo_check_sheet
       !> Unit; empty for a number
       character(len=8) :: unit = ''
       !> What it is
-      character(len=72) :: meaning = ''
+      character(len=80) :: meaning = ''
    end type quantity_type
 
    !> All that there are

@@ -46,7 +46,7 @@ contains
       character(len=32) :: text
 
       text = rounded(safety%years)//' years'
-      if (safety%bound /= '') text = safety%bound//' '//text
+      if (safety%bound /= '') text = safety%bound//' '//trim(text)
    end function shown_years
 
 end module dondolo_check_safety

@@ -93,7 +93,7 @@ contains
 
       text = ''
       if (value > 0.0_wp .and. value <= huge(value)) text = unit_hint(unit, value, low, high, usual)
-      if (len_trim(text) > 0) text = ': '//text
+      if (len_trim(text) > 0) text = ': '//trim(text)
    end function unit_question
 
 end module dondolo_base_unit_hint

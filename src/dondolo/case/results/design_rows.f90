@@ -124,7 +124,7 @@ contains
          text = ''
          if (design%name == first%name .or. .not. first%safety%is_known) return
          text = rounded(value - of_first)
-         if (value >= of_first) text = '+'//text
+         if (value >= of_first) text = '+'//trim(text)
          text = ' ('//trim(text)//')'
       end function change
 

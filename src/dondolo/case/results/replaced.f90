@@ -14,7 +14,7 @@ module dondolo_case_replaced
    public :: describe_replaced, list_outdated
 
    !> What the names of files that are made of results begin with behind the prefix; `typology_` is followed by a mechanism
-   character(len=14), parameter :: stems(*) = [character(len=14) :: '_report.', '_tables.', '_fragility.', '_stripes.', &
+   character(len=15), parameter :: stems(*) = [character(len=15) :: '_report.', '_tables.', '_fragility.', '_stripes.', &
       & '_damage_states.', '_history.', '_wall.', '_motion.', '_typology.', '_typology_', '_uncertainty.', '_designs.', &
       & '_combination.', '_groups.', '_relazione.']
 

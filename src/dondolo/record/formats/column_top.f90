@@ -22,7 +22,7 @@ module dondolo_record_column_top
    public :: top_type, read_top
 
    !> Words of titles of components
-   character(len=*), parameter :: components(*) = [character(len=12) :: 'acceleration', 'accel', 'acc', 'ns', 'ew', 'ud', &
+   character(len=*), parameter :: components(*) = [character(len=13) :: 'acceleration', 'accel', 'acc', 'ns', 'ew', 'ud', &
       & 'vertical', 'accelerazione', 'horizontal', 'hne', 'hnn', 'hnz', 'transverse', 'longitudinal']
 
    !> Words of a title that make it a sentence
