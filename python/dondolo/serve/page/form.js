@@ -1,5 +1,5 @@
 // The form: rows of sliders made of the table of properties.
-import { changed, state } from "./state.js";
+import { changed, letGo, state } from "./state.js";
 import { choiceOf, labelOf, language, make, num, read, t } from "./words.js";
 
 // How a number is shown: least, largest, step, factor on what the case has, unit, digits
@@ -71,7 +71,7 @@ function row(group, name, place) {
   const exact = Math.abs(clean(value) - Number(value.toFixed(digits))) < 1e-9 * Math.max(1, Math.abs(value));
   box.value = exact ? num(value, digits) : num(value);
   range.addEventListener("input", () => { const x = Number(range.value); box.value = num(x, digits); put(group, name, place, clean(x / factor)); fill(x); element.classList.remove("wrong"); changed(true); });
-  range.addEventListener("change", () => changed(false));
+  range.addEventListener("change", letGo);
   box.addEventListener("change", () => {
     const x = read(box.value), isWrong = Number.isNaN(x);
     element.classList.toggle("wrong", isWrong);

@@ -33,6 +33,13 @@ export function changed(moving = false) {
   ask();
 }
 
+// A slider was let go. Its last step has asked already: only the whole answer may be missing, after a draft.
+export function letGo() {
+  dragging = false;
+  clearTimeout(later);
+  if (!flying && (state.answer === null || state.answer.draft)) ask();
+}
+
 async function ask() {
   if (flying) { waits = true; return; }
   do {
