@@ -42,6 +42,13 @@ _COUNTS = ("records", "histories", "beyond")
 _FLAGS = ("extrapolated", "hierarchy", "plate_verified", "anchor_checked")
 # Factors of the period, and damping [%], of the nonlinear checks
 _PERIODS = {"SLV": (1.68, 8.0), "SLC": (1.56, 10.0)}
+# Verdicts of a check as a report of a calculation words them
+_OUTCOMES = {
+    "verified": _("satisfied"),
+    "verified if its ties are": _("satisfied if its ties are"),
+    "not verified": _("NOT satisfied"),
+    "not applicable": _("not applicable"),
+}
 
 
 def mechanism(document: Document) -> list[Block]:
@@ -455,8 +462,4 @@ def value_of(document: Document, check: CodeCheck, row: SheetRow | None) -> Piec
 
 def outcome(document: Document, check: CodeCheck, key: tuple[str, str]) -> str:
     """The verdict of a check in words; one that is not for the wall has none."""
-    if key in check.not_applicable:
-        return document.text(_("not applicable"))
-    if not check.verified[key]:
-        return document.text(_("NOT satisfied"))
-    return document.text(_("satisfied if its ties are")) if check.open_ties else document.text(_("satisfied"))
+    return document.text(_OUTCOMES[check._verdict(key)])
