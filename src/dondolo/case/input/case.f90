@@ -23,7 +23,7 @@ module dondolo_case
    implicit none
    private
 
-   public :: case_type
+   public :: case_type, list_wall_tables
 
    !> A case
    type :: case_type
@@ -72,8 +72,6 @@ module dondolo_case
       procedure :: echo
       !> Paths of the files it is made of
       procedure :: inputs
-      !> Paths of the files of tabulated walls
-      procedure :: tables
    end type case_type
 
 contains
@@ -197,23 +195,23 @@ contains
       call paths%add(self%file)
       call paths%add(beside(self%records_input%catalogue, self%file))
       if (allocated(self%population_file)) call paths%add(self%population_path())
-      call self%tables(tables)
+      call list_wall_tables(self, tables)
       do i = 1, tables%count
          call paths%add(tables%line(i)%text)
       end do
    end subroutine inputs
 
    !> Paths of the files that tabulated walls have their terms from
-   subroutine tables(self, paths)
-      class(case_type), intent(in) :: self
+   subroutine list_wall_tables(case, paths)
+      class(case_type), intent(in) :: case
       !> Each once
       type(lines_type), intent(out) :: paths
 
-      if (self%job%task == typology_task) then
-         paths = self%survey%tables
-      else if (allocated(self%wall%input%table_file)) then
-         call paths%add(self%wall%input%table_file)
+      if (case%job%task == typology_task) then
+         paths = case%survey%tables
+      else if (allocated(case%wall%input%table_file)) then
+         call paths%add(case%wall%input%table_file)
       end if
-   end subroutine tables
+   end subroutine list_wall_tables
 
 end module dondolo_case

@@ -10,7 +10,7 @@ module dondolo_case_run_file
    use dondolo_base_references, only : list_keys
    use dondolo_base_version, only : build_commit, dondolo_version_text
    use dondolo_building, only : building_type
-   use dondolo_case, only : case_type
+   use dondolo_case, only : case_type, list_wall_tables
    use dondolo_case_cited, only : list_used
    use dondolo_case_echo, only : echo_type
    use dondolo_case_job_group, only : history_task, typology_task
@@ -118,7 +118,7 @@ contains
       ! Bytes and checksum when it was read, even if it has changed since
       if (allocated(case%population_file)) call put_input('population', case%population_path(), .true., case%table%csv%bytes, &
          & case%table%csv%checksum)
-      call case%tables(tables)
+      call list_wall_tables(case, tables)
       do i = 1, tables%count
          call put_file('table', tables%line(i)%text)
       end do
