@@ -82,7 +82,7 @@ contains
       wall%reached = z(:, rows)
       alone = population_of([wall])
       wall%curve = alone%curve(1, :size(rows))
-      wall%combined = alone%curve(1, size(rows) + 1)
+      wall%combined = alone%curve(1, alone%place(size(rows) + 1))
    end function wall_of
 
    !> A population of walls

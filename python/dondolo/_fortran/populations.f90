@@ -62,7 +62,7 @@ contains
       if (.not. allocated(error)) then
          if (.not. allocated(curves%typologies)) allocate (curves%typologies(0, 1))
          call put_curves(parcel, 'row_', population%curve(1, :r))
-         call put_curves(parcel, 'wall_', population%curve(1, r + 1:))
+         call put_curves(parcel, 'wall_', population%curve(1, population%place(r + 1:)))
          call put_fractions(parcel, population)
          call put_groups(parcel, curves%typologies(:, 1))
          if (states > 0) call put_changes(parcel, 'fit_', curves%errors%curve(:, 1))

@@ -17,18 +17,18 @@ module dondolo_population
 
    public :: population_type, row_type, part_type, interpolated
 
-   !> A row: one mechanism of a wall
+   !> A row: one mechanism of a wall. Numbers of eight bytes come first: there are many rows, and nothing is to stand between
    type :: row_type
+      !> Weight of the wall, >= 0
+      real(wp) :: weight = 1.0_wp
+      !> Probability that the mechanism can occur
+      real(wp) :: p_occ = 1.0_wp
       !> Number of the wall
       integer :: wall = 0
       !> Number of the mechanism among mechanism_names
       integer :: mechanism = 0
       !> Number of the group of the wall; 0: none
       integer :: group = 0
-      !> Weight of the wall, >= 0
-      real(wp) :: weight = 1.0_wp
-      !> Probability that the mechanism can occur
-      real(wp) :: p_occ = 1.0_wp
       !> Number of its alternative among those of the wall; 0: the mechanisms of the wall are independent
       integer :: alternative = 0
    end type row_type
@@ -57,9 +57,12 @@ module dondolo_population
       integer, allocatable :: histories(:, :)
       !> How many of them reach each damage state (levels, states, rows)
       integer, allocatable :: reached(:, :, :)
-      !> Curves (states, columns). That of a wall is the lognormal of what can collapse: fitted to its fractions / occurrence,
+      !> Curves (states, places). That of a wall is the lognormal of what can collapse: fitted to its fractions / occurrence,
       !> or that of its mechanism, if one always can occur
       type(fragility_type), allocatable :: curve(:, :)
+      !> Place of the curve of each column: that of a row is its number, and a wall with one mechanism that always can occur
+      !> has the curve of its row
+      integer, allocatable :: place(:)
    contains
       !> Add a row
       procedure :: add
@@ -124,15 +127,16 @@ contains
       self%rows = self%rows + 1
       if (.not. continues) self%walls = self%walls + 1
       if (len(group) > 0 .and. self%number_of_group(group) == 0) call self%groups%add(group)
-      self%row(self%rows) = row_type(self%walls, findloc(mechanism_names == mechanism, .true., dim=1), &
-         & self%number_of_group(group), weight, p_occ, alternative)
+      self%row(self%rows) = row_type(weight, p_occ, self%walls, &
+         & findloc(mechanism_names == mechanism, .true., dim=1), self%number_of_group(group), alternative)
    end subroutine add
 
    !> All rows are there: give back room for more
    subroutine trim_rows(self)
       class(population_type), intent(inout) :: self
 
-      if (allocated(self%row)) self%row = self%row(:self%rows)
+      if (.not. allocated(self%row)) return
+      if (size(self%row) > self%rows) self%row = self%row(:self%rows)
    end subroutine trim_rows
 
    !> Make room for the histories of all rows, of which there are none so far
@@ -146,7 +150,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       real(wp), parameter :: bytes_of_row = 64.0_wp, bytes_of_count = 4.0_wp, bytes_of_curve = 192.0_wp
-      integer :: i
+      integer :: i, curves
 
       call check_room(real(self%rows, wp)*(bytes_of_row + real(states, wp)*bytes_of_count*real(size(levels), wp)) &
          & + real(self%rows + self%walls, wp)*real(states, wp)*bytes_of_curve, error)
@@ -157,8 +161,15 @@ contains
       do i = self%rows, 1, -1
          self%first(self%row(i)%wall) = i
       end do
+      self%place = [(i, i=1, self%rows), (self%first(i), i=1, self%walls)]
+      curves = self%rows
+      do i = 1, self%walls
+         if (.not. self%is_several(i) .and. self%row(self%first(i))%p_occ >= 1.0_wp) cycle
+         curves = curves + 1
+         self%place(self%rows + i) = curves
+      end do
       allocate (self%histories(size(levels), self%rows), self%reached(size(levels), states, self%rows), source=0)
-      allocate (self%curve(states, self%rows + self%walls))
+      allocate (self%curve(states, curves))
    end subroutine begin
 
    !> Fit the curves of all rows and walls, in all states
@@ -199,7 +210,7 @@ contains
       !> Counts that cannot be fitted
       type(error_type), allocatable, intent(out) :: error
 
-      integer :: i, column
+      integer :: i, column, place
 
       do i = self%first(wall), self%first(wall + 1) - 1
          call fit_fragility(self%curve(state, i), self%levels, real(self%reached(:, state, i), wp), &
@@ -207,10 +218,9 @@ contains
          if (allocated(error)) return
       end do
       column = self%rows + wall
-      i = self%first(wall)
-      self%curve(state, column) = self%curve(state, i)
-      if (.not. (self%is_several(wall) .or. self%row(i)%p_occ < 1.0_wp)) return
-      call fit_share(self%curve(state, column), self%levels, self%fraction(column, state), self%occurrence(column), &
+      place = self%place(column)
+      if (place <= self%rows) return
+      call fit_share(self%curve(state, place), self%levels, self%fraction(column, state), self%occurrence(column), &
          & real(self%histories_of(column), wp), error)
    end subroutine fit_wall
 

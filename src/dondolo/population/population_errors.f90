@@ -157,10 +157,10 @@ contains
                deviation(:, g, last) = deviation(:, g, last) + slope(:, m)*deviation(:, g, m)
             end do
          end do
-         associate (curve => population%curve(k, columns(last)), row => population%curve(k, columns(1)))
+         associate (curve => population%curve(k, population%place(columns(last))), row => population%curve(k, columns(1)))
             if (last > 2) then
                call set_errors_of_wall(curve, self, population%occurrence(columns(last)), fraction(:, last), deviation(:, :, last))
-            else if (curve%has_fit()) then
+            else if (population%place(columns(last)) > population%rows .and. curve%has_fit()) then
                ! One mechanism that may not occur has the curve of its row, and a saturation.
                curve%covariance = row%covariance
                curve%errors = row%errors

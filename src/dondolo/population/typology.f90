@@ -183,7 +183,8 @@ contains
       beta_squares = 0.0_wp
       allocate (curve%histories(size(population%levels)), curve%mean_fraction(size(population%levels)), source=0.0_wp)
       do i = 1, size(weights%column)
-         associate (column => weights%column(i), weight => weights%weight(i), fit => population%curve(state, weights%column(i)))
+         associate (column => weights%column(i), weight => weights%weight(i), &
+            & fit => population%curve(state, population%place(weights%column(i))))
             curve%mean_fraction = curve%mean_fraction + weight*population%fraction(column, state)
             curve%histories = curve%histories + weight*real(population%histories_of(column), wp)
             share = weight*population%occurrence(column)

@@ -63,6 +63,8 @@ module dondolo_population_unions
       procedure :: reserve
       !> Keep the union of a wall
       procedure :: keep
+      !> Take those of another, which has none afterwards
+      procedure :: take
       !> How many there are, means included
       procedure :: count => count_unions
       !> Get one; the means come after the walls
@@ -148,6 +150,20 @@ contains
       self%change(:, :, :, place) = union%change(:, :size(self%change, 2), :)
    end subroutine keep
 
+   !> Take the unions of another, which has none afterwards: two of them at once would not fit where one does
+   subroutine take(self, other)
+      class(unions_type), intent(out) :: self
+      class(unions_type), intent(inout) :: other
+
+      call move_alloc(other%wall, self%wall)
+      call move_alloc(other%name, self%name)
+      call move_alloc(other%histories, self%histories)
+      call move_alloc(other%collapses, self%collapses)
+      call move_alloc(other%curve, self%curve)
+      call move_alloc(other%change, self%change)
+      call move_alloc(other%mean, self%mean)
+   end subroutine take
+
    !> How many unions there are, means included
    pure integer function count_unions(self) result(number)
       class(unions_type), intent(in) :: self
@@ -181,7 +197,7 @@ contains
       union%histories = self%histories(:, place)
       union%collapses = self%collapses(:, :, place)
       union%curve = self%curve(:, place)
-      union%product = population%curve(:, column)
+      union%product = population%curve(:, population%place(column))
       union%saturation = population%occurrence(column)
       allocate (union%fraction, mold=union%collapses)
       allocate (union%independent, mold=union%collapses)

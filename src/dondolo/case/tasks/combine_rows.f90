@@ -161,7 +161,7 @@ contains
       if (.not. allocated(error)) call curves%finish(results%population, error)
       if (allocated(error)) return
       call move_alloc(curves%typologies, results%typologies)
-      results%unions = curves%unions
+      call results%unions%take(curves%unions)
    end subroutine look_at_rows
 
    !> Take the result of the check of a design; if there is none, the table of checks has the reason
