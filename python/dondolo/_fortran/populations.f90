@@ -285,18 +285,16 @@ contains
       real(c_double), intent(in) :: levels(m), shares(2, r), theta(r), beta(r), x(n), q(k)
       real(c_double), intent(out) :: mean(n), fractiles(k, n)
       integer(c_int64_t), intent(out) :: sent(5)
-      ! Numbers that are held at a time: a few tens of MB
-      integer, parameter :: most = 2000000
       type(population_type) :: population
       type(weights_type) :: weights
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
       real(c_double), allocatable :: p(:, :), all(:, :)
-      integer :: first, last, part
+      integer :: first, last
 
       mean = 0
       fractiles = 0
-      call check_room(error, r + w, reals=real(most, c_double))
+      call check_room(error, r + w)
       if (.not. allocated(error)) call new_population(population, texts, levels, collapses, histories, shares, &
          & alternative, rows, error)
       if (.not. allocated(error)) then
@@ -307,10 +305,9 @@ contains
             if (.not. allocated(error)) allocate (all(size(weights%column), n))
          end if
       end if
-      part = max(1, most/(r + w))
-      do first = 1, n, part
+      do first = 1, n, population%levels_at_a_time()
          if (allocated(error)) exit
-         last = min(first + part - 1, n)
+         last = min(first + population%levels_at_a_time() - 1, n)
          call population%probabilities(1, x(first:last), p, error, weights%column)
          if (allocated(error)) exit
          mean(first:last) = weights%mean(p)

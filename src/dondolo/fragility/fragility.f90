@@ -41,6 +41,9 @@ module dondolo_fragility
    type :: fragility_type
       !> Whether there is a curve, or why there is none
       integer :: status = fit_no_collapse
+      !> Levels less parameters: the mean that the deviance would have if all histories were independent. Beside the status, with
+      !> which it fills eight bytes: a large population has many curves
+      integer :: deviance_dof = 0
       !> Median, in the unit of the levels
       real(wp) :: theta = 0.0_wp
       !> Dispersion: standard deviation of the logarithm
@@ -57,10 +60,8 @@ module dondolo_fragility
       real(wp) :: naive(2, 2) = 0.0_wp
       !> Logarithm of the likelihood, binomial coefficients included
       real(wp) :: log_likelihood = 0.0_wp
-      !> Deviance: twice what the likelihood is below that of the fractions themselves; and levels less parameters, the mean that
-      !> it would have if all histories were independent
+      !> Deviance: twice what the likelihood is below that of the fractions themselves
       real(wp) :: deviance = 0.0_wp
-      integer :: deviance_dof = 0
       !> Levels between which half of the histories begin to collapse; 0 or huge where the side is open
       real(wp) :: bracket(2) = [0.0_wp, huge(0.0_wp)]
    contains

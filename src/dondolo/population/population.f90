@@ -96,6 +96,8 @@ module dondolo_population
       procedure :: fraction
       !> Probabilities of collapse of columns
       procedure :: probabilities
+      !> At how many levels they are computed at a time
+      procedure :: levels_at_a_time
    end type population_type
 
 contains
@@ -419,6 +421,15 @@ contains
          p(:, i) = wall_probability(p_occ, alternative, p(:, of(1):of(2)))
       end do
    end subroutine probabilities
+
+   !> At how many levels the probabilities of all columns are computed at a time: a few tens of MB
+   pure integer function levels_at_a_time(self) result(levels)
+      class(population_type), intent(in) :: self
+
+      integer, parameter :: most_numbers = 2000000
+
+      levels = max(1, most_numbers/max(1, self%rows + self%walls))
+   end function levels_at_a_time
 
    !> Fractions at any levels, on the lines between those that are known
    pure function interpolated(levels, fractions, x) result(p)

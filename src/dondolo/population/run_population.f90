@@ -21,8 +21,8 @@ module dondolo_population_run_population
    !> Histories that a block has for each thread: a second or two of work, which is what a run that is killed loses
    integer, parameter :: histories_of_thread = 100000
 
-   !> Rows that it has for each thread at most: about 1 kB each
-   integer, parameter :: rows_of_thread = 4000
+   !> Rows that it has for each thread at most: about 4 kB each
+   integer, parameter :: rows_of_thread = 1000
 
 contains
 

@@ -72,15 +72,25 @@ contains
 
       type(part_type), allocatable :: parts(:)
       real(wp), allocatable :: p(:, :)
-      integer :: i
+      type(weights_type) :: weights
+      integer :: i, first, last
 
-      call population%probabilities(state, population%levels, p, error)
-      if (.not. allocated(error)) call list_parts(parts, population, error)
+      call list_parts(parts, population, error)
       if (allocated(error)) return
       allocate (typologies(size(parts)))
       do i = 1, size(parts)
-         call make_curve(typologies(i), population, parts(i), state, p, error)
+         call make_curve(typologies(i), population, parts(i), state, error)
          if (allocated(error)) return
+      end do
+      do first = 1, size(population%levels), population%levels_at_a_time()
+         last = min(first + population%levels_at_a_time() - 1, size(population%levels))
+         call population%probabilities(state, population%levels(first:last), p, error)
+         if (allocated(error)) return
+         do i = 1, size(parts)
+            weights = weights_of(population, parts(i))
+            typologies(i)%mean_curve(first:last) = weights%mean(p)
+            typologies(i)%fractile(:, first:last) = weights%fractiles(p, fractile_shares)
+         end do
       end do
    end subroutine combine_population
 
@@ -132,16 +142,14 @@ contains
       end do
    end subroutine list_parts
 
-   !> Make the curve of a part
-   subroutine make_curve(curve, population, part, state, p, error)
+   !> Make the curve of a part, all but the mean of its walls' curves and their fractiles
+   subroutine make_curve(curve, population, part, state, error)
       type(typology_type), intent(out) :: curve
       !> The population, fitted
       type(population_type), intent(in) :: population
       type(part_type), intent(in) :: part
       !> Number of the damage state
       integer, intent(in) :: state
-      !> Probabilities of collapse (levels, columns)
-      real(wp), intent(in) :: p(:, :)
       !> Fractions that cannot be fitted
       type(error_type), allocatable, intent(out) :: error
 
@@ -156,8 +164,7 @@ contains
       curve%levels = population%levels
       curve%walls = size(weights%column)
       curve%weight = sum(weights%weight)
-      curve%mean_curve = weights%mean(p)
-      curve%fractile = weights%fractiles(p, fractile_shares)
+      allocate (curve%mean_curve(size(curve%levels)), curve%fractile(size(fractile_shares), size(curve%levels)))
       call sum_columns(curve, population, weights, state)
       call fit_share(curve%fit, curve%levels, curve%mean_fraction, curve%saturation, curve%histories, error)
    end subroutine make_curve

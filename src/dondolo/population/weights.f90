@@ -31,13 +31,22 @@ contains
       type(part_type), intent(in) :: part
       type(weights_type) :: weights
 
-      real(wp), allocatable :: weight(:)
-      integer :: i
+      real(wp) :: weight
+      integer :: i, n, pass
 
-      weights%column = [(i, i=1, population%rows + population%walls)]
-      weight = population%weight_in(part, weights%column)
-      weights%column = pack(weights%column, weight > 0.0_wp)
-      weights%weight = pack(weight, weight > 0.0_wp)
+      ! Counted first: of a large population no more is held than is needed.
+      do pass = 1, 2
+         n = 0
+         do i = 1, population%rows + population%walls
+            weight = population%weight_in(part, i)
+            if (.not. weight > 0.0_wp) cycle
+            n = n + 1
+            if (pass == 1) cycle
+            weights%column(n) = i
+            weights%weight(n) = weight
+         end do
+         if (pass == 1) allocate (weights%column(n), weights%weight(n))
+      end do
    end function weights_of
 
    !> Weighted mean; of what is at most 1 it is at most 1, whatever rounding does
