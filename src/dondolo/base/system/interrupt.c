@@ -1,5 +1,5 @@
 /* Signals while histories run: handlers that take note of them. Fortran knows no signals. For Windows see
-   windows_process.c. */
+   windows_process.c; what threads listen for is in watched.c. */
 #ifndef _WIN32
 #include "interrupt.h"
 #include <signal.h>
@@ -8,9 +8,6 @@
 /* The last signal, and how many have come; what comes is never taken back, so that no thread can miss it */
 static volatile sig_atomic_t noted, come, listening;
 static struct sigaction before;
-
-/* What ends the work of this thread */
-static _Thread_local struct dondolo_watched watched = {-1, NULL};
 
 static void note(int number, siginfo_t *info, void *context)
 {
@@ -27,7 +24,7 @@ void dondolo_listen(void)
 {
    struct sigaction ours;
 
-   watched.since = come;
+   dondolo_watch_signals(come);
    if (listening || sigaction(SIGINT, NULL, &before) != 0)
       return;
    if (!(before.sa_flags & SA_SIGINFO) && (before.sa_handler == SIG_DFL || before.sa_handler == SIG_IGN))
@@ -44,25 +41,7 @@ void dondolo_end_listening(void)
    if (listening)
       sigaction(SIGINT, &before, NULL);
    listening = 0;
-   watched.since = -1;
-}
-
-/* End the work of this thread once a number, which another thread writes, is not 0; NULL: no more */
-void dondolo_stop_at(const volatile int *flag)
-{
-   watched.flag = flag;
-}
-
-/* What this thread listens for, which is handed to those that work for it */
-void dondolo_get_watched(struct dondolo_watched *own)
-{
-   *own = watched;
-}
-
-/* Listen for what another thread listens for */
-void dondolo_watch(const struct dondolo_watched *other)
-{
-   watched = *other;
+   dondolo_watch_signals(-1);
 }
 
 static void remember(int number)
@@ -78,7 +57,7 @@ void dondolo_end_in_order(void)
    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
    struct sigaction ours, theirs;
 
-   watched.since = come;
+   dondolo_watch_signals(come);
    ours.sa_handler = remember;
    ours.sa_flags = SA_RESTART | SA_RESETHAND;
    sigemptyset(&ours.sa_mask);
@@ -96,9 +75,8 @@ void dondolo_die_of_signal(void)
    raise(noted);
 }
 
-/* 1: a signal has come since this thread, or the one that it works for, began to listen, or its flag is set */
-void dondolo_look_for_interrupt(int *is_noted)
+int dondolo_signals_come(void)
 {
-   *is_noted = (watched.since >= 0 && come != watched.since) || (watched.flag != NULL && *watched.flag != 0);
+   return come;
 }
 #endif

@@ -7,4 +7,10 @@ struct dondolo_watched {
    const volatile int *flag; /* not 0 once another thread wants it to end; NULL: there is none */
 };
 
+/* Let this thread listen from this number of signals on; -1: no more */
+void dondolo_watch_signals(int since);
+
+/* How many signals have come */
+int dondolo_signals_come(void);
+
 #endif

@@ -174,7 +174,6 @@ int dondolo_is_limited(void)
 }
 
 static volatile LONG come, is_ending;
-static _Thread_local struct dondolo_watched watched = {-1, NULL};
 
 /* Runs in a thread of its own. What it does not take (FALSE) goes to the handlers from before, Python's among them. */
 static BOOL WINAPI note(DWORD event)
@@ -193,34 +192,19 @@ void dondolo_listen(void)
 {
    static int is_listening;
 
-   watched.since = come;
+   dondolo_watch_signals(come);
    if (!is_listening)
       is_listening = SetConsoleCtrlHandler(note, TRUE);
 }
 
 void dondolo_end_listening(void)
 {
-   watched.since = -1;
-}
-
-void dondolo_stop_at(const volatile int *flag)
-{
-   watched.flag = flag;
-}
-
-void dondolo_get_watched(struct dondolo_watched *own)
-{
-   *own = watched;
-}
-
-void dondolo_watch(const struct dondolo_watched *other)
-{
-   watched = *other;
+   dondolo_watch_signals(-1);
 }
 
 void dondolo_end_in_order(void)
 {
-   watched.since = come;
+   dondolo_watch_signals(come);
    is_ending = 1;
    SetConsoleCtrlHandler(note, TRUE);
 }
@@ -234,8 +218,8 @@ void dondolo_die_of_signal(void)
    }
 }
 
-void dondolo_look_for_interrupt(int *is_noted)
+int dondolo_signals_come(void)
 {
-   *is_noted = (watched.since >= 0 && come != watched.since) || (watched.flag != NULL && *watched.flag != 0);
+   return come;
 }
 #endif
