@@ -4,6 +4,7 @@ module walls
    use dondolo_base_error, only : error_type, raise_input
    use dondolo_base_text, only : to_text
    use dondolo_boundary, only : check_room
+   use dondolo_check_tie_rows, only : list_open_anchors => open_anchors
    use dondolo_fragility_tie_tallies, only : tally => tally_ties, tie_tally_type
    use dondolo_interface_handles, only : find_walls, hold, walls_type
    use dondolo_motion_response, only : response_type
@@ -17,7 +18,7 @@ module walls
    implicit none
    private
 
-   public :: new_walls, describe_walls, wall_terms, tie_states, tally_ties, read_walls
+   public :: new_walls, describe_walls, wall_terms, tie_states, open_anchors, tally_ties, read_walls
 
 contains
 
@@ -112,6 +113,21 @@ contains
       end if
       call report(error, failure)
    end subroutine tie_states
+
+   !> 1 for each of the k ties of a wall whose anchor has no strength
+   subroutine open_anchors(walls, k, is_open, failure)
+      integer(c_int64_t), intent(in) :: walls
+      integer(c_int), intent(in) :: k
+      integer(c_int), intent(out) :: is_open(k)
+      integer(c_int64_t), intent(out) :: failure(5)
+      type(wall_type), pointer :: wall(:)
+      type(error_type), allocatable :: error
+
+      is_open = 0
+      call find_walls(walls, wall, error)
+      if (.not. allocated(error)) is_open = merge(1, 0, list_open_anchors(wall(1)))
+      call report(error, failure)
+   end subroutine open_anchors
 
    !> What the histories of m stripes of n each, of which some ran, do to the k ties of a wall
    subroutine tally_ties(walls, edp, ran, n, m, k, counts, elongations, failure)

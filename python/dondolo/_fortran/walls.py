@@ -110,6 +110,13 @@ def wall_terms(wall: Handle, rotation: ArrayLike) -> FloatArray:
     return found
 
 
+def open_anchors(wall: Handle, ties: int) -> NDArray[np.bool_]:
+    """Which ties of a wall have an anchor without a strength, of shape (ties,)."""
+    is_open, failure = _core.walls.open_anchors(wall.number, ties)
+    check(failure)
+    return np.asarray(is_open == 1)
+
+
 def tie_states(wall: Handle, edp: ArrayLike, ties: int) -> tuple[FloatArray, FloatArray, NDArray[np.bool_]]:
     """Plastic elongation and energy of each tie of a wall, and whether it is broken, of shape (*edp.shape, ties)."""
     peaks = np.asarray(edp, dtype=np.float64)

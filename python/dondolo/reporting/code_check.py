@@ -18,7 +18,7 @@ from dondolo.reporting.language import Language
 from dondolo.reporting.numerals import NONE, number, probability, whole
 from dondolo.reporting.relazione.terms import MEANINGS, warning
 from dondolo.reporting.units import UNITS, Unit, cell
-from dondolo.walls.parts import parts_of
+from dondolo.walls.ties import ties_without_anchor
 from dondolo.walls.wall import Wall
 
 
@@ -206,11 +206,7 @@ def verdict(checks: Sequence[CodeCheck | None], walls: Sequence[Wall], *, withou
 
 def unchecked_anchors(walls: Sequence[Wall]) -> list[Wall]:
     """Walls with ties whose anchors have no strength, so that the bars alone are checked."""
-    return [
-        wall
-        for wall in walls
-        if any(not (tie.anchor_force or tie.plate_width or tie.plate_diameter) for tie in parts_of(wall, "ties"))
-    ]
+    return [wall for wall in walls if ties_without_anchor(wall)]
 
 
 def _ratio(check: CodeCheck) -> float:

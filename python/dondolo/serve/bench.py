@@ -36,8 +36,7 @@ from dondolo.reporting.relazione.terms import status as status_in_words
 from dondolo.reporting.relazione.terms import warning as warning_in_words
 from dondolo.serve.levels import chosen_levels
 from dondolo.serve.pictures import motion_of, picture
-from dondolo.walls.parts import parts_of
-from dondolo.walls.wall import Wall
+from dondolo.walls.ties import ties_without_anchor
 
 # Curves that are kept, for B and for a page that goes back
 _KEPT = 12
@@ -206,7 +205,7 @@ class Bench:
                 {"code": one.code, "sentence": warning_in_words(language, one)} for one in _once(found.warnings)
             ],
             "wall": picture(wall),
-            "unchecked": _unchecked(wall),
+            "unchecked": ties_without_anchor(wall),
             "leans": wall.building is None and wall.mechanism in ("one_sided", "two_block"),
         }
         if fit.has_fit:
@@ -230,7 +229,7 @@ class Bench:
         return {
             "ratio": compared.ratio,
             "interval": list(compared.ratio_interval),
-            "unchecked": any(map(_unchecked, walls)),
+            "unchecked": any(map(ties_without_anchor, walls)),
         }
 
     def _fan(
@@ -303,15 +302,6 @@ def refusal(error: DondoloError) -> dict[str, Any]:
 def _other_task(case: Case) -> InputError:
     sentence = f"task = '{case.task}': the page shows one wall, task = 'stripes'; run this case with dondolo"
     return InputError(sentence, errors=[Problem(sentence, "out_of_range", "task")])
-
-
-def _unchecked(wall: Wall) -> list[int]:
-    """Numbers of the ties whose anchors have neither a plate nor a force at which they give way."""
-    return [
-        place
-        for place, tie in enumerate(parts_of(wall, "ties"), 1)
-        if tie.anchor_force is None and tie.plate_width is None and tie.plate_diameter is None
-    ]
 
 
 def _line(found: Curve) -> dict[str, Any]:

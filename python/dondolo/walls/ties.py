@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from dondolo._base.arguments import FloatArray
 from dondolo._fortran.tables import TableColumns, tie_columns
-from dondolo._fortran.walls import tie_states, tie_tallies
+from dondolo._fortran.walls import open_anchors, tie_states, tie_tallies
 from dondolo._storage.saved import part_of_results
 from dondolo.walls.parts import parts_of
 from dondolo.walls.wall import Wall, upload
@@ -67,6 +67,13 @@ class TieCounts(NamedTuple):
 def number_of_ties(wall: Wall) -> int:
     """How many ties a wall has."""
     return len(parts_of(wall, "ties"))
+
+
+def ties_without_anchor(wall: Wall) -> list[int]:
+    """Numbers, from 1, of the ties whose anchors have neither a plate nor a force at which they give way."""
+    ties = number_of_ties(wall)
+    found: list[int] = (1 + np.flatnonzero(open_anchors(upload((wall,)), ties))).tolist() if ties else []
+    return found
 
 
 def states_of_ties(wall: Wall, edp: ArrayLike) -> TieStates:

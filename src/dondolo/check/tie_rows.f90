@@ -3,13 +3,27 @@ module dondolo_check_tie_rows
    use dondolo_base_kinds, only : wp
    use dondolo_base_text, only : to_text
    use dondolo_check_sheet, only : sheet_type, shown, working_type
+   use dondolo_wall, only : wall_type
    use dondolo_wall_anchor, only : anchor_type, partial_factor
+   use dondolo_wall_one_block_model, only : one_block_model_type
    implicit none
    private
 
-   public :: put_ties
+   public :: put_ties, open_anchors
 
 contains
+
+   !> Which ties of a wall have an anchor without a strength, so that the bar alone is checked
+   pure function open_anchors(wall) result(is_open)
+      type(wall_type), intent(in) :: wall
+      logical, allocatable :: is_open(:)
+
+      select type (model => wall%model)
+      type is (one_block_model_type)
+         if (allocated(model%body%anchors)) is_open = .not. model%body%anchors%has_strength()
+      end select
+      if (.not. allocated(is_open)) allocate (is_open(0))
+   end function open_anchors
 
    !> Put all ties, in the order of the wall
    subroutine put_ties(sheet, anchors, knowledge_factor)
@@ -30,16 +44,16 @@ contains
             call put('bar_force_per_m', anchor%bar_force_per_metre(), working_type('A f_yd', trim(shown(anchor%area))//' * '// &
                & trim(shown(anchor%strength))))
             ! A greater confidence factor in the check would make the anchor weaker than it is in the curve
-            is_checked = anchor%force_per_metre < huge(1.0_wp)
+            is_checked = anchor%has_strength()
             if (anchor%has_plate()) is_checked = anchor%masonry%knowledge_factor >= knowledge_factor
             if (anchor%has_plate()) then
                call put('anchor_force_per_m', anchor%force_per_metre, working_type('T_anchor/s', trim(shown(anchor%force))//'/'// &
                   & trim(shown(anchor%spacing))))
-            else if (anchor%force_per_metre < huge(1.0_wp)) then
+            else if (anchor%has_strength()) then
                call put('anchor_force_per_m', anchor%force_per_metre)
             end if
             call put('tie_force_per_m', min(anchor%bar_force_per_metre(), anchor%force_per_metre))
-            if (anchor%force_per_metre < huge(1.0_wp)) call put('hierarchy', merge(0.0_wp, 1.0_wp, anchor%is_brittle()))
+            if (anchor%has_strength()) call put('hierarchy', merge(0.0_wp, 1.0_wp, anchor%is_brittle()))
             call put('anchor_checked', merge(1.0_wp, 0.0_wp, is_checked))
          end associate
       end do

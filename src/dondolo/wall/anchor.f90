@@ -61,6 +61,8 @@ module dondolo_wall_anchor
    contains
       !> Is a plate known?
       procedure :: has_plate
+      !> Is it known at which force it gives way?
+      procedure :: has_strength
       !> Does the anchor give way before the bar yields?
       procedure :: is_brittle
       !> Yield force of the bar per metre of wall
@@ -88,6 +90,13 @@ contains
 
       has_plate = self%width > 0.0_wp .or. self%diameter > 0.0_wp
    end function has_plate
+
+   !> Is it known at which force it gives way?
+   elemental logical function has_strength(self)
+      class(anchor_type), intent(in) :: self
+
+      has_strength = self%force_per_metre < huge(1.0_wp)
+   end function has_strength
 
    !> Does the anchor give way before the bar yields?
    elemental logical function is_brittle(self)
