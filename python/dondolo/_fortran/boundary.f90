@@ -1,4 +1,4 @@
-!> What the procedures that f2py reads share: checks of what crosses, lines of text, curves, solver and responses.
+!> What the procedures that f2py reads share: checks of what crosses, lines of text, solver and responses.
 module dondolo_boundary
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use dondolo_base_error, only : error_type, raise_input
@@ -7,13 +7,12 @@ module dondolo_boundary
    use dondolo_base_property, only : is_list, is_text, property_type
    use dondolo_base_settings, only : group_settings_type, new_settings
    use dondolo_base_text, only : to_text
-   use dondolo_fragility, only : fragility_type
    use dondolo_motion_response, only : response_type
    use dondolo_motion_solver, only : solver_type
    implicit none
    private
 
-   public :: check_room, next_line, split_lines, as_curve, as_settings, as_solver, unpack_response
+   public :: check_room, next_line, split_lines, as_settings, as_solver, unpack_response
 
    !> What each thing that is worked on takes at most, all that is copied and sent included [bytes]
    real(c_double), parameter :: bytes_of_wall = 4000.0_c_double, bytes_of_record = 2000.0_c_double, &
@@ -159,29 +158,5 @@ contains
       time_of_peak = response%time_of_peak
       edp_error = response%edp_error
    end subroutine unpack_response
-
-   !> A curve
-   pure type(fragility_type) function as_curve(numbers, codes, errors) result(curve)
-      !> theta, beta, their naive covariance, logarithm of the likelihood, bracket, covariance, degrees of freedom and deviance;
-      !> whatever follows is no part of it
-      real(c_double), intent(in) :: numbers(:)
-      !> Place of its status among the names, clusters, and degrees of freedom of the deviance
-      integer(c_int), intent(in) :: codes(:)
-      !> Kind of its standard errors
-      character(len=*), intent(in) :: errors
-
-      curve%theta = numbers(1)
-      curve%beta = numbers(2)
-      curve%naive = reshape(numbers([3, 4, 4, 5]), [2, 2])
-      curve%log_likelihood = numbers(6)
-      curve%bracket = numbers(7:8)
-      curve%covariance = reshape(numbers([9, 10, 10, 11]), [2, 2])
-      curve%degrees_of_freedom = numbers(12)
-      curve%status = codes(1)
-      curve%clusters = codes(2)
-      curve%deviance = numbers(13)
-      curve%deviance_dof = codes(3)
-      curve%errors = errors
-   end function as_curve
 
 end module dondolo_boundary

@@ -6,7 +6,7 @@ module checks
    use dondolo_base_lines, only : lines_type
    use dondolo_base_settings, only : group_settings_type
    use dondolo_base_warning, only : warnings_type
-   use dondolo_boundary, only : as_curve, as_settings, split_lines
+   use dondolo_boundary, only : as_settings, split_lines
    use dondolo_case_check_rows, only : check_wall, put_check, put_sheet_row
    use dondolo_case_columns, only : columns_type
    use dondolo_case_report_rows, only : put_names
@@ -19,6 +19,8 @@ module checks
    use dondolo_check_ntc_check, only : check_by_ntc => check_ntc, check_peaks => check_histories
    use dondolo_check_notes, only : make_check_notes
    use dondolo_check_sheet, only : sheet_type
+   use dondolo_curve_parcel, only : take_curves
+   use dondolo_fragility, only : fragility_type
    use dondolo_interface_handles, only : find_walls
    use dondolo_parcel, only : parcel_type, report, send
    use dondolo_results_parcel, only : send_table
@@ -118,28 +120,27 @@ contains
       call send_table(table, error, sent, found)
    end subroutine check_ntc
 
-   !> Kinematic checks of the k walls of a handle with their curves of collapse: a table of a row for each wall; lines, kinds of
-   !> errors of the curves, as tables has them
-   subroutine check_table(walls, texts, numbers, n, given, q, im, lines, curves, codes, k, sent)
+   !> Kinematic checks of the k walls of a handle with their curves of collapse, as tables has them: a table of a row for each wall
+   subroutine check_table(walls, texts, numbers, n, given, q, im, curve_names, curve_texts, curve_numbers, p, k, sent)
       integer(c_int64_t), intent(in) :: walls
-      character(len=*), intent(in) :: texts, im, lines
-      integer(c_int), intent(in) :: n, q, given(q), k, codes(3, k)
-      real(c_double), intent(in) :: numbers(n), curves(14, k)
+      character(len=*), intent(in) :: texts, im, curve_names, curve_texts
+      integer(c_int), intent(in) :: n, q, given(q), p, k
+      real(c_double), intent(in) :: numbers(n), curve_numbers(p, k)
       integer(c_int64_t), intent(out) :: sent(5)
       type(wall_type), pointer :: wall(:)
       type(check_input_type) :: input
       type(sheet_type) :: sheet
-      type(lines_type) :: words
+      type(fragility_type), allocatable :: curves(:)
       type(columns_type) :: table
       type(error_type), allocatable :: error, reason
       integer :: i
 
       call read_input(texts, numbers, given, input, error)
       if (.not. allocated(error)) call find_walls(walls, wall, error)
+      if (.not. allocated(error)) call take_curves(curves, curve_names, curve_texts, curve_numbers, error)
       if (.not. allocated(error)) then
-         call split_lines(lines, words)
          do i = 1, k
-            call check_wall(wall(i), input, im, sheet, reason, as_curve(curves(:, i), codes(:, i), words%line(i)%text))
+            call check_wall(wall(i), input, im, sheet, reason, curves(i))
             call put_names(table, wall(i)%name(), wall(i)%mechanism_name())
             call put_check(table, '', sheet, reason)
             call table%end_row()

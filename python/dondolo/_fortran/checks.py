@@ -178,8 +178,7 @@ def sheet_rows(columns: Mapping[str, Any]) -> tuple[SheetRow, ...]:
 
 def check_columns(walls: Handle, site: SiteInput, im: str, curves: Sequence[FlatCurve]) -> TableColumns:
     """Columns of ``_checks.csv`` of walls without groups, with their curves of collapse."""
-    kinds = text_lines(curve.errors for curve in curves)
-    sent = _core.checks.check_table(walls.number, *site, im.encode(), kinds, *flat_curves(curves))
+    sent = _core.checks.check_table(walls.number, *site, im.encode(), **flat_curves(curves))
     return unpack_table(receive(sent), "table")
 
 

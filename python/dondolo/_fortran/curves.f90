@@ -8,6 +8,7 @@ module curves
    use dondolo_base_warning, only : warnings_type
    use dondolo_boundary, only : check_room
    use dondolo_case_result_warnings, only : warn_of_fit, warn_of_the_union => warn_of_union
+   use dondolo_curve_parcel, only : put_curves, put_fits
    use dondolo_fragility, only : error_names, fit_fragility, fit_ok, fragility_type
    use dondolo_fragility_clustered, only : cluster_errors
    use dondolo_fragility_logit, only : fit_one_logit => fit_logit, logit_type
@@ -30,43 +31,39 @@ module curves
 
 contains
 
-   !> Fit k curves, each to m levels. A status of 0 is a fit that failed; the failure is that of the first that went wrong
-   subroutine fit_curves(levels, collapses, histories, m, k, curves, statuses, failure)
+   !> Fit k curves, each to m levels: what is sent is named as put_fits has it. The error is that of the first that goes wrong
+   subroutine fit_curves(levels, collapses, histories, m, k, sent)
       !f2py threadsafe
       integer(c_int), intent(in) :: m, k
       real(c_double), intent(in) :: levels(m), collapses(m, k), histories(m, k)
-      real(c_double), intent(out) :: curves(10, k)
-      integer(c_int), intent(out) :: statuses(k)
-      integer(c_int64_t), intent(out) :: failure(5)
-      type(fragility_type) :: curve
+      integer(c_int64_t), intent(out) :: sent(5)
+      type(fragility_type), allocatable :: curves(:)
+      type(parcel_type) :: parcel
       type(error_type), allocatable :: error, first
       integer :: i, worst, team
 
-      curves = 0
-      statuses = 0
-      call check_room(error, reals=40.0_c_double*m)
-      call report(error, failure)
-      if (allocated(error)) return
-      worst = k + 1
-      team = team_of(0, k/fits_of_thread)
-      !$omp parallel do num_threads(team) default(none) private(curve, error) &
-      !$omp & shared(k, levels, collapses, histories, curves, statuses, worst, first)
-      do i = 1, k
-         call fit_fragility(curve, levels, collapses(:, i), histories(:, i), error)
-         if (allocated(error)) then
-            !$omp critical (first_error)
-            if (i < worst) then
-               worst = i
-               call move_alloc(error, first)
+      call check_room(first, reals=40.0_c_double*(real(m, c_double) + k))
+      if (.not. allocated(first)) then
+         allocate (curves(k))
+         worst = k + 1
+         team = team_of(0, k/fits_of_thread)
+         !$omp parallel do num_threads(team) default(none) private(error) &
+         !$omp & shared(k, levels, collapses, histories, curves, worst, first)
+         do i = 1, k
+            call fit_fragility(curves(i), levels, collapses(:, i), histories(:, i), error)
+            if (allocated(error)) then
+               !$omp critical (first_error)
+               if (i < worst) then
+                  worst = i
+                  call move_alloc(error, first)
+               end if
+               !$omp end critical (first_error)
             end if
-            !$omp end critical (first_error)
-         else
-            statuses(i) = curve%status
-         end if
-         curves(:, i) = pack_curve(curve)
-      end do
-      !$omp end parallel do
-      call report(first, failure)
+         end do
+         !$omp end parallel do
+         if (.not. allocated(first)) call put_fits(parcel, '', curves)
+      end if
+      call send(parcel, first, sent)
    end subroutine fit_curves
 
    !> Change of ln theta and beta of a fitted curve if each of g clusters is left out, to first order; errors are
@@ -93,36 +90,30 @@ contains
    end subroutine cluster_changes
 
    !> Curves of k damage states with one dispersion, from the histories of each of g clusters that reach each state at each of
-   !> m levels; changes, covariances and errors are as cluster_changes has them
-   subroutine fit_ordinal(levels, reached, histories, m, k, g, curves, statuses, changes, covariances, errors, failure)
+   !> m levels: what is sent is named as put_curves has it, and changes (2, k, g) and covariance (2, 2, k) are as
+   !> cluster_changes has them
+   subroutine fit_ordinal(levels, reached, histories, m, k, g, sent)
       integer(c_int), intent(in) :: m, k, g
       real(c_double), intent(in) :: levels(m), reached(m, k, g), histories(m, g)
-      real(c_double), intent(out) :: curves(10, k), changes(2, k, g), covariances(2, 2, k)
-      integer(c_int), intent(out) :: statuses(k), errors(k)
-      integer(c_int64_t), intent(out) :: failure(5)
-      type(fragility_type) :: curve(k)
+      integer(c_int64_t), intent(out) :: sent(5)
+      type(fragility_type), allocatable :: curves(:)
+      type(parcel_type) :: parcel
       type(error_type), allocatable :: error
+      real(c_double), allocatable :: changes(:, :, :)
       integer :: i
 
-      curves = 0
-      changes = 0
-      covariances = 0
-      statuses = 0
-      errors = 0
       call check_room(error, reals=8.0_c_double*m*(real(k, c_double)*g + g))
-      if (.not. allocated(error)) call ordinal_fit(curve, levels, sum(reached, 3), sum(histories, 2), error)
       if (.not. allocated(error)) then
-         do i = 1, k
-            curves(:, i) = pack_curve(curve(i))
-            statuses(i) = curve(i)%status
-         end do
-         call ordinal_errors(curve, levels, reached, histories, changes)
-         do i = 1, k
-            covariances(:, :, i) = curve(i)%covariance
-            errors(i) = findloc(error_names, curve(i)%errors, dim=1)
-         end do
+         allocate (curves(k), changes(2, k, g))
+         call ordinal_fit(curves, levels, sum(reached, 3), sum(histories, 2), error)
       end if
-      call report(error, failure)
+      if (.not. allocated(error)) then
+         call ordinal_errors(curves, levels, reached, histories, changes)
+         call put_curves(parcel, '', curves)
+         call parcel%put('changes', [changes], shape(changes))
+         call parcel%put('covariance', [(curves(i)%covariance, i=1, k)], [2, 2, k])
+      end if
+      call send(parcel, error, sent)
    end subroutine fit_ordinal
 
    !> A logistic curve of k counts, each of a cluster from 1; all 1: the histories are independent. Numbers: b0, b1, var b0,
@@ -228,8 +219,8 @@ contains
       end do
    end subroutine wall_slopes
 
-   !> Warnings of the executable for the curve of one wall, or for walls = 0 of counts without a wall; status as
-   !> fit_curves has it
+   !> Warnings of the executable for the curve of one wall, or for walls = 0 of counts without a wall; status, its
+   !> place among the names
    subroutine warn_of_curve(walls, levels, m, largest_edp, theta, beta, bracket, status, sent)
       integer(c_int64_t), intent(in) :: walls
       integer(c_int), intent(in) :: m, status
@@ -260,7 +251,8 @@ contains
       call send(parcel, error, sent)
    end subroutine warn_of_curve
 
-   !> What the executable would warn of, of the curve of one facade or wall with several mechanisms; status as fit_curves has it
+   !> What the executable would warn of, of the curve of one facade or wall with several mechanisms; status, its place among
+   !> the names
    subroutine warn_of_union(name, theta, status, sent)
       character(len=*), intent(in) :: name
       real(c_double), intent(in) :: theta
@@ -277,17 +269,5 @@ contains
       call warnings%put_objects(parcel%lines)
       call send(parcel, error, sent)
    end subroutine warn_of_union
-
-   !> A curve as flat numbers: theta, beta, var ln theta, covariance, var beta, log likelihood, bracket, deviance and its
-   !> degrees of freedom
-   pure function pack_curve(curve) result(numbers)
-      !> The curve
-      type(fragility_type), intent(in) :: curve
-      !> Its numbers
-      real(c_double) :: numbers(10)
-
-      numbers = [curve%theta, curve%beta, curve%covariance(1, 1), curve%covariance(1, 2), curve%covariance(2, 2), &
-         & curve%log_likelihood, curve%bracket, curve%deviance, real(curve%deviance_dof, c_double)]
-   end function pack_curve
 
 end module curves

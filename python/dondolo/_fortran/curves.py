@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,15 +11,12 @@ from numpy.typing import NDArray
 from dondolo._base.arguments import FloatArray
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
-from dondolo._fortran.library import as_text, check, constants, receive, unpack_warnings
+from dondolo._fortran.library import Parcel, as_text, check, constants, receive, unpack_warnings
 from dondolo.errors import DondoloWarning
 
 
 class CurveData(NamedTuple):
-    """A fitted curve, or why there is none: status, and numbers in the order of curves.f90 (pack_curve).
-
-    Variances and covariance are those of ln theta and beta.
-    """
+    """A fitted curve, or why there is none; variances and covariance are naive, those of ln theta and beta."""
 
     status: str
     theta: float
@@ -30,16 +28,53 @@ class CurveData(NamedTuple):
     bracket_low: float
     bracket_high: float
     deviance: float
-    deviance_dof: float
+    deviance_dof: int
+
+
+class FittedCurve(NamedTuple):
+    """A curve with its standard errors of the kind `errors`; only clustered ones have a covariance here."""
+
+    data: CurveData
+    se_ln_theta: float
+    se_beta: float
+    cov_ln_theta_beta: float
+    errors: str
+    clusters: int
+    degrees_of_freedom: float
 
 
 def fit_curves(levels: FloatArray, collapses: FloatArray, histories: FloatArray) -> list[CurveData]:
     """Fit many curves in one call: collapses and histories are (curves, levels)."""
     z, n = np.ascontiguousarray(collapses), np.ascontiguousarray(histories)
-    curves, codes, failure = _core.curves.fit_curves(levels, z.T, n.T)
-    check(failure)
-    names = constants().statuses
-    return [CurveData(names[code - 1], *numbers) for code, numbers in zip(codes, curves.T.tolist(), strict=True)]
+    return _curves(receive(_core.curves.fit_curves(levels, z.T, n.T)), "")
+
+
+def fitted_curves(parcel: Parcel, prefix: str) -> list[FittedCurve]:
+    """The curves of a parcel whose names begin with a prefix."""
+    kinds = constants().errors
+    names = ("se_ln_theta", "se_beta", "cov_ln_theta_beta", "errors", "clusters", "degrees_of_freedom")
+    own = _columns(parcel, prefix, names)
+    return [
+        FittedCurve(fit, of_theta, of_beta, both, kinds[code - 1], clusters, degrees)
+        for fit, (of_theta, of_beta, both, code, clusters, degrees) in zip(_curves(parcel, prefix), own, strict=True)
+    ]
+
+
+def _curves(parcel: Parcel, prefix: str) -> list[CurveData]:
+    """The curves of a parcel, without what is known of their errors."""
+    statuses = constants().statuses
+    names = ("status", "theta", "beta", "naive_covariance", "log_likelihood", "bracket", "deviance", "deviance_dof")
+    return [
+        CurveData(statuses[status - 1], theta, beta, var_theta, both, var_beta, height, low, high, deviance, dof)
+        for status, theta, beta, (var_theta, both, var_beta), height, (low, high), deviance, dof in _columns(
+            parcel, prefix, names
+        )
+    ]
+
+
+def _columns(parcel: Parcel, prefix: str, names: Iterable[str]) -> Iterator[tuple[Any, ...]]:
+    """What a parcel has under names with a prefix, of each curve."""
+    return zip(*(parcel[prefix + name].tolist() for name in names), strict=True)
 
 
 def cluster_changes(
@@ -62,16 +97,13 @@ def fit_ordinal(
     Histories that reach each state are (clusters, states, levels), histories (clusters, levels); changes, of ln theta
     and beta if each cluster is left out, (clusters, 2).
     """
-    found = _core.curves.fit_ordinal(levels, np.ascontiguousarray(reached).T, np.ascontiguousarray(histories).T)
-    curves, statuses, changes, covariances, errors, failure = found
-    check(failure)
-    names, known = constants().statuses, constants().errors
+    parcel = receive(
+        _core.curves.fit_ordinal(levels, np.ascontiguousarray(reached).T, np.ascontiguousarray(histories).T)
+    )
+    changes, covariances, kinds = parcel["changes"], parcel["covariance"], constants().errors
     return [
-        (
-            CurveData(names[statuses[i] - 1], *curves[:, i].tolist()),
-            (changes[:, i].T.copy(), covariances[:, :, i].copy(), known[errors[i] - 1]),
-        )
-        for i in range(reached.shape[1])
+        (data, (changes[:, i].copy(), covariances[i].T.copy(), kinds[code - 1]))
+        for i, (data, code) in enumerate(zip(_curves(parcel, ""), parcel["errors"], strict=True))
     ]
 
 
@@ -127,14 +159,16 @@ def warnings_of_curve(
     code = constants().statuses.index(status) + 1
     number = 0 if wall is None else wall.number
     ends = np.minimum(bracket, np.finfo(np.float64).max)
-    parcel = receive(_core.curves.warn_of_curve(number, levels, largest_edp, theta, beta, ends, code))
+    parcel = receive(
+        _core.curves.warn_of_curve(number, levels, largest_edp, theta=theta, beta=beta, bracket=ends, status=code)
+    )
     return unpack_warnings(parcel.lines)
 
 
 def warnings_of_union(name: str, status: str, theta: float) -> list[DondoloWarning]:
     """What the executable would warn of, of the curve of one facade or wall with several mechanisms."""
     code = constants().statuses.index(status) + 1
-    return unpack_warnings(receive(_core.curves.warn_of_union(as_text("name", name), theta, code)).lines)
+    return unpack_warnings(receive(_core.curves.warn_of_union(as_text("name", name), theta=theta, status=code)).lines)
 
 
 def compare_parameters(

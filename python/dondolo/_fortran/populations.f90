@@ -7,7 +7,7 @@ module populations
    use dondolo_boundary, only : check_room, split_lines
    use dondolo_case_occurrence_warnings, only : occurrence_warnings_type
    use dondolo_case_result_warnings, only : fit_warnings_type, warn_of_union
-   use dondolo_fragility, only : error_names, fragility_type
+   use dondolo_curve_parcel, only : put_curves
    use dondolo_parcel, only : parcel_type, send
    use dondolo_population, only : population_type
    use dondolo_population_curves, only : population_curves_type
@@ -119,41 +119,6 @@ contains
       end do
       if (.not. allocated(error)) call curves%finish(population, error)
    end subroutine add_flags
-
-   !> Put curves in, number after number: status and errors (places among the names), theta, beta, log likelihood, deviance
-   !> and its degrees of freedom (2, curves), bracket (2, curves), naive covariance (var ln theta, covariance, var beta; 3,
-   !> curves), standard errors as the tables have them, clusters, degrees of freedom
-   subroutine put_curves(parcel, prefix, curves)
-      type(parcel_type), intent(inout) :: parcel
-      !> What the names begin with
-      character(len=*), intent(in) :: prefix
-      type(fragility_type), intent(in) :: curves(:)
-
-      integer :: i, n
-
-      n = size(curves)
-      call parcel%put(prefix//'status', int(curves%status, c_int))
-      call parcel%put(prefix//'errors', [(int(findloc(error_names, curves(i)%errors, dim=1), c_int), i=1, n)])
-      call parcel%put(prefix//'clusters', [(int(curves(i)%clusters, c_int), i=1, n)])
-      call parcel%put(prefix//'theta', [(curves(i)%theta, i=1, n)])
-      call parcel%put(prefix//'beta', [(curves(i)%beta, i=1, n)])
-      call parcel%put(prefix//'log_likelihood', [(curves(i)%log_likelihood, i=1, n)])
-      call parcel%put(prefix//'deviance', [([curves(i)%deviance, real(curves(i)%deviance_dof, c_double)], i=1, n)], [2, n])
-      call parcel%put(prefix//'bracket', [(curves(i)%bracket, i=1, n)], [2, n])
-      call parcel%put(prefix//'naive_covariance', [(triangle(curves(i)%naive), i=1, n)], [3, n])
-      call parcel%put(prefix//'se_ln_theta', [(curves(i)%se_ln_theta(), i=1, n)])
-      call parcel%put(prefix//'se_beta', [(curves(i)%se_beta(), i=1, n)])
-      call parcel%put(prefix//'cov_ln_theta_beta', [(curves(i)%covariance(1, 2), i=1, n)])
-      call parcel%put(prefix//'degrees_of_freedom', [(curves(i)%degrees_of_freedom, i=1, n)])
-   end subroutine put_curves
-
-   !> The numbers of a symmetric matrix
-   pure function triangle(matrix) result(numbers)
-      real(c_double), intent(in) :: matrix(2, 2)
-      real(c_double) :: numbers(3)
-
-      numbers = [matrix(1, 1), matrix(1, 2), matrix(2, 2)]
-   end function triangle
 
    !> Put in of each wall its fractions and its histories (levels, walls), and the probability that it can collapse
    subroutine put_fractions(parcel, population)
@@ -277,8 +242,8 @@ contains
    !> A curve of a population at n levels x: its weighted mean, and its fractiles for k shares of the weight. curves and
    !> statuses are those of the rows; mechanism 'all': the walls as a whole; group: empty for the whole population. With
    !> probabilities = 1 a parcel has their probabilities (rows or walls, n)
-   subroutine curve_of_population(texts, levels, collapses, m, r, histories, shares, alternative, rows, w, theta, beta, statuses, &
-         & mechanism, group, x, n, q, k, probabilities, mean, fractiles, sent)
+   subroutine curve_of_population(texts, levels, collapses, m, r, histories, shares, alternative, rows, w, mechanism, group, x, n, &
+         & q, k, probabilities, theta, beta, statuses, mean, fractiles, sent)
       character(len=*), intent(in) :: texts, mechanism, group
       integer(c_int), intent(in) :: m, r, w, n, k, probabilities, collapses(m, r), histories(m, r), alternative(r), rows(w)
       integer(c_int), intent(in) :: statuses(r)

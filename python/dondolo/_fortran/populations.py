@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dondolo._base.arguments import FloatArray
 from dondolo._fortran import _core
-from dondolo._fortran.curves import CurveData
 from dondolo._fortran.library import Parcel, as_text, check, constants, receive, unpack_warnings
 from dondolo.errors import DondoloWarning
 
@@ -82,18 +81,6 @@ class FlatFlags(NamedTuple):
     runs: NDArray[np.int32]
 
 
-class FittedCurve(NamedTuple):
-    """A curve with its standard errors of the kind `errors`; only clustered ones have a covariance here."""
-
-    data: CurveData
-    se_ln_theta: float
-    se_beta: float
-    cov_ln_theta_beta: float
-    errors: str
-    clusters: int
-    degrees_of_freedom: float
-
-
 def fit_population(names: bytes, population: FlatPopulation, flags: FlatFlags | None, are_alternatives: bool) -> Parcel:
     """Curves of rows, of their walls and of their population in a damage state; names are two of each row, a line each.
 
@@ -115,38 +102,6 @@ def warnings_of_occurrence(
     return unpack_warnings(found.lines)
 
 
-def fitted_curves(parcel: Parcel, prefix: str) -> list[FittedCurve]:
-    """The curves of a parcel whose names begin with a prefix."""
-    names, kinds = constants().statuses, constants().errors
-
-    def columns(*words: str) -> Iterator[tuple[Any, ...]]:
-        return zip(*(parcel[prefix + word].tolist() for word in words), strict=True)
-
-    data = [
-        CurveData(
-            status=names[status - 1],
-            theta=theta,
-            beta=beta,
-            var_ln_theta=naive[0],
-            covariance=naive[1],
-            var_beta=naive[2],
-            log_likelihood=height,
-            bracket_low=bracket[0],
-            bracket_high=bracket[1],
-            deviance=deviance[0],
-            deviance_dof=deviance[1],
-        )
-        for status, theta, beta, naive, height, bracket, deviance in columns(
-            "status", "theta", "beta", "naive_covariance", "log_likelihood", "bracket", "deviance"
-        )
-    ]
-    own = columns("se_ln_theta", "se_beta", "cov_ln_theta_beta", "errors", "clusters", "degrees_of_freedom")
-    return [
-        FittedCurve(fit, of_theta, of_beta, both, kinds[code - 1], clusters, degrees)
-        for fit, (of_theta, of_beta, both, code, clusters, degrees) in zip(data, own, strict=True)
-    ]
-
-
 def curve_of_population(
     population: FlatPopulation,
     curves: FlatCurves,
@@ -161,6 +116,8 @@ def curve_of_population(
     `members` only.
     """
     texts = (as_text("group", text) for text in which)
-    mean, fractiles, sent = _core.populations.curve_of_population(*population, *curves, *texts, x, q, int(members))
+    mean, fractiles, sent = _core.populations.curve_of_population(
+        *population, *texts, x, q, int(members), **curves._asdict()
+    )
     check(sent)
     return mean, fractiles, receive(sent)["probabilities"].T if members else np.zeros((0, len(x)))

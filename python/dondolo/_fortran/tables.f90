@@ -1,13 +1,12 @@
 !> Tables of results that Python has as objects: their columns are those of the result files.
 !>
-!> Curves come as numbers (14, curves) and codes (3, curves), which as_curve has, and of each the kind of its standard errors among
-!> its lines; the last number is the EDP threshold.
+!> Curves come by name, as take_curves has them, those of one row after those of the row before.
 module tables
    use, intrinsic :: ieee_arithmetic, only : ieee_is_finite
    use, intrinsic :: iso_c_binding, only : c_double, c_int, c_int64_t
    use dondolo_base_error, only : error_type
    use dondolo_base_lines, only : lines_type
-   use dondolo_boundary, only : as_curve, check_room, split_lines
+   use dondolo_boundary, only : check_room, split_lines
    use dondolo_case_columns, only : columns_type
    use dondolo_case_design_rows, only : put_design
    use dondolo_case_report_rows, only : put_certified, put_fragility, put_history, put_names, put_stripe, put_trace, put_typology, &
@@ -15,6 +14,8 @@ module tables
    use dondolo_case_source_rows, only : put_source
    use dondolo_case_tie_rows, only : put_tally
    use dondolo_check_safety, only : safety_type
+   use dondolo_curve_parcel, only : take_curves
+   use dondolo_fragility, only : fragility_type
    use dondolo_fragility_tie_tallies, only : tie_tally_type
    use dondolo_interface_handles, only : find_walls
    use dondolo_motion_certificate, only : certified_type
@@ -142,24 +143,27 @@ contains
       call send_table(table, error, sent)
    end subroutine stripe_table
 
-   !> k curves: of each as lines the name and the mechanism of its wall, its measure and its kind of errors
-   subroutine fragility_table(texts, curves, codes, k, sent)
-      character(len=*), intent(in) :: texts
-      integer(c_int), intent(in) :: k, codes(3, k)
-      real(c_double), intent(in) :: curves(14, k)
+   !> k curves: of each as lines the name and the mechanism of its wall, and its measure
+   subroutine fragility_table(texts, curve_names, curve_texts, curve_numbers, p, k, sent)
+      character(len=*), intent(in) :: texts, curve_names, curve_texts
+      integer(c_int), intent(in) :: p, k
+      real(c_double), intent(in) :: curve_numbers(p, k)
       integer(c_int64_t), intent(out) :: sent(5)
+      type(fragility_type), allocatable :: curves(:)
+      real(c_double), allocatable :: thresholds(:)
       type(lines_type) :: words
       type(columns_type) :: table
       type(error_type), allocatable :: error
       integer :: i
 
       call check_room(error, reals=40.0_c_double*k)
+      if (.not. allocated(error)) call take_curves(curves, curve_names, curve_texts, curve_numbers, error, thresholds)
       if (.not. allocated(error)) then
          call split_lines(texts, words)
          do i = 1, k
-            associate (line => words%line(4*i - 3:4*i))
+            associate (line => words%line(3*i - 2:3*i))
                call put_names(table, line(1)%text, line(2)%text)
-               call put_fragility(table, line(3)%text, as_curve(curves(:, i), codes(:, i), line(4)%text), curves(14, i))
+               call put_fragility(table, line(3)%text, curves(i), thresholds(i))
                call table%end_row()
             end associate
          end do
@@ -167,13 +171,15 @@ contains
       call send_table(table, error, sent)
    end subroutine fragility_table
 
-   !> k curves of a population at m levels: of each as lines its mechanism, its group and its kind of errors; sums, weight, both
-   !> dispersions, saturation and share that is fitted; at each level the mean fraction, the mean curve and three fractiles
-   subroutine typology_table(texts, im, levels, curves, codes, sums, means, m, k, sent)
-      character(len=*), intent(in) :: texts, im
-      integer(c_int), intent(in) :: m, k, codes(3, k)
-      real(c_double), intent(in) :: levels(m), curves(14, k), sums(5, k), means(m, 5, k)
+   !> k curves of a population at m levels: of each as lines its mechanism and its group; sums, weight, both dispersions,
+   !> saturation and share that is fitted; at each level the mean fraction, the mean curve and three fractiles
+   subroutine typology_table(texts, im, levels, sums, means, curve_names, curve_texts, curve_numbers, m, p, k, sent)
+      character(len=*), intent(in) :: texts, im, curve_names, curve_texts
+      integer(c_int), intent(in) :: m, p, k
+      real(c_double), intent(in) :: levels(m), sums(5, k), means(m, 5, k), curve_numbers(p, k)
       integer(c_int64_t), intent(out) :: sent(5)
+      type(fragility_type), allocatable :: curves(:)
+      real(c_double), allocatable :: thresholds(:)
       type(typology_type) :: typology
       type(lines_type) :: words
       type(columns_type) :: table
@@ -181,13 +187,14 @@ contains
       integer :: i, j
 
       call check_room(error, reals=40.0_c_double*m*k)
+      if (.not. allocated(error)) call take_curves(curves, curve_names, curve_texts, curve_numbers, error, thresholds)
       if (.not. allocated(error)) then
          call split_lines(texts, words)
          typology%levels = levels
          do i = 1, k
-            typology%mechanism = words%line(3*i - 2)%text
-            typology%group = words%line(3*i - 1)%text
-            typology%fit = as_curve(curves(:, i), codes(:, i), words%line(3*i)%text)
+            typology%mechanism = words%line(2*i - 1)%text
+            typology%group = words%line(2*i)%text
+            typology%fit = curves(i)
             typology%weight = sums(1, i)
             typology%beta_walls = sums(2, i)
             typology%beta_records = sums(3, i)
@@ -197,7 +204,7 @@ contains
             typology%mean_curve = means(:, 2, i)
             typology%fractile = transpose(means(:, 3:5, i))
             do j = 1, m
-               call put_typology(table, typology, im, j, curves(14, i))
+               call put_typology(table, typology, im, j, thresholds(i))
                call table%end_row()
             end do
          end do
@@ -205,14 +212,16 @@ contains
       call send_table(table, error, sent)
    end subroutine typology_table
 
-   !> k walls with several mechanisms, or means, at m levels: of each as lines its name, its group, and the kinds of errors of its
-   !> curve and of that of the product; how many mechanisms, 0 for a mean; at each level histories, collapses, and the
-   !> fraction, by the same histories and by the product
-   subroutine union_table(texts, im, levels, mechanisms, curves, codes, counts, m, k, sent)
-      character(len=*), intent(in) :: texts, im
-      integer(c_int), intent(in) :: m, k, mechanisms(k), codes(3, 2, k)
-      real(c_double), intent(in) :: levels(m), curves(14, 2, k), counts(m, 4, k)
+   !> k walls with several mechanisms, or means, at m levels: of each as lines its name and its group; how many mechanisms, 0 for
+   !> a mean; at each level histories, collapses, and the fraction, by the same histories and by the product; two curves, its
+   !> own and that of the product
+   subroutine union_table(texts, im, levels, mechanisms, counts, curve_names, curve_texts, curve_numbers, m, k, p, c, sent)
+      character(len=*), intent(in) :: texts, im, curve_names, curve_texts
+      integer(c_int), intent(in) :: m, k, p, c, mechanisms(k)
+      real(c_double), intent(in) :: levels(m), counts(m, 4, k), curve_numbers(p, c)
       integer(c_int64_t), intent(out) :: sent(5)
+      type(fragility_type), allocatable :: curves(:)
+      real(c_double), allocatable :: thresholds(:)
       type(union_type) :: union
       type(lines_type) :: words
       type(columns_type) :: table
@@ -220,10 +229,11 @@ contains
       integer :: i, j
 
       call check_room(error, reals=60.0_c_double*m*k)
+      if (.not. allocated(error)) call take_curves(curves, curve_names, curve_texts, curve_numbers, error, thresholds)
       if (.not. allocated(error)) then
          call split_lines(texts, words)
          do i = 1, k
-            associate (line => words%line(4*i - 3:4*i))
+            associate (line => words%line(2*i - 1:2*i))
                union%name = line(1)%text
                union%group = line(2)%text
                union%rows = [min(mechanisms(i), 1), mechanisms(i)]
@@ -231,11 +241,11 @@ contains
                union%collapses = counts(:, 2:2, i)
                union%fraction = counts(:, 3:3, i)
                union%independent = counts(:, 4:4, i)
-               union%curve = [as_curve(curves(:, 1, i), codes(:, 1, i), line(3)%text)]
-               union%product = [as_curve(curves(:, 2, i), codes(:, 2, i), line(4)%text)]
+               union%curve = curves(2*i - 1:2*i - 1)
+               union%product = curves(2*i:2*i)
             end associate
             do j = 1, m
-               call put_union(table, union, im, levels(j), j, 1, curves(14, 1, i))
+               call put_union(table, union, im, levels(j), j, 1, thresholds(2*i - 1))
                call table%end_row()
             end do
          end do
@@ -274,52 +284,59 @@ contains
       call send_table(table, error, sent)
    end subroutine tie_table
 
-   !> k designs beside the first: of each as lines its name and its kind of errors; ratio of the medians, its bounds and its
-   !> probability, a ratio of 0 for none; of its check a_0, multiplier, safety indices of SLV by both checks and return period
-   !> by the nonlinear one, 0 for none, and whether this is a bound, -1: '<', 1: '>'
-   subroutine design_table(texts, im, curves, codes, steel, alpha_0, ratio, ratio_low, ratio_high, p_value, activation, &
-         & multiplier, linear, nonlinear, years, bound, k, sent)
-      character(len=*), intent(in) :: texts, im
-      integer(c_int), intent(in) :: k, codes(3, k)
-      real(c_double), intent(in) :: curves(14, k), steel(k), alpha_0(k), ratio(k), ratio_low(k), ratio_high(k), p_value(k)
+   !> k designs beside the first, names are lines: ratio of the medians, its bounds and its probability, a ratio of 0 for none; of
+   !> its check a_0, multiplier, safety indices of SLV by both checks and return period by the nonlinear one, 0 for none, and
+   !> whether this is a bound, -1: '<', 1: '>'
+   subroutine design_table(texts, im, curve_names, curve_texts, curve_numbers, steel, alpha_0, ratio, ratio_low, ratio_high, &
+         & p_value, activation, multiplier, linear, nonlinear, years, bound, p, k, sent)
+      character(len=*), intent(in) :: texts, im, curve_names, curve_texts
+      integer(c_int), intent(in) :: p, k
+      real(c_double), intent(in) :: curve_numbers(p, k), steel(k), alpha_0(k), ratio(k), ratio_low(k), ratio_high(k), p_value(k)
       real(c_double), intent(in) :: activation(k), multiplier(k), linear(k), nonlinear(k), years(k), bound(k)
       integer(c_int64_t), intent(out) :: sent(5)
       type(design_type) :: designs(k)
+      type(fragility_type), allocatable :: curves(:)
       type(lines_type) :: words
       type(columns_type) :: table
       type(error_type), allocatable :: error
       integer :: i
 
-      call split_lines(texts, words)
-      do i = 1, k
-         associate (design => designs(i))
-            design%name = words%line(2*i - 1)%text
-            design%curve = as_curve(curves(:, i), codes(:, i), words%line(2*i)%text)
-            design%steel = steel(i)
-            design%alpha_0 = alpha_0(i)
-            design%is_compared = ratio(i) > 0.0_c_double
-            design%ratio = ratio(i)
-            design%low = ratio_low(i)
-            design%high = ratio_high(i)
-            design%p_value = p_value(i)
-            design%safety = safety_type(is_known=activation(i) > 0.0_c_double, multiplier=multiplier(i), &
-               & activation=activation(i), linear=merge(linear(i), -1.0_c_double, linear(i) > 0.0_c_double), &
-               & nonlinear=nonlinear(i), years=merge(years(i), -1.0_c_double, years(i) > 0.0_c_double), &
-               & bound=merge('<', merge('>', ' ', bound(i) > 0.0_c_double), bound(i) < 0.0_c_double))
-         end associate
-         call put_design(table, designs(i), designs(1), im)
-         call table%end_row()
-      end do
+      call take_curves(curves, curve_names, curve_texts, curve_numbers, error)
+      if (.not. allocated(error)) then
+         call split_lines(texts, words)
+         do i = 1, k
+            associate (design => designs(i))
+               design%name = words%line(i)%text
+               design%curve = curves(i)
+               design%steel = steel(i)
+               design%alpha_0 = alpha_0(i)
+               design%is_compared = ratio(i) > 0.0_c_double
+               design%ratio = ratio(i)
+               design%low = ratio_low(i)
+               design%high = ratio_high(i)
+               design%p_value = p_value(i)
+               design%safety = safety_type(is_known=activation(i) > 0.0_c_double, multiplier=multiplier(i), &
+                  & activation=activation(i), linear=merge(linear(i), -1.0_c_double, linear(i) > 0.0_c_double), &
+                  & nonlinear=nonlinear(i), years=merge(years(i), -1.0_c_double, years(i) > 0.0_c_double), &
+                  & bound=merge('<', merge('>', ' ', bound(i) > 0.0_c_double), bound(i) < 0.0_c_double))
+            end associate
+            call put_design(table, designs(i), designs(1), im)
+            call table%end_row()
+         end do
+      end if
       call send_table(table, error, sent)
    end subroutine design_table
 
-   !> k sources: name and distribution of each as lines, its fractiles, its two curves, its Sobol indices with their intervals
-   !> (NaN: none) and, of the curves, kinds of errors as further lines
-   subroutine source_table(texts, values, curves, codes, first, first_interval, total, total_interval, k, sent)
-      character(len=*), intent(in) :: texts
-      integer(c_int), intent(in) :: k, codes(3, 2, k)
-      real(c_double), intent(in) :: values(3, k), curves(14, 2, k), first(k), first_interval(2, k), total(k), total_interval(2, k)
+   !> k sources: name and distribution of each as lines, its fractiles, its two curves, and its Sobol indices with their intervals
+   !> (NaN: none)
+   subroutine source_table(texts, values, curve_names, curve_texts, curve_numbers, first, first_interval, total, &
+         & total_interval, k, p, c, sent)
+      character(len=*), intent(in) :: texts, curve_names, curve_texts
+      integer(c_int), intent(in) :: k, p, c
+      real(c_double), intent(in) :: values(3, k), first(k), first_interval(2, k), total(k), total_interval(2, k)
+      real(c_double), intent(in) :: curve_numbers(p, c)
       integer(c_int64_t), intent(out) :: sent(5)
+      type(fragility_type), allocatable :: curves(:)
       type(lines_type) :: words
       type(columns_type) :: table
       type(sensitivity_type), allocatable :: sensitivity
@@ -327,14 +344,16 @@ contains
       integer :: i
 
       if (all(ieee_is_finite(first))) sensitivity = sensitivity_type(first, total, first_interval, total_interval)
-      call split_lines(texts, words)
-      do i = 1, k
-         associate (line => words%line(4*i - 3:4*i))
-            call put_source(table, line(1)%text, line(2)%text, values(:, i), [as_curve(curves(:, 1, i), codes(:, 1, i), &
-               & line(3)%text), as_curve(curves(:, 2, i), codes(:, 2, i), line(4)%text)], i, sensitivity)
+      call take_curves(curves, curve_names, curve_texts, curve_numbers, error)
+      if (.not. allocated(error)) then
+         call split_lines(texts, words)
+         do i = 1, k
+            associate (line => words%line(2*i - 1:2*i))
+               call put_source(table, line(1)%text, line(2)%text, values(:, i), curves(2*i - 1:2*i), i, sensitivity)
+            end associate
             call table%end_row()
-         end associate
-      end do
+         end do
+      end if
       call send_table(table, error, sent)
    end subroutine source_table
 

@@ -13,19 +13,22 @@ from dondolo._base.arguments import FloatArray
 from dondolo._fortran import _core
 from dondolo._fortran.files import INTEGER, REAL, TEXT, Column
 from dondolo._fortran.handles import Handle
-from dondolo._fortran.library import Parcel, constants, receive, text_lines
+from dondolo._fortran.library import Parcel, receive, text_lines
 
 #: A table of results
 TableColumns = dict[str, Column]
 IntArray = NDArray[np.integer[Any]]
 
 
-class TableNumbers(NamedTuple):
-    """Numbers of a curve in the order in which a table takes them (as_curve in boundary.f90).
+class FlatCurve(NamedTuple):
+    """A curve as a table takes it.
 
-    Covariances are those of (ln theta, beta): both variances and what is between; `edp_threshold` is 0 if not known.
+    Covariances are those of (ln theta, beta): both variances and what is between, naive and of the kind `errors`;
+    `edp_threshold` is 0 if not known.
     """
 
+    status: str
+    errors: str
     theta: float
     beta: float
     naive_11: float
@@ -34,22 +37,14 @@ class TableNumbers(NamedTuple):
     log_likelihood: float
     bracket_low: float
     bracket_high: float
-    own_11: float
-    own_12: float
-    own_22: float
+    covariance_11: float
+    covariance_12: float
+    covariance_22: float
     degrees_of_freedom: float
     deviance: float
-    edp_threshold: float
-
-
-class FlatCurve(NamedTuple):
-    """A curve as the library takes it for a table."""
-
-    numbers: TableNumbers
-    status: str
-    errors: str
-    clusters: int
     deviance_dof: int
+    clusters: int
+    edp_threshold: float
 
 
 def unpack_table(parcel: Parcel, name: str) -> TableColumns:
@@ -108,12 +103,8 @@ def fragility_columns(
     walls: Iterable[tuple[str, str]], ims: Iterable[str], curves: Sequence[FlatCurve]
 ) -> TableColumns:
     """Columns of ``_fragility.csv``."""
-    words = (
-        word
-        for (name, mechanism), im, curve in zip(walls, ims, curves, strict=True)
-        for word in (name, mechanism, im, curve.errors)
-    )
-    return _receive(_core.tables.fragility_table(text_lines(words), *flat_curves(curves)))
+    words = (word for wall, im in zip(walls, ims, strict=True) for word in (*wall, im))
+    return _receive(_core.tables.fragility_table(text_lines(words), **flat_curves(curves)))
 
 
 def typology_columns(
@@ -129,9 +120,8 @@ def typology_columns(
     Of each curve mechanism and group; weight, both dispersions, saturation and share that is fitted; and (5, levels)
     mean fraction, mean curve and fractiles.
     """
-    words = (word for part, curve in zip(parts, curves, strict=True) for word in (*part, curve.errors))
     flat = np.array(sums).T, np.array(means).T
-    return _receive(_core.tables.typology_table(text_lines(words), im.encode(), levels, *flat_curves(curves), *flat))
+    return _receive(_core.tables.typology_table(_pairs(parts), im.encode(), levels, *flat, **flat_curves(curves)))
 
 
 def union_columns(
@@ -147,10 +137,8 @@ def union_columns(
     Of each union name and group, how many mechanisms (0 for a mean), its curve and that of the product, and (4, levels)
     histories, collapses and both fractions.
     """
-    words = (word for name, both in zip(names, curves, strict=True) for word in (*name, *(one.errors for one in both)))
-    numbers = np.array(mechanisms, dtype=np.int32)
-    flat = (*_flat_pairs(curves), np.array(counts).T)
-    return _receive(_core.tables.union_table(text_lines(words), im.encode(), levels, numbers, *flat))
+    flat = np.array(mechanisms, dtype=np.int32), np.array(counts).T
+    return _receive(_core.tables.union_table(_pairs(names), im.encode(), levels, *flat, **_flat_pairs(curves)))
 
 
 def tie_columns(
@@ -202,9 +190,8 @@ def design_columns(
 ) -> TableColumns:
     """Columns of ``_designs.csv``; numbers under the names that tables.f90 has for them, NaN for none."""
     columns = {**columns, **dict(zip(Safety._fields, np.array(safety).T, strict=True))}
-    words = (word for name, curve in zip(names, curves, strict=True) for word in (name, curve.errors))
     numbers = {what: np.nan_to_num(values) for what, values in columns.items()}
-    return _receive(_core.tables.design_table(text_lines(words), im.encode(), *flat_curves(curves), **numbers))
+    return _receive(_core.tables.design_table(text_lines(names), im.encode(), **flat_curves(curves), **numbers))
 
 
 def source_columns(
@@ -218,10 +205,7 @@ def source_columns(
     Of each source name and distribution, three fractiles, the curves at the outer ones, and Sobol indices with their
     intervals under the names that tables.f90 has for them.
     """
-    words = (
-        word for names, both in zip(sources, curves, strict=True) for word in (*names, *(one.errors for one in both))
-    )
-    return _receive(_core.tables.source_table(text_lines(words), values.T, *_flat_pairs(curves), **indices))
+    return _receive(_core.tables.source_table(_pairs(sources), values.T, **_flat_pairs(curves), **indices))
 
 
 def trace_columns(columns: Mapping[str, Any], capacity: float) -> TableColumns:
@@ -246,18 +230,19 @@ def _receive(sent: NDArray[np.int64]) -> TableColumns:
     return unpack_table(receive(sent), "table")
 
 
-def _pairs(walls: Iterable[tuple[str, str]]) -> bytes:
-    return text_lines(word for wall in walls for word in wall)
+def _pairs(words: Iterable[tuple[str, str]]) -> bytes:
+    return text_lines(word for both in words for word in both)
 
 
-def flat_curves(curves: Sequence[FlatCurve]) -> tuple[FloatArray, NDArray[np.int32]]:
-    """Numbers (14, curves) and codes (3, curves)."""
-    names = constants().statuses
-    codes = [(names.index(curve.status) + 1, curve.clusters, curve.deviance_dof) for curve in curves]
-    return np.array([curve.numbers for curve in curves]).T, np.array(codes, dtype=np.int32).T
+def flat_curves(curves: Sequence[FlatCurve]) -> dict[str, Any]:
+    """Curves as Fortran takes them, under the names of its arguments."""
+    _, _, *names = FlatCurve._fields
+    return {
+        "curve_names": text_lines(names),
+        "curve_texts": text_lines(word for curve in curves for word in (curve.status, curve.errors)),
+        "curve_numbers": np.array([curve[2:] for curve in curves]).T,
+    }
 
 
-def _flat_pairs(curves: Sequence[tuple[FlatCurve, FlatCurve]]) -> tuple[FloatArray, NDArray[np.int32]]:
-    """The same of pairs: (14, 2, pairs) and (3, 2, pairs)."""
-    numbers, codes = flat_curves([curve for both in curves for curve in both])
-    return numbers.reshape(len(numbers), -1, 2).transpose(0, 2, 1), codes.reshape(3, -1, 2).transpose(0, 2, 1)
+def _flat_pairs(curves: Sequence[tuple[FlatCurve, FlatCurve]]) -> dict[str, Any]:
+    return flat_curves([curve for both in curves for curve in both])

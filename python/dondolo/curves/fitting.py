@@ -145,7 +145,7 @@ def curve_of(
         status=data.status,
         log_likelihood=of_fit(data.log_likelihood),
         deviance=of_fit(data.deviance),
-        deviance_dof=int(data.deviance_dof),
+        deviance_dof=data.deviance_dof,
         bracket=(data.bracket_low, np.inf if data.bracket_high >= np.finfo(np.float64).max else data.bracket_high),
         levels=levels,
         collapses=collapses,

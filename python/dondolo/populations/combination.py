@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from dondolo._base.arguments import FloatArray
+from dondolo._fortran.curves import FittedCurve, fitted_curves
 from dondolo._fortran.library import Parcel, as_text, unpack_warnings
-from dondolo._fortran.populations import FittedCurve, fit_population, fitted_curves
+from dondolo._fortran.populations import fit_population
 from dondolo.analysis.work import Work
 from dondolo.curves.clusters import Clusters, errors_of_table, no_errors
 from dondolo.curves.fitting import curve_of, with_errors
