@@ -6,7 +6,7 @@ from dondolo._storage.saved import load as load
 from dondolo.analysis.cloud import cloud as cloud
 from dondolo.analysis.efficiency import compare_intensities as compare_intensities
 from dondolo.analysis.overturning import overturning_spectrum as overturning_spectrum
-from dondolo.analysis.response import simulate as simulate
+from dondolo.analysis.simulation import simulate as simulate
 from dondolo.analysis.solver import Solver as Solver
 from dondolo.analysis.stripe_runs import Study as Study
 from dondolo.analysis.stripe_runs import adaptive_stripes as adaptive_stripes

@@ -12,7 +12,7 @@ from dondolo._base.arguments import FloatArray
 from dondolo._base.interrupts import as_event
 from dondolo.analysis.certificate import records_of
 from dondolo.analysis.request import progress_bar
-from dondolo.analysis.response import simulate
+from dondolo.analysis.simulation import simulate
 from dondolo.analysis.solver import Solver
 from dondolo.analysis.stripes import Stripes
 from dondolo.errors import DondoloWarning, Interrupted
