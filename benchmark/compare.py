@@ -15,6 +15,7 @@ from pathlib import Path
 import arithmetic
 import beside
 import page
+import populations
 import runs
 from problem import ROOT, SINGLE_BLOCKS, problem, write_case
 from programs import BUILD, DONDOLO, PEERS, run_peer, weights, write_results
@@ -45,7 +46,7 @@ def compare(executable, records, quick, progress):
             turns.group(count)
             progress.finish("rounds")
         repeats = 1 if quick else sum(ROUNDS)
-        rows = measure(executable, repeats) + beside.measure(repeats)
+        rows = measure(executable, repeats) + beside.measure(repeats) + populations.measure(executable, quick)
         progress.finish("scaling")
         turns.group(last)
         progress.finish("rounds")
@@ -69,7 +70,7 @@ def plan(progress, problems, quick):
                 progress.plan(f"{each.wall}, {peer.name}, {method}", factor * peer.expected * len(values))
     for count in QUICK_ROUNDS if quick else ROUNDS:
         progress.plan("rounds", 38.0 * count)
-    progress.plan("scaling", 30.0 if quick else 180.0)
+    progress.plan("scaling", 40.0 if quick else 210.0)
 
 
 def settings(each, folder, whole, progress):

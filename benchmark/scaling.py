@@ -38,20 +38,28 @@ def heights(count):
 
 def typology(executable, count, threads, folder, variant=None):
     """Seconds of the histories of a population, and the largest memory of the process [MiB]."""
-    population = Path(folder) / "population.csv"
     lines = ["name,mechanism,height,thickness", *(f"w{i},one_sided,{h},0.25" for i, h in enumerate(heights(count)))]
-    population.write_text("\n".join(lines) + "\n", encoding="utf-8")
+    environment = {"DONDOLO_VARIANT": variant} if variant else {}
+    stripes = "&stripes first = 0.05 last = 1.0 count = 20 /"
+    return run_population(executable, lines, stripes, threads, folder, environment)
+
+
+def run_population(executable, lines, groups, threads, folder, environment=None, population=""):
+    """Run the lines of a table of walls; groups of the case, more of &population, and variables of the environment.
+
+    Returns the seconds of its histories, and the largest memory of the process [MiB].
+    """
+    table = Path(folder) / "population.csv"
+    table.write_text("\n".join(lines) + "\n", encoding="utf-8")
     case = Path(folder) / "case.nml"
     case.write_text(
         f"&job task = 'typology' output = '{folder}/result' threads = {threads} /\n"
-        f"&population file = '{population}' /\n&records catalogue = '{CATALOGUE}' /\n"
-        f"&stripes first = 0.05 last = 1.0 count = 20 /\n",
+        f"&population file = '{table}' {population} /\n&records catalogue = '{CATALOGUE}' /\n{groups}\n",
         encoding="utf-8",
     )
     peak = 0.0
-    environment = os.environ | ({"DONDOLO_VARIANT": variant} if variant else {})
     streams = {"stdout": subprocess.PIPE, "stderr": subprocess.DEVNULL}
-    with subprocess.Popen([executable, case], text=True, env=environment, **streams) as process:
+    with subprocess.Popen([executable, case], text=True, env=os.environ | (environment or {}), **streams) as process:
         while process.poll() is None:
             # Peak memory of the process itself; that of children in getrusage includes Python's own memory.
             held = re.search(r"VmHWM:\s+(\d+) kB", Path(f"/proc/{process.pid}/status").read_text())

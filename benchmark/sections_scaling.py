@@ -3,6 +3,7 @@
 import cost_model
 from beside import FACADES, FIXED
 from markdown import paragraph, table
+from populations import KINDS
 from scaling import VARIANTS, spread_of
 
 
@@ -36,12 +37,30 @@ def scaling(rows):
     lines += table(["build variant", "ms per history", "speed-up"], body)
     body = [[f"{r['histories']:g}", f"{r['median']:.1f}"] for r in rows if r["kind"] == "memory" and r["median"] > 0.0]
     lines += table(["histories", "peak memory, MiB"], body)
-    return lines + facades(rows) + fixed(rows)
+    return lines + populations(rows) + facades(rows) + fixed(rows)
 
 
 def per_history(row):
     """Spread of the milliseconds per history."""
     return spread_of(row).times(1e3 / row["histories"]).stated()
+
+
+def populations(rows):
+    """Populations of each kind: cost of a wall, growth, memory."""
+    own = {kind: [r for r in rows if r["kind"] == f"population, {kind}"] for kind in KINDS}
+    lines = paragraph(
+        "Populations of each kind, at two levels under 44 accelerograms, on one thread, each size once. The exponent "
+        "is that of the growth of the time with the number of walls."
+    )
+    body = []
+    for kind, found in own.items():
+        peaks = [r["median"] for r in rows if r["kind"] == f"population memory, {kind}"]
+        last = found[-1]
+        exponent = cost_model.growth(rows, f"population, {kind}")[1]
+        counts = f"{found[0]['size']:g} to {last['size']:g}"
+        cost = f"{1e3 * last['median'] / last['size']:.3g}"
+        body.append([kind, counts, cost, f"{exponent:.2f}", f"{peaks[0]:.0f} to {peaks[-1]:.0f}"])
+    return lines + table(["population", "walls", "ms per wall, last size", "exponent", "peak memory, MiB"], body)
 
 
 def facades(rows):

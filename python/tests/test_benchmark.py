@@ -15,6 +15,7 @@ import beside
 import cores
 import cost_model
 import page
+import populations
 import runs
 from programs import Result, write_results
 from rounds import ARITHMETIC, COLD, CORE, LIMIT, ROUNDS, STILL, Turn, write_rounds
@@ -280,6 +281,9 @@ def made_up_rows(call=2e-3, record=3e-4, history=4e-5, serial=0.1):
         # Each with a third more than the one before
         rows += [row("facade", place, 880, [0.03 * (3 + place)]), row("facade ratio", place, 880, [1.0 + place / 3.0])]
     rows += [row("fixed", place, 0, [1e-3 * (1 + place)]) for place in range(len(beside.FIXED))]
+    for kind in populations.KINDS:
+        for n in (100, 400):
+            rows += [row(f"population, {kind}", n, 0, [2e-3 * n]), row(f"population memory, {kind}", n, 0, [0.1 * n])]
     return [*rows, row("memory", 1, 880, [11.5])]
 
 
@@ -398,6 +402,7 @@ def test_page(tables, site):
     assert "A call takes 2 ms + 0.3 ms for each record + 0.04 ms for each history" in words
     assert "| three ties | 0.205 | 2 |" in text
     assert "| catalogue | 44 records read | 3 |" in text
+    assert "| designs | 100 to 400 | 2 | 1.00 | 10 to 40 |" in text
     assert "There is no earlier run." in words
     for name in ("README.md", "docs/performance.md"):
         short = (site / name).read_text()
