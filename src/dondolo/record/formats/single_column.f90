@@ -46,7 +46,9 @@ contains
 
       integer :: length
 
-      length = scan(text//achar(10), achar(10)//achar(13)) - 1
+      ! Where the first line ends; without a copy of the text, which a line end after it would need
+      length = scan(text, achar(10)//achar(13)) - 1
+      if (length < 0) length = len(text)
       begins_whole = scan(text(:length), '.eEdD-') == 0 .and. (scan(text(:length), '23456789') > 0 .or. &
          & (len_trim(text(:length)) > 1 .and. scan(text(:length), '1') > 0))
    end function begins_whole
