@@ -7,7 +7,7 @@ program dondolo_main
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
    use dondolo_base_plain, only : visible
-   use dondolo_base_process, only : hold_console
+   use dondolo_base_process, only : hold_console, sleep_while_waiting
    use dondolo_base_references, only : list_bibtex
    use dondolo_base_system, only : output_arrives, set_up_process, stderr_is_terminal
    use dondolo_base_threads, only : available_threads, given_threads
@@ -54,6 +54,10 @@ program dondolo_main
    if (command_argument_count() == 0) call hold_console(first_steps)
    call read_arguments(arguments, error)
    if (allocated(error)) call give_up(error)
+   ! What computes on several threads
+   if (any(arguments%action == [character(len=9) :: 'run', 'check', 'merge', 'benchmark'])) then
+      if (available_threads() > 1) call sleep_while_waiting()
+   end if
    select case (arguments%action)
    case ('help')
       call print_help()

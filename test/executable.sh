@@ -199,6 +199,12 @@ run good.nml
 check "threads of the case" contains stdout 'a second on 2 threads'
 run good.nml --threads 1
 check "threads of the command line" contains stdout 'a second on 1 thread'
+if on_posix; then
+   # Libraries of OpenMP print what holds when they begin, the last time for the program that computes.
+   policy() { (export OMP_DISPLAY_ENV=true; run --check good.nml; grep WAIT_POLICY stderr | tail -n 1 | grep -oiE 'active|passive'); }
+   check "threads: sleep while they wait" equal "$(OMP_NUM_THREADS=2 policy)" PASSIVE
+   check "threads: do what the user wants" equal "$(OMP_NUM_THREADS=2 OMP_WAIT_POLICY=active policy)" ACTIVE
+fi
 mkdir one two
 (cd one && ln -s ../records . && cp ../good.nml . && "$exe" --quiet --threads 1 good.nml) 2>/dev/null
 (cd two && ln -s ../records . && cp ../good.nml . && "$exe" --quiet --threads=2 good.nml) 2>/dev/null

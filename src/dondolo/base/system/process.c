@@ -49,10 +49,22 @@ int dondolo_is_terminal(int descriptor)
    return isatty(descriptor);
 }
 
+/* Words that a NUL ends each, as a program gets them; NULL: too little memory */
+static char **take_words(char *words, int count)
+{
+   char **arguments = calloc((size_t)count + 1, sizeof *arguments);
+
+   for (int i = 0; arguments != NULL && i < count; i++) {
+      arguments[i] = words;
+      words += strlen(words) + 1;
+   }
+   return arguments;
+}
+
 /* Become Python, with its name and arguments in words that a NUL ends each. Returns only if there is none. */
 void dondolo_become(char *words, int count)
 {
-   char **arguments = calloc((size_t)count + 1, sizeof *arguments), *modules = dondolo_modules_elsewhere(':');
+   char **arguments = take_words(words, count), *modules = dondolo_modules_elsewhere(':');
 
    if (arguments == NULL)
       return;
@@ -61,11 +73,22 @@ void dondolo_become(char *words, int count)
    else if (modules != NULL)
       unsetenv("PYTHONPATH");
    free(modules);
-   for (int i = 0; i < count; i++) {
-      arguments[i] = words;
-      words += strlen(words) + 1;
-   }
    execvp(arguments[0], arguments);
+   free(arguments);
+}
+
+/* Begin again, with the same words, with threads of OpenMP that sleep while they wait. OpenMP reads the policy before a program
+   begins. Returns if somebody has chosen a policy, as this has the second time, or if the program cannot begin again. */
+void dondolo_sleep_while_waiting(char *words, int count)
+{
+   char path[8192], **arguments;
+
+   if (getenv("OMP_WAIT_POLICY") != NULL || getenv("GOMP_SPINCOUNT") != NULL)
+      return;
+   dondolo_own_path(path, sizeof path);
+   arguments = take_words(words, count);
+   if (arguments != NULL && path[0] != '\0' && setenv("OMP_WAIT_POLICY", "passive", 1) == 0)
+      execv(path, arguments);
    free(arguments);
 }
 

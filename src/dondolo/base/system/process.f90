@@ -5,7 +5,7 @@ module dondolo_base_process
    implicit none
    private
 
-   public :: own_folder, become, hold_console
+   public :: own_folder, become, sleep_while_waiting, hold_console
 
    interface
 
@@ -26,6 +26,15 @@ module dondolo_base_process
          !> Number of words
          integer(c_int), value :: count
       end subroutine c_become
+
+      !> Begin again with threads that sleep while they wait; see process.c
+      subroutine c_sleep_while_waiting(words, count) bind(c, name='dondolo_sleep_while_waiting')
+         import :: c_char, c_int
+         !> Name and arguments of the program, each with a NUL at its end
+         character(kind=c_char), intent(inout) :: words(*)
+         !> Number of words
+         integer(c_int), value :: count
+      end subroutine c_sleep_while_waiting
 
       !> Show a text in a console that ends with the program; see windows_process.c
       subroutine c_hold_console(text) bind(c, name='dondolo_hold_console')
@@ -59,14 +68,46 @@ contains
       type(lines_type), intent(in) :: words
 
       character(kind=c_char, len=:), allocatable :: joined
+
+      call join_words(words, joined)
+      call c_become(joined, int(words%count, c_int))
+   end subroutine become
+
+   !> Let the threads of OpenMP sleep while they wait, unless the user has chosen otherwise: on POSIX the program begins again.
+   !>
+   !> GNU's threads spin for milliseconds after each parallel region, and take the processor from what is serial in this
+   !> program and from all others. To be called by a program of its own, before it has done anything.
+   subroutine sleep_while_waiting()
+
+      type(lines_type) :: words
+      character(kind=c_char, len=:), allocatable :: joined
+      character(len=:), allocatable :: word
+      integer :: i, length
+
+      do i = 0, command_argument_count()
+         call get_command_argument(i, length=length)
+         allocate (character(len=length) :: word)
+         if (length > 0) call get_command_argument(i, value=word)
+         call words%add(word)
+         deallocate (word)
+      end do
+      call join_words(words, joined)
+      call c_sleep_while_waiting(joined, int(words%count, c_int))
+   end subroutine sleep_while_waiting
+
+   !> Words as the functions in C have them: each with a NUL at its end
+   pure subroutine join_words(words, joined)
+      type(lines_type), intent(in) :: words
+      !> All of them
+      character(kind=c_char, len=:), allocatable, intent(out) :: joined
+
       integer :: i
 
       joined = ''
       do i = 1, words%count
          joined = joined//words%line(i)%text//c_null_char
       end do
-      call c_become(joined, int(words%count, c_int))
-   end subroutine become
+   end subroutine join_words
 
    !> Where the console ends with the program, as after a double click on Windows, show a text and wait for a key
    subroutine hold_console(text)

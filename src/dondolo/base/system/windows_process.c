@@ -167,6 +167,13 @@ void dondolo_become(char *words, int count)
    free(modules);
 }
 
+/* A program of Windows cannot begin again in its place. */
+void dondolo_sleep_while_waiting(char *words, int count)
+{
+   (void)words;
+   (void)count;
+}
+
 /* Windows promises no more memory than it has. */
 int dondolo_is_limited(void)
 {
