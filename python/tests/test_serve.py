@@ -25,6 +25,7 @@ pytest.importorskip("httpx", reason="httpx is not installed")
 from dondolo.checks.ntc import Verdict
 from dondolo.exchange.case_text import case_text
 from dondolo.reporting.properties_it import MEANINGS
+from dondolo.serve import documents
 from dondolo.serve.server import application, beginning_of, warm_up
 from refused_states import states
 from starlette.testclient import TestClient
@@ -341,6 +342,13 @@ def test_motions(page):
     assert len(motion["frames"]) == len(motion["instants"]) == len(motion["ratio"])
     for wrong in ({"record": 99, "pga": 1.0}, {"record": 0, "pga": 0.0}, {"record": "a", "pga": 1.0}, {"record": 0}):
         assert page.post("/motion", json={"settings": settings} | wrong).status_code == 422
+
+
+def test_word_is_offered_where_it_can_be_made(page, monkeypatch):
+    """A button that could only refuse is not shown."""
+    assert page.get("/begin").json()["documents"] == list(documents.DOCUMENTS)
+    monkeypatch.setattr(documents, "find_spec", lambda name: None)
+    assert page.get("/begin").json()["documents"] == ["report", "relazione"]
 
 
 def _random_state(rng):

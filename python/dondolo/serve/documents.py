@@ -6,6 +6,7 @@ import json
 import subprocess
 import sys
 import tempfile
+from importlib.util import find_spec
 from pathlib import Path
 
 from dondolo._fortran.files import whole_file
@@ -17,8 +18,15 @@ DOCUMENTS = {
     "relazione": "text/html; charset=utf-8",
     "relazione_word": "application/vnd.openxmlformats-officedocument.wordprocessingml.document",
 }
+# What a kind needs beside dondolo's own dependencies
+_NEEDS = {"relazione_word": "docx"}
 # What a document may take [s]
 _LONGEST = 300.0
+
+
+def available_documents() -> list[str]:
+    """The kinds of documents that can be made with the packages that are installed."""
+    return [kind for kind in DOCUMENTS if kind not in _NEEDS or find_spec(_NEEDS[kind]) is not None]
 
 
 def make_document(text: str, kind: str, lang: str) -> bytes:

@@ -33,7 +33,7 @@ from dondolo._fortran.library import constants, properties
 from dondolo.errors import DondoloError, InputError, Interrupted
 from dondolo.reporting.properties_it import MEANINGS
 from dondolo.serve.bench import Bench, groups_of, refusal
-from dondolo.serve.documents import DOCUMENTS, make_document
+from dondolo.serve.documents import DOCUMENTS, available_documents, make_document
 
 # Largest request [bytes]
 _LARGEST = 200_000
@@ -274,6 +274,7 @@ def _beginning(bench: Bench, start: Mapping[str, Any], lang: str) -> dict[str, A
         "records": [record.name for record in bench.records],
         "catalogue": bench.catalogue.name,
         "synthetic": bench.are_synthetic,
+        "documents": available_documents(),
         "version": constants().version,
     }
 

@@ -28,8 +28,8 @@ function words() {
   at("wall-title").textContent = t("motion"); at("case-title").textContent = t("case_file");
   const file = make("input", { type: "file", accept: ".nml,text/plain", onchange: () => { if (file.files[0]) file.files[0].text().then(open); file.value = ""; } });
   const document_ = (kind, name, ending) => make("button", { type: "button", "data-kind": kind, onclick: () => makeDocument(kind, `${t(name)}.${ending}`) }, ending === "docx" ? "Word" : t(kind));
-  at("actions").replaceChildren(make("label", { class: "file" }, t("open"), file), make("button", { type: "button", onclick: () => isWhole() && save(state.answer.text, `${slug()}.nml`) }, t("save")), document_("report", "file_report", "html"), document_("relazione", "file_relazione", "html"), document_("relazione_word", "file_relazione", "docx"), make("button", { type: "button", onclick: saveFigure }, t("figure")), make("button", { type: "button", lang: language() === "it" ? "en" : "it", onclick: () => { speak(language() === "it" ? "en" : "it"); words(); draw(); changed(); } }, t("other_language")));
-  at("actions").querySelector("[data-kind=relazione_word]").setAttribute("aria-label", `${t("relazione")}, Word`);
+  at("actions").replaceChildren(make("label", { class: "file" }, t("open"), file), make("button", { type: "button", onclick: () => isWhole() && save(state.answer.text, `${slug()}.nml`) }, t("save")), ...begun.documents.map((kind) => document_(kind, kind === "report" ? "file_report" : "file_relazione", kind === "relazione_word" ? "docx" : "html")), make("button", { type: "button", onclick: saveFigure }, t("figure")), make("button", { type: "button", lang: language() === "it" ? "en" : "it", onclick: () => { speak(language() === "it" ? "en" : "it"); words(); draw(); changed(); } }, t("other_language")));
+  at("actions").querySelector("[data-kind=relazione_word]")?.setAttribute("aria-label", `${t("relazione")}, Word`);
   at("footer").replaceChildren(`dondolo ${begun.version} · ${t("records", { n: begun.records.length, name: begun.catalogue })} · ${t("local")}`);
   filmForm();
 }
