@@ -30,7 +30,7 @@ def curve_of(height: float, thickness: float) -> dd.results.Fragility:
         &stripes levels = 1 /"""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", dd.errors.DondoloWarning)
-        case = dd.case_from_text(text, records)
+        case = dd.results.Case.from_text(text, records)
         levels = chosen_levels(case, records[::4], 0)
         stripes = dd.multiple_stripe(case.population.walls[0], records, levels, polarity="both", progress=False)
         return stripes.fit()

@@ -19,7 +19,6 @@ from dondolo.curves.fragility_model import read_nrml as read_nrml
 from dondolo.curves.function import FunctionFragility as FunctionFragility
 from dondolo.curves.nrml import write_nrml as write_nrml
 from dondolo.exchange.case_writer import write_case as write_case
-from dondolo.exchange.cases import case_from_text as case_from_text
 from dondolo.exchange.cases import read_case as read_case
 from dondolo.exchange.citing import cite as cite
 from dondolo.exchange.reading import read_results as read_results

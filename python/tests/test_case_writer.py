@@ -26,8 +26,8 @@ def test_settings_make_the_same_case(name, root, records):
     """The groups of a case, written with comments and read from memory, are the case: every wall to the bit."""
     path = root / f"data/cases/{name}.nml"
     with_files = dd.read_case(path)
-    again = dd.case_from_text(path.read_text(), records, name=f"{name}.nml")
-    written = dd.case_from_text(case_text(with_files.settings, commented=True), records)
+    again = dd.results.Case.from_text(path.read_text(), records, name=f"{name}.nml")
+    written = dd.results.Case.from_text(case_text(with_files.settings, commented=True), records)
     for other in (again, written):
         assert other.settings == with_files.settings
         for one, two in zip(other.population, with_files.population, strict=True):
@@ -41,7 +41,7 @@ def test_files_of_a_text_are_not_opened(name, root, records):
     """A case from memory opens no file: neither its table of walls nor its catalogue."""
     text = (root / f"data/cases/{name}.nml").read_text()
     with pytest.raises(dd.errors.InputError, match=r"^case\.nml: &population: file = .*: no file is read"):
-        dd.case_from_text(text, records)
+        dd.results.Case.from_text(text, records)
 
 
 def test_texts_that_are_refused(records, sine):
@@ -49,7 +49,7 @@ def test_texts_that_are_refused(records, sine):
     wall = "&wall mechanism = 'one_sided', height = 1.5, thickness = 0.25 /\n"
     end = "&stripes levels = 0.5, 1 /\n"
     given = "&records catalogue = '/etc/passwd' /\n"
-    assert dd.case_from_text(wall + given + end, records).levels.tolist() == [0.5, 1.0]
+    assert dd.results.Case.from_text(wall + given + end, records).levels.tolist() == [0.5, 1.0]
     for text, match in {
         "": r"case\.nml: the file is empty",
         "\0": r"case\.nml: ",
@@ -59,11 +59,11 @@ def test_texts_that_are_refused(records, sine):
         " " * 2**20 + wall: "must be at most 1048576",
     }.items():
         with pytest.raises(dd.errors.InputError, match=match):
-            dd.case_from_text(text, records)
+            dd.results.Case.from_text(text, records)
     with pytest.raises(dd.errors.InputError, match="levels of their own"):
-        dd.case_from_text(wall + given + end, dd.RecordSet([sine], level=[0.5]))
+        dd.results.Case.from_text(wall + given + end, dd.RecordSet([sine], level=[0.5]))
     with pytest.raises(dd.errors.InputError, match="text: must be a string") as error:
-        dd.case_from_text(b"", records)
+        dd.results.Case.from_text(b"", records)
     assert error.value.errors[0][1:] == ("wrong_type", "text", "")
 
 

@@ -103,7 +103,7 @@ def test_numbers_are_of_the_text(visit, root):
     settled(page)
     text = page.text_content("#text")
     assert "thickness = 0.55" in text
-    case = dd.case_from_text(text, dd.read_catalogue(root / "data/records/synthetic44.csv"))
+    case = dd.results.Case.from_text(text, dd.read_catalogue(root / "data/records/synthetic44.csv"))
     fit = dd.multiple_stripe(
         case.population[0], case.records, case.levels, polarity=case.polarity, progress=False
     ).fit()

@@ -200,7 +200,7 @@ def test_ready_cases_open_whole(name, page, root):
     path = root / f"data/cases/{name}.nml"
     settings = page.post("/open", json={"text": path.read_text()}).json()["settings"]
     shown = curve(page, settings)
-    case, there = dd.read_case(path), dd.case_from_text(shown["text"], dd.example_records())
+    case, there = dd.read_case(path), dd.results.Case.from_text(shown["text"], dd.example_records())
     assert there.population[0]._properties() == case.population[0]._properties()
     assert there.levels.tolist() == case.levels.tolist() == shown["levels"]
     drop = {"job", "records"}
@@ -267,7 +267,7 @@ def test_verdicts_are_the_library_s(page):
         settings = TIED | {"wall": wall, "check": TIED["check"] | {"ag": [ag], "behaviour": 2.0}}
         settings["stripes"] = {"im": "pga", "levels": [0.4, 0.8, 1.2]}
         shown = curve(page, settings)
-        case = dd.case_from_text(shown["text"], dd.example_records())
+        case = dd.results.Case.from_text(shown["text"], dd.example_records())
         check = dd.check_ntc(
             case.population[0], case.site, knowledge_factor=case.knowledge_factor, behaviour=case.behaviour
         )
@@ -331,7 +331,7 @@ def test_motions(page):
     shown = curve(page, TIED, auto=True)
     settings = {**TIED, "stripes": {"im": "pga", "levels": shown["levels"]}}
     motion = page.post("/motion", json={"settings": settings, "record": 3, "pga": 1.5}).json()
-    case = dd.case_from_text(shown["text"], dd.example_records())
+    case = dd.results.Case.from_text(shown["text"], dd.example_records())
     record = dd.example_records()[3]
     response = dd.simulate(case.population[0], record, 1.5 / record.intensity("pga"))
     assert (motion["edp"], motion["collapsed"], motion["impacts"]) == (

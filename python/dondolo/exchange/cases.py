@@ -94,6 +94,52 @@ class Case(Shown):
     designs: bool = False
     settings: Settings
 
+    @classmethod
+    def from_text(cls, text: str, records: Iterable[Record], *, name: str = "case.nml") -> Case:
+        """Read a case from its text, with records that are in memory. No file that it names is opened.
+
+        Parameters
+        ----------
+        text : str
+            Contents of a case file.
+        records : iterable of Record
+            The accelerograms, in place of those of its catalogue; of a `RecordSet` without levels.
+        name : str
+            Name of the case in messages.
+
+        Returns
+        -------
+        Case
+
+        Raises
+        ------
+        InputError
+            As `read_case`; a case that needs a table of walls or of a wall's terms, or vertical components where the
+            records have none.
+
+        Examples
+        --------
+        >>> import dondolo as dd
+        >>> records = dd.synthetic_records(6.5, 10.0, "shallow", n_records=4)
+        >>> text = '''
+        ...     &wall    mechanism = 'one_sided', height = 1.5, thickness = 0.25 /
+        ...     &records catalogue = 'records.csv' /
+        ...     &stripes levels = 0.6, 0.8, 1.0 /
+        ...     '''
+        >>> case = dd.results.Case.from_text(text, records)
+        >>> case.settings["wall"]["density"]
+        1800
+        """
+        if not isinstance(text, str):
+            raise wrong_type("text", text, "a string")
+        if isinstance(records, RecordSet) and records.level is not None:
+            raise InputError("records: have levels of their own, which a case takes from its catalogue only")
+        several = tuple(as_records(records))
+        suite = upload(several)
+        # A text of f2py would end at NUL
+        content = text.encode("utf-8", "replace").replace(b"\0", b"\xc0\x80")
+        return case_of(receive(_core.cases.read_text(as_text("name", name), content, suite.number)), several)
+
     def _facts(self) -> list[tuple[str, str]]:
         facts = [
             ("title", self.title),
@@ -142,52 +188,6 @@ def read_case(path: str | os.PathLike[str]) -> Case:
     (1.5, [0.6, 0.8, 1.0])
     """
     return case_of(receive(_core.cases.read_case(as_path(path))))
-
-
-def case_from_text(text: str, records: Iterable[Record], *, name: str = "case.nml") -> Case:
-    """Read a case from its text, with records that are in memory. No file that it names is opened.
-
-    Parameters
-    ----------
-    text : str
-        Contents of a case file.
-    records : iterable of Record
-        The accelerograms, in place of those of its catalogue; of a `RecordSet` without levels.
-    name : str
-        Name of the case in messages.
-
-    Returns
-    -------
-    Case
-
-    Raises
-    ------
-    InputError
-        As `read_case`; a case that needs a table of walls or of a wall's terms, or vertical components where the
-        records have none.
-
-    Examples
-    --------
-    >>> import dondolo as dd
-    >>> records = dd.synthetic_records(6.5, 10.0, "shallow", n_records=4)
-    >>> text = '''
-    ...     &wall    mechanism = 'one_sided', height = 1.5, thickness = 0.25 /
-    ...     &records catalogue = 'records.csv' /
-    ...     &stripes levels = 0.6, 0.8, 1.0 /
-    ...     '''
-    >>> case = dd.case_from_text(text, records)
-    >>> case.settings["wall"]["density"]
-    1800
-    """
-    if not isinstance(text, str):
-        raise wrong_type("text", text, "a string")
-    if isinstance(records, RecordSet) and records.level is not None:
-        raise InputError("records: have levels of their own, which a case takes from its catalogue only")
-    several = tuple(as_records(records))
-    suite = upload(several)
-    # A text of f2py would end at NUL
-    content = text.encode("utf-8", "replace").replace(b"\0", b"\xc0\x80")
-    return case_of(receive(_core.cases.read_text(as_text("name", name), content, suite.number)), several)
 
 
 def case_of(parcel: Parcel, given: tuple[Record, ...] | None = None) -> Case:

@@ -93,7 +93,7 @@ class Bench:
     def open(self, text: str) -> dict[str, Any]:
         """The groups of a case for the page, without what has its default."""
         with self._lock, silent():
-            case = dd.case_from_text(text, self.records)
+            case = dd.results.Case.from_text(text, self.records)
         if case.task != "stripes":
             raise _other_task(case)
         return sparse(case.settings)
@@ -138,7 +138,7 @@ class Bench:
             if not 0.0 < pga <= 10.0:
                 raise InputError(f"PGA = {pga:g} g: must lie between 0 and 10")
             case, record = (
-                dd.case_from_text(self.text(groups_of(asked.get("settings"))), self.records),
+                dd.results.Case.from_text(self.text(groups_of(asked.get("settings"))), self.records),
                 self.records[place],
             )
             scale = pga / float(intensities((record,), "pga", case.population.walls[0].gravity)[0])
@@ -152,7 +152,7 @@ class Bench:
         given = {name: value for name, value in settings.get("stripes", {}).items() if name in ("im", "edp_thresholds")}
         settings = {**settings, "stripes": {**given, "levels": [1.0]}}
         with silent():
-            case = dd.case_from_text(self.text(settings), self._few)
+            case = dd.results.Case.from_text(self.text(settings), self._few)
             levels = chosen_levels(case, self._few, self.threads, stop)
         return {**settings, "stripes": {**given, "levels": levels}}
 
@@ -165,7 +165,7 @@ class Bench:
         with warnings.catch_warnings(record=True) as heard:
             warnings.simplefilter("always", DondoloWarning)
             # A case copies the records that it is read with, which takes as long as the rest of it.
-            case = dd.case_from_text(text, self._few)
+            case = dd.results.Case.from_text(text, self._few)
             if case.task != "stripes":
                 raise _other_task(case)
             stripes = dd.multiple_stripe(
