@@ -3,11 +3,8 @@
 Levels and frequencies are joined by straight lines of ln H against ln x, so that between two levels H is a power law,
 H(x) = H_j (x/x_j)^-k_j. Nothing is known beyond the levels.
 
-Power laws have an integral with a fragility in closed form, and kinks. True curves bend down on these axes, so that the
-straight lines lie below them: of H = k0 x^-(2.5 + 0.2 ln x) they lose 4, 2.0, 0.5 and 0.1 % of the annual frequency of
-collapse with levels that are 3, 2.2, 1.5 and 1.2 times the one before. `HazardCurve.smoothed` gives
-the monotone cubic through the same points, Fritsch and Butland's (`scipy.interpolate.PchipInterpolator`), whose errors
-are 0.1, 0.02, 0.001 and 0.000 % there. What is integrated and drawn is the curve that is given.
+Power laws have an integral with a fragility in closed form, and kinks; `HazardCurve.smoothed` gives a curve without
+them (dondolo.hazard.smoothing). What is integrated and drawn is the curve that is given.
 
 Fractiles
     The hazard of a site is uncertain, and published as a mean with fractiles: in a share q of what may be true the
@@ -16,9 +13,6 @@ Fractiles
 
 Units are those of dondolo: accelerations in g, all else in SI units. Hazard is often published as a return period,
 H = 1/T, or as the probability p of being exceeded in t years, H = -ln(1 - p)/t.
-
-Reference: Fritsch and Butland (1984), A method for constructing local monotone piecewise cubic interpolants, SIAM
-Journal on Scientific and Statistical Computing 5(2):300-304.
 """
 
 from __future__ import annotations
@@ -33,7 +27,6 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import (
     FloatArray,
-    as_array,
     as_count,
     as_flag,
     as_levels,
@@ -50,8 +43,10 @@ from dondolo._fortran.records import describe_measure, levels_in_words, unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.errors import InputError
+from dondolo.hazard.frequencies import checked_fractiles, checked_frequencies
 from dondolo.hazard.hazard_table import FRACTILE, read_hazard
 from dondolo.hazard.openquake import Site, read_curves, write_curves
+from dondolo.hazard.smoothing import monotone_cubics
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -132,26 +127,14 @@ class HazardCurve(Shown, Saved):
         rigid_ground: bool = False,
     ) -> None:
         x = increasing("levels", levels, why=_WHY_TWO)
-        h = as_array("annual_frequency", annual_frequency).copy()
-        if len(x) != len(h):
-            raise InputError(f"{len(x)} levels, {len(h)} annual_frequency: must be as many")
-        wrong = ~((h > 0.0) & (h < np.inf))
-        if wrong.any():
-            hint = "; leave out the levels that are never exceeded" if h[wrong][0] == 0.0 else ""
-            raise InputError(f"annual_frequency = {h[wrong][0]:g}: must be positive{hint}")
+        h = checked_frequencies(annual_frequency, len(x))
         if endless and len(x) != 2:
             raise InputError(f"endless: must have two levels, which give the power law, not {len(x)}")
-        rises = h[1:] > h[:-1]
-        if rises.any():
-            i = int(np.argmax(rises))
-            hint = ": are these return periods? Their inverses are annual frequencies" if np.all(h > 1.0) else ""
-            raise InputError(f"annual_frequency = {h[i]:.15g}, {h[i + 1]:.15g}: must not increase with the level{hint}")
-        h.flags.writeable = False
         for what, value in (
             ("levels", x),
             ("annual_frequency", h),
             ("im", describe_measure(im).name),
-            ("fractiles", _fractiles(fractiles, len(x))),
+            ("fractiles", checked_fractiles(fractiles, len(x))),
             ("endless", as_flag("endless", endless)),
             ("source", as_sentences("source", source)),
             ("rigid_ground", as_flag("rigid_ground", rigid_ground)),
@@ -427,7 +410,7 @@ class HazardCurve(Shown, Saved):
 
         Notes
         -----
-        The docstring of the module dondolo.hazard.hazard states by how much that changes annual frequencies.
+        The docstring of the module dondolo.hazard.smoothing states by how much that changes annual frequencies.
 
         Examples
         --------
@@ -438,12 +421,9 @@ class HazardCurve(Shown, Saved):
         parts = as_count("steps", steps, 1)
         if self.endless:
             return self
-        u = np.log(self.levels)
-        fine = np.append((u[:-1, None] + np.diff(u)[:, None] * np.arange(parts) / parts).ravel(), u[-1])
-        x = np.exp(fine)
-        x[::parts] = self.levels
-        fractiles = {q: _cubic(u, h, fine, parts) for q, h in self.fractiles.items()}
-        mean, source = _cubic(u, self.annual_frequency, fine, parts), (*self.source, f"smoothed, {parts} steps in each")
+        x, (mean, *others) = monotone_cubics(self.levels, [self.annual_frequency, *self.fractiles.values()], parts)
+        fractiles = dict(zip(self.fractiles, others, strict=True))
+        source = (*self.source, f"smoothed, {parts} steps in each")
         return HazardCurve(x, mean, im=self.im, fractiles=fractiles, source=source, rigid_ground=self.rigid_ground)
 
     def plot(self, ax: Axes | None = None, **options: Any) -> Axes:
@@ -510,47 +490,3 @@ class HazardCurve(Shown, Saved):
             ("annual frequency", f"{self.annual_frequency[0]:.3g} to {self.annual_frequency[-1]:.3g}"),
         ]
         return facts + ([("fractiles", " ".join(f"{q:g}" for q in self.fractiles))] if self.fractiles else [])
-
-
-def _fractiles(given: Mapping[float, ArrayLike] | None, count: int) -> dict[float, FloatArray]:
-    """Fractiles as a curve keeps them, checked."""
-    if given is None:
-        return {}
-    if not isinstance(given, Mapping):
-        raise InputError("fractiles: must be a mapping of shares to annual frequencies")
-    found: dict[float, FloatArray] = {}
-    for q in sorted(given, key=lambda one: as_number("fractiles", one)):
-        share, what = float(q), f"fractiles[{float(q):g}]"
-        if not 0.0 < share < 1.0:
-            raise InputError(f"{what}: the share must lie between 0 and 1")
-        h = as_array(what, given[q]).copy()
-        if len(h) != count:
-            raise InputError(f"{what}: {len(h)} frequencies for {count} levels: must be as many")
-        if not np.all((h >= 0.0) & (h < np.inf)):
-            raise InputError(f"{what} = {h[~((h >= 0.0) & (h < np.inf))][0]:g}: must not be negative")
-        rises = h[1:] > h[:-1]
-        if rises.any():
-            i = int(np.argmax(rises))
-            raise InputError(f"{what} = {h[i]:.15g}, {h[i + 1]:.15g}: must not increase with the level")
-        for lower, other in list(found.items())[-1:]:
-            if np.any(h < other):
-                i = int(np.argmax(h < other))
-                raise InputError(f"{what} = {h[i]:g}: must not be less than {other[i]:g} of the fractile {lower:g}")
-        h.flags.writeable = False
-        found[share] = h
-    return found
-
-
-def _cubic(u: FloatArray, h: FloatArray, fine: FloatArray, parts: int) -> FloatArray:
-    """Frequencies on the monotone cubic; what is 0 stays so, from the last level that is exceeded on."""
-    from scipy.interpolate import PchipInterpolator
-
-    exceeded = int(np.count_nonzero(h))
-    last = (exceeded - 1) * parts + 1
-    found = np.zeros(len(fine))
-    if exceeded > 1:
-        found[:last] = np.exp(PchipInterpolator(u[:exceeded], np.log(h[:exceeded]))(fine[:last]))
-    found[: exceeded * parts : parts] = h[:exceeded]
-    # Monotone but for rounding
-    found = np.minimum.accumulate(found)
-    return found
