@@ -6,27 +6,27 @@ import os
 import zlib
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property, partial
+from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, as_count, as_number, instance_of, one_of, wrong_type
+from dondolo._base.arguments import FloatArray, as_array, as_number, instance_of, one_of, wrong_type
 from dondolo._base.shown import html_of
 from dondolo._base.wording import decimal, say
 from dondolo._fortran import _core
 from dondolo._fortran.buildings import floor_motion
 from dondolo._fortran.library import as_text, check, receive
-from dondolo._fortran.records import RecordData, describe_measure
+from dondolo._fortran.records import RecordData
 from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
 from dondolo.records import processing as process
 from dondolo.records import suite
 from dondolo.records.building import Building
 from dondolo.records.processing import Baseline
-from dondolo.records.rotation import RotD, check_components, component
+from dondolo.records.rotation import RotD, over_directions, rotated
 from dondolo.records.spectrum import Spectrum
 
 if TYPE_CHECKING:
@@ -588,22 +588,7 @@ class Record:
             Records that do not belong together (steps, lengths, stations or dates differ), a vertical component, an
             angle that is not a number.
         """
-        check_components(self, _as_record(other))
-        direction = as_number("angle", angle)
-        if not np.isfinite(direction):
-            raise InputError(f"angle = {direction}: must be a number")
-        steps = self.processing
-        if steps != other.processing:
-            steps = tuple(f"{part.name}: {step}" for part in (self, other) for step in part.processing)
-        text = f"component at {direction:g} degrees from '{self.name}' towards '{other.name}'"
-        shared = self.metadata.items() & other.metadata.items()
-        metadata = {key: value for key, value in self.metadata.items() if (key, value) in shared}
-        name = f"{self.name} at {direction:g} degrees"
-        values = component(self, other, direction)
-        vertical = self.vertical
-        if vertical is None or other.vertical is None or not np.array_equal(vertical, other.vertical):
-            vertical = None
-        return Record(values, self.dt, name, processing=(*steps, text), metadata=metadata, vertical=vertical)
+        return Record(**rotated(self, _as_record(other), angle))
 
     def rotd(self, other: Record, measure: str | Callable[[Record], float] = "pga", *, n_angles: int = 180) -> RotD:
         """Median and largest value of a measure over all directions of this and another horizontal component.
@@ -633,20 +618,7 @@ class Record:
         two horizontal components of motion, BSSA 100(4):1830-1835. The largest peak is missed by up to 1 -
         cos(90/n_angles degrees): 4e-5 of it for 180.
         """
-        check_components(self, _as_record(other))
-        count = as_count("n_angles", n_angles, 1, 36000)
-        directions = 180.0 * np.arange(count) / count
-        if isinstance(measure, str):
-            measure = partial(Record.intensity, im=describe_measure(measure, of_record=True).name)
-        if not callable(measure):
-            raise InputError(f"measure = {measure!r}: must be the name of a measure or a function of a record")
-        values = np.empty(count)
-        for i, direction in enumerate(directions):
-            values[i] = as_number("measure", measure(self.rotate(other, direction)))
-        if np.isnan(values).any():
-            raise InputError("measure: must be a number in every direction")
-        largest = int(values.argmax())
-        return RotD(float(np.median(values)), float(values[largest]), float(directions[largest]), directions, values)
+        return over_directions(self, _as_record(other), measure, n_angles)
 
     def __len__(self) -> int:
         return len(self.acceleration)

@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import re
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray
+from dondolo._base.arguments import FloatArray, as_count, as_number
+from dondolo._fortran.records import describe_measure
 from dondolo.errors import InputError
 from dondolo.records.processing import SAME_STEP
-from dondolo.records.suite import Motion, check_motions
+from dondolo.records.suite import check_motions
+
+if TYPE_CHECKING:
+    from dondolo.records.record import Record
 
 # How the formats write a component that is vertical, also after a station: UP, U-D, UD1, ICC-UP, HNZ (SEED)
 _VERTICAL = re.compile(r"(.*[-_ .])?[-+]?(U|D|UP|DN|DWN|DOWN|UD\d?|DU|Z|V|VRT|VER\w*|[A-Z][HLGMN]Z)", re.IGNORECASE)
@@ -42,7 +47,49 @@ class RotD(NamedTuple):
         return f"<RotD: {numbers}, {len(self.values)} directions>"
 
 
-def component(first: Motion, second: Motion, angle: float) -> FloatArray:
+def rotated(first: Record, second: Record, angle: float) -> dict[str, Any]:
+    """Arguments of the record of two components in a direction: see `Record.rotate`."""
+    _check_components(first, second)
+    direction = as_number("angle", angle)
+    if not np.isfinite(direction):
+        raise InputError(f"angle = {direction}: must be a number")
+    steps = first.processing
+    if steps != second.processing:
+        steps = tuple(f"{part.name}: {step}" for part in (first, second) for step in part.processing)
+    shared = first.metadata.items() & second.metadata.items()
+    vertical = first.vertical
+    if vertical is None or second.vertical is None or not np.array_equal(vertical, second.vertical):
+        vertical = None
+    return {
+        "acceleration": _component(first, second, direction),
+        "dt": first.dt,
+        "name": f"{first.name} at {direction:g} degrees",
+        "processing": (*steps, f"component at {direction:g} degrees from '{first.name}' towards '{second.name}'"),
+        "metadata": {key: value for key, value in first.metadata.items() if (key, value) in shared},
+        "vertical": vertical,
+    }
+
+
+def over_directions(first: Record, second: Record, measure: str | Callable[[Record], float], n_angles: int) -> RotD:
+    """A measure of two components over all directions: see `Record.rotd`."""
+    _check_components(first, second)
+    count = as_count("n_angles", n_angles, 1, 36000)
+    if isinstance(measure, str):
+        im = describe_measure(measure, of_record=True).name
+    elif not callable(measure):
+        raise InputError(f"measure = {measure!r}: must be the name of a measure or a function of a record")
+    directions = 180.0 * np.arange(count) / count
+    values = np.empty(count)
+    for i, direction in enumerate(directions):
+        record = first.rotate(second, direction)
+        values[i] = as_number("measure", record.intensity(im) if isinstance(measure, str) else measure(record))
+    if np.isnan(values).any():
+        raise InputError("measure: must be a number in every direction")
+    largest = int(values.argmax())
+    return RotD(float(np.median(values)), float(values[largest]), float(directions[largest]), directions, values)
+
+
+def _component(first: Record, second: Record, angle: float) -> FloatArray:
     """Samples of two components in a direction [degrees]; quarters of a circle are exact."""
     turn = np.radians(angle % 360.0)
     cosine, sine = (np.cos(turn), np.sin(turn)) if angle % 90.0 else np.round((np.cos(turn), np.sin(turn)))
@@ -50,7 +97,7 @@ def component(first: Motion, second: Motion, angle: float) -> FloatArray:
     return values
 
 
-def check_components(first: Motion, second: Motion) -> None:
+def _check_components(first: Record, second: Record) -> None:
     """Check that two records can be components of one motion."""
     if len(first) != len(second):
         raise InputError(
