@@ -120,8 +120,8 @@ EDITS = [
     ),
     Edit(
         "resampled dispersions of an energy are not halved",
-        "resample(stripes._sample(), times).beta for stripes in analyses]) / power[:, None]",
-        "resample(stripes._sample(), times).beta for stripes in analyses])",
+        "resample(sample_of(stripes), times).beta for stripes in analyses]) / power[:, None]",
+        "resample(sample_of(stripes), times).beta for stripes in analyses])",
         "test_intensity.py::test_comparison",
     ),
     # Regressions

@@ -16,6 +16,7 @@ from dondolo._fortran.records import blank_unit, describe_measure
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.request import SMALL_LEVEL, Polarity, new_request
+from dondolo.analysis.stripe_fits import sample_of
 from dondolo.analysis.stripe_runs import multiple_stripe
 from dondolo.analysis.stripes import Stripes
 from dondolo.curves import fitting
@@ -230,11 +231,11 @@ def compare_intensities(
     dispersion = np.array([curve.beta for curve in curves]) / power
     error = np.array([curve.se_beta for curve in curves]) / power
     # The same samples for all measures: what the records have in common does not blur the ratios.
-    clusters = analyses[0]._sample(events).clusters
+    clusters = sample_of(analyses[0], events).clusters
     interval = np.full((len(names), 2), np.nan)
     if len(set(clusters)) >= constants().fewest_clusters:
         times = draw_records(clusters, n_resamples, seed)
-        drawn = np.array([resample(stripes._sample(), times).beta for stripes in analyses]) / power[:, None]
+        drawn = np.array([resample(sample_of(stripes), times).beta for stripes in analyses]) / power[:, None]
         interval = np.nanquantile(drawn / drawn[np.argmin(dispersion)], (0.025, 0.975), axis=1).T
     return IntensityComparison(
         stripes=tuple(analyses),

@@ -49,6 +49,7 @@ from dondolo._fortran.records import blank_unit, unit_of
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.request import polarity_names
+from dondolo.analysis.stripe_fits import sample_of
 from dondolo.analysis.stripes import Stripes
 from dondolo.curves.clusters import Clusters, errors_of_parts, no_errors
 from dondolo.curves.fitting import counts_are_flat, warnings_of_fit, with_errors
@@ -147,7 +148,7 @@ class Incremental(Shown, Saved):
         levels, n = self.levels, len(self.first_collapse)
         theta = beta = np.nan
         covariance = np.full((2, 2), np.nan)
-        sample, errors = self.stripes._sample(), None
+        sample, errors = sample_of(self.stripes), None
         if self.counted[-1] == 0:
             status = "no_collapse"
         elif self.counted[0] == n:

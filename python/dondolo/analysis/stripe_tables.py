@@ -10,16 +10,18 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from dondolo._fortran.library import constants
+from dondolo._fortran.records import unit_of
 from dondolo._fortran.tables import TableColumns, history_columns, stripe_columns
 from dondolo._storage.result_set import write_set
 from dondolo._storage.run_file import RunFile, sources_of_fits
+from dondolo.analysis.stripe_fits import States, fit_warnings, thresholds_of
 from dondolo.curves.table import fragility_table
 from dondolo.errors import silent
 from dondolo.walls.ties import number_of_ties, tie_table
 from dondolo.walls.wall import walls_table
 
 if TYPE_CHECKING:
-    from dondolo.analysis.stripes import States, Stripes
+    from dondolo.analysis.stripes import Stripes
 
 #: Names of the tables
 TableName = Literal["histories", "stripes", "walls"]
@@ -62,6 +64,16 @@ def tables_of(stripes: Stripes) -> dict[TableName, Callable[[], TableColumns]]:
     }
 
 
+def comments_of(stripes: Stripes) -> list[str]:
+    """Head of a table in a file."""
+    numbers = f"rtol = {stripes.rtol!r}, atol = {stripes.atol!r}, edp_limit = {stripes.edp_limit!r}"
+    return [
+        repr(stripes.wall),
+        f"engine = '{stripes.engine}', {numbers}",
+        f"unit of im_level: {unit_of(stripes.im) or '1'}",
+    ]
+
+
 def stripes_table(stripes: Stripes, edp_thresholds: Sequence[float]) -> TableColumns:
     """Columns of ``_stripes.csv``."""
     reached = np.array([stripes.exceedances(edp) for edp in edp_thresholds])[:, :, None]
@@ -78,7 +90,7 @@ def write_stripes(
     spreadsheet_safe: bool,
 ) -> None:
     """Write all tables, with the curves of damage states: see `Stripes.write_results`."""
-    levels = [stripes.edp_limit] if edp_thresholds is None else stripes._thresholds(edp_thresholds)
+    levels = [stripes.edp_limit] if edp_thresholds is None else thresholds_of(stripes, edp_thresholds)
     with silent():
         curves = stripes.fit_damage_states(levels, states=states)
         of_collapse = curves[-1] if states == "ordinal" else stripes.fit()
@@ -118,7 +130,7 @@ def write_stripes(
             for name, event, checksum, form in zip(*facts, strict=True)
         ),
         work=stripes.work._asdict(),
-        warnings=(*stripes.warnings, *stripes._warnings_of(of_collapse)),
+        warnings=(*stripes.warnings, *fit_warnings(stripes, of_collapse)),
         shape={"walls": 1, "levels": len(stripes.levels), "states": len(levels), "records": stripes.n_records},
     )
     used = sources_of_fits(stripes.im, (stripes.wall,)) | {stripes.engine, states, *stripes.record_formats}

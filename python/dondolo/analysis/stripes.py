@@ -2,33 +2,28 @@
 
 from __future__ import annotations
 
-import dataclasses
 import os
 import threading
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, as_number, one_of
+from dondolo._base.arguments import FloatArray, as_number
 from dondolo._base.shown import Shown, span
-from dondolo._fortran.curves import warnings_of_curve
-from dondolo._fortran.library import warn
-from dondolo._fortran.records import levels_in_words, unit_of
+from dondolo._fortran.records import levels_in_words
 from dondolo._fortran.tables import plain
 from dondolo._fortran.uncertainty import restitution_sentence
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.histories import cut, join
-from dondolo.analysis.stripe_tables import TableName, tables_of, write_stripes
+from dondolo.analysis.stripe_fits import States, exceedance_bounds, fit_damage_states, fit_stripes, state_bounds
+from dondolo.analysis.stripe_tables import TableName, comments_of, tables_of, write_stripes
 from dondolo.analysis.work import Work
-from dondolo.curves.damage_states import fit_states
-from dondolo.curves.fitting import fit
 from dondolo.curves.fragility import Fragility
-from dondolo.curves.sample import Sample, cluster_labels, given_labels
-from dondolo.errors import DondoloWarning, InputError, silent
+from dondolo.errors import DondoloWarning, InputError
 from dondolo.records.record import Record
 from dondolo.walls.ties import TieCounts, tallies_of_ties
 from dondolo.walls.wall import Wall, notes_on_supports, upload
@@ -39,12 +34,6 @@ if TYPE_CHECKING:
     from dondolo.analysis.incremental import Incremental
 
 _Counts = np.ndarray[Any, np.dtype[np.int64]]
-
-#: Fits of damage states: each on its own, or all with one dispersion
-States = Literal["separate", "ordinal"]
-
-# Damage states if none are named, as shares of the collapse limit
-_SHARES = (0.1, 0.4, 1.0)
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -210,8 +199,7 @@ class Stripes(Shown, Saved):
 
         NaN where there is no curve; only of certified stripes.
         """
-        self._check_certified("theta_bounds")
-        ((low, high),) = self.state_bounds([self.edp_limit])
+        ((low, high),) = state_bounds(self, [self.edp_limit], "separate", "theta_bounds")
         return low, high
 
     def state_bounds(
@@ -235,15 +223,7 @@ class Stripes(Shown, Saved):
         InputError
             Stripes that are not certified, and as `fit_damage_states`.
         """
-        lowest, highest = self._check_certified("state_bounds")
-        with silent():
-            low, high = (
-                dataclasses.replace(self, edp=edp, collapsed=edp >= self.edp_limit).fit_damage_states(
-                    edp_thresholds, states=states
-                )
-                for edp in (highest, lowest)
-            )
-        return tuple((one.theta, other.theta) for one, other in zip(low, high, strict=True))
+        return state_bounds(self, edp_thresholds, states)
 
     def exceedance_bounds(self, edp_threshold: float) -> tuple[_Counts, _Counts]:
         """Bounds of the number of histories of each stripe that reach a threshold.
@@ -263,15 +243,7 @@ class Stripes(Shown, Saved):
         InputError
             Stripes that are not certified, and as `exceedances`.
         """
-        bounds = self._check_certified("exceedance_bounds")
-        fewest, most = (dataclasses.replace(self, edp=edp).exceedances(edp_threshold) for edp in bounds)
-        return fewest, most
-
-    def _check_certified(self, what: str) -> tuple[FloatArray, FloatArray]:
-        """The lowest and the highest EDPs."""
-        if self.edp_lowest is None or self.edp_highest is None:
-            raise InputError(f"{what}: only of certified stripes")
-        return self.edp_lowest, self.edp_highest
+        return exceedance_bounds(self, edp_threshold)
 
     @property
     def ties(self) -> TieCounts:
@@ -337,18 +309,7 @@ class Stripes(Shown, Saved):
         DondoloWarning
             There is no curve, or it extrapolates; the message is that of the executable.
         """
-        state = self if edp_threshold is None else self._state(edp_threshold)
-        curve = fit(
-            self.levels,
-            state.collapses.astype(np.float64),
-            self.histories.astype(np.float64),
-            im=self.im,
-            wall=self.wall,
-            edp_threshold=state.edp_limit,
-            sample=state._sample(events),
-        )
-        self._warn_of(curve, "" if edp_threshold is None else f"damage state {edp_threshold:g} in place of collapse: ")
-        return curve
+        return fit_stripes(self, edp_threshold, events)
 
     def fit_damage_states(
         self,
@@ -396,37 +357,7 @@ class Stripes(Shown, Saved):
         True
         >>> axes = stripes.plot_damage_states(edp_thresholds=[0.4, 1.0])
         """
-        one_of("states", states, ("separate", "ordinal"))
-        limits = self._thresholds(edp_thresholds)
-        if states == "separate":
-            return tuple(self.fit(threshold, events=events) for threshold in limits)
-        samples = [self._state(threshold)._sample(events) for threshold in limits]
-        curves = fit_states(samples, limits, im=self.im, wall=self.wall)
-        for curve in curves:
-            self._warn_of(curve, f"damage state {curve.edp_threshold:g} in place of collapse: ")
-        return curves
-
-    def _thresholds(self, edp_thresholds: ArrayLike | None) -> list[float]:
-        """Thresholds of damage states, checked."""
-        if edp_thresholds is None:
-            return [share * self.edp_limit for share in _SHARES]
-        limits: list[float] = as_array("edp_thresholds", edp_thresholds).tolist()
-        if not limits:
-            raise InputError("edp_thresholds: must be given")
-        for before, threshold in zip([0.0, *limits], limits, strict=False):
-            self.exceedances(threshold)
-            if not threshold > before:
-                raise InputError(f"edp_thresholds = {before:g}, {threshold:g}: must increase strictly")
-        return limits
-
-    def _warn_of(self, curve: Fragility, where: str) -> None:
-        """Warn of a curve as the executable does."""
-        warn(one.placed(where) for one in self._warnings_of(curve))
-
-    def _warnings_of(self, curve: Fragility) -> list[DondoloWarning]:
-        """Warnings of a curve of these stripes."""
-        numbers = curve.theta, curve.beta, curve.bracket
-        return warnings_of_curve(upload((self.wall,)), self.levels, float(np.nanmax(self.edp)), curve.status, *numbers)
+        return fit_damage_states(self, edp_thresholds, states, events)
 
     def certify(
         self,
@@ -625,26 +556,6 @@ class Stripes(Shown, Saved):
 
         return draw_damage_states(self, ax, self.fit_damage_states(edp_thresholds, states=states), options)
 
-    def _state(self, edp_threshold: float) -> Stripes:
-        """The stripes as if collapse were a smaller rotation, which the bootstrap of a damage state takes for it."""
-        self.exceedances(edp_threshold)
-        edp, collapsed = np.minimum(self.edp, edp_threshold), self.edp >= edp_threshold
-        return dataclasses.replace(self, edp=edp, collapsed=collapsed, edp_limit=edp_threshold)
-
-    def _sample(self, events: Sequence[Any] | None = None) -> Sample:
-        """The histories as a curve keeps them."""
-        names = self.record_names[: self.n_records]
-        return Sample(
-            levels=self.levels,
-            collapsed=self.collapsed,
-            ran=self.ran,
-            record_index=self.record_index,
-            record_names=names,
-            clusters=cluster_labels(len(names), self.events, self.checksums)
-            if events is None
-            else given_labels(len(names), events),
-        )
-
     def to_frame(self, table: TableName = "histories") -> Any:
         """One of the tables 'histories', 'stripes' and 'walls' as a pandas DataFrame."""
         return tables.frame(plain(tables.choose(tables_of(self), table)))
@@ -656,13 +567,8 @@ class Stripes(Shown, Saved):
 
         With `spreadsheet_safe`, names that a spreadsheet would read as formulas get an apostrophe.
         """
-        comments = [
-            repr(self.wall),
-            f"engine = '{self.engine}', rtol = {self.rtol!r}, atol = {self.atol!r}, edp_limit = {self.edp_limit!r}",
-            f"unit of im_level: {unit_of(self.im) or '1'}",
-        ]
         chosen = plain(tables.choose(tables_of(self), table))
-        tables.write_csv(path, chosen, comments, spreadsheet_safe=spreadsheet_safe)
+        tables.write_csv(path, chosen, comments_of(self), spreadsheet_safe=spreadsheet_safe)
 
     def write_results(
         self,

@@ -14,7 +14,7 @@ from dondolo._fortran import _core
 from dondolo._fortran.library import Parcel, as_text, receive, warn_of_notes
 from dondolo._fortran.records import levels_in_words, unpack_records
 from dondolo._fortran.walls import rows_of, unpack_walls
-from dondolo.analysis.stripes import States
+from dondolo.analysis.stripe_fits import States
 from dondolo.errors import InputError
 from dondolo.exchange.case_text import Settings
 from dondolo.records.codes import Site

@@ -29,7 +29,8 @@ from dondolo._storage.run_file import HistoryResult, RunFile
 from dondolo.analysis import histories
 from dondolo.analysis.certificate import Certified
 from dondolo.analysis.response import Response
-from dondolo.analysis.stripes import States, Stripes
+from dondolo.analysis.stripe_fits import States, fit_warnings
+from dondolo.analysis.stripes import Stripes
 from dondolo.analysis.work import Work
 from dondolo.checks.ntc import CodeCheck
 from dondolo.curves.fragility import Fragility
@@ -249,7 +250,7 @@ def _of_stripes(results: Results, source: Source, work: Work) -> Results:
         ordinal = results.states == "ordinal" and results.edp_thresholds
         curves = stripes.fit_damage_states(results.edp_thresholds, states="ordinal") if ordinal else [stripes.fit()]
     # The run also warns of the curve.
-    of_curve = {one.code for one in stripes._warnings_of(curves[-1])}
+    of_curve = {one.code for one in fit_warnings(stripes, curves[-1])}
     stripes = replace(stripes, warnings=tuple(one for one in run.warnings if one.code not in of_curve))
     results = replace(results, stripes=stripes, fragility=curves[-1])
     if "check" not in run.settings:

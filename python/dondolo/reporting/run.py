@@ -13,7 +13,8 @@ from dondolo._base.wording import say
 from dondolo._fortran.histories import warnings_of_scales
 from dondolo._storage.run_file import RunFile
 from dondolo.analysis.response import Response
-from dondolo.analysis.stripes import States, Stripes
+from dondolo.analysis.stripe_fits import States
+from dondolo.analysis.stripes import Stripes
 from dondolo.checks.ntc import CodeCheck
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import DondoloWarning, InputError

@@ -14,8 +14,9 @@ from dondolo._fortran.tables import plain
 from dondolo.analysis.certificate import Certified
 from dondolo.analysis.plots_stripes import draw_damage_states
 from dondolo.analysis.response import Response
+from dondolo.analysis.stripe_fits import States
 from dondolo.analysis.stripe_tables import stripes_table
-from dondolo.analysis.stripes import States, Stripes
+from dondolo.analysis.stripes import Stripes
 from dondolo.curves.fragility import Fragility
 from dondolo.reporting.columns import chosen, of_curve, parameters_of, shown
 from dondolo.reporting.content import (

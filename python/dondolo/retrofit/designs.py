@@ -19,6 +19,7 @@ from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.request import Polarity
 from dondolo.analysis.solver import Solver
+from dondolo.analysis.stripe_fits import sample_of
 from dondolo.analysis.stripe_runs import Study
 from dondolo.analysis.stripes import Stripes
 from dondolo.analysis.work import Work
@@ -317,7 +318,7 @@ def _alternatives(names: Sequence[str], stripes: Sequence[Stripes]) -> Typology:
         np.array([one.collapses for one in stripes], dtype=np.int32).T[None],
         np.array([one.histories for one in stripes], dtype=np.int32).T,
         Work.total(work for one in stripes for work in one.runs.values()),
-        Flags(sizes, len(first), 1, runs, first._sample().clusters, bits),
+        Flags(sizes, len(first), 1, runs, sample_of(first).clusters, bits),
         are_alternatives=True,
     )
     return replace(typology, ties=tuple(one.ties for one in stripes), record_formats=first.record_formats)
