@@ -46,14 +46,14 @@ EDITS = [
     # Fragility curves
     Edit(
         "the delta-method band has the covariance of ln theta and beta with the wrong sign",
-        "np.stack([np.full_like(probit, -1.0 / self.beta), -probit / self.beta])",
-        "np.stack([np.full_like(probit, -1.0 / self.beta), probit / self.beta])",
+        "np.stack([np.full_like(probit, -1.0 / curve.beta), -probit / curve.beta])",
+        "np.stack([np.full_like(probit, -1.0 / curve.beta), probit / curve.beta])",
         "test_fitting.py::test_delta_interval_is_that_of_a_probit_regression",
     ),
     Edit(
         "the interval of beta takes its standard error for that of ln beta",
-        "half = quantile * self.se_beta / self.beta\n",
-        "half = quantile * self.se_beta\n",
+        "half = quantile * curve.se_beta / curve.beta\n",
+        "half = quantile * curve.se_beta\n",
         "test_fitting.py::test_intervals_from_counts",
     ),
     Edit(

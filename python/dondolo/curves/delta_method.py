@@ -1,12 +1,17 @@
-"""Intervals of a curve at a level, by the delta method."""
+"""Intervals of curves and of their parameters, by the delta method."""
 
 from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_levels
+from dondolo._base.arguments import FloatArray, as_levels, shaped
 from dondolo.errors import InputError
+
+if TYPE_CHECKING:
+    from dondolo.curves.fragility import Fragility
 
 
 def positive_levels(x: ArrayLike) -> FloatArray:
@@ -21,3 +26,34 @@ def half_width(gradient: FloatArray, covariance: FloatArray, quantile: float) ->
     """Half the width of an interval on the scale of the curve's line: `gradient` has a row for each parameter."""
     width: FloatArray = quantile * np.sqrt(np.einsum("ik,ij,jk->k", gradient, covariance, gradient))
     return width
+
+
+def probability_interval(curve: Fragility, x: ArrayLike, quantile: float) -> tuple[Any, Any]:
+    """Interval of the probability at levels: see `Fragility.interval`."""
+    values = positive_levels(x)
+    probit = np.log(values.ravel() / curve.theta) / curve.beta
+    # Gradient of the probit with respect to (ln theta, beta)
+    gradient = np.stack([np.full_like(probit, -1.0 / curve.beta), -probit / curve.beta])
+    half = half_width(gradient, curve.covariance, quantile)
+    from scipy.special import ndtr
+
+    low, high = curve.saturation * ndtr(probit - half), curve.saturation * ndtr(probit + half)
+    return shaped(low, values), shaped(high, values)
+
+
+def level_interval(curve: Fragility, p: FloatArray, probit: FloatArray, quantile: float) -> tuple[Any, Any]:
+    """Interval of the levels of probabilities, which come with their probits: see `Fragility.ppf_interval`."""
+    if not np.all(np.isfinite(probit)):
+        wrong = p.ravel()[~np.isfinite(probit)][0]
+        raise InputError(f"p = {wrong:g}: must be greater than 0 and less than {curve.saturation:g}")
+    half = half_width(np.stack([np.ones_like(probit), probit]), curve.covariance, quantile)
+    level = curve.theta * np.exp(curve.beta * probit)
+    return shaped(level * np.exp(-half), p), shaped(level * np.exp(half), p)
+
+
+def parameter_interval(curve: Fragility, quantile: float) -> dict[str, tuple[float, float]]:
+    """Intervals of theta and beta: see `Fragility.parameter_interval`."""
+    width = np.exp(quantile * curve.se_ln_theta)
+    half = quantile * curve.se_beta / curve.beta
+    beta = (curve.beta / (1.0 + half), curve.beta / (1.0 - half) if half < 1.0 else np.inf)
+    return {"theta": (float(curve.theta / width), float(curve.theta * width)), "beta": beta}

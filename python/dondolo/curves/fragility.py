@@ -13,18 +13,18 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import FloatArray, as_levels, as_number, as_probabilities, shaped, tails
 from dondolo._base.shown import Shown
-from dondolo._base.wording import say
 from dondolo._fortran.curves import normal_or_student, probability
 from dondolo._fortran.library import constants
-from dondolo._fortran.records import blank_unit, name_of_measure, unit_of
+from dondolo._fortran.records import name_of_measure, unit_of
 from dondolo._fortran.tables import plain
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.curves.bootstrap import Bootstrap, draw_records, resample
 from dondolo.curves.clusters import Clusters
 from dondolo.curves.curve import Curve
-from dondolo.curves.delta_method import half_width, positive_levels
+from dondolo.curves.delta_method import level_interval, parameter_interval, probability_interval
 from dondolo.curves.sample import Sample, given_labels
+from dondolo.curves.wording import WHY_NO_ERRORS, bracket_in_words, facts_of
 from dondolo.errors import DondoloError, InputError
 from dondolo.walls.wall import Wall
 
@@ -36,17 +36,6 @@ if TYPE_CHECKING:
     from dondolo.curves.regression import Logistic
 
 Interval = tuple[float, float]
-
-# What sentences that are said elsewhere are marked by for the catalogues
-_ = str
-_WHY = {
-    "naive": _("as if all histories were independent"),
-    "few_clusters": _("fewer than three clusters of records"),
-    "one_cluster": _("one cluster of records determines the curve"),
-    "few_walls": _("two walls: at least three are needed for the spread between walls"),
-    "one_wall": _("without one of the walls no curve can be fitted"),
-    "given": _("the parameters were given"),
-}
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
@@ -236,16 +225,7 @@ class Fragility(Curve, Shown, Saved):
         InputError
             Levels that are not positive, a confidence that is not between 0 and 1.
         """
-        quantile = self._quantile(confidence)
-        values = positive_levels(x)
-        probit = np.log(values.ravel() / self.theta) / self.beta
-        # Gradient of the probit with respect to (ln theta, beta)
-        gradient = np.stack([np.full_like(probit, -1.0 / self.beta), -probit / self.beta])
-        half = half_width(gradient, self.covariance, quantile)
-        from scipy.special import ndtr
-
-        low, high = self.saturation * ndtr(probit - half), self.saturation * ndtr(probit + half)
-        return shaped(low, values), shaped(high, values)
+        return probability_interval(self, x, self._quantile(confidence))
 
     def ppf(self, p: ArrayLike) -> Any:
         """Levels at which the probability of collapse is p: the inverse of the curve.
@@ -303,13 +283,7 @@ class Fragility(Curve, Shown, Saved):
         """
         quantile = self._quantile(confidence)
         values, probit = self._probits(p)
-        if not np.all(np.isfinite(probit)):
-            wrong = values.ravel()[~np.isfinite(probit)][0]
-            raise InputError(f"p = {wrong:g}: must be greater than 0 and less than {self.saturation:g}")
-        gradient = np.stack([np.ones_like(probit), probit])
-        half = quantile * np.sqrt(np.einsum("ik,ij,jk->k", gradient, self.covariance, gradient))
-        level = self.theta * np.exp(self.beta * probit)
-        return shaped(level * np.exp(-half), values), shaped(level * np.exp(half), values)
+        return level_interval(self, values, probit, quantile)
 
     def parameter_interval(self, *, confidence: float = 0.95) -> dict[str, Interval]:
         """Confidence intervals of theta and beta.
@@ -333,11 +307,7 @@ class Fragility(Curve, Shown, Saved):
         InputError
             A confidence that is not between 0 and 1.
         """
-        quantile = self._quantile(confidence)
-        width = np.exp(quantile * self.se_ln_theta)
-        half = quantile * self.se_beta / self.beta
-        beta = (self.beta / (1.0 + half), self.beta / (1.0 - half) if half < 1.0 else np.inf)
-        return {"theta": (float(self.theta / width), float(self.theta * width)), "beta": beta}
+        return parameter_interval(self, self._quantile(confidence))
 
     def bootstrap(
         self,
@@ -555,19 +525,12 @@ class Fragility(Curve, Shown, Saved):
 
     def _need_fit(self) -> None:
         if not self.has_fit:
-            raise DondoloError(f"no curve was fitted (status '{self.status}')" + self._bracket_in_words(": "))
-
-    def _bracket_in_words(self, before: str = "") -> str:
-        """Where the median lies; nothing where that is not known, as where fractions fall with the level."""
-        low, high = self.bracket
-        if low >= high:
-            return ""
-        return f"{before}the median lies between {low:g} and {high:g}{blank_unit(self.im)}"
+            raise DondoloError(f"no curve was fitted (status '{self.status}')" + bracket_in_words(self, ": "))
 
     def _need_errors(self) -> None:
         self._need_fit()
         if not self.has_errors:
-            raise DondoloError(f"no standard errors: {_WHY[self.errors]}")
+            raise DondoloError(f"no standard errors: {WHY_NO_ERRORS[self.errors]}")
 
     def _probits(self, p: ArrayLike) -> tuple[FloatArray, FloatArray]:
         """Probabilities as an array, and flat the normal quantiles of their shares of the saturation."""
@@ -583,35 +546,4 @@ class Fragility(Curve, Shown, Saved):
         return normal_or_student(upper, self.degrees_of_freedom if self.clusters else np.inf)
 
     def _facts(self) -> list[tuple[str, str]]:
-        unit = blank_unit(self.im)
-        what = [("wall", self.wall.name)] if self.wall is not None else []
-        what += [("measure", self.im)] if self.im else []
-        what += [("EDP threshold", f"{self.edp_threshold:g}")] if self.edp_threshold is not None else []
-        if not self.has_fit:
-            text = self._bracket_in_words().removeprefix("the median lies ")
-            return [*what, ("status", self.status), *([("median", text)] if text else [])]
-        ends = [("saturation", f"{self.saturation:.6g}")] if self.saturation < 1.0 else []
-        return [
-            *what,
-            ("theta", f"{self.theta:.6g}{unit}" + self._shown_error("standard error of ln theta", self.se_ln_theta)),
-            ("beta", f"{self.beta:.6g}" + self._shown_error("standard error", self.se_beta)),
-            ("standard errors", self._kind() if self.has_errors else f"none: {self._kind()}"),
-            *ends,
-            *([("log likelihood", f"{self.log_likelihood:.6g}")] if math.isfinite(self.log_likelihood) else []),
-            ("status", self.status),
-        ]
-
-    def _shown_error(self, what: str, error: float) -> str:
-        return f" ({what} {error:.3g})" if np.isfinite(error) else ""
-
-    def _kind(self) -> str:
-        """What the standard errors are, in words."""
-        if self.errors == "clustered":
-            kinds = say(" and ").join(
-                say("{walls} walls", walls=len(part.labels))
-                if part.kind == "walls"
-                else say("{clusters} clusters of {kind}", clusters=len(part.labels), kind=say(part.kind))
-                for part in self.parts
-            )
-            return kinds or say("{clusters} clusters of {kind}", clusters=self.clusters, kind=say("records"))
-        return say(_WHY[self.errors])
+        return facts_of(self)

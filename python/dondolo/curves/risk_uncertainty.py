@@ -36,6 +36,7 @@ from dondolo.curves.clusters import freedom
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.mean_curve import MeanCurve
 from dondolo.curves.risk import Risk, between, risk_of
+from dondolo.curves.wording import errors_in_words
 from dondolo.errors import DondoloError
 from dondolo.hazard.hazard import HazardCurve
 from dondolo.hazard.integrals import nodes, of_lognormal
@@ -189,7 +190,7 @@ def uncertainty(risk: Risk, n_draws: int, seed: Any) -> RiskUncertainty:
         ]
     else:
         fit = curve if isinstance(curve, Fragility) else curve.fit
-        degrees, kind = fit.degrees_of_freedom, fit._kind()
+        degrees, kind = fit.degrees_of_freedom, errors_in_words(fit)
         theta, beta = _parameters(fit, count, generator)
         of_fit = [_risk(fit, one.hazard) for one in (risk, *risks.values())]
         draws = [_frequencies(fit, theta, beta, one) for one in of_fit]

@@ -10,6 +10,7 @@ import numpy as np
 from dondolo._base.wording import decimal, say
 from dondolo.checks.plots import check_name, draw_safety
 from dondolo.curves.fragility import Fragility
+from dondolo.curves.wording import errors_in_words
 from dondolo.figures import style
 from dondolo.figures.options import Options
 from dondolo.populations.typology import Typology
@@ -140,7 +141,7 @@ def _curves_table(people: Typology) -> Table:
 
 
 def _errors(curve: Fragility) -> str:
-    return curve._kind() if curve.has_fit else ""
+    return errors_in_words(curve) if curve.has_fit else ""
 
 
 def _levels_tables(people: Typology) -> list[Table]:

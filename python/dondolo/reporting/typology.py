@@ -11,6 +11,7 @@ import numpy as np
 from dondolo._base.shown import shown_dispersion
 from dondolo._base.wording import decimal, in_english, say
 from dondolo.curves.fragility import Fragility
+from dondolo.curves.wording import errors_in_words
 from dondolo.errors import DondoloError
 from dondolo.figures import style
 from dondolo.figures.style import counted_walls, mechanism_name
@@ -268,7 +269,7 @@ def _fitted(people: Typology) -> dict[str, Any]:
     fit = people["all"].fit
     if not fit.has_errors:
         return {"fitted": None}
-    clusters = fit._kind()
+    clusters = errors_in_words(fit)
     if len(people.combined) > 1 and not any(part.kind == "walls" for part in fit.parts):
         clusters += say(", and walls")
     return {"fitted": _parameters(people, fit.parameter_interval()), "clusters": clusters}

@@ -18,6 +18,7 @@ from dondolo.analysis.stripe_fits import States
 from dondolo.analysis.stripe_tables import stripes_table
 from dondolo.analysis.stripes import Stripes
 from dondolo.curves.fragility import Fragility
+from dondolo.curves.wording import errors_in_words
 from dondolo.reporting.columns import chosen, of_curve, parameters_of, shown
 from dondolo.reporting.content import (
     BETA,
@@ -119,7 +120,7 @@ def uncertainty(curve: Fragility) -> dict[str, Any]:
         }
     methods = {}
     if curve.has_errors:
-        methods[say("covariance, {kind}", kind=curve._kind())] = curve.parameter_interval()
+        methods[say("covariance, {kind}", kind=errors_in_words(curve))] = curve.parameter_interval()
     if curve.sample is not None:
         methods[say("bootstrap of the records, {samples} samples", samples=_SAMPLES)] = curve.bootstrap(
             n_resamples=_SAMPLES
