@@ -41,7 +41,7 @@ from dondolo.walls.rows import (
     shares_of_rows,
     words_of_rows,
 )
-from dondolo.walls.table import occurrence_columns, property_columns
+from dondolo.walls.table import population_columns
 from dondolo.walls.wall import MasonryWall, Wall, property_of, walls_table
 
 if TYPE_CHECKING:
@@ -623,18 +623,9 @@ class Population(Shown):
         What is read back is the same to the bit. Gravity is not a column: it is given again when the table is read.
         The lines of `origin` are the header.
         """
-        lines = tables.csv_lines(population_table(self), self.origin, tables.shortest, spreadsheet_safe)
+        lines = tables.csv_lines(population_columns(self), self.origin, tables.shortest, spreadsheet_safe)
         tables.write_lines(path, lines)
 
     def _table(self) -> TableColumns:
         words = zip(self.groups, self.facades, self.occurrence, self.alternatives, strict=True)
         return walls_table(self.walls, words, self.weights, self.p_occ)
-
-
-def population_table(population: Population) -> tables.Table:
-    """Columns of a population's table, as it is read."""
-    names = {row.name: row.name for row in WALL_PROPERTIES if row.column}
-    table = property_columns(population.walls, names)
-    table |= {"weight": population.weights, "group": population.groups, "p_occ": population.p_occ}
-    table |= {"facade": population.facades} if any(population.facades) else {}
-    return table | occurrence_columns(population.occurrence, population.alternatives)

@@ -3,10 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
-from dondolo._fortran.walls import EXCLUSIVE, WALL_EXTRAS, WALL_LISTS
+from dondolo._fortran.walls import EXCLUSIVE, WALL_EXTRAS, WALL_LISTS, WALL_PROPERTIES
 from dondolo._storage import tables
 from dondolo.walls.wall import Wall, property_of
+
+if TYPE_CHECKING:
+    from dondolo.walls.population import Population
+
+
+def population_columns(population: Population) -> tables.Table:
+    """Columns of a population's table, as it is read."""
+    names = {row.name: row.name for row in WALL_PROPERTIES if row.column}
+    table = property_columns(population.walls, names)
+    table |= {"weight": population.weights, "group": population.groups, "p_occ": population.p_occ}
+    table |= {"facade": population.facades} if any(population.facades) else {}
+    return table | occurrence_columns(population.occurrence, population.alternatives)
 
 
 def property_columns(walls: Sequence[Wall], heads: Mapping[str, str]) -> tables.Table:
