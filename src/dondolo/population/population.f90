@@ -422,11 +422,11 @@ contains
       end do
    end subroutine probabilities
 
-   !> At how many levels the probabilities of all columns are computed at a time: a few tens of MB
+   !> At how many levels the probabilities of all columns are computed at a time: a few MB, or a single level
    pure integer function levels_at_a_time(self) result(levels)
       class(population_type), intent(in) :: self
 
-      integer, parameter :: most_numbers = 2000000
+      integer, parameter :: most_numbers = 500000
 
       levels = max(1, most_numbers/max(1, self%rows + self%walls))
    end function levels_at_a_time
