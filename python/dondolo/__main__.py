@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+import gc
+import importlib
 import os
 import re
 import sys
@@ -238,11 +240,18 @@ def _catalogue(options: argparse.Namespace) -> None:
     _report_done("written", str(made.path), f" ({made.records} records)")
 
 
-def _report(options: argparse.Namespace) -> None:
-    """Write the report of a run."""
+def _import_matplotlib() -> None:
+    """Import Matplotlib for files. What is imported stays, so that garbage collections need not look at it."""
     import matplotlib
 
     matplotlib.use("agg")
+    importlib.import_module("matplotlib.pyplot")
+    gc.freeze()
+
+
+def _report(options: argparse.Namespace) -> None:
+    """Write the report of a run."""
+    _import_matplotlib()
     path = options.output or f"{options.prefix}_report.{'pdf' if options.pdf else 'html'}"
     if options.pdf and not path.lower().endswith(".pdf"):
         raise dd.errors.InputError(f"--output {path}: must end in .pdf with --pdf")
@@ -253,9 +262,7 @@ def _report(options: argparse.Namespace) -> None:
 
 def _relazione(options: argparse.Namespace) -> None:
     """Write the calculation report of runs."""
-    import matplotlib
-
-    matplotlib.use("agg")
+    _import_matplotlib()
     path = options.output or f"{options.prefixes[0]}_relazione.html"
     results = [dd.read_results(prefix) for prefix in options.prefixes]
     given = {"lang": options.lang, "project": options.data, "template": options.template}
@@ -295,9 +302,7 @@ def _nrml(options: argparse.Namespace) -> None:
 
 def _plot(options: argparse.Namespace) -> None:
     """Draw whatever the result files of runs hold, beside them."""
-    import matplotlib
-
-    matplotlib.use("agg")
+    _import_matplotlib()
     if options.dpi is not None and not 10.0 <= options.dpi <= 2400.0:
         raise dd.errors.InputError(f"--dpi {options.dpi:g}: must lie between 10 and 2400")
     with dd.style("screen" if options.width is None else "journal", width=options.width):

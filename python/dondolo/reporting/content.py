@@ -140,7 +140,7 @@ def figure(draw: Callable[[], Any], alt: str) -> Figure:
     try:
         if not in_english():
             _set_decimal_marks(drawing)
-        lay_out(drawing)
+        lay_out(drawing, is_cut=True)
         shown = drawing.get_tightbbox().padded(_MARGIN)
         # The same bytes every time: no date, and names in the drawing by a fixed salt.
         with mpl.rc_context({"svg.hashsalt": "dondolo"}):

@@ -306,7 +306,7 @@ class _Writer:
         drawing = (axes if hasattr(axes, "figure") else axes[0]).figure
         stream = io.BytesIO()
         try:
-            lay_out(drawing)
+            lay_out(drawing, is_cut=True)
             drawing.savefig(stream, format="png", dpi=_DOTS_PER_INCH, bbox_inches="tight", metadata={"Software": None})
         finally:
             plt.close(drawing)
