@@ -8,36 +8,29 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_number
-from dondolo._base.shown import Shown, span
-from dondolo._fortran.records import levels_in_words
+from dondolo._base.arguments import FloatArray
+from dondolo._base.shown import Shown
 from dondolo._fortran.tables import plain
-from dondolo._fortran.uncertainty import restitution_sentence
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.analysis.histories import cut, join
+from dondolo.analysis.outcomes import Counts, Outcomes
 from dondolo.analysis.stripe_fits import States, exceedance_bounds, fit_damage_states, fit_stripes, state_bounds
 from dondolo.analysis.stripe_tables import TableName, comments_of, tables_of, write_stripes
-from dondolo.analysis.work import Work
 from dondolo.curves.fragility import Fragility
-from dondolo.errors import DondoloWarning, InputError
+from dondolo.errors import InputError
 from dondolo.records.record import Record
-from dondolo.walls.ties import TieCounts, tallies_of_ties
-from dondolo.walls.wall import Wall, notes_on_supports, upload
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from dondolo.analysis.incremental import Incremental
 
-_Counts = np.ndarray[Any, np.dtype[np.int64]]
-
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class Stripes(Shown, Saved):
+class Stripes(Outcomes, Shown, Saved):
     """Result of a multiple stripe analysis: the outcome of every record at every level of intensity.
 
     Stripes of one wall are joined by ``+`` and indexed by level: ``stripes[:5]`` are the five lowest,
@@ -104,32 +97,6 @@ class Stripes(Shown, Saved):
     [5, 5, 5, 5]
     """
 
-    wall: Wall
-    im: str
-    levels: FloatArray
-    edp: FloatArray
-    collapsed: np.ndarray[Any, np.dtype[np.bool_]]
-    impacts: np.ndarray[Any, np.dtype[np.int32]]
-    time_of_peak: FloatArray
-    scale: FloatArray
-    ran: np.ndarray[Any, np.dtype[np.bool_]]
-    record_names: tuple[str, ...]
-    polarity: np.ndarray[Any, np.dtype[np.int32]]
-    engine: str
-    rtol: float
-    atol: float
-    edp_limit: float
-    runs: dict[str, Work]
-    edp_error: FloatArray | None = None
-    status: np.ndarray[Any, np.dtype[np.int32]] | None = None
-    edp_lowest: FloatArray | None = None
-    edp_highest: FloatArray | None = None
-    uplift: np.ndarray[Any, np.dtype[np.bool_]] | None = None
-    events: tuple[str, ...] = ()
-    checksums: tuple[str, ...] = ()
-    record_formats: tuple[str, ...] = ()
-    warnings: tuple[DondoloWarning, ...] = ()
-
     def __post_init__(self) -> None:
         super().__post_init__()
         for name in ("edp", "collapsed", "impacts", "time_of_peak", "scale"):
@@ -140,10 +107,6 @@ class Stripes(Shown, Saved):
         """The stripes of some levels, by a slice, numbers or a mask; a second index chooses among the records."""
         return cut(self, which)
 
-    def __len__(self) -> int:
-        """Number of levels."""
-        return len(self.levels)
-
     def __iter__(self) -> Iterator[Stripes]:
         """The stripe of each level."""
         return (self[i] for i in range(len(self)))
@@ -151,47 +114,6 @@ class Stripes(Shown, Saved):
     def __add__(self, other: Stripes) -> Stripes:
         """The stripes of both, of one wall; records of the same name are the same, and run once at a level."""
         return join(self, other)
-
-    @property
-    def work(self) -> Work:
-        """Work done and skipped by all of `runs`, each counted once."""
-        return Work.total(self.runs.values())
-
-    @property
-    def n_records(self) -> int:
-        """Number of records."""
-        return len(self.record_names) // len(np.unique(self.polarity))
-
-    @property
-    def record_index(self) -> np.ndarray[Any, np.dtype[np.int64]]:
-        """Which record each history belongs to, from 0, shape (histories,); names may repeat, this does not."""
-        # All records come in one polarity, and again in the other if there are two.
-        return np.arange(len(self.record_names)) % self.n_records
-
-    @property
-    def collapses(self) -> np.ndarray[Any, np.dtype[np.int64]]:
-        """Collapses in each stripe, shape (levels,)."""
-        counts: np.ndarray[Any, np.dtype[np.int64]] = self.collapsed.sum(axis=1)
-        return counts
-
-    @property
-    def histories(self) -> np.ndarray[Any, np.dtype[np.int64]]:
-        """Histories of each stripe, shape (levels,)."""
-        counts: np.ndarray[Any, np.dtype[np.int64]] = self.ran.sum(axis=1)
-        return counts
-
-    @property
-    def fraction(self) -> FloatArray:
-        """Fraction of collapses in each stripe, shape (levels,)."""
-        return self.collapses / self.histories
-
-    @property
-    def uplifts(self) -> np.ndarray[Any, np.dtype[np.int64]] | None:
-        """Histories of each stripe with `uplift`, shape (levels,); None without vertical motion."""
-        if self.uplift is None:
-            return None
-        counts: np.ndarray[Any, np.dtype[np.int64]] = self.uplift.sum(axis=1)
-        return counts
 
     @property
     def theta_bounds(self) -> tuple[float, float]:
@@ -225,7 +147,7 @@ class Stripes(Shown, Saved):
         """
         return state_bounds(self, edp_thresholds, states)
 
-    def exceedance_bounds(self, edp_threshold: float) -> tuple[_Counts, _Counts]:
+    def exceedance_bounds(self, edp_threshold: float) -> tuple[Counts, Counts]:
         """Bounds of the number of histories of each stripe that reach a threshold.
 
         Parameters
@@ -244,49 +166,6 @@ class Stripes(Shown, Saved):
             Stripes that are not certified, and as `exceedances`.
         """
         return exceedance_bounds(self, edp_threshold)
-
-    @property
-    def ties(self) -> TieCounts:
-        """Effect of the histories of each stripe on the ties of the wall."""
-        return tallies_of_ties(self.wall, self.edp, self.ran)
-
-    @property
-    def broken_ties(self) -> FloatArray:
-        """Share of the histories of each stripe that break each tie, shape (levels, ties)."""
-        return self.ties.broken / self.histories[:, None]
-
-    def exceedances(self, edp_threshold: float) -> np.ndarray[Any, np.dtype[np.int64]]:
-        """Histories of each stripe that reach a threshold, shape (levels,).
-
-        Parameters
-        ----------
-        edp_threshold : float
-            Rotation / capacity, positive and at most `edp_limit`, where it counts the collapses.
-
-        Returns
-        -------
-        ndarray of int, shape (levels,)
-
-        Raises
-        ------
-        InputError
-            A threshold beyond that.
-
-        Examples
-        --------
-        >>> import dondolo as dd
-        >>> records = dd.synthetic_records(6.5, 10.0, "shallow", n_records=10)
-        >>> stripes = dd.multiple_stripe(dd.OneSidedWall(1.5, 0.25), records, [0.6, 0.8, 1.0], progress=False)
-        >>> bool((stripes.exceedances(0.4) >= stripes.collapses).all())
-        True
-        """
-        threshold = as_number("edp_threshold", edp_threshold)
-        if not 0.0 < threshold <= self.edp_limit:
-            raise InputError(
-                f"edp_threshold = {threshold:g}: must be positive and at most edp_limit = {self.edp_limit:g}"
-            )
-        counts: np.ndarray[Any, np.dtype[np.int64]] = (self.edp >= threshold).sum(axis=1)
-        return counts
 
     def fit(self, edp_threshold: float | None = None, *, events: Sequence[Any] | None = None) -> Fragility:
         """Fit a fragility curve by maximum likelihood, with standard errors that are clustered by record or by event.
@@ -606,19 +485,3 @@ class Stripes(Shown, Saved):
             Earlier results are replaced; reports, workbooks or figures are out of date.
         """
         write_stripes(self, prefix, edp_thresholds, states, spreadsheet_safe)
-
-    def _facts(self) -> list[tuple[str, str]]:
-        facts = [
-            ("wall", self.wall.name),
-            ("levels", levels_in_words(self.levels, self.im)),
-            ("histories of a stripe", span(self.histories)),
-            ("collapses", " ".join(map(str, self.collapses))),
-            ("work", str(self.work)),
-        ]
-        if self.status is not None:
-            sure, again, unknown = np.bincount(self.status[self.status > 0], minlength=4)[1:4]
-            facts.append(("certified", f"{sure} in double, {again} in quadruple precision, {unknown} not computable"))
-        restitution = restitution_sentence(upload((self.wall,)))
-        if restitution:
-            facts.insert(1, ("restitution", restitution))
-        return [*facts, *notes_on_supports((self.wall,)), *self.work._notes()]
