@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from dondolo._base.arguments import FloatArray, as_array
 from dondolo.errors import InputError
+from dondolo.records.columns import factors_of
 from dondolo.records.record import Record, as_records
 from dondolo.records.record_set import RecordSet
 
@@ -76,7 +77,7 @@ def records_at_levels(
 
 def scaled_records(records: Record | Iterable[Record]) -> tuple[Record, ...]:
     """What an analysis without levels takes for records: those of a set times their factors, one for each row."""
-    factors = records._factors() if isinstance(records, RecordSet) else None
+    factors = factors_of(records) if isinstance(records, RecordSet) else None
     several = as_records(records)
     if factors is None:
         return several

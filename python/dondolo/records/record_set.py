@@ -5,22 +5,23 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dondolo._base.arguments import FloatArray, as_array, as_flag, as_measures, as_number
+from dondolo._base.arguments import FloatArray, as_flag, as_measures, as_number
 from dondolo._base.shown import Shown
 from dondolo._fortran.library import constants
 from dondolo._fortran.records import describe_measure
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
 from dondolo.errors import InputError
+from dondolo.records.columns import checked_column, column_names, column_of, factors_of, intensities_of, joined_columns
 from dondolo.records.expression import evaluate
 from dondolo.records.record import Record, as_records
-from dondolo.records.suite import intensities
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -106,7 +107,7 @@ class RecordSet(Shown, Saved):
             several = tuple(known.setdefault(key, record) for key, record in zip(keys, several, strict=True))
         object.__setattr__(self, "records", several)
         for what, given in (("level", level), ("factor", factor)):
-            values = None if given is None else _positive(what, given, len(several))
+            values = None if given is None else checked_column(what, given, len(several))
             object.__setattr__(self, what, values)
 
     @classmethod
@@ -169,7 +170,7 @@ class RecordSet(Shown, Saved):
     def __getitem__(self, which: Any) -> Any:
         """A record by its number, some rows by a slice, numbers or a mask, or a column by its name."""
         if isinstance(which, str):
-            return self._column(which)
+            return column_of(self, which)
         if isinstance(which, (int, np.integer)):
             return self.records[which]
         try:
@@ -184,7 +185,7 @@ class RecordSet(Shown, Saved):
             other = RecordSet(other)
         pairs = {"level": (self.level, other.level), "factor": (self.factor, other.factor)}
         joined = {
-            what: None if a is None and b is None else _joined(a, b, len(self), len(other))
+            what: None if a is None and b is None else joined_columns(a, b, len(self), len(other))
             for what, (a, b) in pairs.items()
         }
         return RecordSet((*self.records, *other.records), **joined)
@@ -192,9 +193,7 @@ class RecordSet(Shown, Saved):
     @property
     def columns(self) -> tuple[str, ...]:
         """Names of the columns: of the table itself, and the keys of the metadata."""
-        keys = dict.fromkeys(key for record in self.records for key in record.metadata)
-        own = ["record", *(what for what in ("level", "factor") if getattr(self, what) is not None), "dt", "duration"]
-        return (*own, *(key for key in keys if key not in own))
+        return column_names(self)
 
     def filter(self, expression: str) -> RecordSet:
         """The rows for which an expression holds.
@@ -215,7 +214,7 @@ class RecordSet(Shown, Saved):
         InputError
             The expression cannot be read, has an unknown name, or holds for no record.
         """
-        mask = evaluate(expression, self._column, len(self))
+        mask = evaluate(expression, partial(column_of, self), len(self))
         if not mask.any():
             raise InputError(f"filter: no record meets {expression!r}")
         return self._rows(np.flatnonzero(mask))
@@ -242,7 +241,7 @@ class RecordSet(Shown, Saved):
         >>> strongest.peak_acceleration == max(record.peak_acceleration for record in records)
         True
         """
-        values = self._column(by)
+        values = column_of(self, by)
         descending = as_flag("descending", descending)
         if descending and values.dtype.kind == "f":
             return self._rows(np.argsort(-values, kind="stable"))
@@ -286,10 +285,10 @@ class RecordSet(Shown, Saved):
         ims : str or iterable of str
             Intensity measures, as for `Record.intensity`; their columns are named with the unit, as 'pga [g]'.
         """
-        table: tables.Table = {name: self._column(name) for name in self.columns}
+        table: tables.Table = {name: column_of(self, name) for name in self.columns}
         for im in as_measures(ims):
             measure = describe_measure(im, of_record=True)
-            table[f"{measure.name} [{measure.unit}]"] = self._column(im)
+            table[f"{measure.name} [{measure.unit}]"] = column_of(self, im)
         return tables.frame(table)
 
     def intensity_table(self, ims: str | Iterable[str] = _TABLE, *, gravity: float | None = None) -> Any:
@@ -320,11 +319,11 @@ class RecordSet(Shown, Saved):
         >>> list(records.intensity_table(["pga", "d5-95"]).columns)
         ['record', 'pga [g]', 'd5-95 [s]']
         """
-        factors = self._factors()
-        table: tables.Table = {"record": self._column("record")}
+        factors = factors_of(self)
+        table: tables.Table = {"record": column_of(self, "record")}
         for im in as_measures(ims):
             measure = describe_measure(im, of_record=True)
-            values = self._intensities(im, gravity)
+            values = intensities_of(self, im, gravity)
             if factors is not None:
                 values = values * factors**measure.power
             table[f"{measure.name} [{measure.unit}]"] = values
@@ -449,51 +448,11 @@ class RecordSet(Shown, Saved):
 
         return draw_spectra(self, target, periods, ax, options)
 
-    def _column(self, name: str) -> NDArray[Any]:
-        """A column: numbers where every value is one, else texts."""
-        if name == "record":
-            return np.array([record.name for record in self.records])
-        if name in ("level", "factor"):
-            values = getattr(self, name)
-            return np.full(len(self), np.nan) if values is None else np.asarray(values)
-        if name in ("dt", "duration"):
-            return np.array([getattr(record, name) for record in self.records])
-        if any(name in record.metadata for record in self.records):
-            return _numbers([record.metadata.get(name, "") for record in self.records])
-        try:
-            return self._intensities(name)
-        except InputError as error:
-            raise InputError(
-                f"{name!r}: is neither a column ({', '.join(self.columns)}) nor a measure ({error})"
-            ) from None
-
-    def _intensities(self, im: str, gravity: float | None = None) -> FloatArray:
-        """An intensity measure of the unscaled records."""
-        # A record may have several rows, and a suite must not hold it twice.
-        each = tuple(dict.fromkeys(self.records))
-        places = {id(record): i for i, record in enumerate(each)}
-        return intensities(each, im, gravity)[[places[id(record)] for record in self.records]]
-
     def _rows(self, rows: NDArray[np.int64]) -> RecordSet:
         if not len(rows):
             raise InputError("records: none are left")
         level, factor = (None if values is None else values[rows] for values in (self.level, self.factor))
         return RecordSet([self.records[i] for i in rows], level=level, factor=factor)
-
-    def _factors(self) -> FloatArray | None:
-        """Factors on the rows where there are no levels to find them from; None for records as they stand."""
-        if self.level is None and self.factor is None:
-            return None
-        factor = np.full(len(self), np.nan) if self.factor is None else self.factor
-        level = np.full(len(self), np.nan) if self.level is None else self.level
-        unknown = np.isnan(factor) & ~np.isnan(level)
-        if unknown.any():
-            name = self.records[int(np.argmax(unknown))].name
-            raise InputError(
-                f"records: '{name}' has a level and no factor: must have a factor, or no level (the attribute records"
-                " of the set)"
-            )
-        return np.nan_to_num(factor, nan=1.0)
 
     def _facts(self) -> list[tuple[str, str]]:
         peaks = [record.peak_acceleration for record in self.records]
@@ -507,29 +466,3 @@ class RecordSet(Shown, Saved):
         if self.factor is not None:
             facts.append(("factors", f"{np.nanmin(self.factor):.3g} to {np.nanmax(self.factor):.3g}"))
         return facts
-
-
-def _positive(name: str, given: ArrayLike, length: int) -> FloatArray:
-    """Positive numbers, one for each row; NaN where there is none."""
-    values = np.full(length, as_number(name, given)) if np.ndim(given) == 0 else as_array(name, given).copy()
-    if len(values) != length:
-        raise InputError(f"{name}: {len(values)} values for {length} records: must be as many")
-    wrong = ~(np.isnan(values) | ((values > 0.0) & (values < np.inf)))
-    if wrong.any():
-        raise InputError(f"{name} = {values[wrong][0]:g}: must be positive")
-    values.flags.writeable = False
-    return values
-
-
-def _joined(one: FloatArray | None, other: FloatArray | None, first: int, second: int) -> FloatArray:
-    """A column of two sets; NaN where one lacks it."""
-    parts = ((one, first), (other, second))
-    return np.concatenate([np.full(length, np.nan) if values is None else values for values, length in parts])
-
-
-def _numbers(texts: list[str]) -> NDArray[Any]:
-    """Texts as numbers, NaN where there is nothing, if all others are numbers."""
-    try:
-        return np.array([float(text) if text else np.nan for text in texts])
-    except ValueError:
-        return np.array(texts)
