@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-import functools
-import math
 import os
-from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import KW_ONLY, dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, instance_of, one_of
-from dondolo._base.shown import Shown, html_of
-from dondolo._base.wording import decimal, say
-from dondolo._fortran.library import as_text
+from dondolo._base.arguments import FloatArray, one_of
+from dondolo._base.shown import Shown
 from dondolo._fortran.tables import TableColumns, plain
 from dondolo._fortran.walls import (
     INDEPENDENT,
@@ -31,18 +26,10 @@ from dondolo._storage import tables
 from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
 from dondolo.walls.mechanisms import wall_from
-from dondolo.walls.rows import (
-    UNNAMED,
-    check_names,
-    named_walls,
-    numbered_alternatives,
-    occurrence_of_rows,
-    several,
-    shares_of_rows,
-    words_of_rows,
-)
+from dondolo.walls.rows import UNNAMED
 from dondolo.walls.table import population_columns
-from dondolo.walls.wall import MasonryWall, Wall, property_of, walls_table
+from dondolo.walls.wall import Wall, property_of, walls_table
+from dondolo.walls.wall_rows import WallRows
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -60,7 +47,7 @@ Kind = Literal["mechanism", "group"]
 
 @part_of_results
 @dataclass(frozen=True, eq=False, repr=False)
-class Population(Shown):
+class Population(WallRows, Shown):
     """Walls with their weights: the number of similar walls that each represents.
 
     Walls with the same name, one after the other, are mechanisms of one wall; those of the same facade are mechanisms
@@ -120,42 +107,6 @@ class Population(Shown):
     >>> dd.Population(walls, p_occ=[0.3, 0.7], occurrence="exclusive").occurrence
     ('exclusive', 'exclusive')
     """
-
-    walls: tuple[Wall, ...]
-    weights: FloatArray = None  # type: ignore[assignment]
-    _: KW_ONLY
-    groups: tuple[str, ...] = None  # type: ignore[assignment]
-    p_occ: FloatArray = None  # type: ignore[assignment]
-    facades: tuple[str, ...] = None  # type: ignore[assignment]
-    occurrence: tuple[str, ...] = None  # type: ignore[assignment]
-    alternatives: tuple[str, ...] = None  # type: ignore[assignment]
-    origin: tuple[str, ...] = ()
-
-    def __post_init__(self) -> None:
-        walls = (self.walls,) if isinstance(self.walls, Wall) else several("walls", self.walls, "walls")
-        if not walls:
-            raise InputError("walls: must be given")
-        for wall in walls:
-            instance_of("walls", wall, Wall)
-        if len(walls) > 1:
-            walls = named_walls(walls)
-        weights = shares_of_rows("weight", self.weights, walls, math.inf)
-        if not np.any(weights > 0.0):
-            raise InputError("weight: must be positive for at least one wall")
-        p_occ = shares_of_rows("p_occ", self.p_occ, walls, 1.0)
-        names = ("groups", "facades", "alternatives")
-        groups, facades, alternatives = (words_of_rows(name, getattr(self, name), walls) for name in names)
-        occurrence = occurrence_of_rows(self.occurrence, walls)
-        origin = several("origin", self.origin, "lines")
-        for line in origin:
-            as_text("origin", line)
-        of_rows = list(zip(weights.tolist(), groups, occurrence, strict=True))
-        check_names(walls, of_rows, facades, alternatives)
-        filled = {"walls": walls, "weights": weights, "groups": groups, "p_occ": p_occ, "facades": facades}
-        filled |= {"occurrence": occurrence, "alternatives": alternatives, "origin": origin}
-        for name, value in filled.items():
-            object.__setattr__(self, name, value)
-        numbered_alternatives(self.wholes, p_occ.tolist(), occurrence, alternatives)
 
     @classmethod
     def from_csv(
@@ -370,63 +321,6 @@ class Population(Shown):
     def _restored(cls, properties: dict[str, Any], gravity: FloatArray, **more: Any) -> Population:
         return cls(tuple(map(wall_from, describe_walls(len(gravity), properties, gravity))), **more)
 
-    @functools.cached_property
-    def wholes(self) -> tuple[str, ...]:
-        """Name of what collapses with each row: its facade, or its wall."""
-        return tuple(facade or wall.name for wall, facade in zip(self.walls, self.facades, strict=True))
-
-    @functools.cached_property
-    def first_rows(self) -> NDArray[np.intp]:
-        """Where among the rows each wall or facade begins: its rows stand one after the other."""
-        names = self.wholes
-        first = np.array([i for i, name in enumerate(names) if i == 0 or names[i - 1] != name], dtype=np.intp)
-        first.flags.writeable = False
-        return first
-
-    @functools.cached_property
-    def alternative_numbers(self) -> NDArray[np.int32]:
-        """Number of the alternative of each row among those of its wall; 0: its mechanisms are independent."""
-        numbers = numbered_alternatives(self.wholes, self.p_occ.tolist(), self.occurrence, self.alternatives)
-        numbers.flags.writeable = False
-        return numbers
-
-    def _has_single_alternatives(self, whole: str) -> bool:
-        """Do no two mechanisms of a wall or facade ever occur together?"""
-        numbers = self.alternative_numbers[[name == whole for name in self.wholes]]
-        return bool(numbers.all()) and len(set(numbers.tolist())) == len(numbers)
-
-    @property
-    def _numbers_of_rows(self) -> NDArray[np.int32]:
-        """How many rows each wall or facade has, shape (walls,)."""
-        return np.diff(self.first_rows, append=len(self)).astype(np.int32)
-
-    def _of_one_mechanism(self, rows: NDArray[np.intp]) -> tuple[FloatArray, FloatArray, NDArray[np.int32], Any]:
-        """Weights of the walls of rows of one mechanism, share and alternative of each row, and first row of each wall.
-
-        A wall that has several of these rows is their weighted mean, as one of exclusive alternatives is.
-        """
-        wall = np.searchsorted(self.first_rows, rows, side="right")
-        first = np.flatnonzero(np.diff(wall, prepend=-1))
-        number = np.diff(first, append=len(rows))
-        total = np.add.reduceat(self.p_occ[rows], first)
-        share = np.ones(len(rows))
-        np.divide(self.p_occ[rows], np.repeat(total, number), out=share, where=np.repeat(total > 0.0, number))
-        alternative = np.arange(1, len(rows) + 1) - np.repeat(first, number)
-        return self.weights[rows[first]] * total, share, alternative.astype(np.int32), first
-
-    @property
-    def _has_curve_of_row(self) -> NDArray[np.bool_]:
-        """Which walls have the curve of their one row, shape (walls,): those of one mechanism that can always occur."""
-        first = self.first_rows
-        alone: NDArray[np.bool_] = (np.diff(first, append=len(self)) == 1) & (self.p_occ[first] == 1)
-        return alone
-
-    def __len__(self) -> int:
-        return len(self.walls)
-
-    def __iter__(self) -> Iterator[Wall]:
-        return iter(self.walls)
-
     @overload
     def __getitem__(self, index: int) -> Wall: ...
 
@@ -525,39 +419,6 @@ class Population(Shown):
             **{name: tuple(getattr(self, name)[i] for i in chosen) for name in _OF_ROWS},
             origin=self.origin,
         )
-
-    def _facts(self) -> list[tuple[str, str]]:
-        """How many there are, name and text."""
-        groups = Counter(self.groups[i] for i in self.first_rows)
-        facts = [
-            (say("walls"), str(len(self.first_rows))),
-            (say("mechanisms"), str(len(self))),
-            (say("sum of the weights"), decimal(f"{self.weights[self.first_rows].sum():.6g}")),
-            (say("groups"), ", ".join(f"{name!r} ({count})" for name, count in groups.items())),
-        ]
-        return facts if any(groups) else facts[:-1]
-
-    def _ranges(self) -> list[tuple[str, str]]:
-        """Between which values the properties lie, name and text."""
-
-        def between(what: str, values: Iterable[float], unit: str = "") -> tuple[str, str]:
-            values = list(values)
-            text = say("{low:.4g} to {high:.4g} {unit}", low=float(min(values)), high=float(max(values)), unit=unit)
-            return what, text.strip()
-
-        sizes = [(wall.height, wall.thickness) for wall in self.walls if isinstance(wall, MasonryWall)]
-        facts = [between(say("height"), (wall.height for wall in self.walls), "m")]
-        if sizes:
-            facts.append(between(say("thickness"), (thickness for _, thickness in sizes), "m"))
-            facts.append(between(say("height / thickness"), (height / thickness for height, thickness in sizes)))
-        return [
-            *facts,
-            between(say("trigger"), (wall.trigger_acceleration / wall.gravity for wall in self.walls), "g"),
-            between("p_occ", self.p_occ),
-        ]
-
-    def _repr_html_(self) -> str:
-        return html_of("Population", [*self._facts(), *self._ranges()])
 
     def plot(self, ax: Iterable[Axes] | None = None, *, by: Kind = "mechanism", **options: Any) -> Axes:
         """Draw the walls: thickness against height above, trigger accelerations below.
