@@ -11,7 +11,7 @@ from dondolo._base.arguments import FloatArray, as_levels, shaped
 from dondolo.errors import InputError
 
 if TYPE_CHECKING:
-    from dondolo.curves.fragility import Fragility
+    from dondolo.curves.lognormal import LognormalCurve
 
 
 def positive_levels(x: ArrayLike) -> FloatArray:
@@ -28,7 +28,7 @@ def half_width(gradient: FloatArray, covariance: FloatArray, quantile: float) ->
     return width
 
 
-def probability_interval(curve: Fragility, x: ArrayLike, quantile: float) -> tuple[Any, Any]:
+def probability_interval(curve: LognormalCurve, x: ArrayLike, quantile: float) -> tuple[Any, Any]:
     """Interval of the probability at levels: see `Fragility.interval`."""
     values = positive_levels(x)
     probit = np.log(values.ravel() / curve.theta) / curve.beta
@@ -41,7 +41,7 @@ def probability_interval(curve: Fragility, x: ArrayLike, quantile: float) -> tup
     return shaped(low, values), shaped(high, values)
 
 
-def level_interval(curve: Fragility, p: FloatArray, probit: FloatArray, quantile: float) -> tuple[Any, Any]:
+def level_interval(curve: LognormalCurve, p: FloatArray, probit: FloatArray, quantile: float) -> tuple[Any, Any]:
     """Interval of the levels of probabilities, which come with their probits: see `Fragility.ppf_interval`."""
     if not np.all(np.isfinite(probit)):
         wrong = p.ravel()[~np.isfinite(probit)][0]
@@ -51,7 +51,7 @@ def level_interval(curve: Fragility, p: FloatArray, probit: FloatArray, quantile
     return shaped(level * np.exp(-half), p), shaped(level * np.exp(half), p)
 
 
-def parameter_interval(curve: Fragility, quantile: float) -> dict[str, tuple[float, float]]:
+def parameter_interval(curve: LognormalCurve, quantile: float) -> dict[str, tuple[float, float]]:
     """Intervals of theta and beta: see `Fragility.parameter_interval`."""
     width = np.exp(quantile * curve.se_ln_theta)
     half = quantile * curve.se_beta / curve.beta

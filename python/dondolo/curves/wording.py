@@ -12,6 +12,7 @@ from dondolo._fortran.records import blank_unit
 
 if TYPE_CHECKING:
     from dondolo.curves.fragility import Fragility
+    from dondolo.curves.lognormal import LognormalCurve
 
 # What sentences that are said elsewhere are marked by for the catalogues
 _ = str
@@ -47,7 +48,7 @@ def facts_of(curve: Fragility) -> list[tuple[str, str]]:
     ]
 
 
-def bracket_in_words(curve: Fragility, before: str = "") -> str:
+def bracket_in_words(curve: LognormalCurve, before: str = "") -> str:
     """Where the median lies; nothing where that is not known, as where fractions fall with the level."""
     low, high = curve.bracket
     if low >= high:
@@ -55,7 +56,7 @@ def bracket_in_words(curve: Fragility, before: str = "") -> str:
     return f"{before}the median lies between {low:g} and {high:g}{blank_unit(curve.im)}"
 
 
-def errors_in_words(curve: Fragility) -> str:
+def errors_in_words(curve: LognormalCurve) -> str:
     """What the standard errors are, in words."""
     if curve.errors == "clustered":
         kinds = say(" and ").join(
