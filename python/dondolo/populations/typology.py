@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import dataclasses
-import functools
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -11,36 +10,29 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, as_number, one_of
+from dondolo._base.arguments import as_number, one_of
 from dondolo._base.shown import Shown, shown_dispersion
 from dondolo._fortran.curves import warnings_of_union
 from dondolo._fortran.library import warn
-from dondolo._fortran.populations import FlatCurves, FlatPopulation
 from dondolo._fortran.records import levels_in_words
 from dondolo._fortran.tables import plain
 from dondolo._storage import tables
 from dondolo._storage.saved import Saved
-from dondolo.analysis.work import Work
-from dondolo.curves.fragility import Fragility
 from dondolo.curves.fragility_model import Function
 from dondolo.curves.plots import parameters
-from dondolo.errors import DondoloWarning, InputError
-from dondolo.populations.curve import Group, IntArray, PopulationCurve, flat_population
-from dondolo.populations.flags import Flags
+from dondolo.errors import InputError
+from dondolo.populations.curve import PopulationCurve
+from dondolo.populations.row_curves import RowCurves
 from dondolo.populations.stored_curves import StoredCurves
 from dondolo.populations.typology_tables import TableName, comments_of, tables_of, write_typology
-from dondolo.walls.population import Population
-from dondolo.walls.ties import TieCounts
-from dondolo.walls.wall import Wall, notes_on_supports
+from dondolo.walls.wall import notes_on_supports
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-_MISSING = "unions: the results were read back from files without *_unions.csv"
-
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
-class Typology(Shown, Saved):
+class Typology(RowCurves, Shown, Saved):
     """Fragility of a population of walls.
 
     A damage state is reached where rotation / capacity reaches a threshold; collapse is the last. Attributes are those
@@ -97,69 +89,7 @@ class Typology(Shown, Saved):
     >>> axes = found.plot_groups(), found.plot_damage_states(), found.plot_combination()
     """
 
-    population: Population
-    im: str
-    levels: FloatArray
-    edp_thresholds: FloatArray
-    exceedances: IntArray
-    histories: IntArray
-    curves: tuple[Fragility, ...]
-    combined: dict[str, Fragility]
-    groups: tuple[Group, ...]
-    work: Work
-    flags: Flags | None = None
-    warnings: tuple[DondoloWarning, ...] = ()
-    stored_curves: StoredCurves | None = None
-    union_curves: dict[str, Fragility] | None = None
-    group_union_curves: dict[str, Fragility] | None = None
-    union_counts: dict[str, FloatArray] | None = None
-    ties: tuple[TieCounts, ...] | None = None
-    record_formats: tuple[str, ...] = ()
     _states: dict[float, Typology] = field(default_factory=dict)
-
-    @property
-    def walls(self) -> tuple[Wall, ...]:
-        """The walls, one a row: the mechanisms of a wall stand one after the other."""
-        return self.population.walls
-
-    @property
-    def weights(self) -> FloatArray:
-        """Their weights, shape (rows,)."""
-        return self.population.weights
-
-    @property
-    def collapses(self) -> IntArray:
-        """Collapses of each row, shape (levels, rows)."""
-        collapses: IntArray = self.exceedances[-1]
-        return collapses
-
-    @property
-    def broken_ties(self) -> tuple[FloatArray, ...]:
-        """Share of the histories of each stripe that break each tie, of each row, shape (levels, ties).
-
-        Raises
-        ------
-        InputError
-            Results that do not have `ties`.
-        """
-        if self.ties is None:
-            raise InputError("broken_ties: these results do not know their ties")
-        histories = self.histories.T.astype(np.float64)
-        return tuple(own.broken / runs[:, None] for own, runs in zip(self.ties, histories, strict=True))
-
-    @property
-    def facade(self) -> str:
-        """Name of the one facade, or wall with several mechanisms, that these results are of; '' if they are of more.
-
-        Its curve is that of `unions`; `combined` and ``typology["all"]`` take mechanisms that occur together as
-        independent.
-        """
-        return self.population.wholes[0] if len(self.combined) == 1 < len(self.walls) else ""
-
-    @property
-    def are_alternatives(self) -> bool:
-        """Whether the walls are designs of one wall, of which one will be built: nothing is a mean over them."""
-        return not self.groups
 
     def _with_union_warnings(self) -> Typology:
         """The same with what there is to say of the curve of one facade, which is its number."""
@@ -168,12 +98,6 @@ class Typology(Shown, Saved):
         union = self.unions[self.facade]
         said = warnings_of_union(self.facade, union.status, union.theta)
         return dataclasses.replace(self, warnings=tuple(dict.fromkeys([*self.warnings, *said])))
-
-    @functools.cached_property
-    def _flat(self) -> tuple[FlatPopulation, FlatCurves]:
-        """The population with its collapses, and the curves of its rows, as Fortran takes them."""
-        curves = FlatCurves.of([(curve.theta, curve.beta, curve.status) for curve in self.curves])
-        return flat_population(self.population, self.levels, self.collapses.T, self.histories), curves
 
     def __getitem__(self, key: str | tuple[str, str]) -> PopulationCurve:
         """A curve of the population, or of a part of it: of a mechanism, or of a mechanism and a group.
@@ -273,47 +197,6 @@ class Typology(Shown, Saved):
             state = self.stored_curves.at(number).put_into(state)._with_union_warnings()
         warn(warning.placed(f"damage state {self.edp_thresholds[number]:g}: ") for warning in state.warnings)
         return dataclasses.replace(state, ties=self.ties, record_formats=self.record_formats)
-
-    @property
-    def unions(self) -> dict[str, Fragility]:
-        """Curve of each facade, or wall with several mechanisms, counted in the same histories.
-
-        A history, of a record, polarity and level, counts if any of the mechanisms reaches the state in it; `combined`
-        treats them as independent. Mechanisms that may not occur count with the probability that one that
-        reaches the state can, exclusive alternatives with the sum of their probabilities. Standard errors are clustered
-        by record.
-
-        Raises
-        ------
-        InputError
-            The results were read back from files without them.
-        """
-        if self.union_curves is None:
-            raise InputError(_MISSING)
-        return self.union_curves
-
-    @property
-    def group_unions(self) -> dict[str, Fragility]:
-        """Curve of the population ('') and of each group with a wall of several mechanisms, in the same histories.
-
-        The lognormal fitted to the weighted mean of `unions` and of the fractions of walls with one mechanism;
-        ``typology["all"].fit`` is the same with the mechanisms of each wall as independent. Empty if no wall has
-        several mechanisms, or if there is one wall only, which `unions` has. Standard errors are over records and
-        walls.
-
-        Raises
-        ------
-        InputError
-            The results were read back from files without them.
-        """
-        if self.group_union_curves is None:
-            raise InputError(_MISSING)
-        return self.group_union_curves
-
-    @property
-    def knows_unions(self) -> bool:
-        """Whether `unions` are known; they are not if the results were read from files without them."""
-        return self.union_curves is not None
 
     def nrml_functions(self) -> tuple[dict[str, dict[str, Function]], list[str]]:
         """Fragility functions of a population for `write_nrml`, one per group and mechanism, with damage states.
