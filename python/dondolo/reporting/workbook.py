@@ -151,10 +151,12 @@ def _case(run: RunFile, language: Language) -> list[list[Any]]:
 
 def _values(cells: list[str]) -> list[Any]:
     """A column: numbers if all of its cells are, and nothing where a cell is empty."""
-    if all(_NUMBER.fullmatch(cell) for cell in cells if cell):
-        numbers = [(float(cell) if set(cell) & set(".E") else int(cell)) if cell else None for cell in cells]
-        if all(number is None or _is_number(number) for number in numbers):
-            return numbers
+    # Each that differs once: names and levels stand in many rows
+    known: dict[str, Any] = dict.fromkeys(cells)
+    if all(_NUMBER.fullmatch(cell) for cell in known if cell):
+        known |= {cell: float(cell) if "." in cell or "E" in cell else int(cell) for cell in known if cell}
+        if all(number is None or _is_number(number) for number in known.values()):
+            return [known[cell] for cell in cells]
     return list(cells)
 
 
@@ -197,22 +199,28 @@ def _add_sheet(book: Any, name: str, titles: list[str], columns: Sequence[Sequen
     formats = [_format(cells) for cells in columns]
     for place, (title, cells, shown) in enumerate(zip(titles, columns, formats, strict=True), 1):
         sheet.column_dimensions[get_column_letter(place)].width = _width(title, cells, shown)
+    head = [_text_cell(WriteOnlyCell(sheet), title) for title in titles]
     strong, lines = Font(bold=True), Alignment(wrap_text=True, vertical="top")
-
-    def cell(value: Any, shown: str = "General") -> Any:
-        if isinstance(value, str):
-            value = visible(value)[:_LONGEST]
-        made = WriteOnlyCell(sheet, value=value)
-        if isinstance(value, str):
-            # A name that begins with = is no formula.
-            made.data_type = "s"
-        elif isinstance(value, float) and shown != "General":
-            made.number_format = shown
-        return made
-
-    head = [cell(title) for title in titles]
     for one in head:
         one.font, one.alignment = strong, lines
     sheet.append(head)
+    # A row is written when it is appended: the next one has the same cells, whose looks are made once.
+    texts, numbers = ([WriteOnlyCell(sheet) for _ in titles] for _ in range(2))
+    for cell, shown in zip(numbers, formats, strict=True):
+        cell.number_format = shown
     for row in zip(*columns, strict=True):
-        sheet.append([cell(value, shown) for value, shown in zip(row, formats, strict=True)])
+        made: list[Any] = list(row)
+        for place, value in enumerate(row):
+            if isinstance(value, float):
+                made[place] = numbers[place]
+                made[place].value = value
+            elif isinstance(value, str):
+                made[place] = _text_cell(texts[place], value)
+        sheet.append(made)
+
+
+def _text_cell(cell: Any, text: str) -> Any:
+    """A cell that holds a text: a name that begins with = is no formula."""
+    cell.value = visible(text)[:_LONGEST]
+    cell.data_type = "s"
+    return cell
