@@ -262,6 +262,7 @@ contains
       level = restraints%below
       fall = held%potential(tail%peak) - held%potential(level)
       call restraints%cross(held, level, .false., 0.0_wp)
+      call held%set_restraints(restraints%force, restraints%stiffness)
       fall = fall + held%potential(level) - held%potential(0.0_wp)
       call check_close(sqrt(2.0_wp*fall/219375.0_wp), 0.0396490652059264_wp, 0.0_wp, 'speed at impact', exact)
    end subroutine test_energy

@@ -21,7 +21,7 @@ contains
 
    !> The largest rotation after the end of the record
    pure subroutine restrained_motion(wall, restraints, limit, q, v, start, tail)
-      !> The wall; its ties change
+      !> The wall; its ties get the forces that they have
       class(mechanism_type), intent(inout) :: wall
       type(restraint_state_type), intent(inout) :: restraints
       !> Rotation that counts as collapse [rad]
@@ -38,6 +38,7 @@ contains
       logical :: outwards, has_struck, turns
 
       if (restraints%flows .and. .not. v > 0.0_wp) call restraints%turn(wall, q)
+      call wall%set_restraints(restraints%force, restraints%stiffness)
       at = q
       kinetic = 0.5_wp*inertia(wall, q)*v**2
       lively = kinetic
@@ -51,6 +52,7 @@ contains
             outwards = .true.
          else if (turns) then
             call restraints%turn(wall, at)
+            call wall%set_restraints(restraints%force, restraints%stiffness)
             tail%peak = at
             return
          else if (outwards .and. at >= limit) then
@@ -59,6 +61,7 @@ contains
             return
          else if (outwards .or. at > 0.0_wp) then
             call restraints%cross(wall, at, outwards, start + tail%delay)
+            call wall%set_restraints(restraints%force, restraints%stiffness)
          else
             kinetic = wall%restitution**2*kinetic
             lively = wall%restitution**2*lively
@@ -66,6 +69,7 @@ contains
             has_struck = .true.
             outwards = .true.
             call restraints%strike(wall)
+            call wall%set_restraints(restraints%force, restraints%stiffness)
          end if
       end do
    end subroutine restrained_motion

@@ -32,7 +32,7 @@ module dondolo_motion_restraint_state
       logical :: slackens_at_base = .false.
       !> Nearest rotations above and below the present one at which a mode changes [rad]; huge and -huge: none
       real(wp) :: above = huge(1.0_wp), below = -huge(1.0_wp)
-      !> Force of each tie T = force + stiffness D at present [N/m] and [N/m per m]
+      !> Force of each tie T = force + stiffness D at present [N/m] and [N/m per m]; `set_restraints` of a wall takes them
       real(wp), allocatable :: force(:), stiffness(:)
       !> Largest rotation at which a motion outwards has ended [rad]
       real(wp), private :: reached = 0.0_wp
@@ -59,8 +59,7 @@ contains
    !> Begin a history: the wall is at rest, or was taken to a rotation
    pure subroutine begin(self, wall, q)
       class(restraint_state_type), intent(inout) :: self
-      !> The wall; its ties get the forces that they have
-      class(mechanism_type), intent(inout) :: wall
+      class(mechanism_type), intent(in) :: wall
       !> Rotation, also the largest so far [rad]
       real(wp), intent(in) :: q
 
@@ -79,8 +78,7 @@ contains
    !> Cross a level
    pure subroutine cross(self, wall, q, outwards, time)
       class(restraint_state_type), intent(inout) :: self
-      !> The wall; its ties get the forces that they have from now on
-      class(mechanism_type), intent(inout) :: wall
+      class(mechanism_type), intent(in) :: wall
       !> Rotation [rad]
       real(wp), intent(in) :: q
       !> Does it move outwards?
@@ -115,8 +113,7 @@ contains
    !> End a motion outwards
    pure subroutine turn(self, wall, q)
       class(restraint_state_type), intent(inout) :: self
-      !> The wall; its ties get the forces that they have from now on
-      class(mechanism_type), intent(inout) :: wall
+      class(mechanism_type), intent(in) :: wall
       !> Rotation [rad]
       real(wp), intent(in) :: q
 
@@ -140,11 +137,10 @@ contains
       call self%update(wall)
    end subroutine turn
 
-   !> Strike the base, with the forces that the ties have there
+   !> Strike the base
    pure subroutine strike(self, wall)
       class(restraint_state_type), intent(inout) :: self
-      !> The wall; its ties get these forces
-      class(mechanism_type), intent(inout) :: wall
+      class(mechanism_type), intent(in) :: wall
 
       where (self%tie%mode == elastic .and. self%tie%slack_below > 0.0_wp) self%tie%mode = slack
       self%changed = .false.
@@ -186,15 +182,14 @@ contains
       yields_at = max(tie%yield, self%reached)
    end function yields_at
 
-   !> Give the wall the forces of its ties and of friction, and find the levels that come next
+   !> Find the forces of the ties and of friction, and the levels that come next
    pure subroutine update(self, wall)
       class(restraint_state_type), intent(inout) :: self
-      class(mechanism_type), intent(inout) :: wall
+      class(mechanism_type), intent(in) :: wall
 
       integer :: i
 
       call wall%restraints%linear_force(self%tie%mode, self%tie%plastic_elongation, self%force, self%stiffness)
-      call wall%set_restraints(self%force, self%stiffness)
       self%flows = .false.
       self%slackens_at_base = .false.
       self%above = huge(self%above)

@@ -219,7 +219,10 @@ contains
          if (state%flows) call state%turn(wall, constants%form%rotation(lanes%peak(i)))
          changed = state%changed
          call state%strike(wall)
-         if (changed) rest = new_rest(wall)
+         if (changed) then
+            call wall%set_restraints(state%force, state%stiffness)
+            rest = new_rest(wall)
+         end if
          call self%update(constants, lanes, i)
       end associate
    end subroutine strike

@@ -74,6 +74,7 @@ contains
       call wall%scatter%begin(record%name, scale < 0.0_wp .and. .not. wall%two_sided)
       call wall%scatter%draw(wall%restitution)
       call motion%restraints%begin(wall, motion%q)
+      if (motion%restraints%exists) call wall%set_restraints(motion%restraints%force, motion%restraints%stiffness)
       if (present(trace)) call add_row(motion, record, trace)
 
       do
@@ -244,10 +245,12 @@ contains
          call motion%restraints%cross(wall, motion%q, event == level_above, time_of(motion, record))
          ! A motion outwards that ends just there goes back without what flows.
          if (motion%restraints%flows .and. motion%v < 0.0_wp) call motion%restraints%turn(wall, motion%peak)
+         call wall%set_restraints(motion%restraints%force, motion%restraints%stiffness)
       case default
          ! A tie flows outwards only; rounding may end such a motion unseen.
          if (.not. (event == turning .or. (motion%restraints%flows .and. motion%v < 0.0_wp))) return
          call motion%restraints%turn(wall, motion%peak)
+         call wall%set_restraints(motion%restraints%force, motion%restraints%stiffness)
          ! Not where a motion inwards has ended: it goes on outwards until it is where friction has not been overcome before.
          if (event == turning .and. .not. motion%f > 0.0_wp .and. wall%has_friction()) call look_for_stick(wall, motion)
       end select
@@ -359,6 +362,7 @@ contains
       if (motion%restraints%flows) call motion%restraints%turn(wall, motion%peak)
       changed = motion%restraints%changed
       call motion%restraints%strike(wall)
+      call wall%set_restraints(motion%restraints%force, motion%restraints%stiffness)
       if (changed) constants%rest = new_rest(wall)
    end subroutine strike_ties
 

@@ -58,7 +58,10 @@ contains
       motion%time = min(back, on)
       motion%released = motion%released + 1
       motion%sticks = .false.
-      if (on < back) call motion%restraints%cross(wall, motion%q, .true., 0.0_wp)
+      if (on < back) then
+         call motion%restraints%cross(wall, motion%q, .true., 0.0_wp)
+         call wall%set_restraints(motion%restraints%force, motion%restraints%stiffness)
+      end if
       motion%f = angular_acceleration(wall, motion%excitation, motion%time, motion%q, 0.0_wp)
       if (on < back) then
          motion%f = max(0.0_wp, motion%f)
@@ -96,8 +99,10 @@ contains
 
       free = angular_acceleration(wall, motion%excitation, time, motion%peak, 0.0_wp)
       call motion%restraints%cross(wall, motion%peak, .true., 0.0_wp)
+      call wall%set_restraints(motion%restraints%force, motion%restraints%stiffness)
       resisted = angular_acceleration(wall, motion%excitation, time, motion%peak, 0.0_wp)
       call motion%restraints%turn(wall, motion%peak)
+      call wall%set_restraints(motion%restraints%force, motion%restraints%stiffness)
    end subroutine both
 
 end module dondolo_motion_stick
