@@ -15,14 +15,15 @@ ASKED = {
     "src/dondolo/fragility/stripes.f90": r"src/dondolo/(fragility/(stripes|stripe_counts)|motion/common/queue)",
     "src/dondolo/fragility/certified.f90": r"src/dondolo/(fragility/certified|motion/certificate)",
     "src/dondolo/population/population_reader.f90": r"src/dondolo/population/(population_reader|run_\w+|row_result)\.",
-    "src/dondolo/population/population.f90": r"src/dondolo/(population/(population|typology)\.|base/numerics/order)",
+    "src/dondolo/population/population.f90": r"src/dondolo/(population/(population|typology|weights)\.|base/numerics/order)",
     "src/dondolo/population/population_errors.f90": r"src/dondolo/population/population_errors",
     "src/dondolo/population/population_curves.f90": r"src/dondolo/(case/tasks/combine_rows"
     r"|population/(unions|population_curves))",
     "src/dondolo/case/results/columns.f90": r"src/dondolo/case/results/columns",
     "src/dondolo/population/store.f90": r"src/dondolo/population/store\.",
     "src/dondolo/interface/c_records.f90": r"src/dondolo/interface/c_records",
-    "python/dondolo/_fortran/curves.f90": r"src/dondolo/fragility/logit",
+    "python/dondolo/_fortran/curves.f90": r"src/dondolo/fragility/logit|python/dondolo/_fortran/curves",
+    "python/dondolo/_fortran/curve_parcel.f90": r"python/dondolo/_fortran/curve_parcel",
     "python/dondolo/_fortran/populations.f90": r"python/dondolo/_fortran/populations",
     "python/dondolo/_fortran/histories.f90": r"python/dondolo/_fortran/histories",
     "python/dondolo/_fortran/record_parcel.f90": r"python/dondolo/_fortran/(record_)?parcel",
@@ -37,7 +38,7 @@ ASKED = {
 
 # What stays small, and why
 SMALL = {
-    "app/arguments": "a word of the command line",
+    "app/arguments|src/dondolo/base/system/process": "a word of the command line",
     "app/(synthetic44|benchmark_walls)": "records and walls of a fixed number",
     "app/union_lines": "levels of a union or two",
     "src/dondolo/base/system/checksum": "a chunk of a file",

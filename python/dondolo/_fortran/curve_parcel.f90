@@ -3,7 +3,7 @@ module dondolo_curve_parcel
    use, intrinsic :: iso_c_binding, only : c_double, c_int
    use dondolo_base_error, only : error_type, raise_input
    use dondolo_base_lines, only : lines_type
-   use dondolo_boundary, only : split_lines
+   use dondolo_boundary, only : check_room, split_lines
    use dondolo_fragility, only : error_names, fit_status_names, fragility_type
    use dondolo_parcel, only : parcel_type
    implicit none
@@ -71,7 +71,7 @@ contains
       character(len=*), intent(in) :: texts
       !> Numbers of each curve (names, curves)
       real(c_double), intent(in) :: numbers(:, :)
-      !> A name is missing, or a status unknown
+      !> A name is missing, or a status unknown; or lack of memory
       type(error_type), allocatable, intent(out) :: error
       !> Rotation / capacity of their damage states, 0 where it is not known: no part of a curve
       real(c_double), allocatable, intent(out), optional :: edp_thresholds(:)
@@ -83,6 +83,8 @@ contains
 
       call split_lines(names, known)
       call split_lines(texts, words)
+      call check_room(error, reals=20.0_c_double*size(numbers, 2))
+      if (allocated(error)) return
       allocate (curves(size(numbers, 2)))
       call take('theta', curves%theta)
       call take('beta', curves%beta)
