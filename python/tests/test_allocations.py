@@ -15,7 +15,8 @@ ASKED = {
     "src/dondolo/fragility/stripes.f90": r"src/dondolo/(fragility/(stripes|stripe_counts)|motion/common/queue)",
     "src/dondolo/fragility/certified.f90": r"src/dondolo/(fragility/certified|motion/certificate)",
     "src/dondolo/population/population_reader.f90": r"src/dondolo/population/(population_reader|run_\w+|row_result)\.",
-    "src/dondolo/population/population.f90": r"src/dondolo/(population/(population|typology|weights)\.|base/numerics/order)",
+    "src/dondolo/population/population.f90": r"src/dondolo/(population/(population|typology|weights)\."
+    r"|base/numerics/order)",
     "src/dondolo/population/population_errors.f90": r"src/dondolo/population/population_errors",
     "src/dondolo/population/population_curves.f90": r"src/dondolo/(case/tasks/combine_rows"
     r"|population/(unions|population_curves))",
