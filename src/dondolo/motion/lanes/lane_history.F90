@@ -4,6 +4,7 @@
 !> rules that all engines share (dondolo_motion_history, dondolo_motion_rest, dondolo_motion_events; docs/theory.md, section 4).
 module dondolo_motion_lane_history
    use, intrinsic :: iso_c_binding, only : c_int
+   use, intrinsic :: iso_fortran_env, only : int8
    use dondolo_base_interrupt, only : look_for_interrupt
    use dondolo_base_kinds, only : wp
    use dondolo_motion_events, only : impact, level_above, level_below, limit_reached, no_event, turning
@@ -40,8 +41,9 @@ module dondolo_motion_lane_history
 
    !> The lanes of one thread, with all that their histories need
    type :: lane_batch_type
-      !> State of the lanes
-      type(lanes_type) :: lanes
+      !> State of the lanes, and the memory that it is in
+      type(lanes_type), pointer :: lanes => null()
+      integer(int8), allocatable :: room(:)
       !> Number of those at work, side by side
       integer :: active = 0
       !> Their events

@@ -12,7 +12,7 @@ module dondolo_motion_lanes
    use dondolo_motion_lane_restraints, only : lane_restraints_type
    use dondolo_motion_lane_history, only : add_row, begin, begin_still, lane_batch_type, resolve
    use dondolo_motion_lane_kernel, only : step_lanes
-   use dondolo_motion_lane_state, only : event_possible, lane_width, move_lane, vector_width
+   use dondolo_motion_lane_state, only : event_possible, lane_width, move_lane, place_lanes, vector_width
    use dondolo_motion_queue, only : queue_type
    use dondolo_motion_response, only : intervals_after, trace_type
    use dondolo_motion_work, only : work_type
@@ -42,10 +42,11 @@ contains
       !> Counts, added to
       type(work_type), intent(inout) :: work
 
-      type(lane_batch_type), allocatable :: batch
+      type(lane_batch_type), allocatable, target :: batch
       integer :: i, n, most
 
       allocate (batch, source=empty)
+      call place_lanes(batch%room, batch%lanes)
       batch%mechanism => mechanism
       batch%constants => constants
       batch%records => records
@@ -148,7 +149,7 @@ contains
       !> The motion
       type(trace_type), intent(inout), target :: trace
 
-      type(lane_batch_type), allocatable :: batch
+      type(lane_batch_type), allocatable, target :: batch
       type(record_type), target :: records(2)
       type(record_set_type), target :: set
       type(queue_type), target :: queue
@@ -156,6 +157,7 @@ contains
       integer(int64) :: next
 
       allocate (batch, source=empty)
+      call place_lanes(batch%room, batch%lanes)
       records(1) = record
       records(2)%dt = record%dt
       allocate (records(2)%acceleration(intervals_after(record%dt) + 1), source=0.0_wp)
