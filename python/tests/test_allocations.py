@@ -52,7 +52,7 @@ SMALL = {
     "python/dondolo/_fortran/checks": "lines of the sheet of a check",
     "src/dondolo/fragility/tie_tallies": "levels and ties of a wall",
     "src/dondolo/motion/(common/restraint_state|lanes/normal_form)": "ties of a wall",
-    "src/dondolo/motion/lanes/lane(s|_restraints)": "lanes, whose number is fixed",
+    "src/dondolo/motion/lanes/lane(s|_restraints|_state)": "lanes, whose number is fixed",
     "src/dondolo/record/last_number": "prints of a fixed number",
     "src/dondolo/record/synthetic/": "harmonics of a record whose duration is limited",
     "src/dondolo/base/system/number_table": "so many numbers as the reader allows",
