@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dondolo._base.arguments import FloatArray, as_array
+from dondolo._base.arguments import FloatArray, as_array, wrong_type
 from dondolo.errors import InputError
 from dondolo.records.columns import factors_of
 from dondolo.records.record import Record, as_records
@@ -57,7 +57,7 @@ def records_at_levels(
     if not isinstance(records, RecordSet) or (records.level is None and records.factor is None):
         if levels is None:
             raise InputError("levels: must be given")
-        return as_records(records), as_array("levels", levels).copy(), None
+        return as_records(records), _as_levels(levels), None
     if records.level is None:
         raise InputError(
             "records: have factors and no levels: must be given as {level: records}, or without factors (the attribute"
@@ -72,7 +72,14 @@ def records_at_levels(
         if not len(levels):
             raise InputError("levels: must be given")
     number = np.array([place[id(record)] for record in records.records], dtype=np.int32)
-    return each, as_array("levels", levels).copy(), LevelRows(number, level, factor)
+    return each, _as_levels(levels), LevelRows(number, level, factor)
+
+
+def _as_levels(levels: ArrayLike) -> FloatArray:
+    """What a user gives for levels; a word such as 'auto' asks for levels that are chosen."""
+    if isinstance(levels, str):
+        raise wrong_type("levels", levels, "numbers", "adaptive_stripes chooses levels")
+    return as_array("levels", levels).copy()
 
 
 def scaled_records(records: Record | Iterable[Record]) -> tuple[Record, ...]:
