@@ -4,7 +4,7 @@ module dondolo_motion_history
    use dondolo_base_kinds, only : wp
    use dondolo_motion_response, only : response_type
    use dondolo_motion_rest, only : bounce_type, rest_type
-   use dondolo_motion_step_limits, only : most_steps, shortest_motion
+   use dondolo_motion_step_limits, only : fewest_steps, most_steps, shortest_motion
    use dondolo_motion_tail, only : free_motion, tail_type
    use dondolo_motion_wall_constants, only : wall_constants_type
    use dondolo_motion_work, only : work_type
@@ -39,7 +39,7 @@ module dondolo_motion_history
       real(wp), private :: start_time = 0.0_wp
       !> Sample that stops a chain of bounces, from the last look at one
       integer, private :: stopper = 0
-      !> Sample interval in which steps are counted, and how many there were
+      !> Place of the sample interval in which steps are counted, and how many there were
       integer, private :: counted = 0, steps_there = 0
    contains
       !> Count a step, and give the history up after too many
@@ -78,21 +78,21 @@ contains
 
    !> Count a step, or an event, of the present sample interval. A history that does not get out of one, whatever keeps it there,
    !> is given up: it must end, and must not pass for one that survived
-   elemental subroutine count_step(self, constants, interval, dt)
+   elemental subroutine count_step(self, constants, place, dt)
       class(history_type), intent(inout) :: self
       !> Constants of the wall
       class(wall_constants_type), intent(in) :: constants
-      !> The sample interval
-      integer, intent(in) :: interval
+      !> Place of the sample interval among those of the history, counted from anywhere
+      integer, intent(in) :: place
       !> Its length [s]
       real(wp), intent(in) :: dt
 
-      if (interval /= self%counted) then
-         self%counted = interval
+      if (place /= self%counted) then
+         self%counted = place
          self%steps_there = 0
       end if
       self%steps_there = self%steps_there + 1
-      if (self%steps_there > most_steps(dt, constants%fastest)) self%given_up = .true.
+      if (self%steps_there > fewest_steps) self%given_up = self%steps_there > most_steps(dt, constants%fastest)
    end subroutine count_step
 
    !> Rocking begins now
@@ -248,7 +248,7 @@ contains
          response%is_whole = .false.
          response%collapsed = .true.
          response%edp = constants%solver%edp_limit
-         response%time_of_peak = real(self%counted - 1, wp)*record%dt
+         response%time_of_peak = real(self%interval - 1, wp)*record%dt
       end if
       if (.not. present(work)) return
       work%histories = work%histories + 1

@@ -4,7 +4,7 @@ module dondolo_motion_step_limits
    implicit none
    private
 
-   public :: shortest_motion, smallest_step
+   public :: fewest_steps, shortest_motion, smallest_step
    public :: longest_step, most_steps
 
    !> Fraction of the sample interval below which a motion is treated as rest, and a step as no step
@@ -12,6 +12,9 @@ module dondolo_motion_step_limits
 
    !> Fraction of the sample interval below which the error control does not shorten a step
    real(wp), parameter :: smallest_step = 2.0_wp**(-20)
+
+   !> Steps from one sample to the next of which a history may always take as many
+   integer, parameter :: fewest_steps = nint(1.0_wp/smallest_step)
 
 contains
 
@@ -43,10 +46,9 @@ contains
       !> Largest natural frequency of the wall [rad/s]
       real(wp), intent(in) :: rate
 
-      real(wp), parameter :: fewest = 1.0_wp/smallest_step, largest = 1.0e9_wp
-      real(wp), parameter :: steps_of_radian = 10.0_wp*epsilon(1.0_wp)**(-0.2_wp)
+      real(wp), parameter :: largest = 1.0e9_wp, steps_of_radian = 10.0_wp*epsilon(1.0_wp)**(-0.2_wp)
 
-      most_steps = int(min(largest, fewest + steps_of_radian*rate*dt))
+      most_steps = int(min(largest, fewest_steps + steps_of_radian*rate*dt))
    end function most_steps
 
 end module dondolo_motion_step_limits

@@ -3,9 +3,7 @@
 !> The loop over lanes flags a lane where something may happen; what does happen is decided here, lane by lane, by the
 !> rules that all engines share (dondolo_motion_history, dondolo_motion_rest, dondolo_motion_events; docs/theory.md, section 4).
 module dondolo_motion_lane_history
-   use, intrinsic :: iso_c_binding, only : c_int
    use, intrinsic :: iso_fortran_env, only : int8
-   use dondolo_base_interrupt, only : look_for_interrupt
    use dondolo_base_kinds, only : wp
    use dondolo_motion_events, only : impact, level_above, level_below, limit_reached, no_event, turning
    use dondolo_motion_history, only : history_type
@@ -66,6 +64,9 @@ module dondolo_motion_lane_history
       type(trace_type), pointer :: trace => null()
       !> Time at which its present record begins [s]
       real(wp) :: start = 0.0_wp
+      !> Steps since the last look whether the work is to end, and whether it is
+      integer :: steps_since_look = 0
+      logical :: is_broken_off = .false.
    end type lane_batch_type
 
 contains
@@ -133,8 +134,10 @@ contains
       i = batch%found%lane(n)
       may_hold = .false.
       associate (lanes => batch%lanes, history => batch%history(i), constants => batch%constants)
-         if (lanes%flag(i) >= event_possible) then
-            call history%count_step(constants, interval_of(batch, i), lanes%dt(i))
+         if (lanes%flag(i) >= event_possible) call history%count_step(constants, int(lanes%next(i)), lanes%dt(i))
+         if (history%given_up) then
+            history%interval = interval_of(batch, i)
+         else if (lanes%flag(i) >= event_possible) then
             call find_event(batch%found, n, lanes, batch%restraints, part, event)
             h = part*lanes%step(i)
             if (event == no_event .and. .not. lanes%time(i) + h < lanes%dt(i)) then
@@ -229,14 +232,10 @@ contains
       type(lane_batch_type), intent(inout) :: batch
       integer, intent(in) :: i
 
-      integer(c_int) :: interrupted
       logical :: at_rest
 
       associate (lanes => batch%lanes, history => batch%history(i), constants => batch%constants, &
          & record => batch%records(batch%history(i)%record))
-         call look_for_interrupt(interrupted)
-         history%over = interrupted == 1
-         if (history%over) return
          history%interval = interval_of(batch, i)
          history%time = lanes%time(i)
          lanes%y(i) = 0.0_wp

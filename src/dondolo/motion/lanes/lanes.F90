@@ -4,8 +4,10 @@
 !> are seen to one by one (dondolo_motion_lane_history). A lane whose history is over takes the next from the queue, so that
 !> vectors stay full. What a history gives depends neither on its lane nor on those beside it.
 module dondolo_motion_lanes
+   use, intrinsic :: iso_c_binding, only : c_int
    use, intrinsic :: iso_fortran_env, only : int64
    use, intrinsic :: omp_lib, only : omp_get_num_threads
+   use dondolo_base_interrupt, only : look_for_interrupt
    use dondolo_base_kinds, only : wp
    use dondolo_motion_lane_constants, only : lane_constants_type
    use dondolo_motion_lane_events, only : find_lane_events
@@ -61,7 +63,7 @@ contains
          if (.not. is_filled(batch%active + 1)) exit
          batch%active = batch%active + 1
       end do
-      do while (batch%active > 0)
+      do while (batch%active > 0 .and. .not. batch%is_broken_off)
          call step(batch)
          ! From the last on, so that the lane that moves in where no history is left has been seen
          do n = batch%found%n, 1, -1
@@ -121,6 +123,9 @@ contains
    subroutine step(batch)
       type(lane_batch_type), intent(inout) :: batch
 
+      ! To look whether the work is to end takes as long as an event; all these steps take less than a millisecond.
+      integer, parameter :: steps_between_looks = 64
+      integer(c_int) :: interrupted
       integer :: n
 
       associate (constants => batch%constants, set => batch%set)
@@ -136,6 +141,11 @@ contains
       do n = 1, batch%found%n
          call resolve(batch, n)
       end do
+      batch%steps_since_look = batch%steps_since_look + 1
+      if (batch%steps_since_look < steps_between_looks) return
+      batch%steps_since_look = 0
+      call look_for_interrupt(interrupted)
+      batch%is_broken_off = interrupted == 1
    end subroutine step
 
    !> The motion of one history, by the steps that it takes in a batch: at every sample and before and after every impact,
@@ -175,7 +185,7 @@ contains
       end if
       call begin(batch, 1, 1)
       batch%active = 1
-      do while (.not. (batch%history(1)%over .or. trace%lacks_memory))
+      do while (.not. (batch%history(1)%over .or. trace%lacks_memory .or. batch%is_broken_off))
          ! At its end a history looks ahead with its ties; the trace goes on from how they are now.
          if (allocated(batch%restraints)) kept = batch%restraints
          next = batch%lanes%next(1)
