@@ -52,7 +52,12 @@ class _Part(NamedTuple):
 
 
 def matrix(values: NDArray[Any], shape: tuple[int, ...], places: Any) -> NDArray[Any]:
-    """A column of the table, each value at its place (level, history); NaN elsewhere, or 0."""
+    """A column of the table, each value at its place (level, history); NaN elsewhere, or 0.
+
+    The places are indices; or a mask, whose values come level by level and need no copy where all are there.
+    """
+    if isinstance(places, np.ndarray) and len(values) == places.size:
+        return values.reshape(shape)
     whole = np.full(shape, np.nan if values.dtype.kind == "f" else 0, dtype=values.dtype)
     whole[places] = values
     return whole

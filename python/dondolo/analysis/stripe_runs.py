@@ -417,7 +417,7 @@ def _stripes(request: Request, plan: Plan, outcome: Outcome, complete: int) -> S
     count = len(outcome.edp) if complete == len(request.levels) else int(ran.sum())
     if count < ran.size:
         scale = np.where(ran, scale, np.nan)
-    facts, places = request.facts, np.nonzero(ran)
+    facts = request.facts
     names = ("edp", "collapsed", "impacts", "time_of_peak", *(("edp_error",) if settings.estimate_error else ()))
     uplift = None
     if facts.falls is not None:
@@ -440,6 +440,6 @@ def _stripes(request: Request, plan: Plan, outcome: Outcome, complete: int) -> S
         checksums=facts.checksums,
         record_formats=facts.formats,
         warnings=tuple(plan.warnings),
-        **{name: matrix(getattr(outcome, name)[:count], ran.shape, places) for name in names},
+        **{name: matrix(getattr(outcome, name)[:count], ran.shape, ran) for name in names},
     )
     return stripes if stripes.edp_error is None else warned(stripes, plan.warnings)
