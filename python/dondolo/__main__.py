@@ -19,7 +19,7 @@ from dondolo._fortran.origins import check_replaced
 from dondolo._fortran.records import catalogue_table
 from dondolo.analysis.request import progress_bar
 from dondolo.curves.fragility_model import Function
-from dondolo.errors import visible
+from dondolo.errors import silent, visible
 from dondolo.figures.saving import mark_end, save_figure
 from dondolo.populations.nrml_functions import taxonomy_of
 from dondolo.records.catalogues import build_catalogue
@@ -390,7 +390,9 @@ def _save(path: str, options: argparse.Namespace, run: str, draw: Callable[[], A
     """Draw a figure into a file, which appears whole or not at all."""
     import matplotlib.pyplot as plt
 
-    figure = draw().figure
+    # Figures show which curves have no fit, and the run has warned of them.
+    with silent():
+        figure = draw().figure
     try:
         save_figure(figure, path, options.format, run, options.dpi)
     except dd.errors.InputError:

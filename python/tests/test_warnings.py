@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import dondolo as dd
+from dondolo.__main__ import main
 
 SHORT = dd.HazardCurve([0.1, 0.2], [0.01, 0.002])
 
@@ -51,6 +52,32 @@ def test_first_collapses(stripes):
     with pytest.warns(dd.errors.DondoloWarning, match="no curve of first collapses") as caught:
         none.fit()
     assert (caught[0].message.code, caught[0].message.subject) == ("no_collapse", {"wall": "parapet"})
+
+
+@pytest.mark.parametrize("ordinal", [False, True])
+def test_what_a_run_has_warned_of_is_not_repeated(ordinal, root, tmp_path, monkeypatch, capsys):
+    """A curve without a fit, and its damage states: the run warns, and what reads its results does not."""
+    (tmp_path / "a.nml").write_text(
+        "&job output = 'a' /\n&wall mechanism = 'one_sided', height = 1.5, thickness = 0.25 /\n"
+        f"&records catalogue = '{root}/data/records/synthetic44.csv' /\n"
+        f"&stripes levels = 0.2, 0.3, edp_thresholds = 0.4, 1.0, states = '{'ordinal' if ordinal else 'separate'}' /\n"
+    )
+    monkeypatch.chdir(tmp_path)
+    with pytest.warns(dd.errors.DondoloWarning, match="no collapse at levels 0.2 to 0.3") as caught:
+        made = dd.run_case("a.nml", progress=False)
+    said = [one.message for one in caught]
+    assert len(said) == len(set(said))
+    made.write_results("a")
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        assert dd.read_results("a").run.warnings == tuple(said)
+        # The command replaces how warnings are shown
+        monkeypatch.setattr(warnings, "showwarning", warnings.showwarning)
+        for arguments in (["plot"], ["report"], ["xlsx"], ["nrml"]):
+            code = main([*arguments, "a"])
+            assert code == (1 if arguments == ["nrml"] else 0)
+    assert caught == []
+    assert capsys.readouterr().err == "dondolo: a: has no curve (status 'no_collapse')\n"
 
 
 def test_codes_of_the_library_are_documented(root):

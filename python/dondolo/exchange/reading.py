@@ -31,7 +31,8 @@ def read_results(prefix: str | os.PathLike[str]) -> Results:
     -------
     Results
         The same as those of `run_case`; curves are fitted again, to the same counts. Those of a typology cannot be
-        compared: the files do not contain which record makes which wall collapse.
+        compared: the files do not contain which record makes which wall collapse. What the run warned of is in
+        `RunFile.warnings`, and is not repeated.
 
     Raises
     ------

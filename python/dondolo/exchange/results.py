@@ -34,7 +34,7 @@ from dondolo.analysis.stripes import Stripes
 from dondolo.analysis.work import Work
 from dondolo.checks.ntc import CodeCheck
 from dondolo.curves.fragility import Fragility
-from dondolo.errors import DondoloWarning, InputError
+from dondolo.errors import DondoloWarning, InputError, silent
 from dondolo.exchange.case_checks import checks_of_run, stored_check
 from dondolo.exchange.cases import Case
 from dondolo.exchange.stored_curves import stored_curves
@@ -181,6 +181,8 @@ class Source:
             table.check()
 
 
+# What there is to warn of, the run has warned of: `RunFile.warnings`.
+@silent()
 def results_of(run: RunFile, source: Source, case: Case | None = None, flags: Flags | None = None) -> Results:
     """The results of a run.
 

@@ -94,8 +94,7 @@ def run_case(path: str | os.PathLike[str], *, progress: bool = True, stop: threa
             interrupts.answered = True
             raise Interrupted(*_interrupted(known, contents))
         assert known is not None
-        with silent():
-            results = _results(os.fspath(path), known, contents, tables)
+        results = _results(os.fspath(path), known, contents, tables)
     warn(results.run.warnings)
     return results
 
