@@ -7,9 +7,9 @@ import warnings
 
 import numpy as np
 import pytest
+from dondolo.__main__ import main
 
 import dondolo as dd
-from dondolo.__main__ import main
 
 SHORT = dd.HazardCurve([0.1, 0.2], [0.01, 0.002])
 
