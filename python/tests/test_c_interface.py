@@ -597,10 +597,10 @@ heard = []
 handler = ctypes.CFUNCTYPE(None, ctypes.c_int)(lambda number: heard.append(number))
 libc.signal(signal.SIGINT, handler)
 error = c.new_error()
-wall = c.new_wall(error, settings(c, error, "wall", dict(mechanism="one_sided", height=6.0, thickness=0.5)))
+wall = c.new_wall(error, settings(c, error, "wall", dict(mechanism="free_standing", height=6.0, thickness=0.8)))
 records = c.read_records(error, {catalogue!r}, 0.0)
 how = settings(c, error, "stripes", dict(levels=[0.3 + 1e-4 * i for i in range(900)]))
-threading.Thread(target=lambda: (time.sleep(0.3), os.kill(os.getpid(), signal.SIGINT))).start()
+threading.Thread(target=lambda: (time.sleep(0.1), os.kill(os.getpid(), signal.SIGINT))).start()
 if listens:
     c.listen()
 stripes = c.run_stripes(error, wall, records, how, None, 1)
