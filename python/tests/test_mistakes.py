@@ -176,6 +176,62 @@ def test_a_unit_in_the_title_of_a_column(folder, run):
     assert "records.csv: must be a case, a file of groups &name ... /" in run("--check", "records.csv").stderr
 
 
+def test_everything_wrong_with_the_groups_is_reported_at_once(folder, run):
+    text = case(job="output = 'out/wall', titel = 'x', thread = 2, histories = 3", stripes="levls = 0.3, count = 3.5")
+    (folder / "wall.nml").write_text(text + "&solvr rtol = 1e-6 /\n&buildng period = 0.3 /\n")
+    lines = [line.removeprefix("dondolo: wall.nml: ") for line in run("--check", "wall.nml").stderr.splitlines()]
+    parts = [
+        ("&solvr (line 5): no such group; there are &job, &wall,",),
+        ("&buildng (line 6): no such group",),
+        ("&job: titel (line 1): no such variable; there are 'task', ", "; did you mean 'title'?"),
+        ("&job: thread (line 1): no such variable; did you mean 'threads'?",),
+        ("&job: histories = 3: must be .true. or .false.",),
+        ("&stripes: levls (line 4): no such variable; there are 'im', ", "; did you mean 'levels'?"),
+        ("&stripes: count = 3.5: must be an integer (line 4)",),
+    ]
+    assert len(lines) == len(parts)
+    for line, (start, *end) in zip(lines, parts, strict=True):
+        assert line.startswith(start)
+        assert line.endswith(end[0] if end else line)
+
+
+def test_values_of_several_groups_are_refused_at_once(folder):
+    wall = "mechanism = 'one_sided', height = -2.4, thickness = 0.0"
+    text = case(wall=wall, stripes="levels = 0.5, 0.3", records="catalogue = 'records.csv', polarity = 'x'")
+    (folder / "wall.nml").write_text(text)
+    with pytest.raises(dd.errors.InputError) as caught:
+        dd.read_case(folder / "wall.nml")
+    assert [(one.code, one.variable, one.place[-7:]) for one in caught.value.errors] == [
+        ("not_increasing", "levels", "line 4)"),
+        ("not_a_word", "polarity", "line 3)"),
+        ("out_of_range", "height", "line 2)"),
+        ("out_of_range", "thickness", "line 2)"),
+    ]
+    # A missing file alone remains one
+    (folder / "wall.nml").write_text(case(wall="mechanism = 'tabulated', table = 'none.csv'"))
+    with pytest.raises(dd.errors.MissingFileError):
+        dd.read_case(folder / "wall.nml")
+
+
+def test_all_headings_that_are_wrong_are_named(folder, run):
+    (folder / "walls.csv").write_text("mechansm,height,thicknes,colour\none_sided,2.4,0.3,red\n")
+    groups = {"population": "file = 'walls.csv'", "job": "task = 'typology', output = 'out'"}
+    (folder / "walls.nml").write_text("".join(f"&{name} {text} /\n" for name, text in (PARTS | groups).items() if text))
+    assert run("--check", "walls.nml").stderr.splitlines() == [
+        "dondolo: walls.csv: column 'mechansm': no such column; did you mean 'mechanism'? dondolo --template typology"
+        " lists all",
+        "dondolo: walls.csv: column 'thicknes': no such column; did you mean 'thickness'?",
+        "dondolo: walls.csv: column 'colour': no such column",
+    ]
+    (folder / "walls.csv").write_text("name,density\na,1800\n")
+    missing = [line.split("'")[1] for line in run("--check", "walls.nml").stderr.splitlines()]
+    assert missing == ["mechanism", "height", "thickness"]
+    (folder / "records.csv").write_text("path,dt,unit\nr0.txt,0.01,g\n")
+    (folder / "wall.nml").write_text(case())
+    said = run("--check", "wall.nml").stderr
+    assert [words in said for words in ("no column 'file'", "column 'dt'", "column 'unit'")] == [True] * 3
+
+
 @pytest.mark.parametrize("word", ["check", "status", "template", "help", "chek"])
 def test_options_without_dashes(folder, run, word):
     (folder / "wall.nml").write_text(case())

@@ -10,7 +10,7 @@ module dondolo_population_table
    use dondolo_base_property, only : choices_length, find_item, find_property, is_list, is_many, is_text, is_words, item_name, &
       & property_type
    use dondolo_base_settings, only : settings_type
-   use dondolo_base_spelling, only : say_allowed
+   use dondolo_base_spelling, only : meant, say_allowed
    use dondolo_base_text, only : lower
    use dondolo_population_occurrence, only : independent, occurrence_names
    use dondolo_population_variants, only : base_wall_type
@@ -58,7 +58,7 @@ contains
       class(population_table_type), intent(inout) :: self
       !> Its path
       character(len=*), intent(in) :: file
-      !> No table, or a column that does not exist, or one that is missing
+      !> No table, or columns that do not exist, or that are missing
       type(error_type), allocatable, intent(out) :: error
       !> Gravity [m/s2], standard if absent
       real(wp), intent(in), optional :: gravity
@@ -67,6 +67,7 @@ contains
       ! whose length follows from the result of a function.
       character(len=len(item_name(wall_properties(1)%name, 1))) :: shown(size(wall_properties))
       character(len=len(shown)) :: of_rows(size(row_properties))
+      type(problems_type) :: problems
       character(len=:), allocatable :: allowed
       integer :: i, at, item, last
 
@@ -88,12 +89,15 @@ contains
             ! A unit in brackets is no part of a name
             last = scan(column, '([') - 1
             if (last < 0) last = len(column)
-            call say_allowed(lower(trim(column(:last))), [shown, of_rows], '--template typology', allowed)
+            allowed = trim(meant(lower(trim(column(:last))), [shown, of_rows]))
+            if (problems%count == 0) call say_allowed(lower(trim(column(:last))), [shown, of_rows], '--template typology', allowed)
             if (len_trim(odd_character(column)) > 0) allowed = '; it has '//trim(odd_character(column))
             call raise_input(error, file//': column '''//column//''': no such column'//allowed, unknown_name, column, file)
+            call problems%take(error)
          end associate
-         return
       end do
+      call problems%raise(error)
+      if (allocated(error)) return
       call sort_items(self%items)
       self%wall_columns = [(self%csv%column(trim(wall_properties(i)%name)), i=1, size(wall_properties))]
       self%row_columns = [(self%csv%column(trim(row_properties(i)%name)), i=1, size(row_properties))]
@@ -103,15 +107,16 @@ contains
          & pack(self%items(3, :), wall_properties(self%items(1, :))%kind == is_list)])
    end subroutine read_table
 
-   !> Find a column that every wall needs and the table does not have: said once, not of each row
+   !> Find columns that every wall needs and the table does not have: said once, not of each row
    subroutine find_missing(self, file, error)
       !> The table, its columns known
       class(population_table_type), intent(in) :: self
       !> Its path
       character(len=*), intent(in) :: file
-      !> There is one
+      !> There are some
       type(error_type), allocatable, intent(out) :: error
 
+      type(problems_type) :: problems
       integer :: i
       logical :: has_terms
 
@@ -127,9 +132,10 @@ contains
             end if
             call raise_input(error, file//': column '''//trim(property%name)//''': must be given', not_given, trim(property%name), &
                & file)
-            return
+            call problems%take(error)
          end associate
       end do
+      call problems%raise(error)
    end subroutine find_missing
 
    !> Put columns of lists in the order of the lists and of the values of each, by insertion: they are few

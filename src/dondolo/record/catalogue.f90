@@ -9,7 +9,7 @@
 !> extensions of the files; where these are the same too, the folders, as the catalogue writes them.
 module dondolo_record_catalogue
    use dondolo_base_csv_reader, only : csv_row_type, csv_table_type
-   use dondolo_base_error, only : add_place, error_type, raise_input
+   use dondolo_base_error, only : add_place, error_type, problems_type, raise_input
    use dondolo_base_kinds, only : wp
    use dondolo_base_limits, only : most_records
    use dondolo_base_lines, only : lines_type
@@ -266,27 +266,27 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(csv_row_type) :: row
+      type(problems_type) :: problems
       logical :: found
 
       rows = 0
-      if (table%column('file') == 0) then
-         call raise_input(error, table%file//': no column ''file'': must have file, and dt_s and units '// &
-            & 'where the files do not state them')
-      else if (table%column('dt') > 0 .and. table%column('dt_s') == 0) then
-         call raise_input(error, table%file//': column ''dt'': the time step must be in the column dt_s, in seconds')
-      else if (table%column('unit') > 0 .and. table%column('units') == 0) then
-         call raise_input(error, table%file//': column ''unit'': the units of the accelerations must be in the column units')
-      else
-         do
-            call table%next(row, found, error)
-            if (allocated(error) .or. .not. found) exit
-            rows = rows + 1
-            if (rows <= most_records) cycle
-            call raise_input(error, table%file//': more than '//to_text(most_records)//' records')
-            exit
-         end do
-         if (rows == 0 .and. .not. allocated(error)) call raise_input(error, table%file//': no records')
-      end if
+      if (table%column('file') == 0) call problems%note(table%file//': no column ''file'': must have file, and dt_s and '// &
+         & 'units where the files do not state them')
+      if (table%column('dt') > 0 .and. table%column('dt_s') == 0) call problems%note(table%file// &
+         & ': column ''dt'': the time step must be in the column dt_s, in seconds')
+      if (table%column('unit') > 0 .and. table%column('units') == 0) call problems%note(table%file// &
+         & ': column ''unit'': the units of the accelerations must be in the column units')
+      call problems%raise(error)
+      if (allocated(error)) return
+      do
+         call table%next(row, found, error)
+         if (allocated(error) .or. .not. found) exit
+         rows = rows + 1
+         if (rows <= most_records) cycle
+         call raise_input(error, table%file//': more than '//to_text(most_records)//' records')
+         exit
+      end do
+      if (rows == 0 .and. .not. allocated(error)) call raise_input(error, table%file//': no records')
    end subroutine count_rows
 
    !> Give every record a name of its own

@@ -1,6 +1,7 @@
 !> Reading a case: its namelist file and all that it names, checked before anything is computed.
 module dondolo_case_read_case
-   use dondolo_base_error, only : error_type, no_such_file, not_given, not_together, out_of_range, raise_input, status_missing
+   use dondolo_base_error, only : error_type, no_such_file, not_given, not_together, out_of_range, problems_type, raise_input, &
+      & status_missing
    use dondolo_base_kinds, only : wp
    use dondolo_base_memory, only : check_room
    use dondolo_base_paths, only : beside
@@ -52,7 +53,7 @@ contains
       !> Path of the namelist file; with `text` its name in messages
       character(len=*), intent(in) :: file
       type(case_type), intent(out) :: case
-      !> The first thing that is wrong; of a population, everything
+      !> Everything that is wrong with the groups, else the first thing; of a population, everything
       type(error_type), allocatable, intent(out) :: error
       !> First and last row of the population that are to be run, from 1; all if absent
       integer, intent(in), optional :: rows(2)
@@ -62,7 +63,6 @@ contains
       type(suite_type), intent(in), optional :: suite
 
       type(namelist_type) :: namelist
-      type(wall_input_type) :: wall
       type(record_rows_type) :: runs
 
       case%file = file
@@ -76,19 +76,8 @@ contains
       if (allocated(error)) return
       call namelist%check_groups(group_names, error)
       if (present(suite) .and. .not. allocated(error)) call refuse_files(namelist, error)
-      if (.not. allocated(error)) call read_job(namelist%group('job'), case%job, error)
-      if (.not. allocated(error)) call check_task(namelist, case%job%task, error)
-      if (.not. allocated(error)) call read_solver_group(namelist%group('solver'), case%solver, error)
-      if (.not. allocated(error)) call read_values(namelist%group('wall'), wall, error, &
-         & wall_properties(:own_properties))
-      if (.not. allocated(error)) call read_building_group(namelist%group('building'), wall, error)
-      if (.not. allocated(error)) call read_table(namelist%group('wall'), wall, error)
-      if (.not. allocated(error)) call make_wall(namelist, wall, case, error)
-      if (.not. allocated(error)) call read_stripes_group(namelist%group('stripes'), case%stripes, error)
-      if (.not. allocated(error)) call read_history_group(namelist%group('history'), case%history, error)
-      if (.not. allocated(error)) call read_check(namelist, case, error)
+      call read_groups(namelist, case, error)
       if (.not. allocated(error)) call check_combinations(namelist, case, error)
-      if (.not. allocated(error)) call read_records_group(namelist%group('records'), case%records_input, error)
       if (present(suite)) then
          if (.not. allocated(error)) call take_suite(namelist%group('records'), suite, case, error)
       else
@@ -111,6 +100,45 @@ contains
          call check_scales(namelist, case, error)
       end if
    end subroutine read_case
+
+   !> Read the groups; what is wrong with any of them is reported at once
+   subroutine read_groups(namelist, case, error)
+      type(namelist_type), intent(in) :: namelist
+      !> The case: its groups are read, its wall is made or its population found
+      type(case_type), intent(inout) :: case
+      !> What is wrong with the groups as a whole, if anything; what is wrong with each is added
+      type(error_type), allocatable, intent(inout) :: error
+
+      type(problems_type) :: problems
+      type(wall_input_type) :: wall
+      logical :: ready
+
+      call problems%take(error)
+      call read_job(namelist%group('job'), case%job, error)
+      if (problems%count == 0 .and. .not. allocated(error)) call check_task(namelist, case%job%task, error)
+      call problems%take(error)
+      call read_solver_group(namelist%group('solver'), case%solver, error)
+      call problems%take(error)
+      ! A wall takes its gravity from the solver, and what it is from the task.
+      ready = problems%count == 0
+      call read_stripes_group(namelist%group('stripes'), case%stripes, error)
+      call problems%take(error)
+      call read_history_group(namelist%group('history'), case%history, error)
+      call problems%take(error)
+      call read_records_group(namelist%group('records'), case%records_input, error)
+      call problems%take(error)
+      call read_values(namelist%group('wall'), wall, error, wall_properties(:own_properties))
+      if (.not. allocated(error)) call read_building_group(namelist%group('building'), wall, error)
+      if (ready) then
+         if (.not. allocated(error)) call read_table(namelist%group('wall'), wall, error)
+         if (.not. allocated(error)) call make_wall(namelist, wall, case, error)
+         if (.not. allocated(error)) call read_check(namelist, case, error)
+      end if
+      ! Alone it stays as it is: a file may be missing.
+      if (problems%count == 0) return
+      call problems%take(error)
+      call problems%raise(error)
+   end subroutine read_groups
 
    !> Refuse files beside the catalogue, for a case whose accelerograms are given
    subroutine refuse_files(namelist, error)

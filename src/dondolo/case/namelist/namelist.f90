@@ -7,7 +7,7 @@
 !>     &wall  height = 3.0, thickness = 0.25   ! a comment
 !>            name = 'facade' /
 module dondolo_case_namelist
-   use dondolo_base_error, only : error_type, raise_input
+   use dondolo_base_error, only : error_type, problems_type, raise_input
    use dondolo_base_limits, only : longest_case
    use dondolo_base_name_index, only : name_index_type
    use dondolo_base_text, only : lower, to_text
@@ -106,23 +106,23 @@ contains
       class(namelist_type), intent(in) :: self
       !> Names of the groups that exist, in lower case
       character(len=*), intent(in) :: names(:)
-      !> Names the first one that is not known
+      !> Names those that are not known; the first says which there are
       type(error_type), allocatable, intent(out) :: error
 
+      type(problems_type) :: problems
       character(len=:), allocatable :: list
       integer :: i, j
 
       do i = 1, size(self%groups)
          if (any(self%groups(i)%name == names)) cycle
          list = ''
-         do j = 1, size(names)
-            if (j > 1) list = list//', '
-            list = list//'&'//trim(names(j))
+         if (problems%count == 0) list = '; there are &'//trim(names(1))
+         do j = 2, merge(size(names), 0, problems%count == 0)
+            list = list//', &'//trim(names(j))
          end do
-         call raise_input(error, self%groups(i)%place()//' (line '//to_text(self%groups(i)%line)// &
-            & '): no such group; there are '//list)
-         return
+         call problems%note(self%groups(i)%place()//' (line '//to_text(self%groups(i)%line)//'): no such group'//list)
       end do
+      call problems%raise(error)
    end subroutine check_groups
 
    !> Put tokens together to groups

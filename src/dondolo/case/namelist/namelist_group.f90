@@ -3,12 +3,12 @@
 !> What is refused is refused with its place and its value as it was typed:
 !> `walls.nml: &wall: thickness = 'thin': must be a number, such as 0.25 (line 12)`.
 module dondolo_case_namelist_group
-   use dondolo_base_error, only : add_place, error_type, not_a_flag, not_a_number, not_a_string, not_an_integer, raise_input, &
-      & unknown_name, wrong_length
+   use dondolo_base_error, only : add_place, error_type, not_a_flag, not_a_number, not_a_string, not_an_integer, problems_type, &
+      & raise_input, unknown_name, wrong_length
    use dondolo_base_kinds, only : wp
    use dondolo_base_numbers, only : parse_integer, parse_real
    use dondolo_base_plain, only : name_problem, shown
-   use dondolo_base_spelling, only : say_allowed
+   use dondolo_base_spelling, only : meant, say_allowed
    use dondolo_base_text, only : first_word, lower, to_text
    implicit none
    private
@@ -203,21 +203,24 @@ contains
       class(group_type), intent(in) :: self
       !> Names of its variables
       character(len=*), intent(in) :: names(:)
-      !> Names the first one that is not known
+      !> Names those that are not known; the first says which there are
       type(error_type), allocatable, intent(out) :: error
 
+      type(problems_type) :: problems
       character(len=:), allocatable :: allowed
       integer :: i
 
       if (.not. allocated(self%variables)) return
       do i = 1, size(self%variables)
          if (any(self%variables(i)%name == names)) cycle
-         call say_allowed(self%variables(i)%name, names, '--template', allowed)
+         allowed = trim(meant(self%variables(i)%name, names))
+         if (problems%count == 0) call say_allowed(self%variables(i)%name, names, '--template', allowed)
          call raise_input(error, self%place()//': '//self%variables(i)%name//' (line '// &
             & to_text(self%variables(i)%line)//'): no such variable'//allowed, unknown_name, self%variables(i)%name, &
             & self%place()//self%in_line(self%variables(i)%name))
-         return
+         call problems%take(error)
       end do
+      call problems%raise(error)
    end subroutine check_names
 
    !> Refuse the value of a variable: 'file: &group: name = value: what is allowed (line 7)'

@@ -21,12 +21,13 @@ contains
       type(group_type), intent(in) :: group
       !> Settings; what the group says is added
       class(settings_type), intent(inout) :: settings
-      !> A variable that does not exist or has a value of the wrong type
+      !> Variables that do not exist or have a value of the wrong type
       type(error_type), allocatable, intent(out) :: error
       !> Those of their properties that the group can have; all if absent
       type(property_type), target, intent(in), optional :: rows(:)
 
       type(property_type), pointer :: table(:)
+      type(problems_type) :: problems
       character(len=name_length), allocatable :: names(:)
       integer :: i
 
@@ -34,10 +35,12 @@ contains
       if (present(rows)) table => rows
       names = table%name
       call group%check_names(names, error)
+      call problems%take(error)
       do i = 1, size(table)
-         if (allocated(error)) return
          if (group%has(trim(table(i)%name))) call read_value(group, table(i), settings, error)
+         call problems%take(error)
       end do
+      call problems%raise(error)
    end subroutine read_values
 
    !> Read a value
