@@ -139,12 +139,17 @@ def test_codes(call, code, variable, sentence):
     assert str(error).startswith(sentence)
 
 
-def test_one_record_in_a_case(tmp_path):
-    """More levels do not help a case of one record, and its warning does not ask for them."""
+@pytest.mark.parametrize("polarity", ["as_recorded", "both"])
+def test_one_record(polarity, tmp_path):
+    """More levels do not help with one record: neither a case nor a fit in Python asks for them."""
     dd.RecordSet(RECORDS[:1]).to_catalogue(tmp_path / "one.csv")
     (tmp_path / "case.nml").write_text(
         "&job task='stripes' output='out/one' /\n&wall name='w' mechanism='one_sided' height=1.5 thickness=0.25 /\n"
-        "&records catalogue='one.csv' /\n&stripes levels=0.2,2.0,4.0,8.0 /\n"
+        f"&records catalogue='one.csv' polarity='{polarity}' /\n&stripes levels=0.2,2.0,4.0,8.0 /\n"
     )
-    with pytest.warns(dd.errors.DondoloWarning, match="one record gives one threshold, whatever the levels"):
-        dd.run_case(tmp_path / "case.nml", progress=False)
+    with pytest.warns(dd.errors.DondoloWarning, match="one record gives one threshold, whatever the levels") as caught:
+        stripes = dd.run_case(tmp_path / "case.nml", progress=False).stripes
+    (of_case,) = [one.message for one in caught if one.message.code == "separated"]
+    with pytest.warns(dd.errors.DondoloWarning) as caught:
+        stripes.fit()
+    assert [one.message for one in caught] == [of_case]

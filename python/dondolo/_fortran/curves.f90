@@ -219,11 +219,11 @@ contains
       end do
    end subroutine wall_slopes
 
-   !> Warnings of the executable for the curve of one wall, or for walls = 0 of counts without a wall; status, its
-   !> place among the names
-   subroutine warn_of_curve(walls, levels, m, largest_edp, theta, beta, bracket, status, sent)
+   !> Warnings of the executable for the curve of one wall, or for walls = 0 of counts without a wall; from histories of so many
+   !> records, 0 for counts; status, its place among the names
+   subroutine warn_of_curve(walls, levels, m, largest_edp, records, theta, beta, bracket, status, sent)
       integer(c_int64_t), intent(in) :: walls
-      integer(c_int), intent(in) :: m, status
+      integer(c_int), intent(in) :: m, records, status
       real(c_double), intent(in) :: levels(m), largest_edp, theta, beta, bracket(2)
       integer(c_int64_t), intent(out) :: sent(5)
       type(wall_type), pointer :: list(:), wall
@@ -232,6 +232,7 @@ contains
       type(warnings_type) :: warnings
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
+      integer :: i
 
       wall => null()
       if (walls /= 0) call find_walls(walls, list, error)
@@ -242,6 +243,7 @@ contains
          fragility%beta = beta
          fragility%bracket = bracket
          stripes%levels = levels
+         stripes%record = [(i, i=1, records)]
          ! Of the responses the sentences need the largest only
          allocate (stripes%response(1, 1))
          stripes%response%edp = largest_edp

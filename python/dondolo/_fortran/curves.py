@@ -154,13 +154,16 @@ def warnings_of_curve(
     theta: float,
     beta: float,
     bracket: tuple[float, float],
+    records: int = 0,
 ) -> list[DondoloWarning]:
-    """Warnings of the executable for the curve of one wall, or of counts without a wall."""
+    """Warnings of the executable for the curve of one wall from so many records, or of counts without a wall."""
     code = constants().statuses.index(status) + 1
     number = 0 if wall is None else wall.number
     ends = np.minimum(bracket, np.finfo(np.float64).max)
     parcel = receive(
-        _core.curves.warn_of_curve(number, levels, largest_edp, theta=theta, beta=beta, bracket=ends, status=code)
+        _core.curves.warn_of_curve(
+            number, levels, largest_edp, records=records, theta=theta, beta=beta, bracket=ends, status=code
+        )
     )
     return unpack_warnings(parcel.lines)
 

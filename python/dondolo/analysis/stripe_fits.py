@@ -78,7 +78,8 @@ def fit_warnings(stripes: Stripes, curve: Fragility) -> list[DondoloWarning]:
     """What the executable would warn of, of a curve of stripes."""
     numbers = curve.theta, curve.beta, curve.bracket
     largest = float(np.nanmax(stripes.edp))
-    return warnings_of_curve(upload((stripes.wall,)), stripes.levels, largest, curve.status, *numbers)
+    walls = upload((stripes.wall,))
+    return warnings_of_curve(walls, stripes.levels, largest, curve.status, *numbers, records=stripes.n_records)
 
 
 def sample_of(stripes: Stripes, events: Sequence[Any] | None = None) -> Sample:
