@@ -11,6 +11,8 @@ import subprocess
 import matplotlib
 import numpy as np
 import pytest
+from dondolo.reporting.language import Language
+from dondolo.reporting.relazione.terms import warning
 
 import dondolo as dd
 
@@ -147,6 +149,9 @@ def test_the_design_of_the_facade():
     assert (note.code, note.subject) == ("anchor_before_bar", {"item": "tie 1"})
     assert note.numbers["anchor_force_per_m"] == 11733.3333333333 < note.numbers["bar_force_per_m"]
     assert "hierarchy of strengths not respected" in str(note)
+    # Italian documents have forces in kN/m.
+    bar_force = f"{1e-3 * note.numbers['bar_force_per_m']:.4g}".replace(".", ",")
+    assert f"cede a 11,73 kN/m, prima dello snervamento della barra a {bar_force} kN/m" in warning(Language("it"), note)
     assert "not applicable" in str(anchored)
     elastic = dd.check_ntc(anchored.wall, SITE, behaviour=1.0)
     assert elastic.not_applicable == ()

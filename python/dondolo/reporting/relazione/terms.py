@@ -173,8 +173,8 @@ WARNINGS = {
     "diaphragm_not_in_demand": "il solaio deformabile in sommità muove la parete nelle analisi, ma non è nello spettro"
     " della norma: la domanda della verifica cinematica può essere troppo piccola",
     "anchor_before_bar": "gerarchia delle resistenze non rispettata: l'ancoraggio di {item} cede a {anchor_force_per_m}"
-    " N/m, prima dello snervamento della barra a {bar_force_per_m} N/m, e di colpo; verifica lineare SLV con q > 1 non"
-    " applicabile",
+    " kN/m, prima dello snervamento della barra a {bar_force_per_m} kN/m, e di colpo; verifica lineare SLV con q > 1"
+    " non applicabile",
     "plate_too_thin": "capochiave di {item} troppo sottile: {plate_thickness} m, ne servono {plate_needed}; la verifica"
     " ne suppone uniforme la pressione sulla muratura",
     "anchor_factor_differs": "ancoraggio di {item} non verificato con il fattore di confidenza della verifica: la sua"
@@ -202,5 +202,7 @@ def warning(language: Language, found: DondoloWarning) -> str:
     if "item" in found.subject:
         kind, _, place = found.subject["item"].partition(" ")
         values["item"] = f"{ITEMS.get(kind, kind)} {place}".strip()
-    values |= {name: language.plain(number(value)) for name, value in found.numbers.items()}
+    # Documents have forces in kN and kN/m, results in N and N/m.
+    numbers = {name: 1e-3 * value if "_force" in name else value for name, value in found.numbers.items()}
+    values |= {name: language.plain(number(value)) for name, value in numbers.items()}
     return WARNINGS[found.code].format_map(values)
