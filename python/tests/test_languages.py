@@ -127,6 +127,29 @@ def test_a_language_is_in_force_for_a_block_alone():
     assert say("time [s]") == "time [s]"
 
 
+def said_in(figure):
+    """Texts of a figure and of its legends."""
+    return " ".join(one.get_text() for one in figure.findobj(matplotlib.text.Text))
+
+
+@pytest.mark.filterwarnings("ignore::dondolo.errors.DondoloWarning")
+def test_figures_that_no_report_has_are_translated(wall, few):
+    block = dd.FreeStandingWall(1.5, 0.25, name="w")
+    grid = {"frequencies": [1.0, 3.0], "amplitudes": np.linspace(0.1, 1.6, 16)}
+    drawn = [
+        dd.cloud(wall, few, scale=3.0, progress=False),
+        dd.compare_intensities(wall, few, ["pga", "pgv", "cav", "hi"], progress=False),
+        dd.overturning_spectrum(block, dd.pulses.ricker, **grid, progress=False),
+    ]
+    english = [words(said_in(one.plot().figure)) for one in drawn]
+    with Language("it").in_force():
+        italian = [words(said_in(one.plot().figure)) for one in drawn]
+    # Names of the wall, of the pulse and of measures, symbols, and words of both languages
+    both = {"parapet", "w", "ricker", "p", "pga", "pgv", "cav", "hi", "a", "g", "tan", "edp"}
+    assert [one & other - both for one, other in zip(english, italian, strict=True)] == [set()] * 3
+    assert all(len(one) > 10 for one in italian)
+
+
 # --- Reports
 
 CASES = [

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from dondolo._base.wording import say
 from dondolo.analysis.cloud import Cloud
 from dondolo.figures import style
 from dondolo.figures.options import Options
@@ -29,9 +30,9 @@ def draw_cloud(cloud: Cloud, ax: Axes | None, given: dict[str, Any]) -> Axes:
     still = cloud.edp == 0.0
     bottom = 0.3 * (cloud.edp[rocks].min() if rocks.any() else 0.1 * limit)
     marks = (
-        (rocks, cloud.edp, look["marker"], color, "rocks"),
-        (cloud.collapsed, np.full(len(x), 1.5 * limit), "^", style.RED, "collapses"),
-        (still, np.full(len(x), 1.4 * bottom), "s", style.GREY, "does not move"),
+        (rocks, cloud.edp, look["marker"], color, say("rocks")),
+        (cloud.collapsed, np.full(len(x), 1.5 * limit), "^", style.RED, say("collapses")),
+        (still, np.full(len(x), 1.4 * bottom), "s", style.GREY, say("does not move")),
     )
     for which, height, marker, edge, text in marks:
         if which.any():
@@ -40,7 +41,7 @@ def draw_cloud(cloud: Cloud, ax: Axes | None, given: dict[str, Any]) -> Axes:
     grid = np.geomspace(0.9 * x.min(), 1.1 * x.max(), _POINTS)
     if line.status == "ok":
         median = np.exp(line.intercept + line.slope * np.log(grid))
-        text = f"median: slope {line.slope:.3g}, dispersion {line.sigma:.3g}"
+        text = say("median: slope {slope:.3g}, dispersion {sigma:.3g}", slope=line.slope, sigma=line.sigma)
         style.main(ax, ax.plot(grid, median, color=color, linestyle=look["linestyle"], linewidth=2.0, label=text)[0])
         for sign in (-1.0, 1.0) if options.band else ():
             ax.plot(
@@ -49,9 +50,9 @@ def draw_cloud(cloud: Cloud, ax: Axes | None, given: dict[str, Any]) -> Axes:
                 color=color,
                 linewidth=0.9,
                 linestyle="--",
-                label="16 and 84 %" if sign > 0.0 else None,
+                label=say("16 and 84 %") if sign > 0.0 else None,
             )
-    ax.axhline(limit, color=style.BLACK, linewidth=0.9, linestyle=":", label="collapse limit")
+    ax.axhline(limit, color=style.BLACK, linewidth=0.9, linestyle=":", label=say("collapse limit"))
     ax.set_xscale("log")
     ax.set_yscale("log")
     low, high = ax.get_xlim() if others else (np.inf, 0.0)
@@ -60,15 +61,15 @@ def draw_cloud(cloud: Cloud, ax: Axes | None, given: dict[str, Any]) -> Axes:
     style.plain_ticks(ax.xaxis)
     style.plain_ticks(ax.yaxis)
     ax.set_xlabel(style.im_label(cloud.im))
-    style.y_label(ax, style.EDP)
+    style.y_label(ax, say(style.EDP))
     style.title(ax, cloud.wall.name, options)
     if cloud.collapse.status in ("ok", "separated"):
         right = ax.twinx()
         dashes = style.LINES[(style.LINES.index("-.") + others) % len(style.LINES)]
         right.plot(grid, cloud.collapse(grid), color=style.RED, linewidth=1.6, linestyle=dashes)
         right.set_ylim(-0.02, 1.02)
-        style.y_label(right, "probability of collapse", color=style.RED)
+        style.y_label(right, say("probability of collapse"), color=style.RED)
         right.grid(False)
-        ax.plot([], [], color=style.RED, linewidth=1.6, linestyle=dashes, label="collapse (right axis)")
+        ax.plot([], [], color=style.RED, linewidth=1.6, linestyle=dashes, label=say("collapse (right axis)"))
     style.legend(ax, options)
     return ax

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from dondolo._base.wording import decimal, say
 from dondolo._fortran.records import describe_measure
 from dondolo.analysis.efficiency import IntensityComparison
 from dondolo.figures import style
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
 
 # Measures whose curves have a colour each: the most and the least efficient, and PGA
 _SHOWN = (style.BLUE, style.RED, style.BLACK)
+# Of the scale factor, as a share of its median
+_TICKS = (0.2, 0.5, 1.0, 2.0, 5.0)
 
 
 def draw_comparison(comparison: IntensityComparison, ax: Iterable[Axes] | None, given: dict[str, Any]) -> Axes:
@@ -44,7 +47,7 @@ def draw_comparison(comparison: IntensityComparison, ax: Iterable[Axes] | None, 
                 share = curve.collapses / curve.histories
                 left.plot(x, share, linestyle="none", markersize=3.5, color=own["color"], **mark)
         elif ims.index(im) == next(k for k, one in enumerate(ims) if one not in named):
-            own["label"] = "the others, in the order at the right" if len(ims) - len(named) > 1 else im
+            own["label"] = say("the others, in the order at the right") if len(ims) - len(named) > 1 else im
         left.plot(grid, curve(grid**power * curve.theta), **options.look(**own))
         width = None
         if curve.has_errors and options.bars:
@@ -54,15 +57,16 @@ def draw_comparison(comparison: IntensityComparison, ax: Iterable[Axes] | None, 
         right.errorbar([comparison.dispersion[i]], [row], xerr=width, capsize=3, **look)
     left.set_xscale("log")
     left.set_xlim(0.2, 5.0)
-    left.set_xticks([0.2, 0.5, 1.0, 2.0, 5.0], ["0.2", "0.5", "1", "2", "5"])
+    left.set_xticks(_TICKS, [decimal(f"{tick:g}") for tick in _TICKS])
     left.set_xticks([], minor=True)
-    left.set_xlabel("scale factor / its median")
-    style.y_label(left, "probability of collapse")
+    left.set_xlabel(say("scale factor / its median"))
+    style.y_label(left, say("probability of collapse"))
     style.title(left, comparison.stripes[0].wall.name, options)
     style.legend(left, options)
     right.set_yticks(range(len(order)), ims)
     right.invert_yaxis()
     right.set_xlim(left=0.0)
-    right.set_xlabel("dispersion of the scale factor" + (",\n95 % interval" if options.bars else ""))
+    interval = ",\n" + say("95 % interval") if options.bars else ""
+    right.set_xlabel(say("dispersion of the scale factor") + interval)
     first: Axes = left
     return first

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from dondolo._base.wording import say
 from dondolo.analysis.overturning import OverturningSpectrum, State
 from dondolo.figures import style
 from dondolo.figures.options import Options
@@ -26,11 +27,11 @@ def draw_spectrum(spectrum: OverturningSpectrum, ax: Axes | None, given: dict[st
     edges = np.concatenate([[x[0] + first], inner, [x[-1] + last]])
     # Lightness and hatching tell them apart in grey.
     looks = {
-        State.OVERTURNED: (style.BLUE, style.BLUE, None, "overturns without impact"),
-        State.OVERTURNED_AFTER_IMPACTS: (style.BRICK, style.RED, "////", "overturns after impacts"),
-        State.SAFE: ("white", style.GREY, None, "survives, no impact during the pulse"),
-        State.SAFE_AFTER_IMPACTS: ("white", style.GREY, "..", "survives, impacts during the pulse"),
-        State.AT_REST: (style.LIGHT, style.LIGHT, None, "does not rock"),
+        State.OVERTURNED: (style.BLUE, style.BLUE, None, say("overturns without impact")),
+        State.OVERTURNED_AFTER_IMPACTS: (style.BRICK, style.RED, "////", say("overturns after impacts")),
+        State.SAFE: ("white", style.GREY, None, say("survives, no impact during the pulse")),
+        State.SAFE_AFTER_IMPACTS: ("white", style.GREY, "..", say("survives, impacts during the pulse")),
+        State.AT_REST: (style.LIGHT, style.LIGHT, None, say("does not rock")),
     }
     columns = [(i, window) for i in range(len(x)) for window in spectrum.windows(i)]
     for state, (face, edge, hatch, label) in looks.items():
@@ -49,12 +50,13 @@ def draw_spectrum(spectrum: OverturningSpectrum, ax: Axes | None, given: dict[st
             i = int(np.searchsorted(spectrum.frequencies, boundary.frequency))
             height = 0.5 * (boundary.lower + boundary.upper) / unit
             ax.plot(edges[i : i + 2], [height, height], **options.look(color=style.BLACK, linewidth=0.9))
-    ax.axhline(1.0, color=style.BLACK, linewidth=0.9, linestyle="--", label="trigger acceleration")
+    ax.axhline(1.0, color=style.BLACK, linewidth=0.9, linestyle="--", label=say("trigger acceleration"))
     ax.set_xlim(edges[0], edges[-1])
     ax.set_ylim(0.0, spectrum.amplitude_ratio[-1])
-    ax.set_xlabel("frequency of the pulse $\\omega_p / p$")
+    ax.set_xlabel(say("frequency of the pulse") + " $\\omega_p / p$")
     one_block = spectrum.wall.mechanism not in ("two_block", "tabulated")
-    style.y_label(ax, "amplitude $a_p / (g\\,\\tan\\alpha)$" if one_block else "amplitude / trigger acceleration")
+    ratio = say("amplitude") + " $a_p / (g\\,\\tan\\alpha)$" if one_block else say("amplitude / trigger acceleration")
+    style.y_label(ax, ratio)
     style.title(ax, f"{spectrum.wall.name}, {spectrum.pulse}", options)
     style.legend(ax, options)
     return ax
