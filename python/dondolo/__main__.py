@@ -159,7 +159,7 @@ def _parser() -> argparse.ArgumentParser:
         "xlsx",
         help="write the tables of a run into a workbook",
         description="Write all tables of a run into one workbook of Excel or LibreOffice: one sheet per table, and one "
-        "of the case. Needs openpyxl.",
+        "of the case. Needs XlsxWriter.",
     )
     workbook.add_argument("prefix", help="prefix of the result files, for example out/parapet", metavar="PREFIX")
     workbook.add_argument("-o", "--output", help="path of the workbook, PREFIX_tables.xlsx by default", metavar="FILE")

@@ -82,7 +82,9 @@ def test_workbook(run):
     # A name is no formula, and no number in a text
     cell = next(cell for row in book["walls"].iter_rows() for cell in row if cell.value == "=1+1")
     assert cell.data_type == "s"
+    first = path.read_bytes()
     dd.write_workbook(run, path)
+    assert path.read_bytes() == first
     path.write_text("notes of the office")
     with pytest.raises(dd.errors.InputError, match="is not a workbook of dondolo"):
         dd.write_workbook(run, path)
@@ -108,6 +110,8 @@ def test_an_italian_workbook(case, executable, root, tmp_path):
         books.append(openpyxl.load_workbook(tmp_path / f"{lang}.xlsx"))
     english, italian = books
     assert len(english.sheetnames) == len(italian.sheetnames)
+    # Excel's own name for changes
+    assert "history" not in map(str.lower, english.sheetnames)
     assert not set(italian.sheetnames) & set(english.sheetnames)
     for name, its in zip(english.sheetnames, italian.sheetnames, strict=True):
         names, *rows = english[name].iter_rows(values_only=True)
@@ -126,15 +130,26 @@ def test_an_italian_workbook(case, executable, root, tmp_path):
     assert any(cell.number_format != "General" for row in sheet.iter_rows(min_row=2) for cell in row)
 
 
+@pytest.mark.parametrize("name", ["<r>b</r>", "<r></r>", "<r>a & b", '"<&>"', "=SUM(A1)", "{=1}", "https://x.org"])
+def test_names_in_a_workbook_are_texts(name, few, tmp_path):
+    """Neither tags nor formulas nor links."""
+    openpyxl = pytest.importorskip("openpyxl")
+    wall = dd.OneSidedWall(1.5, 0.25, name=name)
+    dd.multiple_stripe(wall, few, [0.6, 1.0], progress=False).write_results(tmp_path / "out")
+    dd.write_workbook(tmp_path / "out", tmp_path / "out.xlsx")
+    cell = openpyxl.load_workbook(tmp_path / "out.xlsx")["stripes"]["A2"]
+    assert (cell.value, cell.data_type, cell.hyperlink) == (name, "s", None)
+
+
 def test_a_workbook_has_its_suffix(run):
-    pytest.importorskip("openpyxl")
+    pytest.importorskip("xlsxwriter")
     with pytest.raises(dd.errors.InputError, match=r"path = .*wall.xls': must end in .xlsx"):
         dd.write_workbook(run, run.with_name("wall.xls"))
 
 
-def test_no_openpyxl(run, monkeypatch):
-    monkeypatch.setitem(sys.modules, "openpyxl", None)
-    with pytest.raises(dd.errors.DondoloError, match="openpyxl is not installed"):
+def test_no_xlsxwriter(run, monkeypatch):
+    monkeypatch.setitem(sys.modules, "xlsxwriter", None)
+    with pytest.raises(dd.errors.DondoloError, match="XlsxWriter is not installed"):
         dd.write_workbook(run, run.with_name("wall.xlsx"))
 
 

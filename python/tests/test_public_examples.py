@@ -70,7 +70,7 @@ def returned(used):
 @pytest.fixture(scope="module")
 def installed():
     """What examples take besides, imported before their time counts."""
-    for name in ("pandas", "openpyxl", "scipy.stats", "scipy.optimize", "matplotlib.animation"):
+    for name in ("pandas", "xlsxwriter", "scipy.stats", "scipy.optimize", "matplotlib.animation"):
         pytest.importorskip(name)
     plt.close(plt.figure())
 

@@ -160,6 +160,11 @@ class RunFile:
             raise error.placed(f"{self.path}: settings: stripes") from None
         return levels
 
+    @property
+    def begun(self) -> datetime:
+        """When the run began, with which its name begins [UTC]."""
+        return _begun(self.run)
+
     def to_json(self) -> str:
         """The text of the file."""
         if self.content:
@@ -269,9 +274,17 @@ def _date(seconds: float) -> datetime:
 def _run(content: Mapping[str, Any]) -> str:
     """Name of the run, which stands in names of files."""
     run: str = _member(content, "run", str)
-    if not RUN_NAME.fullmatch(run):
-        raise ValueError(f"run = {run!r}: must be a name such as 20260131T235959Z-0123456789abcdef")
-    return run
+    try:
+        if RUN_NAME.fullmatch(run) and _begun(run):
+            return run
+    except ValueError:
+        pass
+    raise ValueError(f"run = {run!r}: must be a name such as 20260131T235959Z-0123456789abcdef")
+
+
+def _begun(run: str) -> datetime:
+    """The date in the name of a run."""
+    return datetime.strptime(run[:16], "%Y%m%dT%H%M%S%z")
 
 
 def _settings(content: Mapping[str, Any], group: str) -> dict[str, Any]:

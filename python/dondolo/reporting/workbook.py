@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import os
 import re
+import tempfile
 import zipfile
 from collections.abc import Sequence
 from typing import Any
@@ -30,6 +31,12 @@ _SHEET = re.compile(r"[A-Za-z0-9_-]{1,31}")
 # Numbers and characters that a cell can have
 _LARGEST = 9.99999999999999e307
 _LONGEST = 32767
+
+# A sheet of Excel cannot be called History, which is its own name for changes.
+_OTHERWISE = {"history": "time_history"}
+
+# Pixels of a letter in the font of workbooks
+_LETTER = 7
 
 # Narrowest and widest column, in letters, rows that its width is made for, and letters of a line of a title
 _WIDTHS, _LOOKED_AT, _HEAD = (9, 48), 200, 18
@@ -59,7 +66,7 @@ def write_workbook(prefix: str | os.PathLike[str], path: str | os.PathLike[str],
         Another suffix; the tables are not those of a run; one has more rows than a sheet; another file has the name of
         the workbook.
     DondoloError
-        openpyxl is not installed; the workbook cannot be written.
+        XlsxWriter is not installed; the workbook cannot be written.
 
     Examples
     --------
@@ -70,18 +77,17 @@ def write_workbook(prefix: str | os.PathLike[str], path: str | os.PathLike[str],
     >>> dd.write_workbook("parapets", "parapets.xlsx")
     """
     try:
-        import openpyxl
-        from openpyxl.writer.excel import ExcelWriter
+        from xlsxwriter import Workbook
+        from xlsxwriter.exceptions import FileCreateError
     except ImportError:
         raise DondoloError(
-            "openpyxl is not installed: pip install 'dondolo[spreadsheets]'; spreadsheets open the CSV files too"
+            "XlsxWriter is not installed: pip install 'dondolo[spreadsheets]'; spreadsheets open the CSV files too"
         ) from None
     language = Language(lang)
     target = as_file("path", path, ".xlsx")
     check_replaced(target, "workbook")
     as_file("prefix", prefix)
     run = read_run_file(os.fspath(prefix) + RUN_FILE)
-    # All tables before the workbook: one that is left unfinished makes openpyxl complain at the end.
     case = [list(column) for column in zip(*_case(run, language), strict=True)]
     sheets: dict[str, _Sheet] = {"case": (["group", "variable", "value"], case)}
     for written in run.files:
@@ -91,36 +97,28 @@ def write_workbook(prefix: str | os.PathLike[str], path: str | os.PathLike[str],
             raise InputError(f"{table.path}: has {len(table)} rows, more than a sheet of a workbook can have")
         columns = [_values(table.texts(column)) for column in table]
         name = written.name.removeprefix("_").removesuffix(".csv")
-        if not _SHEET.fullmatch(name) or name in sheets:
+        # To spreadsheets Walls is walls.
+        if not _SHEET.fullmatch(name) or name.lower() in map(str.lower, sheets):
             raise InputError(f"{run.path}: files: '{written.name}' is not the name of a table")
         sheets[name] = (list(table), columns)
-    book = openpyxl.Workbook(write_only=True)
-    book.properties.creator = "dondolo"
-    for name, (titles, cells) in sheets.items():
-        if language.code == "it":
-            heads = [headings.heading(title) for title in titles]
-            _add_sheet(book, headings.SHEETS.get(name, name), heads, _in_italian(titles, cells))
-        else:
-            _add_sheet(book, name, titles, cells)
-    with whole_file(target) as part, _Archive(part, "w", zipfile.ZIP_DEFLATED, strict_timestamps=False) as archive:
-        # Spreadsheets drop it when they save the workbook, which is the user's own from then on.
-        archive.comment = derived_mark("workbook", run.run).encode()
-        ExcelWriter(book, archive).save()
-
-
-class _Archive(zipfile.ZipFile):
-    """An archive whose members have the date that archives begin with, whatever the clock of the machine says.
-
-    zipfile fails for years before 1980 and after 2107.
-    """
-
-    def writestr(self, zinfo_or_arcname: str | zipfile.ZipInfo, data: Any, *given: Any, **more: Any) -> None:
-        member = zinfo_or_arcname
-        if isinstance(member, str):
-            member = zipfile.ZipInfo(member)
-            member.compress_type = self.compression
-            member.external_attr = 0o600 << 16
-        super().writestr(member, data, *given, **more)
+    with whole_file(target) as part, tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as folder:
+        # One row at a time is in memory.
+        book = Workbook(part, {"constant_memory": True, "tmpdir": folder, "use_zip64": True})
+        # The same bytes for the same run: the date is that of the run, with which its name begins.
+        book.set_properties({"author": "dondolo", "created": run.begun})
+        for name, (titles, cells) in sheets.items():
+            if language.code == "it":
+                heads = [headings.heading(title) for title in titles]
+                _add_sheet(book, headings.SHEETS.get(name, name), heads, _in_italian(titles, cells))
+            else:
+                _add_sheet(book, _OTHERWISE.get(name, name), titles, cells)
+        try:
+            book.close()
+        except FileCreateError as error:
+            raise error.args[0] from None
+        with zipfile.ZipFile(part, "a") as archive:
+            # Spreadsheets drop it when they save the workbook, which is the user's own from then on.
+            archive.comment = derived_mark("workbook", run.run).encode()
 
 
 def _in_italian(titles: list[str], columns: Sequence[Sequence[Any]]) -> Sequence[Sequence[Any]]:
@@ -190,37 +188,35 @@ def _width(title: str, cells: Sequence[Any], shown: str) -> int:
 
 def _add_sheet(book: Any, name: str, titles: list[str], columns: Sequence[Sequence[Any]]) -> None:
     """Add a sheet, whose titles stay in sight; columns are as wide as what they hold, numbers are numbers."""
-    from openpyxl.cell import WriteOnlyCell
-    from openpyxl.styles import Alignment, Font
-    from openpyxl.utils import get_column_letter
-
-    sheet = book.create_sheet(name)
-    sheet.freeze_panes = "A2"
+    sheet = book.add_worksheet(name)
+    sheet.freeze_panes(1, 0)
+    head = book.add_format({"bold": True, "text_wrap": True, "valign": "top"})
     formats = [_format(cells) for cells in columns]
-    for place, (title, cells, shown) in enumerate(zip(titles, columns, formats, strict=True), 1):
-        sheet.column_dimensions[get_column_letter(place)].width = _width(title, cells, shown)
-    head = [_text_cell(WriteOnlyCell(sheet), title) for title in titles]
-    strong, lines = Font(bold=True), Alignment(wrap_text=True, vertical="top")
-    for one in head:
-        one.font, one.alignment = strong, lines
-    sheet.append(head)
-    # A row is written when it is appended: the next one has the same cells, whose looks are made once.
-    texts, numbers = ([WriteOnlyCell(sheet) for _ in titles] for _ in range(2))
-    for cell, shown in zip(numbers, formats, strict=True):
-        cell.number_format = shown
-    for row in zip(*columns, strict=True):
-        made: list[Any] = list(row)
-        for place, value in enumerate(row):
+    for place, (title, cells, shown) in enumerate(zip(titles, columns, formats, strict=True)):
+        sheet.set_column_pixels(place, place, _LETTER * _width(title, cells, shown))
+        _write_text(sheet, 0, place, title, head)
+    looks = [None if shown == "General" else book.add_format({"num_format": shown}) for shown in formats]
+    write_number = sheet.write_number
+    for place, row in enumerate(zip(*columns, strict=True), 1):
+        for column, value in enumerate(row):
             if isinstance(value, float):
-                made[place] = numbers[place]
-                made[place].value = value
+                write_number(place, column, value, looks[column])
             elif isinstance(value, str):
-                made[place] = _text_cell(texts[place], value)
-        sheet.append(made)
+                if value:
+                    _write_text(sheet, place, column, value)
+            elif isinstance(value, bool):
+                sheet.write_boolean(place, column, value)
+            elif value is not None:
+                write_number(place, column, value)
 
 
-def _text_cell(cell: Any, text: str) -> Any:
-    """A cell that holds a text: a name that begins with = is no formula."""
-    cell.value = visible(text)[:_LONGEST]
-    cell.data_type = "s"
-    return cell
+def _write_text(sheet: Any, row: int, column: int, text: str, *look: Any) -> None:
+    """Write a text as such: a name that begins with = is no formula, and one in tags no part of the workbook."""
+    text = visible(text)[:_LONGEST]
+    if text.startswith("<r>") and text.endswith("</r>"):
+        # XlsxWriter takes it for text of several fonts that has been written before: it is given as such.
+        from xlsxwriter.format import Format
+
+        sheet.write_rich_string(row, column, text[:1], Format(), text[1:], *look)
+    else:
+        sheet.write_string(row, column, text, *look)
