@@ -193,12 +193,12 @@ def test_models_that_contradict_themselves(path, changes, message):
     [
         (
             ("0.0 0.1 0.5 0.6", "0.0 0.1 0.5 0.95"),
-            "'steps': 'fall' is more probable than 'crack' at 0.9: the curves cross",
+            "'steps': 'fall' is more probable than 'crack' at 0.9: the curves cross, the larger",
             "limit_states_cross",
         ),
         (
             ('stddev="0.42"', 'stddev="1.2"'),
-            "'smooth': 'fall' is more probable than 'crack' below 0.2595: the curves cross",
+            "'smooth': 'fall' is more probable than 'crack' below 0.2595: the curves cross, the larger",
             "limit_states_cross",
         ),
         (

@@ -566,6 +566,7 @@ def test_damage_states_that_cross_are_told(few, tmp_path):
     people = dd.typology(walls, few, levels, edp_thresholds=[0.1, 0.4], progress=False)
     dd.report(people, tmp_path / "report.html")
     table = read(tmp_path / "report.html").table("Damage states that cross")
+    assert "dondolo nrml takes it" in read(tmp_path / "report.html").text
     x = np.linspace(0.0, 1.2, 201)[1:]
     gap = people.at(0.4)["all"](x) - people.at(0.1)["all"](x)
     assert gap.max() > 1e-3
@@ -575,7 +576,12 @@ def test_damage_states_that_cross_are_told(few, tmp_path):
     assert float(table["at pga [g]"][0]) == pytest.approx(x[np.argmax(gap)], rel=1e-3)
     stripes = dd.multiple_stripe(walls[0], few, levels, progress=False)
     dd.report(stripes, tmp_path / "report.html")
-    assert read(tmp_path / "report.html").table("Damage states that cross")["by up to"] == table["by up to"]
+    page = read(tmp_path / "report.html")
+    assert page.table("Damage states that cross")["by up to"] == table["by up to"]
+    # What the advice leads to
+    assert "With states = 'ordinal'" in page.text
+    low, high = stripes.fit_damage_states([0.1, 0.4], states="ordinal")
+    assert (low(x) >= high(x)).all()
 
 
 def test_no_state_is_said_to_cross(pages):

@@ -73,7 +73,7 @@ def test_what_a_run_has_warned_of_is_not_repeated(ordinal, root, tmp_path, monke
         assert dd.read_results("a").run.warnings == tuple(said)
         # The command replaces how warnings are shown
         monkeypatch.setattr(warnings, "showwarning", warnings.showwarning)
-        for arguments in (["plot"], ["report"], ["xlsx"], ["nrml"]):
+        for arguments in (["plot"], ["report"], ["nrml"]):
             code = main([*arguments, "a"])
             assert code == (1 if arguments == ["nrml"] else 0)
     assert caught == []

@@ -287,7 +287,8 @@ def _doubt(curves: dict[str, Function], limits: Limits) -> DondoloWarning | None
         if found.where == "throughout":
             raise InputError(f"{found}: limit states must be in the order from the lightest to the heaviest")
         numbers = {"level": found.level}
-        return DondoloWarning(f"{found}: the curves cross", "limit_states_cross", {"state": found.heavier}, numbers)
+        sentence = f"{found}: the curves cross, the larger of both probabilities is on the safe side"
+        return DondoloWarning(sentence, "limit_states_cross", {"state": found.heavier}, numbers)
     for state, curve in levels.items():
         if none is not None and none >= curve.levels[0] and np.interp(none, curve.levels, curve.probability) > 0.0:
             first = float(curve.levels[0])
