@@ -5,6 +5,7 @@ module dondolo_summary
    use dondolo_base_lines, only : lines_type
    use dondolo_base_plain, only : visible
    use dondolo_base_text, only : counted, left, right, rounded, to_text
+   use dondolo_base_warning, only : warnings_type
    use dondolo_case, only : case_type
    use dondolo_case_design_rows, only : make_design_sentence, make_safety_sentence
    use dondolo_case_job_group, only : history_task, stripes_task, typology_task
@@ -43,6 +44,7 @@ contains
 
       type(supports_type) :: supports
       type(lines_type) :: notes
+      type(warnings_type) :: found
       integer :: i
 
       if (len(case%job%title) > 0) write (output_unit, '(a)') case%job%title, ''
@@ -86,7 +88,8 @@ contains
       if (case%suite%has_vertical) write (output_unit, '(a)') 'note: vertical ground motion is applied: the recorded '// &
          & 'components, scaled as their records'//trim(factor_note(case))
       call find_supports(case, supports)
-      call supports%make_notes(notes)
+      call supports%make_notes(found)
+      call found%put_sentences(notes)
       do i = 1, notes%count
          write (output_unit, '(a)') 'note: '//notes%line(i)%text
       end do

@@ -14,7 +14,9 @@ from dondolo._fortran.records import describe_measure
 from dondolo._fortran.walls import WALL_PROPERTIES
 from dondolo.reporting.columns import _COLUMNS
 from dondolo.reporting.language import Language
+from dondolo.reporting.properties_it import SUPPORTS
 from dondolo.reporting.statuses import STATUSES
+from dondolo.walls.wall import notes_on_supports
 from test_relazione import ENGLISH
 
 import dondolo as dd
@@ -74,7 +76,7 @@ def marked(package):
     return found
 
 
-def named(root):
+def named():
     """Sentences that are made of names that the library knows."""
     found = set(NAMES)
     for measure in MEASURES:
@@ -83,15 +85,13 @@ def named(root):
     for column in _COLUMNS.values():
         head = column.head("pga") if callable(column.head) else column.head
         found |= {part for part in (head if isinstance(head, tuple) else (head,)) if isinstance(part, str)}
-    notes = re.sub(r"'// &\s*& '", "", (root / "src/dondolo/wall/support_notes.f90").read_text())
-    notes = re.sub(r"'//trim\(walls\([^)]*\)\)//'", "{walls}", notes)
-    return found | set(re.findall(r"notes%add\('([^']*)'\)", notes))
+    return found
 
 
 def test_every_sentence_is_translated(root):
     pofile = pytest.importorskip("babel.messages.pofile")
     package = root / "python/dondolo"
-    found = marked(package) | named(root)
+    found = marked(package) | named()
     # Units and formulas are the same in both languages.
     worded = {one for one in found if re.search("[A-Za-z]{2}", re.sub(r"\{[^}]*\}", "", one))}
     catalogue = pofile.read_po((package / "reporting/locale/it.po").open("rb"))
@@ -112,6 +112,29 @@ def test_properties_have_names():
         for row in WALL_PROPERTIES:
             name = row.name.replace("_", " ")
             assert say(name) != name or name in ("spring", "bed"), name
+
+
+def test_notes_on_supports_are_said_by_their_codes(root):
+    source = (root / "src/dondolo/wall/support_notes.f90").read_text()
+    codes = dict(re.findall(r"(\w+) = '(.*?)'", re.search(r"(?s)   !> Codes.*?\n\n", source)[0]))
+    assert list(codes) == list(codes.values()) == list(SUPPORTS)
+    building, ties = dd.Building(0.3, participation=1.1), [dd.Tie(7.0, area=1e-4, length=5.0)]
+    tied, leaning = (
+        dd.OneSidedWall(8.0, 0.4, building=building, ties=ties),
+        dd.OneSidedWall(8.0, 0.5, building=building),
+    )
+    plain = dd.OneSidedWall(8.0, 0.5)
+    with Language("it").in_force():
+        several, alone, without = (
+            [text for _, text in notes_on_supports(some)] for some in ((tied, leaning, plain), (tied,), (plain,))
+        )
+    moves, ties = SUPPORTS["one_floor_moves_both"], SUPPORTS["ties_to_building"]
+    both, one = {"walls": "di 2 pareti"}, {"walls": "di 1 parete"}
+    assert several == [SUPPORTS["buildings_move_walls"], moves.format(**both), ties.format(**one)]
+    of_it = {"walls": "della parete"}
+    assert alone == [SUPPORTS["building_moves_both"], moves.format(**of_it), ties.format(**of_it)]
+    assert without == [SUPPORTS["records_at_base"]]
+    assert notes_on_supports((plain,))[0][1].startswith("records are applied at the base of the wall; ground records")
 
 
 def test_a_language_is_in_force_for_a_block_alone():

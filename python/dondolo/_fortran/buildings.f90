@@ -5,6 +5,7 @@ module buildings
    use dondolo_base_error, only : error_type, problems_type
    use dondolo_base_settings, only : group_settings_type
    use dondolo_base_settings_check, only : check_settings
+   use dondolo_base_warning, only : warnings_type
    use dondolo_boundary, only : as_settings, check_room
    use dondolo_building, only : building_type
    use dondolo_building_floor_motion, only : filter_record, floor_samples
@@ -85,12 +86,13 @@ contains
       call send(parcel, error, sent)
    end subroutine felt_motion
 
-   !> What there is to say of the supports that move walls, as lines; none where no wall has a building
+   !> Notes on the supports that move walls, a JSON object on each line
    subroutine support_notes(walls, sent)
       integer(c_int64_t), intent(in) :: walls
       integer(c_int64_t), intent(out) :: sent(5)
       type(wall_type), pointer :: wall(:)
       type(supports_type) :: supports
+      type(warnings_type) :: notes
       type(parcel_type) :: parcel
       type(error_type), allocatable :: error
       integer :: i
@@ -100,7 +102,8 @@ contains
          do i = 1, size(wall)
             call supports%look(wall(i))
          end do
-         call supports%make_notes(parcel%lines)
+         call supports%make_notes(notes)
+         call notes%put_objects(parcel%lines)
       end if
       call send(parcel, error, sent)
    end subroutine support_notes

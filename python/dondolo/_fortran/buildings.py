@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 from dondolo._base.arguments import FloatArray, as_array, as_number
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
-from dondolo._fortran.library import flat_values, properties, receive
+from dondolo._fortran.library import flat_values, properties, receive, unpack_warnings
+from dondolo.errors import DondoloWarning
 
 
 class BuildingData(NamedTuple):
@@ -68,9 +69,9 @@ def felt_motion(acceleration: FloatArray, vertical: FloatArray | None, dt: float
     return _motion(sent, vertical is not None)
 
 
-def support_notes(walls: Handle) -> list[str]:
-    """What there is to say of the supports that move walls; nothing where no wall has a building."""
-    return receive(_core.buildings.support_notes(walls.number)).lines
+def support_notes(walls: Handle) -> list[DondoloWarning]:
+    """Notes on the supports that move walls: a code, how many of how many walls, and a sentence."""
+    return unpack_warnings(receive(_core.buildings.support_notes(walls.number)).lines)
 
 
 def drift_note(drifted: int, histories: int) -> str:

@@ -17,7 +17,7 @@ from dondolo._base.wording import ENGLISH, Wording, in_words_of
 from dondolo.errors import DondoloError
 from dondolo.reporting.content import MONTHS, Symbol, in_places
 from dondolo.reporting.numerals import Numeral
-from dondolo.reporting.properties_it import property_name
+from dondolo.reporting.properties_it import SUPPORTS, property_name
 
 LANGUAGES = ("en", "it")
 
@@ -49,9 +49,9 @@ class Language:
         return in_words_of(ENGLISH if self.code == "en" else Wording(self._said, self.decimal(".")))
 
     def _said(self, sentence: str) -> str:
-        """A sentence, or a property of a wall, in Italian."""
+        """A sentence, a note by its code or a property of a wall, in Italian."""
         found = self._catalogue.gettext(sentence)
-        return property_name(sentence) if found == sentence else found
+        return found if found != sentence else SUPPORTS.get(sentence) or property_name(sentence)
 
     def text(self, sentence: str, **values: object) -> str:
         """A sentence, with values in the places that it names."""

@@ -1,4 +1,4 @@
-"""Italian of the variables of a case, by their names; the English is in the library's tables of properties."""
+"""Italian of the variables of a case by their names, and of notes by their codes; the English is in the library."""
 
 from __future__ import annotations
 
@@ -159,6 +159,21 @@ MEANINGS = {
     "reference_life": "periodo di riferimento V_R, per i periodi di ritorno, con exceedance",
     "exceedance": "probabilità di superamento in quel periodo di SLD, SLV e SLC, i cui periodi di ritorno hanno ag, f0"
     " e tc_star",
+}
+
+#: Notes on the supports that move walls, by their codes in the library; {walls} are the walls that a note is about
+SUPPORTS = {
+    "records_at_base": "gli accelerogrammi sono applicati alla base della parete; quelli del suolo sottostimano la"
+    " domanda su parapetti, timpani, pinnacoli, piani superiori e facciate appoggiate a un edificio",
+    "buildings_move_walls": "gli accelerogrammi sono moti del suolo; edifici lineari muovono le pareti, alla base e"
+    " in ciò a cui si appoggiano",
+    "building_moves_both": "gli accelerogrammi sono moti del suolo; un edificio lineare muove i due appoggi della"
+    " parete",
+    "building_moves_base": "gli accelerogrammi sono moti del suolo; un edificio lineare muove la base della parete",
+    "one_floor_moves_both": "i due estremi {walls} si muovono con un solo solaio; assegnare participation_top se la"
+    " sommità si muove diversamente",
+    "ties_to_building": "le catene {walls} sono ancorate all'edificio, e si muovono con esso",
+    "ties_to_base": "le catene {walls} sono ancorate a ciò su cui poggia la base",
 }
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import copy
 import dataclasses
 import functools
-import re
 from collections.abc import Iterable, Mapping
 from dataclasses import KW_ONLY, dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
@@ -33,7 +32,7 @@ from dondolo._fortran.walls import (
     wall_terms,
 )
 from dondolo._storage import tables
-from dondolo.errors import InputError
+from dondolo.errors import DondoloWarning, InputError
 from dondolo.records.building import Building, building_from
 from dondolo.walls.parts import KINDS, PLACES, in_whole, named_by_parts, parts_from, parts_of, properties_of_parts
 
@@ -47,7 +46,6 @@ DEFAULT: Any = None
 _NO_LISTS: dict[str, Any] = {}
 
 # Walls as notes of the library name them
-_COUNTED = re.compile(r"the wall|(\d+) walls")
 _GREEK = (("R", "radius", "m"), ("alpha", "slenderness_angle", "rad"), ("p", "frequency_parameter", "rad/s"))
 
 
@@ -432,16 +430,13 @@ def notes_on_supports(walls: tuple[Wall, ...]) -> list[tuple[str, str]]:
     return [(say("note"), _said(note)) for note in support_notes(upload(walls))]
 
 
-def _said(note: str) -> str:
-    """A note of the library in the language in force; walls that it counts are set in their place."""
+def _said(note: DondoloWarning) -> str:
+    """A note of the library in the language in force, by its code; walls that it counts are set in their place."""
     if in_english():
-        return note
-    subject = _COUNTED.search(note)
-    for template in (note, _COUNTED.sub("{walls}", note, count=1)):
-        if (found := say(template)) != template:
-            count = subject[1] if subject else None
-            return found.format(walls=say("{number} walls", number=count) if count else say("the wall"))
-    return note
+        return str(note)
+    count, of = (int(note.numbers.get(name, 1)) for name in ("walls", "of_walls"))
+    one = say("of the wall") if of == 1 else say("of 1 wall")
+    return say(note.code, walls=one if count == 1 else say("of {number} walls", number=count))
 
 
 def property_of(wall: Wall, name: str) -> Any:

@@ -1,13 +1,18 @@
 !> Notes of a run on the motion of the bases and supports of its walls.
 module dondolo_wall_support_notes
    use dondolo_base_kinds, only : wp
-   use dondolo_base_lines, only : lines_type
    use dondolo_base_text, only : counted
+   use dondolo_base_warning, only : warning_type, warnings_type
    use dondolo_wall, only : wall_type
    implicit none
    private
 
    public :: supports_type
+
+   !> Codes
+   character(len=*), parameter :: records_at_base = 'records_at_base', buildings_move_walls = 'buildings_move_walls', &
+      & building_moves_both = 'building_moves_both', building_moves_base = 'building_moves_base', &
+      & one_floor_moves_both = 'one_floor_moves_both', ties_to_building = 'ties_to_building', ties_to_base = 'ties_to_base'
 
    !> Walls by what moves them
    type :: supports_type
@@ -20,7 +25,7 @@ module dondolo_wall_support_notes
    contains
       !> Look at a wall
       procedure :: look
-      !> Make the sentences
+      !> Make the notes
       procedure :: make_notes
    end type supports_type
 
@@ -48,30 +53,44 @@ contains
       end if
    end subroutine look
 
-   !> Make the sentences
+   !> Make the notes
    subroutine make_notes(self, notes)
       class(supports_type), intent(in) :: self
-      type(lines_type), intent(out) :: notes
+      type(warnings_type), intent(out) :: notes
 
       if (self%on_buildings == 0) then
-         call notes%add('records are applied at the base of the wall; ground records underestimate the demand on parapets, '// &
-            & 'gables, pinnacles, upper storeys and facades that lean on a building')
+         call notes%add(warning_type(records_at_base), 'records are applied at the base of the wall; ground records '// &
+            & 'underestimate the demand on parapets, gables, pinnacles, upper storeys and facades that lean on a building')
       else if (self%walls > 1) then
-         call notes%add('records are ground motions; linear buildings move the walls on them, at their bases and at what '// &
-            & 'they lean on')
+         call notes%add(warning_type(buildings_move_walls), 'records are ground motions; linear buildings move the walls on '// &
+            & 'them, at their bases and at what they lean on')
       else if (self%leaning > 0) then
-         call notes%add('records are ground motions; a linear building moves both supports of the wall')
+         call notes%add(warning_type(building_moves_both), 'records are ground motions; a linear building moves both supports '// &
+            & 'of the wall')
       else
-         call notes%add('records are ground motions; a linear building moves the base of the wall')
+         call notes%add(warning_type(building_moves_base), 'records are ground motions; a linear building moves the base of '// &
+            & 'the wall')
       end if
-      if (self%of_one_floor > 0) call notes%add('both ends of '//trim(walls(self%of_one_floor))//' move with one floor; give '// &
-         & 'participation_top if the top moves differently')
-      if (self%tied_to_building > 0) call notes%add('the ties of '//trim(walls(self%tied_to_building))//' are anchored to the '// &
-         & 'building, and move with it')
-      if (self%tied_to_base > 0) call notes%add('the ties of '//trim(walls(self%tied_to_base))//' are anchored to what the '// &
-         & 'base of the wall stands on')
+      if (self%of_one_floor > 0) call notes%add(counted_walls(one_floor_moves_both, self%of_one_floor), 'both ends of '// &
+         & trim(walls(self%of_one_floor))//' move with one floor; give participation_top if the top moves differently')
+      if (self%tied_to_building > 0) call notes%add(counted_walls(ties_to_building, self%tied_to_building), 'the ties of '// &
+         & trim(walls(self%tied_to_building))//' are anchored to the building, and move with it')
+      if (self%tied_to_base > 0) call notes%add(counted_walls(ties_to_base, self%tied_to_base), 'the ties of '// &
+         & trim(walls(self%tied_to_base))//' are anchored to what the base of the wall stands on')
 
    contains
+
+      !> A note that is about some of the walls
+      type(warning_type) function counted_walls(code, number) result(note)
+         !> Its code
+         character(len=*), intent(in) :: code
+         !> How many
+         integer, intent(in) :: number
+
+         note = warning_type(code)
+         call note%with('walls', number)
+         call note%with('of_walls', self%walls)
+      end function counted_walls
 
       !> How many of the walls
       pure function walls(number) result(text)
