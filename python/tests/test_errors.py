@@ -1,5 +1,6 @@
 """Errors for programs: what is wrong, of which variable, and where."""
 
+import ast
 import pickle
 import re
 import typing
@@ -140,3 +141,41 @@ def test_list_of_codes(root):
     assert sorted(re.findall(r"`(\w+)`", " ".join(rows))) == sorted(CODES)
     tested = {row[1] for row in OF_WALLS} | {row[2] for row in OF_CASES}
     assert set(library) == tested
+
+
+# Errors of Python that are raised without a code: it may only fall
+WITHOUT_CODE = 250
+
+
+def test_errors_without_a_code_become_fewer(root):
+    """Errors of arguments come from helpers that take a code."""
+    calls = [
+        call
+        for path in (root / "python/dondolo").rglob("*.py")
+        for call in ast.walk(ast.parse(path.read_text(encoding="utf-8")))
+        if isinstance(call, ast.Call) and getattr(call.func, "id", "") == "InputError"
+    ]
+    bare = [call for call in calls if all(given.arg != "errors" for given in call.keywords)]
+    assert len(bare) == WITHOUT_CODE
+
+
+@pytest.mark.parametrize(
+    ("call", "code", "variable"),
+    [
+        (lambda: dd.HazardCurve([0.1, 0.2], [-1.0, 0.1]), "out_of_range", "annual_frequency"),
+        (lambda: dd.fit_fragility([0.2, 0.4], [1, 2]), "not_given", "histories"),
+        (lambda: dd.fit_fragility([0.2, 0.4], [1, 2], 4, records=["a"]), "not_together", "records"),
+        (lambda: dd.fit_fragility([0.2, 0.4], [[1, 2, 3]]), "wrong_length", "collapses"),
+        (lambda: dd.DiscreteFragility([0.1, 0.2], [0.5, 1.5]), "not_a_probability", "probability"),
+        (lambda: dd.DiscreteFragility([0.1, 0.2], [0.5, 0.4]), "not_increasing", "probability"),
+        (lambda: dd.compare_designs([], dd.example_records(), [0.5, 0.9]), "wrong_type", "designs"),
+        (lambda: dd.multiple_stripe(wall(), [], [0.5]), "not_given", "records"),
+        (lambda: dd.pulses.ricker("1", 1.0), "not_a_number", "amplitude"),
+        (lambda: dd.write_nrml("x.xml", {}), "wrong_type", "functions"),
+        (lambda: dd.HazardCurve([0.1, 0.2], [0.1, 0.01]).to_csv(3), "wrong_type", "path"),
+    ],
+)
+def test_arguments_of_python(call, code, variable):
+    error = raised(call)
+    assert [(one.code, one.variable, one.message) for one in error.errors] == [(code, variable, str(error))]
+    assert str(error).startswith(variable)

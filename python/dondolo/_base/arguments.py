@@ -15,7 +15,7 @@ FloatArray = NDArray[np.float64]
 _T = TypeVar("_T")
 
 
-def _wrong(code: Code, variable: str, sentence: str) -> InputError:
+def argument_error(code: Code, variable: str, sentence: str) -> InputError:
     """The error of an argument; its sentence begins with the name of the variable, and often its value."""
     return InputError(variable + sentence, errors=[Problem(variable + sentence, code, variable)])
 
@@ -23,11 +23,11 @@ def _wrong(code: Code, variable: str, sentence: str) -> InputError:
 def as_number(name: str, value: Any) -> float:
     """Turn what a user gives for a number into one."""
     if isinstance(value, (str, bytes)):
-        raise _wrong("not_a_number", name, f" = {value!r}: must be a number")
+        raise argument_error("not_a_number", name, f" = {value!r}: must be a number")
     try:
         return float(value)
     except (TypeError, ValueError, OverflowError):
-        raise _wrong("not_a_number", name, f" = {value!r}: must be a number") from None
+        raise argument_error("not_a_number", name, f" = {value!r}: must be a number") from None
 
 
 def as_count(name: str, value: Any, least: int, most: int | None = None) -> int:
@@ -35,14 +35,14 @@ def as_count(name: str, value: Any, least: int, most: int | None = None) -> int:
     whole = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
     if not whole or value < least or (most is not None and value > most):
         allowed = f"at least {least}" if most is None else f"between {least} and {most}"
-        raise _wrong("not_an_integer", name, f" = {value!r}: must be an integer, {allowed}")
+        raise argument_error("not_an_integer", name, f" = {value!r}: must be an integer, {allowed}")
     return int(value)
 
 
 def as_flag(name: str, value: Any) -> bool:
     """Turn what a user gives for yes or no into it; a text, of which even 'no' would be true, is refused."""
     if not isinstance(value, (bool, np.bool_)):
-        raise _wrong("not_a_flag", name, f" = {value!r}: must be True or False")
+        raise argument_error("not_a_flag", name, f" = {value!r}: must be True or False")
     return bool(value)
 
 
@@ -54,12 +54,14 @@ def as_array(name: str, values: ArrayLike) -> FloatArray:
             raise TypeError
         array = np.ascontiguousarray(given, dtype=np.float64)
     except (TypeError, ValueError, OverflowError):
-        raise _wrong("not_numbers", name, ": must be numbers") from None
+        raise argument_error("not_numbers", name, ": must be numbers") from None
     if array.ndim != 1:
-        raise _wrong("not_numbers", name, f": must be one row of numbers, not an array of {array.ndim} dimensions")
+        raise argument_error(
+            "not_numbers", name, f": must be one row of numbers, not an array of {array.ndim} dimensions"
+        )
     if not array.size:
         # f2py takes no empty arrays
-        raise _wrong("not_given", name, ": must be given")
+        raise argument_error("not_given", name, ": must be given")
     return array
 
 
@@ -68,15 +70,17 @@ def increasing(name: str, values: ArrayLike, *, from_zero: bool = False, why: st
     levels = as_array(name, values).copy()
     allowed = "not negative" if from_zero else "positive"
     if len(levels) < 2:
-        raise _wrong("wrong_length", name, f": must be at least two, {allowed} and increasing{why}")
+        raise argument_error("wrong_length", name, f": must be at least two, {allowed} and increasing{why}")
     wrong = ~(((levels >= 0.0) if from_zero else (levels > 0.0)) & (levels < np.inf))
     if wrong.any():
         sentence = f" = {levels[wrong][0]:g}: must {'not be negative' if from_zero else 'be positive'}"
-        raise _wrong("out_of_range", name, sentence)
+        raise argument_error("out_of_range", name, sentence)
     falls = levels[1:] <= levels[:-1]
     if falls.any():
         i = int(np.argmax(falls))
-        raise _wrong("not_increasing", name, f" = {levels[i]:.15g}, {levels[i + 1]:.15g}: must increase strictly")
+        raise argument_error(
+            "not_increasing", name, f" = {levels[i]:.15g}, {levels[i + 1]:.15g}: must increase strictly"
+        )
     levels.flags.writeable = False
     return levels
 
@@ -90,14 +94,14 @@ def instance_of(name: str, value: Any, kind: type[_T]) -> _T:
 
 def wrong_type(name: str, value: Any, allowed: str, hint: str = "") -> InputError:
     """The error of an argument of another type than is allowed; a hint says what to write instead."""
-    return _wrong("wrong_type", name, f": must be {allowed}, not {type(value).__name__}{hint and f' ({hint})'}")
+    return argument_error("wrong_type", name, f": must be {allowed}, not {type(value).__name__}{hint and f' ({hint})'}")
 
 
 def one_of(name: str, value: Any, allowed: Iterable[str]) -> None:
     """Check a word that a user gives for an option."""
     words = list(dict.fromkeys(allowed))
     if not isinstance(value, str) or value not in words:
-        raise _wrong("not_a_word", name, f" = {value!r}: must be one of {', '.join(map(repr, words))}")
+        raise argument_error("not_a_word", name, f" = {value!r}: must be one of {', '.join(map(repr, words))}")
 
 
 def as_measures(ims: str | Iterable[str]) -> list[str]:
@@ -105,7 +109,7 @@ def as_measures(ims: str | Iterable[str]) -> list[str]:
     if isinstance(ims, str):
         return [ims]
     if not isinstance(ims, Iterable):
-        raise _wrong("wrong_type", "ims", f" = {ims!r}: must be names of intensity measures")
+        raise argument_error("wrong_type", "ims", f" = {ims!r}: must be names of intensity measures")
     return list(ims)
 
 
@@ -113,11 +117,11 @@ def as_sentences(name: str, sentences: str | Iterable[str]) -> tuple[str, ...]:
     """Turn what a user gives for sentences into a tuple of them; a text is one."""
     several = (sentences,) if isinstance(sentences, str) else sentences
     if not isinstance(several, Iterable):
-        raise _wrong("wrong_type", name, f" = {sentences!r}: must be sentences")
+        raise argument_error("wrong_type", name, f" = {sentences!r}: must be sentences")
     found = tuple(several)
     for one in found:
         if not isinstance(one, str):
-            raise _wrong("not_a_string", name, f" = {one!r}: must be a string")
+            raise argument_error("not_a_string", name, f" = {one!r}: must be a string")
     return found
 
 
@@ -126,7 +130,7 @@ def as_path(path: str | os.PathLike[str]) -> bytes:
     try:
         return os.fsencode(path).replace(os.fsencode(os.sep), b"/")
     except TypeError:
-        raise _wrong("wrong_type", "path", f" = {path!r}: must be the path of a file") from None
+        raise argument_error("wrong_type", "path", f" = {path!r}: must be the path of a file") from None
 
 
 def as_generator(seed: Any) -> np.random.Generator:
@@ -135,7 +139,7 @@ def as_generator(seed: Any) -> np.random.Generator:
         return np.random.default_rng(seed)
     except (TypeError, ValueError):
         sentence = f" = {seed!r}: must be an integer, at least 0, a Generator or None"
-        raise _wrong("not_an_integer", "seed", sentence) from None
+        raise argument_error("not_an_integer", "seed", sentence) from None
 
 
 def as_levels(x: ArrayLike) -> FloatArray:
@@ -143,9 +147,9 @@ def as_levels(x: ArrayLike) -> FloatArray:
     try:
         values = np.asarray(x, dtype=np.float64)
     except (TypeError, ValueError, OverflowError):
-        raise _wrong("not_numbers", "x", ": must be numbers") from None
+        raise argument_error("not_numbers", "x", ": must be numbers") from None
     if not np.all(values >= 0.0):
-        raise _wrong("out_of_range", "x", ": must be levels of intensity, not negative")
+        raise argument_error("out_of_range", "x", ": must be levels of intensity, not negative")
     return values
 
 
@@ -154,10 +158,10 @@ def as_probabilities(name: str, p: ArrayLike) -> FloatArray:
     try:
         values = np.asarray(p, dtype=np.float64)
     except (TypeError, ValueError, OverflowError):
-        raise _wrong("not_numbers", name, ": must be numbers") from None
+        raise argument_error("not_numbers", name, ": must be numbers") from None
     wrong = ~((values >= 0.0) & (values <= 1.0))
     if np.any(wrong):
-        raise _wrong("not_a_probability", name, f" = {values[wrong][0]:g}: must lie between 0 and 1")
+        raise argument_error("not_a_probability", name, f" = {values[wrong][0]:g}: must lie between 0 and 1")
     return values
 
 
@@ -170,6 +174,6 @@ def tails(confidence: float) -> tuple[float, float]:
     """Probabilities at the ends of an interval of a confidence."""
     confidence = as_number("confidence", confidence)
     if not 0.0 < confidence < 1.0:
-        raise _wrong("not_a_probability", "confidence", f" = {confidence}: must lie between 0 and 1")
+        raise argument_error("not_a_probability", "confidence", f" = {confidence}: must lie between 0 and 1")
     # A confidence next to 1 must not round to certainty, which has no quantile
     return 0.5 - 0.5 * confidence, min(0.5 + 0.5 * confidence, float(np.nextafter(1.0, 0.0)))

@@ -12,6 +12,7 @@ import zlib
 from pathlib import Path
 from typing import Any
 
+from dondolo._base.arguments import argument_error
 from dondolo.errors import InputError, MissingFileError
 
 #: A name of a run
@@ -49,7 +50,7 @@ def as_file(name: str, path: Any, *suffixes: str) -> Path:
     except (TypeError, UnicodeEncodeError):
         valid = False
     if not valid:
-        raise InputError(f"{name} = {path!r}: must be the path of a file")
+        raise argument_error("wrong_type", name, f" = {path!r}: must be the path of a file")
     if suffixes and target.suffix.lower() not in suffixes:
         raise InputError(f"{name} = {os.fspath(path)!r}: must end in {' or '.join(suffixes)}")
     return target

@@ -21,7 +21,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dondolo._base.arguments import FloatArray
+from dondolo._base.arguments import FloatArray, argument_error
 from dondolo._fortran import _core
 from dondolo.errors import DondoloError, DondoloWarning, InputError, MissingFileError, Problem
 
@@ -279,11 +279,11 @@ if sys.platform != "win32":
 def as_text(name: str, value: Any) -> bytes:
     """Turn what a user gives for a name or a word into the bytes Fortran takes, which says what they may be."""
     if not isinstance(value, str):
-        raise InputError(f"{name} = {value!r}: must be a string")
+        raise argument_error("not_a_string", name, f" = {value!r}: must be a string")
     try:
         text = value.encode()
     except UnicodeEncodeError:
-        raise InputError(f"{name} = {value!r}: must be a string") from None
+        raise argument_error("not_a_string", name, f" = {value!r}: must be a string") from None
     # What Python prints has no character that Fortran refuses. A text of f2py would end at NUL.
     if not value.isprintable() or len(text) > constants().longest_name:
         check(_core.library.check_text(name.encode(), text.replace(b"\0", b"\xc0\x80")))

@@ -10,12 +10,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dondolo._base.arguments import FloatArray, as_array, as_number, as_path
+from dondolo._base.arguments import FloatArray, argument_error, as_array, as_number, as_path
 from dondolo._fortran import _core
 from dondolo._fortran.buildings import BUILDING_NAMES, BUILDING_PROPERTIES
 from dondolo._fortran.handles import Handle
 from dondolo._fortran.library import Parcel, as_text, check, constants, properties, receive, warn_of_notes
-from dondolo.errors import InputError
 
 
 class FlatWall(NamedTuple):
@@ -103,7 +102,7 @@ def wall_terms(wall: Handle, rotation: ArrayLike) -> FloatArray:
     try:
         values, shape = np.ravel(rotation), np.shape(rotation)
     except ValueError:
-        raise InputError("rotation: must be numbers") from None
+        raise argument_error("not_numbers", "rotation", ": must be numbers") from None
     terms, failure = _core.walls.wall_terms(wall.number, as_array("rotation", values))
     check(failure)
     found: FloatArray = terms.T.reshape(6, *shape)

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, fields, replace
 from datetime import datetime
 from typing import Any
 
-from dondolo._base.arguments import increasing
+from dondolo._base.arguments import argument_error, increasing
 from dondolo._base.files import RUN_NAME, read_text
 from dondolo._fortran.files import Written
 from dondolo._fortran.library import constants, source_keys, unpack_warning
@@ -155,7 +155,9 @@ class RunFile:
         try:
             levels: list[float] = increasing("edp_thresholds", given).tolist()
             if levels[-1] > limit:
-                raise InputError(f"edp_thresholds = {levels[-1]:g}: must be at most edp_limit = {limit:g}")
+                raise argument_error(
+                    "out_of_range", "edp_thresholds", f" = {levels[-1]:g}: must be at most edp_limit = {limit:g}"
+                )
         except InputError as error:
             raise error.placed(f"{self.path}: settings: stripes") from None
         return levels

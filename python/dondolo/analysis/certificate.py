@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dondolo._base.arguments import as_flag
+from dondolo._base.arguments import argument_error, as_flag
 from dondolo._base.interrupts import as_event, deferred
 from dondolo._fortran import _core
 from dondolo._fortran.histories import is_doubtful, warnings_of_errors
@@ -54,7 +54,9 @@ def certify(
 ) -> Stripes:
     """Stripes with certificates: see `Stripes.certify`."""
     if stripes.edp_error is None:
-        raise InputError("stripes: have no estimated errors: must be run with estimate_error = True")
+        raise argument_error(
+            "not_together", "stripes", ": have no estimated errors: must be run with estimate_error = True"
+        )
     team = check_threads(threads)
     as_flag("progress", progress)
     with deferred(as_event(stop)):

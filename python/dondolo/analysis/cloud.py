@@ -52,7 +52,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, as_number, instance_of
+from dondolo._base.arguments import FloatArray, argument_error, as_number, instance_of
 from dondolo._base.interrupts import as_event, deferred
 from dondolo._fortran.library import constants, warn
 from dondolo._fortran.records import describe_measure, unit_of
@@ -63,7 +63,7 @@ from dondolo.analysis.solver import Solver, as_solver
 from dondolo.analysis.work import Work
 from dondolo.curves.regression import Logistic, Regression, logistic_regression, regress
 from dondolo.curves.sample import cluster_labels
-from dondolo.errors import DondoloError, DondoloWarning, InputError, Interrupted
+from dondolo.errors import DondoloError, DondoloWarning, Interrupted
 from dondolo.records.level_rows import scaled_records
 from dondolo.records.record import Record
 from dondolo.walls.wall import Wall, notes_on_supports
@@ -252,8 +252,10 @@ class Cloud(tables.Tabular, Saved):
     def _threshold(self, edp_threshold: float | None) -> float:
         threshold = self.edp_limit if edp_threshold is None else as_number("edp_threshold", edp_threshold)
         if not 0.0 < threshold <= self.edp_limit:
-            raise InputError(
-                f"edp_threshold = {threshold:g}: must be positive and at most edp_limit = {self.edp_limit:g}"
+            raise argument_error(
+                "out_of_range",
+                "edp_threshold",
+                f" = {threshold:g}: must be positive and at most edp_limit = {self.edp_limit:g}",
             )
         return threshold
 
@@ -398,7 +400,7 @@ def cloud(
     several = scaled_records(records)
     factor = as_number("scale", scale)
     if not 0.0 < factor < np.inf:
-        raise InputError(f"scale = {factor:g}: must be positive")
+        raise argument_error("out_of_range", "scale", f" = {factor:g}: must be positive")
     intensity, name = _intensities(wall, several, im, factor, threads)
     # Without a measure, one stripe whose level is the factor.
     how = as_solver(solver)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, as_count, as_measures
+from dondolo._base.arguments import FloatArray, argument_error, as_count, as_measures
 from dondolo._base.interrupts import as_event, deferred
 from dondolo._fortran.library import constants
 from dondolo._fortran.records import blank_unit, describe_measure
@@ -22,7 +22,7 @@ from dondolo.analysis.stripes import Stripes
 from dondolo.curves import fitting
 from dondolo.curves.bootstrap import draw_records, resample
 from dondolo.curves.fragility import Fragility
-from dondolo.errors import DondoloError, InputError, Interrupted
+from dondolo.errors import DondoloError, Interrupted
 from dondolo.records.level_rows import plain_records
 from dondolo.records.record import Record
 from dondolo.walls.wall import Wall
@@ -215,7 +215,7 @@ def compare_intensities(
     several = plain_records(records)
     names = [describe_measure(im).name for im in as_measures(ims)]
     if not names or len(set(names)) < len(names):
-        raise InputError("ims: must be given, and differ")
+        raise argument_error("not_given", "ims", ": must be given, and differ")
     count = as_count("n_levels", n_levels, 2)
     analyses, curves = [], []
     with deferred(as_event(stop)):

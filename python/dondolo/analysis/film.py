@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.animation import FuncAnimation
 
-from dondolo._base.arguments import as_number
+from dondolo._base.arguments import argument_error, as_number
 from dondolo.analysis.plots_response import motion_span
 from dondolo.analysis.response import Response
 from dondolo.errors import InputError
@@ -40,7 +40,9 @@ def animate(response: Response, frames_per_second: float, speed: float) -> FuncA
     """Animate the wall beside its rotation."""
     rate, pace = as_number("frames_per_second", frames_per_second), as_number("speed", speed)
     if not (0.0 < pace < np.inf and 1.0 <= rate < np.inf):
-        raise InputError(f"speed = {speed}, frames_per_second = {frames_per_second}: must be positive")
+        raise argument_error(
+            "out_of_range", "speed", f" = {speed}, frames_per_second = {frames_per_second}: must be positive"
+        )
     time, _, rotation, _ = response._motion()
     first, last = motion_span(response)
     wall = response.wall

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from dondolo._base.arguments import argument_error
 from dondolo._fortran.library import constants
 from dondolo.errors import InputError
 
@@ -81,13 +82,17 @@ def join(one: Stripes, other: Stripes) -> Stripes:
     if type(other) is not type(one):
         raise InputError(f"stripes: cannot be joined with {type(other).__name__}")
     if one.wall != other.wall:
-        raise InputError(f"stripes: belong to the walls '{one.wall.name}' and '{other.wall.name}': must belong to one")
+        raise argument_error(
+            "not_together",
+            "stripes",
+            f": belong to the walls '{one.wall.name}' and '{other.wall.name}': must belong to one",
+        )
     for name in _SHARED:
         first, second = getattr(one, name), getattr(other, name)
         if first != second:
-            raise InputError(f"stripes: {name} = {first!r} and {second!r}: must be the same")
+            raise argument_error("not_together", "stripes", f": {name} = {first!r} and {second!r}: must be the same")
     if not np.array_equal(np.unique(one.polarity), np.unique(other.polarity)):
-        raise InputError("stripes: were run with different polarities: must be the same")
+        raise argument_error("not_together", "stripes", ": were run with different polarities: must be the same")
     for name, what in _OPTIONAL.items():
         if (getattr(one, name) is None) != (getattr(other, name) is None):
             raise InputError(f"stripes: only one {what}")

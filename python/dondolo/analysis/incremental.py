@@ -42,7 +42,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray
+from dondolo._base.arguments import FloatArray, argument_error
 from dondolo._base.shown import Shown
 from dondolo._fortran.library import constants, warn
 from dondolo._fortran.records import blank_unit, unit_of
@@ -54,7 +54,7 @@ from dondolo.analysis.stripes import Stripes
 from dondolo.curves.clusters import Clusters, errors_of_parts, no_errors
 from dondolo.curves.fitting import counts_are_flat, warnings_of_fit, with_errors
 from dondolo.curves.fragility import Fragility
-from dondolo.errors import DondoloWarning, InputError
+from dondolo.errors import DondoloWarning
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -280,7 +280,9 @@ class Incremental(Shown, Saved):
 def incremental(stripes: Stripes) -> Incremental:
     """Read stripes as an incremental dynamic analysis: see `Stripes.incremental`."""
     if not stripes.ran.all():
-        raise InputError("stripes: have records of their own at each level: every record must run at every level")
+        raise argument_error(
+            "not_together", "stripes", ": have records of their own at each level: every record must run at every level"
+        )
     levels, collapsed = stripes.levels, stripes.collapsed
     first = np.where(collapsed.any(axis=0), levels[np.argmax(collapsed, axis=0)], np.inf)
     last = np.where(collapsed.all(axis=0), 0.0, levels[len(levels) - 1 - np.argmin(collapsed[::-1], axis=0)])

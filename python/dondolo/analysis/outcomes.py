@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dondolo._base.arguments import FloatArray, as_number
+from dondolo._base.arguments import FloatArray, argument_error, as_number
 from dondolo._base.shown import span
 from dondolo._fortran.records import levels_in_words
 from dondolo._fortran.uncertainty import restitution_sentence
 from dondolo.analysis.work import Work
-from dondolo.errors import DondoloWarning, InputError
+from dondolo.errors import DondoloWarning
 from dondolo.walls.ties import TieCounts, tallies_of_ties
 from dondolo.walls.wall import Wall, notes_on_supports, upload
 
@@ -133,8 +133,10 @@ class Outcomes:
         """
         threshold = as_number("edp_threshold", edp_threshold)
         if not 0.0 < threshold <= self.edp_limit:
-            raise InputError(
-                f"edp_threshold = {threshold:g}: must be positive and at most edp_limit = {self.edp_limit:g}"
+            raise argument_error(
+                "out_of_range",
+                "edp_threshold",
+                f" = {threshold:g}: must be positive and at most edp_limit = {self.edp_limit:g}",
             )
         counts: Counts = (self.edp >= threshold).sum(axis=1)
         return counts

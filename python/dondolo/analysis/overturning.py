@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, as_number, instance_of, one_of
+from dondolo._base.arguments import FloatArray, argument_error, as_array, as_number, instance_of, one_of
 from dondolo._base.interrupts import as_event, deferred
 from dondolo._base.shown import Shown
 from dondolo._fortran import _core
@@ -309,12 +309,14 @@ def overturning_spectrum(
     one_of("polarity", polarity, ("as_recorded", "reversed"))
     frequency, amplitude = _increasing("frequencies", frequencies), _increasing("amplitudes", amplitudes)
     if not callable(pulse):
-        raise InputError(
-            f"pulse = {pulse!r}: must be a function of an amplitude and a frequency, such as dd.pulses.one_sine"
+        raise argument_error(
+            "wrong_type",
+            "pulse",
+            f" = {pulse!r}: must be a function of an amplitude and a frequency, such as dd.pulses.one_sine",
         )
     width = as_number("tolerance", tolerance)
     if not 1e-12 <= width <= 1.0:
-        raise InputError(f"tolerance = {width:g}: must lie between 1e-12 and 1")
+        raise argument_error("out_of_range", "tolerance", f" = {width:g}: must lie between 1e-12 and 1")
     how = as_solver(solver)
     settings = how._settings(edp_limit=_EDP_LIMIT)
     runner = _Runner(
@@ -482,7 +484,7 @@ def _pulse(pulse: Callable[[float, float], Record], frequency: float) -> Record:
     """The pulse of amplitude 1 at a frequency."""
     record = pulse(1.0, float(frequency))
     if not isinstance(record, Record):
-        raise InputError(f"pulse: must return a Record, not {type(record).__name__}")
+        raise argument_error("wrong_type", "pulse", f": must return a Record, not {type(record).__name__}")
     if not record.peak_acceleration > 0.0:
         raise InputError(f"pulse: is zero at {frequency:g} Hz")
     return record
@@ -492,7 +494,7 @@ def _increasing(name: str, values: ArrayLike) -> FloatArray:
     """Positive, increasing numbers."""
     array = as_array(name, values).copy()
     if not np.all((array > 0.0) & (array < np.inf)):
-        raise InputError(f"{name}: must be positive")
+        raise argument_error("out_of_range", name, ": must be positive")
     if not np.all(np.diff(array) > 0.0):
-        raise InputError(f"{name}: must increase")
+        raise argument_error("not_increasing", name, ": must increase")
     return array

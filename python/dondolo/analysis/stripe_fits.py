@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dondolo._base.arguments import FloatArray, as_array, one_of
+from dondolo._base.arguments import FloatArray, argument_error, as_array, one_of
 from dondolo._fortran.curves import warnings_of_curve
 from dondolo._fortran.library import warn
 from dondolo.curves.damage_states import fit_states
@@ -66,11 +66,13 @@ def thresholds_of(stripes: Stripes, edp_thresholds: ArrayLike | None) -> list[fl
         return [share * stripes.edp_limit for share in _SHARES]
     limits: list[float] = as_array("edp_thresholds", edp_thresholds).tolist()
     if not limits:
-        raise InputError("edp_thresholds: must be given")
+        raise argument_error("not_given", "edp_thresholds", ": must be given")
     for before, threshold in zip([0.0, *limits], limits, strict=False):
         stripes.exceedances(threshold)
         if not threshold > before:
-            raise InputError(f"edp_thresholds = {before:g}, {threshold:g}: must increase strictly")
+            raise argument_error(
+                "not_increasing", "edp_thresholds", f" = {before:g}, {threshold:g}: must increase strictly"
+            )
     return limits
 
 

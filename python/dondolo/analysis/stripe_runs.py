@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_count, as_flag, instance_of
+from dondolo._base.arguments import FloatArray, argument_error, as_count, as_flag, instance_of
 from dondolo._base.interrupts import Interrupts, as_event, deferred
 from dondolo._base.shown import Shown
 from dondolo._fortran.library import warn
@@ -359,7 +359,11 @@ def _adaptive(request: Request, budget: int, progress: bool, interrupts: Interru
     size = len(trials[0].record)
     budget = as_count("budget", budget, 1)
     if budget < FEWEST * size:
-        raise InputError(f"budget = {budget}: must be at least {FEWEST * size}, {FEWEST} stripes of {size} histories")
+        raise argument_error(
+            "out_of_range",
+            "budget",
+            f" = {budget}: must be at least {FEWEST * size}, {FEWEST} stripes of {size} histories",
+        )
     # Scales are powers of the level.
     peaks = np.array([request.records[i].peak_acceleration for i in trials[0].record])
     one, two = (float(np.median(plan.scale[0] * peaks)) for plan in trials)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from dondolo._base.arguments import instance_of
+from dondolo._base.arguments import argument_error, instance_of
 from dondolo._base.shown import Shown
 from dondolo._fortran.checks import (
     CalculationItem,
@@ -267,7 +267,11 @@ class CodeCheck(Shown, Saved):
         if stripes.im != "pga" or stripes.wall != self.wall:
             raise InputError("stripes: must be of the wall of the check, with im = 'pga'")
         if stripes.edp_limit < 1.0:
-            raise InputError(f"edp_limit = {stripes.edp_limit:g}: must be at least 1: histories are followed to d_0*")
+            raise argument_error(
+                "out_of_range",
+                "edp_limit",
+                f" = {stripes.edp_limit:g}: must be at least 1: histories are followed to d_0*",
+            )
         rows = tuple(row for row in self.rows if row.method != "dynamic")
         handle = upload((self.wall,))
         for state, level in levels.items():

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, wrong_type
+from dondolo._base.arguments import FloatArray, argument_error, wrong_type
 from dondolo._base.shown import Shown
 from dondolo._fortran.curves import compare_parameters
 from dondolo._storage.saved import Saved
@@ -78,7 +78,7 @@ def compare(one: Curve, other: Curve, *, confidence: float = 0.95) -> Comparison
         raise wrong_type("other", other, "a fragility curve")
     first, second = one._fitted(), other._fitted()
     if first.im != second.im:
-        raise InputError(f"im = '{first.im}' and '{second.im}': must be the same")
+        raise argument_error("not_together", "im", f" = '{first.im}' and '{second.im}': must be the same")
     for curve in (first, second):
         curve._quantile(confidence)
         if curve.errors == "clustered" and not curve.parts:

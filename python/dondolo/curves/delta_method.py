@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_levels, shaped
-from dondolo.errors import InputError
+from dondolo._base.arguments import FloatArray, argument_error, as_levels, shaped
 
 if TYPE_CHECKING:
     from dondolo.curves.lognormal import LognormalCurve
@@ -18,7 +17,7 @@ def positive_levels(x: ArrayLike) -> FloatArray:
     """Levels at which a curve has an interval: it is linear in their logarithm, which 0 has not."""
     values = as_levels(x)
     if not np.all(values > 0.0):
-        raise InputError(f"x = {values.min():g}: must be positive")
+        raise argument_error("out_of_range", "x", f" = {values.min():g}: must be positive")
     return values
 
 
@@ -45,7 +44,9 @@ def level_interval(curve: LognormalCurve, p: FloatArray, probit: FloatArray, qua
     """Interval of the levels of probabilities, which come with their probits: see `Fragility.ppf_interval`."""
     if not np.all(np.isfinite(probit)):
         wrong = p.ravel()[~np.isfinite(probit)][0]
-        raise InputError(f"p = {wrong:g}: must be greater than 0 and less than {curve.saturation:g}")
+        raise argument_error(
+            "out_of_range", "p", f" = {wrong:g}: must be greater than 0 and less than {curve.saturation:g}"
+        )
     half = half_width(np.stack([np.ones_like(probit), probit]), curve.covariance, quantile)
     level = curve.theta * np.exp(curve.beta * probit)
     return shaped(level * np.exp(-half), p), shaped(level * np.exp(half), p)

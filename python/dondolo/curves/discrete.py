@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import (
     FloatArray,
+    argument_error,
     as_array,
     as_levels,
     as_number,
@@ -75,15 +76,19 @@ class DiscreteFragility(Curve, Shown, Saved):
         if len(x) != len(p):
             raise InputError(f"{len(x)} levels, {len(p)} probabilities: must be as many")
         if not np.all((p >= 0.0) & (p <= 1.0)):
-            raise InputError(f"probability = {p[~((p >= 0.0) & (p <= 1.0))][0]:g}: must lie between 0 and 1")
+            raise argument_error(
+                "not_a_probability", "probability", f" = {p[~((p >= 0.0) & (p <= 1.0))][0]:g}: must lie between 0 and 1"
+            )
         if np.any(np.diff(p) < 0.0):
             i = int(np.argmax(np.diff(p) < 0.0))
-            raise InputError(f"probability = {p[i]:g}, {p[i + 1]:g}: must not decrease with the level")
+            raise argument_error(
+                "not_increasing", "probability", f" = {p[i]:g}, {p[i + 1]:g}: must not decrease with the level"
+            )
         if x[0] == 0.0 and p[0] > 0.0:
             raise InputError(f"probability = {p[0]:g} at the level 0: must be 0")
         none = None if no_damage_limit is None else as_number("no_damage_limit", no_damage_limit)
         if none is not None and not 0.0 <= none < np.inf:
-            raise InputError(f"no_damage_limit = {none:g}: must be finite and not negative")
+            raise argument_error("out_of_range", "no_damage_limit", f" = {none:g}: must be finite and not negative")
         p.flags.writeable = False
         for what, value in (
             ("levels", x),

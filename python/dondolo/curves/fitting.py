@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, as_number
+from dondolo._base.arguments import FloatArray, argument_error, as_array, as_number
 from dondolo._fortran.curves import CurveData, fit_curves, warnings_of_curve
 from dondolo._fortran.library import constants, warn
 from dondolo._fortran.records import name_of_measure
@@ -84,16 +84,18 @@ def fit_fragility(
     measure = name_of_measure(im)
     if np.ndim(collapses) == 2:
         if histories is not None:
-            raise InputError("histories: only with counts of collapses")
+            raise argument_error("not_together", "histories", ": only with counts of collapses")
         sample = sample_of_outcomes(levels, collapses, records, events)
         counts = (sample.collapsed & sample.ran).sum(axis=1, dtype=np.float64), sample.ran.sum(axis=1, dtype=np.float64)
         curve = fit(sample.levels, *counts, im=measure, sample=sample)
     else:
         for what, value in (("records", records), ("events", events)):
             if value is not None:
-                raise InputError(f"{what}: only with the outcomes of histories, shape (histories, levels)")
+                raise argument_error(
+                    "not_together", what, ": only with the outcomes of histories, shape (histories, levels)"
+                )
         if histories is None:
-            raise InputError("histories: must be given with counts of collapses")
+            raise argument_error("not_given", "histories", ": must be given with counts of collapses")
         curve = fit(*_counts(levels, collapses, histories), im=measure)
     if curve.has_fit:
         warn(warnings_of_fit(curve))

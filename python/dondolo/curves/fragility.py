@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, as_number
+from dondolo._base.arguments import FloatArray, argument_error, as_number
 from dondolo._base.shown import Shown
 from dondolo._fortran.records import name_of_measure, unit_of
 from dondolo._fortran.tables import plain
@@ -20,7 +20,7 @@ from dondolo.curves.bootstrap import Bootstrap, draw_records, resample
 from dondolo.curves.lognormal import LognormalCurve
 from dondolo.curves.sample import Sample, given_labels
 from dondolo.curves.wording import facts_of
-from dondolo.errors import DondoloError, InputError
+from dondolo.errors import DondoloError
 from dondolo.walls.wall import Wall
 
 if TYPE_CHECKING:
@@ -127,7 +127,7 @@ class Fragility(LognormalCurve, Shown, Saved):
         """
         for what, value in (("theta", theta), ("beta", beta)):
             if not 0.0 < as_number(what, value) < np.inf:
-                raise InputError(f"{what} = {value:g}: must be positive")
+                raise argument_error("out_of_range", what, f" = {value:g}: must be positive")
         empty = np.zeros(0)
         return cls(
             theta=float(theta),

@@ -16,6 +16,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 
+from dondolo._base.arguments import argument_error
 from dondolo._base.files import as_file, read_text
 from dondolo._base.shown import Shown
 from dondolo._fortran.library import warn
@@ -277,9 +278,9 @@ def _doubt(curves: dict[str, Function], limits: Limits) -> DondoloWarning | None
     levels = {state: curve for state, curve in curves.items() if isinstance(curve, DiscreteFragility)}
     if lognormals and low is not None and high is not None:
         if not low < high:
-            raise InputError(f"minIML = {low:g}, maxIML = {high:g}: must increase")
+            raise argument_error("not_increasing", "minIML", f" = {low:g}, maxIML = {high:g}: must increase")
         if none is not None and none >= high:
-            raise InputError(f"noDamageLimit = {none:g}: must be below maxIML = {high:g}")
+            raise argument_error("out_of_range", "noDamageLimit", f" = {none:g}: must be below maxIML = {high:g}")
         found = disorder_of_lognormals(lognormals, max(low, none or 0.0), high)
     else:
         found = disorder_at_levels(levels)
@@ -305,7 +306,7 @@ def _function(function: ElementTree.Element, states: list[str]) -> tuple[dict[st
     """The curves of a function, and its limits."""
     kind = _attribute(function, "format")
     if kind not in ("continuous", "discrete"):
-        raise InputError(f"format = '{kind}': must be continuous or discrete")
+        raise argument_error("not_a_word", "format", f" = '{kind}': must be continuous or discrete")
     of_levels = _children(function, "imls")
     if len(of_levels) != 1:
         raise InputError(f"must have one imls, there are {len(of_levels)}")
@@ -319,7 +320,7 @@ def _function(function: ElementTree.Element, states: list[str]) -> tuple[dict[st
         raise InputError(f"has the limit states {' '.join(names)}: must be {' '.join(states)}")
     if kind == "continuous":
         if function.get("shape", "logncdf") != "logncdf":
-            raise InputError(f"shape = '{function.get('shape')}': must be logncdf")
+            raise argument_error("not_a_word", "shape", f" = '{function.get('shape')}': must be logncdf")
         if limits.min_iml is None or limits.max_iml is None:
             raise InputError("imls: must have minIML and maxIML")
         told = _told(function)
@@ -353,7 +354,7 @@ def _lognormal(row: ElementTree.Element, comment: str | None, im: str, unit: int
     words = [_checked(name, _attribute(row, name)) for name in ("mean", "stddev")]
     mean, deviation = (over(word, unit) for word in words)
     if not (0.0 < mean < np.inf and 0.0 < deviation < np.inf):
-        raise InputError(f"mean = {words[0]}, stddev = {words[1]}: must be positive")
+        raise argument_error("out_of_range", "mean", f" = {words[0]}, stddev = {words[1]}: must be positive")
     found = _PARAMETERS.fullmatch(comment or "")
     if found:
         theta, beta = (float(_checked("comment", word)) for word in found.groups())
@@ -394,5 +395,5 @@ def _checked(name: str, word: str) -> str:
     except ValueError:
         value = np.nan
     if not value >= 0.0:
-        raise InputError(f"{name} = '{word}': must be a number, not negative")
+        raise argument_error("not_a_number", name, f" = '{word}': must be a number, not negative")
     return word

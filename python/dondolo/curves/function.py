@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import as_levels, shaped, wrong_type
+from dondolo._base.arguments import argument_error, as_levels, shaped, wrong_type
 from dondolo._base.shown import Shown
 from dondolo._fortran.records import describe_measure
 from dondolo.curves.curve import Curve, inverse
@@ -82,11 +82,13 @@ class FunctionFragility(Curve, Shown):
         try:
             p = np.asarray(self.function(flat), dtype=np.float64)
         except (TypeError, ValueError):
-            raise InputError("fragility: must give numbers for an array of intensities") from None
+            raise argument_error("wrong_type", "fragility", ": must give numbers for an array of intensities") from None
         if p.shape != flat.shape:
             raise InputError(f"fragility: gives an array of shape {p.shape} for intensities of shape {flat.shape}")
         if not np.all((p >= 0.0) & (p <= 1.0)):
-            raise InputError(f"fragility = {p[~((p >= 0.0) & (p <= 1.0))][0]:g}: must lie between 0 and 1")
+            raise argument_error(
+                "not_a_probability", "fragility", f" = {p[~((p >= 0.0) & (p <= 1.0))][0]:g}: must lie between 0 and 1"
+            )
         return shaped(p, values)
 
     def ppf(self, p: ArrayLike) -> Any:

@@ -8,11 +8,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import as_levels, shaped
+from dondolo._base.arguments import argument_error, as_levels, shaped
 from dondolo._fortran.records import blank_unit
 from dondolo._storage.saved import part_of_results
 from dondolo.curves.fragility import Fragility
-from dondolo.errors import InputError
 
 
 @part_of_results
@@ -49,9 +48,9 @@ class LimitedFragility(Fragility):
         super().__post_init__()
         none, low, high = self.limits
         if low is not None and high is not None and not low < high:
-            raise InputError(f"min_iml = {low:g}, max_iml = {high:g}: must increase")
+            raise argument_error("not_increasing", "min_iml", f" = {low:g}, max_iml = {high:g}: must increase")
         if none is not None and high is not None and not none < high:
-            raise InputError(f"no_damage_limit = {none:g}: must be below max_iml = {high:g}")
+            raise argument_error("out_of_range", "no_damage_limit", f" = {none:g}: must be below max_iml = {high:g}")
 
     def __call__(self, x: ArrayLike) -> Any:
         values = as_levels(x)

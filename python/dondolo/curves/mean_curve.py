@@ -8,13 +8,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_levels, shaped
+from dondolo._base.arguments import FloatArray, argument_error, as_levels, shaped
 from dondolo.curves.curve import Curve, inverse
 from dondolo.curves.discrete import DiscreteFragility
 from dondolo.curves.fragility import Fragility
 from dondolo.curves.members import Members
 from dondolo.curves.straight_lines import straight_lines
-from dondolo.errors import InputError
 
 # Where the inverse is sought beyond medians and levels
 _FAR = 1e3
@@ -166,6 +165,6 @@ class MeanCurve(Curve):
         except (TypeError, ValueError):
             shares = np.array(np.nan)
         if not np.all((shares > 0.0) & (shares <= 1.0)):
-            raise InputError("q: must be shares of the weight, above 0 and up to 1")
+            raise argument_error("out_of_range", "q", ": must be shares of the weight, above 0 and up to 1")
         _, found, _ = self._at(values.ravel(), shares.ravel())
         return found.reshape(shares.shape + values.shape)

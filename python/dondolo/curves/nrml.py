@@ -54,7 +54,7 @@ from typing import Any, Literal, get_args
 
 import numpy as np
 
-from dondolo._base.arguments import as_number, one_of
+from dondolo._base.arguments import argument_error, as_number, one_of
 from dondolo._fortran.origins import check_replaced
 from dondolo.curves.discrete import DiscreteFragility
 from dondolo.curves.fragility import Fragility
@@ -131,14 +131,14 @@ def write_nrml(
     """
     check_replaced(path, "model")
     if not isinstance(id, str) or not _NAME.fullmatch(id):
-        raise InputError(f"id = {id!r}: must be of letters, digits, - and _, at most 100")
+        raise argument_error("not_a_string", "id", f" = {id!r}: must be of letters, digits, - and _, at most 100")
     description = _words("description", description)
     asset_category = _words("asset_category", asset_category)
     one_of("loss_category", loss_category, get_args(LossCategory))
     limits = {"no_damage_limit": no_damage_limit, "min_iml": min_iml, "max_iml": max_iml}
     for what, value in limits.items():
         if value is not None and not 0.0 < as_number(what, value) < np.inf:
-            raise InputError(f"{what} = {value:g}: must be positive")
+            raise argument_error("out_of_range", what, f" = {value:g}: must be positive")
     states = _states(functions)
     of_functions: dict[str, Limits] = {}
     written: dict[str, dict[str, Function]] = {}
@@ -178,14 +178,14 @@ def _words(name: str, text: Any) -> str:
     """A text as the format takes it, and XML."""
     words = " ".join(text.split()) if isinstance(text, str) else ""
     if not words or not words.isascii() or not words.isprintable():
-        raise InputError(f"{name} = {text!r}: must be a string in printable ASCII")
+        raise argument_error("not_a_string", name, f" = {text!r}: must be a string in printable ASCII")
     return words
 
 
 def _states(functions: Mapping[str, Mapping[str, Function]]) -> tuple[str, ...]:
     """The limit states, the same for all taxonomies."""
     if not isinstance(functions, Mapping) or not functions:
-        raise InputError("functions: must be a mapping of taxonomies, at least one")
+        raise argument_error("wrong_type", "functions", ": must be a mapping of taxonomies, at least one")
     states: tuple[str, ...] = ()
     for taxonomy, curves in functions.items():
         if not isinstance(taxonomy, str) or not _TAXONOMY.fullmatch(taxonomy):

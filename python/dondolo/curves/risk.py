@@ -54,7 +54,16 @@ from typing import TYPE_CHECKING, Any, TypeGuard
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_count, as_levels, as_number, increasing, instance_of, shaped
+from dondolo._base.arguments import (
+    FloatArray,
+    argument_error,
+    as_count,
+    as_levels,
+    as_number,
+    increasing,
+    instance_of,
+    shaped,
+)
 from dondolo._base.shown import Shown
 from dondolo._base.wording import decimal, say
 from dondolo._fortran.library import warn
@@ -65,7 +74,7 @@ from dondolo.curves.fragility import Fragility
 from dondolo.curves.limited import LimitedFragility
 from dondolo.curves.mean_curve import MeanCurve
 from dondolo.curves.risk_of_walls import WallFrequencies, wall_frequencies
-from dondolo.errors import DondoloError, DondoloWarning, InputError
+from dondolo.errors import DondoloError, DondoloWarning
 from dondolo.hazard.hazard import HazardCurve
 from dondolo.hazard.integrals import (
     integrals,
@@ -210,7 +219,7 @@ class Risk(Shown, Saved):
         """
         time = as_number("years", years)
         if not 0.0 <= time < np.inf:
-            raise InputError(f"years = {time:g}: must be finite and not negative")
+            raise argument_error("out_of_range", "years", f" = {time:g}: must be finite and not negative")
         if time == 0.0:
             # Whatever the frequency
             return 0.0, 0.0
@@ -250,7 +259,7 @@ class Risk(Shown, Saved):
         """
         values = as_levels(x)
         if not np.all(values > 0.0):
-            raise InputError("x: must be positive")
+            raise argument_error("out_of_range", "x", ": must be positive")
         flat = values.ravel()
         inside = self.hazard._covers(flat)
         found = integrand(functools.partial(probability, self.fragility), self.hazard, np.log(flat))
@@ -412,7 +421,11 @@ def risk_of(fragility: Curve, hazard: HazardCurve) -> Risk:
     """Mean annual frequency of collapse: see `Curve.risk`."""
     instance_of("hazard", hazard, HazardCurve)
     if fragility.im and fragility.im != hazard.im:
-        raise InputError(f"im = '{fragility.im}' of the fragility and '{hazard.im}' of the hazard: must be the same")
+        raise argument_error(
+            "not_together",
+            "im",
+            f" = '{fragility.im}' of the fragility and '{hazard.im}' of the hazard: must be the same",
+        )
     fragility._need_fit()
     most = fragility._end
     if _is_lognormal(fragility):
@@ -458,7 +471,9 @@ def probability(fragility: Curve, x: FloatArray) -> FloatArray:
     if falls.any():
         i = int(np.argmax(falls))
         at, now = x[order][i], p[order][i]
-        raise InputError(f"fragility = {now:g} at {at:g}, {risen[i]:g} below: must not fall with the intensity")
+        raise argument_error(
+            "out_of_range", "fragility", f" = {now:g} at {at:g}, {risen[i]:g} below: must not fall with the intensity"
+        )
     return p
 
 

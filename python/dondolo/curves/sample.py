@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array
+from dondolo._base.arguments import FloatArray, argument_error, as_array
 from dondolo._storage.saved import part_of_results
 from dondolo.errors import InputError
 from dondolo.records.record import Record
@@ -81,13 +81,15 @@ def cluster_labels(records: int, events: Sequence[str] = (), checksums: Sequence
 def given_labels(number: int, events: Sequence[Any], one: str = "record", several: str = "records") -> tuple[str, ...]:
     """Labels that a user gives, one for each record, say; none may be missing, for all that are would be one event."""
     if isinstance(events, str) or not isinstance(events, Iterable):
-        raise InputError(f"events = {events!r}: must be labels, one for each {one}")
+        raise argument_error("wrong_length", "events", f" = {events!r}: must be labels, one for each {one}")
     labels = list(events)
     if len(labels) != number:
-        raise InputError(f"events: {len(labels)} labels for {number} {several}: must be as many")
+        raise argument_error(
+            "wrong_length", "events", f": {len(labels)} labels for {number} {several}: must be as many"
+        )
     for i, label in enumerate(labels):
         if label is None or label == "" or label != label or not isinstance(label, Hashable):
-            raise InputError(f"events: label {i + 1} = {label!r}: must be a name or a number")
+            raise argument_error("not_a_string", "events", f": label {i + 1} = {label!r}: must be a name or a number")
     return tuple(f"event {label}" for label in labels)
 
 
@@ -102,9 +104,11 @@ def sample_of_outcomes(
     try:
         flags = np.asarray(outcomes, dtype=np.float64)
     except (TypeError, ValueError):
-        raise InputError("collapses: must be numbers") from None
+        raise argument_error("not_numbers", "collapses", ": must be numbers") from None
     if flags.shape[1] != len(x):
-        raise InputError(f"collapses: {flags.shape[1]} columns for {len(x)} levels: must be as many")
+        raise argument_error(
+            "wrong_length", "collapses", f": {flags.shape[1]} columns for {len(x)} levels: must be as many"
+        )
     ran = ~np.isnan(flags)
     wrong = ran & (flags != 0.0) & (flags != 1.0)
     if wrong.any():
@@ -143,11 +147,11 @@ def _told(record: Record | str) -> tuple[str, str, str]:
 def _as_records(records: Any, histories: int) -> list[Record | str]:
     """The record of each history, or its name."""
     if isinstance(records, (str, Record)) or not isinstance(records, Iterable):
-        raise InputError(f"records = {records!r}: must be one for each history")
+        raise argument_error("wrong_length", "records", f" = {records!r}: must be one for each history")
     several = list(records)
     if len(several) != histories:
-        raise InputError(f"records: {len(several)} for {histories} histories: must be as many")
+        raise argument_error("wrong_length", "records", f": {len(several)} for {histories} histories: must be as many")
     for one in several:
         if not isinstance(one, Record) and (not isinstance(one, str) or not one):
-            raise InputError(f"records: {one!r}: must be a Record or a name")
+            raise argument_error("wrong_type", "records", f": {one!r}: must be a Record or a name")
     return several

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from dondolo._base.arguments import argument_error
 from dondolo._base.files import as_file
 from dondolo._fortran.files import RUN_FILE, TABLES, published_run
 from dondolo._storage.run_file import RunFile, read_run_file
@@ -61,7 +62,9 @@ def read_results(prefix: str | os.PathLike[str]) -> Results:
             for end in (*TABLES, RUN_FILE):
                 if name.endswith(end):
                     start = prefix.removesuffix(end)
-                    raise InputError(f"prefix = {prefix!r}: must be the prefix of result files, {start!r}") from None
+                    raise argument_error(
+                        "wrong_type", "prefix", f" = {prefix!r}: must be the prefix of result files, {start!r}"
+                    ) from None
             _refuse_other(prefix)
             raise
         try:

@@ -8,8 +8,7 @@ from dataclasses import dataclass, field, replace
 from types import MappingProxyType
 from typing import Any
 
-from dondolo._base.arguments import as_number, one_of
-from dondolo.errors import InputError
+from dondolo._base.arguments import argument_error, as_number, one_of
 
 # Widths of a column of a journal, and of its page, are 88 and 180 mm; a page is not higher than this [mm].
 COLUMN = 88.0
@@ -133,7 +132,7 @@ def style(name: str = "screen", *, width: float | None = None) -> AbstractContex
     if width is not None:
         # Below 40 mm the text of 7 pt leaves no room for curves.
         if not 40.0 <= (wide := as_number("width", width)) <= 1000.0:
-            raise InputError(f"width = {wide:g}: must lie between 40 and 1000 mm")
+            raise argument_error("out_of_range", "width", f" = {wide:g}: must lie between 40 and 1000 mm")
         chosen = replace(chosen, width=wide)
     before = replace(_state)
     _put(chosen, is_journal=name == "journal")

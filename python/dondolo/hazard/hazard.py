@@ -27,6 +27,7 @@ from numpy.typing import ArrayLike
 
 from dondolo._base.arguments import (
     FloatArray,
+    argument_error,
     as_count,
     as_flag,
     as_levels,
@@ -166,7 +167,7 @@ class HazardCurve(Shown, Saved):
         """
         for what, value in (("k0", k0), ("k", k)):
             if not 0.0 < as_number(what, value) < np.inf:
-                raise InputError(f"{what} = {value:g}: must be positive")
+                raise argument_error("out_of_range", what, f" = {value:g}: must be positive")
         levels = np.array([0.5, 2.0])
         return cls(levels, k0 * levels**-k, im=im, endless=True)
 
@@ -276,7 +277,9 @@ class HazardCurve(Shown, Saved):
         """
         several = [paths] if isinstance(paths, (str, os.PathLike)) else paths
         if not isinstance(several, Iterable):
-            raise InputError(f"paths = {paths!r}: must be the path of a file, or a sequence of them")
+            raise argument_error(
+                "wrong_type", "paths", f" = {paths!r}: must be the path of a file, or a sequence of them"
+            )
         files = [os.fspath(as_file("paths", one)) for one in several]
         im, levels, mean, fractiles, notes = read_curves(files, site)
         source = [*map(described, files), *map(str, notes)]
@@ -315,7 +318,7 @@ class HazardCurve(Shown, Saved):
         """
         time = as_number("investigation_time", investigation_time)
         if not 0.0 < time < np.inf:
-            raise InputError(f"investigation_time = {time:g}: must be positive")
+            raise argument_error("out_of_range", "investigation_time", f" = {time:g}: must be positive")
         curves = {"mean": self.annual_frequency, **{f"quantile-{q:g}": h for q, h in self.fractiles.items()}}
         return write_curves(folder, self.im, self.levels, curves, site, time)
 
@@ -373,7 +376,9 @@ class HazardCurve(Shown, Saved):
         share = as_number("q", q)
         if share not in self.fractiles:
             has = ", ".join(f"{one:g}" for one in self.fractiles) or "none"
-            raise InputError(f"q = {share:g}: must be one of the fractiles of the hazard curve; there is {has}")
+            raise argument_error(
+                "not_a_word", "q", f" = {share:g}: must be one of the fractiles of the hazard curve; there is {has}"
+            )
         h = self.fractiles[share]
         exceeded = h > 0.0
         if exceeded.sum() < _FEWEST:

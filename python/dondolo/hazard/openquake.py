@@ -23,7 +23,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, as_number
+from dondolo._base.arguments import FloatArray, argument_error, as_number
 from dondolo._base.files import read_text
 from dondolo._fortran.records import describe_measure
 from dondolo._storage import tables
@@ -106,7 +106,7 @@ def read_curves(
     """
     files = [_read(path) for path in paths]
     if not files:
-        raise InputError("paths: must be at least one file")
+        raise argument_error("not_given", "paths", ": must be at least one file")
     first = files[0]
     for other in files[1:]:
         for what in ("imt", "time", "levels"):
@@ -244,7 +244,9 @@ def _row(file: _File, site: Any) -> int:
         return 0
     if isinstance(site, (int, np.integer)) and not isinstance(site, bool):
         if not 0 <= site < count:
-            raise InputError(f"site = {site}: must be between 0 and {count - 1}, the sites of {file.path}")
+            raise argument_error(
+                "out_of_range", "site", f" = {site}: must be between 0 and {count - 1}, the sites of {file.path}"
+            )
         return int(site)
     longitude, latitude = _coordinates(site)
     # Degrees of longitude are the shorter ones away from the equator, and go round

@@ -12,12 +12,12 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dondolo._base.arguments import FloatArray, as_count
+from dondolo._base.arguments import FloatArray, argument_error, as_count
 from dondolo._base.interrupts import Interrupts
 from dondolo._fortran import _core
 from dondolo._fortran.library import Stoppable, available_threads, receive
 from dondolo.analysis.request import Request, progress_bar
-from dondolo.errors import DondoloError, InputError
+from dondolo.errors import DondoloError
 from dondolo.populations.store import Contents, Store
 from dondolo.walls.wall import Wall
 from dondolo.walls.wall import upload as upload_walls
@@ -205,6 +205,8 @@ def _check(executor: Executor | None, block: int | None) -> None:
     from concurrent.futures import Executor
 
     if executor is not None and not isinstance(executor, Executor):
-        raise InputError(f"executor: must be an executor of concurrent.futures, not {type(executor).__name__}")
+        raise argument_error(
+            "wrong_type", "executor", f": must be an executor of concurrent.futures, not {type(executor).__name__}"
+        )
     if block is not None:
         as_count("block", block, 1)

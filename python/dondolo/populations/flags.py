@@ -10,11 +10,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dondolo._base.arguments import FloatArray, as_array
+from dondolo._base.arguments import FloatArray, argument_error, as_array
 from dondolo._fortran.populations import FlatFlags
 from dondolo._storage.saved import part_of_results
 from dondolo.curves.sample import cluster_labels
-from dondolo.errors import InputError
 
 Bits = NDArray[np.uint8]
 
@@ -173,11 +172,13 @@ def states_of(edp_thresholds: ArrayLike | None, edp_limit: float) -> FloatArray:
     given = np.empty(0) if edp_thresholds is None else as_array("edp_thresholds", edp_thresholds)
     for one, other in zip(np.append(0.0, given), given, strict=False):
         if not other > 0.0:
-            raise InputError(f"edp_thresholds = {other:g}: must be positive")
+            raise argument_error("out_of_range", "edp_thresholds", f" = {other:g}: must be positive")
         if not other > one:
-            raise InputError(f"edp_thresholds = {other:g}: must increase")
+            raise argument_error("not_increasing", "edp_thresholds", f" = {other:g}: must increase")
         if not other <= edp_limit:
-            raise InputError(f"edp_thresholds = {other:g}: must be at most edp_limit = {edp_limit:g}")
+            raise argument_error(
+                "out_of_range", "edp_thresholds", f" = {other:g}: must be at most edp_limit = {edp_limit:g}"
+            )
     states = np.append(given[given < edp_limit], edp_limit)
     states.flags.writeable = False
     return states

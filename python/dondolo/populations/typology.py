@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dondolo._base.arguments import as_number, one_of
+from dondolo._base.arguments import argument_error, as_number, one_of
 from dondolo._base.shown import Shown, shown_dispersion
 from dondolo._fortran.curves import warnings_of_union
 from dondolo._fortran.library import warn
@@ -160,7 +160,7 @@ class Typology(RowCurves, Shown, Saved):
         place = np.flatnonzero(self.edp_thresholds == value)
         if len(place) == 0:
             known = ", ".join(f"{one:g}" for one in self.edp_thresholds)
-            raise InputError(f"edp_threshold = {value}: must be one of {known}")
+            raise argument_error("not_a_word", "edp_threshold", f" = {value}: must be one of {known}")
         if len(self.edp_thresholds) == 1:
             return self
         if value not in self._states:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
+from dondolo._base.arguments import argument_error
 from dondolo._fortran.library import constants
 from dondolo._fortran.records import unit_of
 from dondolo._fortran.tables import TableColumns, stripe_columns, typology_columns
@@ -16,7 +17,6 @@ from dondolo._storage import tables
 from dondolo._storage.result_set import write_set
 from dondolo._storage.run_file import RunFile, sources_of_fits
 from dondolo.curves.table import flat, fragility_table
-from dondolo.errors import InputError
 from dondolo.walls.ties import tie_table
 
 if TYPE_CHECKING:
@@ -82,7 +82,11 @@ def write_typology(
     """Write all tables and some more, with the settings and the confidence of these."""
     pulls = {wall.gravity for wall in typology.walls}
     if len(pulls) > 1:
-        raise InputError(f"gravity = {min(pulls):g} and {max(pulls):g}: must be the same for all walls that are saved")
+        raise argument_error(
+            "not_together",
+            "gravity",
+            f" = {min(pulls):g} and {max(pulls):g}: must be the same for all walls that are saved",
+        )
     found = {f"_{name}.csv": table() for name, table in tables_of(typology).items()} | dict(more or {})
     run = _run_file(typology, pulls.pop())
     run = dataclasses.replace(run, settings={**run.settings, **(settings or {})}, confidence=confidence)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_count, instance_of
+from dondolo._base.arguments import FloatArray, argument_error, as_count, instance_of
 from dondolo._fortran.buildings import BUILDING_NAMES, BUILDING_PROPERTIES
 from dondolo._fortran.library import warn
 from dondolo._fortran.records import blank_unit
@@ -353,7 +353,9 @@ def uncertain_wall(
 def _distributions(wall: Wall, sources: Any) -> dict[str, Distribution]:
     """The distribution of each source."""
     if not isinstance(sources, Mapping) or not sources:
-        raise InputError("sources: must be a mapping of properties of the wall to distributions, at least one")
+        raise argument_error(
+            "wrong_type", "sources", ": must be a mapping of properties of the wall to distributions, at least one"
+        )
     own = [
         what
         for what in WALL_NUMBERS
@@ -364,7 +366,7 @@ def _distributions(wall: Wall, sources: Any) -> dict[str, Distribution]:
     found: dict[str, Distribution] = {}
     for what, given in sources.items():
         if what not in own:
-            raise InputError(f"sources: {what!r}: must be one of {', '.join(own)}")
+            raise argument_error("not_a_word", "sources", f": {what!r}: must be one of {', '.join(own)}")
         if isinstance(given, str):
             published = published_factors()
             if what != "restitution_factor" or given not in published:

@@ -19,7 +19,7 @@ from typing import Any, Literal, get_args
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import as_array, as_number, increasing, one_of
+from dondolo._base.arguments import argument_error, as_array, as_number, increasing, one_of
 from dondolo._base.shown import Shown
 from dondolo._fortran.checks import (
     NO_MODES,
@@ -175,7 +175,9 @@ class Site(Shown):
             own = building._understood
             modes = Modes(*map(np.atleast_1d, (building.period, own.damping, own.participation)))
             if not modes.damping.all():
-                raise InputError("damping = 0: must be positive for the spectrum of a floor of the code")
+                raise argument_error(
+                    "out_of_range", "damping", " = 0: must be positive for the spectrum of a floor of the code"
+                )
         return _spectrum(self._parameters(limit_state), damping, periods, modes)
 
     def _parameters(self, limit_state: str) -> CodeParameters:
@@ -207,7 +209,7 @@ def ec8_spectrum(
     """The spectrum of Eurocode 8: see `TargetSpectrum.ec8`."""
     a = as_number("ag", ag)
     if not 0.0 < a < np.inf:
-        raise InputError(f"ag = {a:g}: must be positive")
+        raise argument_error("out_of_range", "ag", f" = {a:g}: must be positive")
     one_of("soil", soil, get_args(Soil))
     if kind not in tuple(_EC8_SOILS):
         raise InputError(f"kind = {kind!r}: must be 1 or 2")
@@ -221,6 +223,6 @@ def _spectrum(
     """Spectrum of the form that both codes have, or of a floor above it."""
     ratio = as_number("damping", damping)
     if not 0.0 < ratio < 1.0:
-        raise InputError(f"damping = {ratio:g}: must lie between 0 and 1")
+        raise argument_error("out_of_range", "damping", f" = {ratio:g}: must lie between 0 and 1")
     t = increasing("periods", _PERIODS if periods is None else periods)
     return TargetSpectrum(t, code_spectrum(parameters, ratio, modes, t), damping=ratio)

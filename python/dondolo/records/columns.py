@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dondolo._base.arguments import FloatArray, as_array, as_number
+from dondolo._base.arguments import FloatArray, argument_error, as_array, as_number
 from dondolo.errors import InputError
 from dondolo.records.suite import intensities
 
@@ -69,10 +69,10 @@ def checked_column(name: str, given: ArrayLike, length: int) -> FloatArray:
     """Positive numbers, one for each row; NaN where there is none."""
     values = np.full(length, as_number(name, given)) if np.ndim(given) == 0 else as_array(name, given).copy()
     if len(values) != length:
-        raise InputError(f"{name}: {len(values)} values for {length} records: must be as many")
+        raise argument_error("wrong_length", name, f": {len(values)} values for {length} records: must be as many")
     wrong = ~(np.isnan(values) | ((values > 0.0) & (values < np.inf)))
     if wrong.any():
-        raise InputError(f"{name} = {values[wrong][0]:g}: must be positive")
+        raise argument_error("out_of_range", name, f" = {values[wrong][0]:g}: must be positive")
     values.flags.writeable = False
     return values
 

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from dondolo._base.arguments import argument_error
 from dondolo.errors import InputError
 
 _COMPARISONS: dict[type, Callable[..., Any]] = {
@@ -55,7 +56,7 @@ def evaluate(expression: str, column: Callable[[str], NDArray[Any]], length: int
         What cannot be read, or is no condition.
     """
     if not isinstance(expression, str) or not expression.strip():
-        raise InputError(f"expression = {expression!r}: must be a condition, such as 'pga > 0.1'")
+        raise argument_error("wrong_type", "expression", f" = {expression!r}: must be a condition, such as 'pga > 0.1'")
     quoted: list[str] = []
 
     def name_of(found: re.Match[str]) -> str:

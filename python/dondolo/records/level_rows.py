@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dondolo._base.arguments import FloatArray, as_array, wrong_type
+from dondolo._base.arguments import FloatArray, argument_error, as_array, wrong_type
 from dondolo.errors import InputError
 from dondolo.records.columns import factors_of
 from dondolo.records.record import Record, as_records
@@ -56,12 +56,14 @@ def records_at_levels(
         records = RecordSet.of_levels(records)
     if not isinstance(records, RecordSet) or (records.level is None and records.factor is None):
         if levels is None:
-            raise InputError("levels: must be given")
+            raise argument_error("not_given", "levels", ": must be given")
         return as_records(records), _as_levels(levels), None
     if records.level is None:
-        raise InputError(
-            "records: have factors and no levels: must be given as {level: records}, or without factors (the attribute"
-            " records of the set)"
+        raise argument_error(
+            "not_together",
+            "records",
+            ": have factors and no levels: must be given as {level: records}, or without factors (the attribute"
+            " records of the set)",
         )
     each = tuple(dict.fromkeys(records.records))
     place = {id(record): i + 1 for i, record in enumerate(each)}
@@ -70,7 +72,7 @@ def records_at_levels(
     if levels is None:
         levels = np.unique(level[level > 0.0])
         if not len(levels):
-            raise InputError("levels: must be given")
+            raise argument_error("not_given", "levels", ": must be given")
     number = np.array([place[id(record)] for record in records.records], dtype=np.int32)
     return each, _as_levels(levels), LevelRows(number, level, factor)
 

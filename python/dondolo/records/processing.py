@@ -9,7 +9,7 @@ from typing import Literal, get_args
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, as_count, as_flag, as_number, one_of
+from dondolo._base.arguments import FloatArray, argument_error, as_count, as_flag, as_number, one_of
 from dondolo.errors import InputError
 from dondolo.records.suite import Motion, significant_times, velocity
 
@@ -30,7 +30,7 @@ def correct_baseline(record: Motion, kind: Baseline, order: int | None) -> tuple
     values, count = record.acceleration, len(record)
     one_of("kind", kind, get_args(Baseline))
     if kind != "velocity" and order is not None:
-        raise InputError(f"order = {order!r}: only with kind 'velocity'")
+        raise argument_error("not_together", "order", f" = {order!r}: only with kind 'velocity'")
     if kind == "constant":
         return values - values.mean(), "baseline: mean taken off"
     if kind == "linear":
@@ -40,7 +40,7 @@ def correct_baseline(record: Motion, kind: Baseline, order: int | None) -> tuple
         return values - values.mean() - slope * x, line
     degree = as_count("order", 2 if order is None else order, 1, 8)
     if count <= degree:
-        raise InputError(f"order = {degree}: must be less than the number of samples, {count}")
+        raise argument_error("out_of_range", "order", f" = {degree}: must be less than the number of samples, {count}")
     powers = np.arange(1, degree + 1)
     x = np.linspace(0.0, 1.0, count)[:, None]
     factors = np.linalg.lstsq(x**powers, velocity(record), rcond=None)[0]
@@ -61,11 +61,13 @@ def band_pass(
         raise InputError("low, high: one of them must be given")
     for what, value in (("low", low), ("high", high)):
         if value is not None and not 0.0 < value < nyquist:
-            raise InputError(
-                f"{what} = {value:g} Hz: must be positive and below {nyquist:g} Hz, Nyquist's frequency of this record"
+            raise argument_error(
+                "out_of_range",
+                what,
+                f" = {value:g} Hz: must be positive and below {nyquist:g} Hz, Nyquist's frequency of this record",
             )
     if corners[0] >= corners[-1] and len(corners) == 2:
-        raise InputError(f"low = {corners[0]:g}, high = {corners[1]:g} Hz: must increase")
+        raise argument_error("not_increasing", "low", f" = {corners[0]:g}, high = {corners[1]:g} Hz: must increase")
     if corners[0] * record.duration < _SHORTEST:
         raise InputError(
             f"{'low' if low is not None else 'high'} = {corners[0]:g} Hz: its period must not exceed ten times the "
@@ -75,7 +77,7 @@ def band_pass(
     degree = as_count("order", order, 1, 10)
     part = as_number("taper", taper)
     if not 0.0 <= part <= 0.5:
-        raise InputError(f"taper = {taper:g}: must lie between 0 and 0.5")
+        raise argument_error("out_of_range", "taper", f" = {taper:g}: must lie between 0 and 0.5")
     kind = "low" if low is None else "high" if high is None else "band"
     sections = signal.butter(degree, np.squeeze(corners), kind, fs=1.0 / record.dt, output="sos")
     pad = int(np.ceil(1.5 * degree / corners[0] / record.dt))
@@ -97,14 +99,18 @@ def resample(record: Motion, dt: float) -> tuple[FloatArray, str, float]:
     """Give a record another time step."""
     values, step = record.acceleration, as_number("dt", dt)
     if not 0.0 < step < np.inf:
-        raise InputError(f"dt = {dt:g} s: must be positive")
+        raise argument_error("out_of_range", "dt", f" = {dt:g} s: must be positive")
     if record.duration < step:
-        raise InputError(f"dt = {step:g} s: must not exceed the duration of the record, {record.duration:g} s")
+        raise argument_error(
+            "out_of_range", "dt", f" = {step:g} s: must not exceed the duration of the record, {record.duration:g} s"
+        )
     ratio = record.dt / step
     if ratio > _LARGEST_FACTOR * (1.0 + SAME_STEP) or (len(values) - 1) * ratio >= _MOST_SAMPLES:
-        raise InputError(
-            f"dt = {step:g} s: must not be less than a thousandth of the record's {record.dt:g} s, nor make more than "
-            f"{_MOST_SAMPLES} samples"
+        raise argument_error(
+            "out_of_range",
+            "dt",
+            f" = {step:g} s: must not be less than a thousandth of the record's {record.dt:g} s, nor make more than "
+            f"{_MOST_SAMPLES} samples",
         )
     parts = round(ratio)
     if parts >= 1 and abs(ratio - parts) <= SAME_STEP * ratio:
@@ -119,9 +125,11 @@ def resample(record: Motion, dt: float) -> tuple[FloatArray, str, float]:
     part = Fraction(ratio).limit_denominator(_LARGEST_FACTOR)
     up, down = part.numerator, part.denominator
     if not 0 < up <= _LARGEST_FACTOR or abs(ratio - up / down) > SAME_STEP * ratio:
-        raise InputError(
-            f"dt = {step:g} s: its ratio to the record's {record.dt:g} s must be a ratio of integers up to "
-            f"{_LARGEST_FACTOR}"
+        raise argument_error(
+            "out_of_range",
+            "dt",
+            f" = {step:g} s: its ratio to the record's {record.dt:g} s must be a ratio of integers up to "
+            f"{_LARGEST_FACTOR}",
         )
     filtered = signal.resample_poly(values, up, down, padtype="line")
     inside = (len(values) - 1) * up // down + 1
@@ -136,7 +144,7 @@ def trim(record: Motion, low: float, high: float, before: float, after: float) -
     )
     for what, margin in (("before", before), ("after", after)):
         if not 0.0 <= margin < np.inf:
-            raise InputError(f"{what} = {margin:g} s: must not be negative")
+            raise argument_error("out_of_range", what, f" = {margin:g} s: must not be negative")
     first, last = significant_times(record, low, high)
     start = max(0, int(np.floor((first - before) / record.dt)))
     stop = min(len(record) - 1, int(np.ceil((last + after) / record.dt)))

@@ -9,9 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from dondolo._base.arguments import as_number
+from dondolo._base.arguments import argument_error, as_number
 from dondolo._fortran.library import constants
-from dondolo.errors import InputError
 from dondolo.records.record import Record
 
 __all__ = ["mavroeidis_papageorgiou", "one_cosine", "one_sine", "ricker"]
@@ -157,9 +156,9 @@ def mavroeidis_papageorgiou(
     velocity, frequency, error = _numbers(velocity=velocity, frequency=frequency, error=error)
     nu, gamma = np.radians(as_number("phase", phase)), as_number("gamma", gamma)
     if not np.isfinite(nu):
-        raise InputError(f"phase = {phase}: must be a number")
+        raise argument_error("not_a_number", "phase", f" = {phase}: must be a number")
     if not 1.0 < gamma <= 100.0:
-        raise InputError(f"gamma = {gamma:g}: must be greater than 1 and at most 100")
+        raise argument_error("out_of_range", "gamma", f" = {gamma:g}: must be greater than 1 and at most 100")
     count = int(np.ceil(np.pi * gamma / np.sqrt(8.0 * error / (1.0 + 1.5 / gamma**2))))
     angle = np.pi * gamma * np.arange(-count, count + 1) / count
     slow = angle / gamma
@@ -194,7 +193,9 @@ def _numbers(**values: Any) -> tuple[float, ...]:
     numbers = {what: as_number(what, value) for what, value in values.items()}
     for what, value in numbers.items():
         if not 0.0 < value < np.inf:
-            raise InputError(f"{what} = {value:g}: must be positive")
+            raise argument_error("out_of_range", what, f" = {value:g}: must be positive")
     if not _SMALLEST_ERROR <= numbers["error"] <= 0.1:
-        raise InputError(f"error = {numbers['error']:g}: must lie between {_SMALLEST_ERROR:g} and 0.1")
+        raise argument_error(
+            "out_of_range", "error", f" = {numbers['error']:g}: must lie between {_SMALLEST_ERROR:g} and 0.1"
+        )
     return tuple(numbers.values())

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_number, instance_of, one_of, wrong_type
+from dondolo._base.arguments import FloatArray, argument_error, as_number, instance_of, one_of, wrong_type
 from dondolo._fortran import _core
 from dondolo._fortran.buildings import floor_motion
 from dondolo._fortran.library import receive
@@ -471,7 +471,7 @@ def as_records(records: Record | Iterable[Record]) -> tuple[Record, ...]:
         raise wrong_type("records", records, "a Record or several", hint)
     several = tuple(records)
     if not several:
-        raise InputError("records: must be given")
+        raise argument_error("not_given", "records", ": must be given")
     if set(map(type, several)) != {Record}:
         for record in several:
             instance_of("records", record, Record)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, overload
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dondolo._base.arguments import FloatArray, as_flag, as_measures, as_number
+from dondolo._base.arguments import FloatArray, argument_error, as_flag, as_measures, as_number
 from dondolo._base.shown import Shown
 from dondolo._fortran.library import constants
 from dondolo._fortran.records import describe_measure
@@ -138,7 +138,9 @@ class RecordSet(Shown, Saved):
         [0.4, 0.4, 0.8, 0.8, 0.8]
         """
         if not isinstance(sets, Mapping) or not sets:
-            raise InputError("records: must be a mapping of levels to records, at least one level")
+            raise argument_error(
+                "wrong_type", "records", ": must be a mapping of levels to records, at least one level"
+            )
         parts = []
         levels = sorted(sets, key=lambda one: as_number("levels", one))
         for one, other in pairwise(levels):

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, as_count, as_number
+from dondolo._base.arguments import FloatArray, argument_error, as_count, as_number
 from dondolo._fortran.records import describe_measure
 from dondolo.errors import InputError
 from dondolo.records.processing import SAME_STEP
@@ -52,7 +52,7 @@ def rotated(first: Record, second: Record, angle: float) -> dict[str, Any]:
     _check_components(first, second)
     direction = as_number("angle", angle)
     if not np.isfinite(direction):
-        raise InputError(f"angle = {direction}: must be a number")
+        raise argument_error("not_a_number", "angle", f" = {direction}: must be a number")
     steps = first.processing
     if steps != second.processing:
         steps = tuple(f"{part.name}: {step}" for part in (first, second) for step in part.processing)
@@ -77,14 +77,16 @@ def over_directions(first: Record, second: Record, measure: str | Callable[[Reco
     if isinstance(measure, str):
         im = describe_measure(measure, of_record=True).name
     elif not callable(measure):
-        raise InputError(f"measure = {measure!r}: must be the name of a measure or a function of a record")
+        raise argument_error(
+            "wrong_type", "measure", f" = {measure!r}: must be the name of a measure or a function of a record"
+        )
     directions = 180.0 * np.arange(count) / count
     values = np.empty(count)
     for i, direction in enumerate(directions):
         record = first.rotate(second, direction)
         values[i] = as_number("measure", record.intensity(im) if isinstance(measure, str) else measure(record))
     if np.isnan(values).any():
-        raise InputError("measure: must be a number in every direction")
+        raise argument_error("not_a_number", "measure", ": must be a number in every direction")
     largest = int(values.argmax())
     return RotD(float(np.median(values)), float(values[largest]), float(directions[largest]), directions, values)
 

@@ -24,7 +24,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dondolo._base.arguments import FloatArray, as_count, as_generator, as_number, instance_of
+from dondolo._base.arguments import FloatArray, argument_error, as_count, as_generator, as_number, instance_of
 from dondolo._base.shown import Shown
 from dondolo._storage.saved import Saved
 from dondolo.errors import InputError
@@ -143,9 +143,9 @@ def select_records(
         weight = 1.0 if target.covariance.any() else 0.1
     largest, share = as_number("max_factor", max_factor), as_number("weight", weight)
     if not 1.0 <= largest < np.inf:
-        raise InputError(f"max_factor = {largest:g}: must be at least 1")
+        raise argument_error("out_of_range", "max_factor", f" = {largest:g}: must be at least 1")
     if not 0.0 <= share < np.inf:
-        raise InputError(f"weight = {share:g}: must not be negative")
+        raise argument_error("out_of_range", "weight", f" = {share:g}: must not be negative")
     generator = as_generator(seed)
     check_motions(several)
     sa = RecordSet(several).spectra(target.periods, damping=target.damping)

@@ -9,7 +9,7 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, as_number
+from dondolo._base.arguments import FloatArray, argument_error, as_number
 from dondolo._fortran import _core
 from dondolo._fortran.handles import Handle
 from dondolo._fortran.library import as_text, check, constants, receive
@@ -185,7 +185,7 @@ def intensities(records: tuple[Motion, ...], im: str, gravity: float | None = No
     """An intensity measure of several records, in the unit of its levels."""
     pull = constants().gravity if gravity is None else as_number("gravity", gravity)
     if not 0.0 < pull < np.inf:
-        raise InputError(f"gravity = {pull:g}: must be positive")
+        raise argument_error("out_of_range", "gravity", f" = {pull:g}: must be positive")
     suite = upload(records)
     values, failure = _core.records.intensities(suite.number, as_text("im", im), len(records), pull, 0)
     check(failure)
@@ -238,7 +238,7 @@ def significant_times(record: Motion, low: float, high: float) -> tuple[float, f
     """Times at which Arias' integral reaches two parts of its end value [s]; 0 and 1: where motion begins and ends."""
     low, high = as_number("low", low), as_number("high", high)
     if not 0.0 <= low < high <= 1.0:
-        raise InputError(f"low = {low:g}, high = {high:g}: must increase, between 0 and 1")
+        raise argument_error("not_increasing", "low", f" = {low:g}, high = {high:g}: must increase, between 0 and 1")
     suite, place = place_of(record)
     (first, last), failure = _core.records.significant_times(suite.number, place, low, high)
     check(failure)

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_array, as_number, increasing
+from dondolo._base.arguments import FloatArray, argument_error, as_array, as_number, increasing
 from dondolo._base.shown import Shown
 from dondolo._storage.saved import Saved
 from dondolo.errors import InputError
@@ -79,9 +79,11 @@ class TargetSpectrum(Shown, Saved):
     ) -> None:
         several, median = increasing("periods", periods), as_array("sa", sa).copy()
         if len(median) != len(several):
-            raise InputError(f"sa: {len(median)} ordinates for {len(several)} periods: must be as many")
+            raise argument_error(
+                "wrong_length", "sa", f": {len(median)} ordinates for {len(several)} periods: must be as many"
+            )
         if not np.all((median > 0.0) & (median < np.inf)):
-            raise InputError("sa: must be positive")
+            raise argument_error("out_of_range", "sa", ": must be positive")
         if dispersion is None or np.ndim(dispersion) == 0:
             given = 0.0 if dispersion is None else as_number("dispersion", dispersion)
             spread = np.full(len(several), given)
@@ -90,13 +92,15 @@ class TargetSpectrum(Shown, Saved):
         if spread.shape != several.shape or not np.all((spread >= 0.0) & (spread < np.inf)):
             raise InputError("dispersion: must be one number, or one for each period, not negative")
         if spread.any() and not 0.01 <= several[0] < several[-1] <= 10.0:
-            raise InputError(
-                "periods: must lie between 0.01 and 10 s for the correlations of a target with a dispersion"
+            raise argument_error(
+                "out_of_range",
+                "periods",
+                ": must lie between 0.01 and 10 s for the correlations of a target with a dispersion",
             )
         covariance = correlation(several, several) * np.outer(spread, spread)
         ratio = as_number("damping", damping)
         if not 0.0 <= ratio < 1.0:
-            raise InputError(f"damping = {ratio:g}: must be at least 0 and below 1")
+            raise argument_error("out_of_range", "damping", f" = {ratio:g}: must be at least 0 and below 1")
         self._set(several, median, ratio, covariance, None)
 
     def _set(
@@ -184,11 +188,17 @@ class TargetSpectrum(Shown, Saved):
         """
         at, value = as_number("period", period), as_number("sa", sa)
         if not self.periods[0] <= at <= self.periods[-1]:
-            raise InputError(f"period = {at:g}: must lie between {self.periods[0]:g} and {self.periods[-1]:g} s")
+            raise argument_error(
+                "out_of_range", "period", f" = {at:g}: must lie between {self.periods[0]:g} and {self.periods[-1]:g} s"
+            )
         if not 0.0 < value < np.inf:
-            raise InputError(f"sa = {value:g}: must be positive")
+            raise argument_error("out_of_range", "sa", f" = {value:g}: must be positive")
         if not np.all(self.dispersion > 0.0) or self.anchor is not None:
-            raise InputError("target: must be a spectrum with a dispersion at all periods, not conditional itself")
+            raise argument_error(
+                "not_together",
+                "target",
+                ": must be a spectrum with a dispersion at all periods, not conditional itself",
+            )
         periods = np.union1d(self.periods, at)
         x = np.log(periods)
         mean = np.interp(x, np.log(self.periods), np.log(self.sa))

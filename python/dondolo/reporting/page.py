@@ -9,7 +9,7 @@ from datetime import datetime
 from importlib import resources
 from typing import TYPE_CHECKING, Any
 
-from dondolo._base.arguments import instance_of
+from dondolo._base.arguments import argument_error, instance_of
 from dondolo._base.files import as_file
 from dondolo._base.wording import say
 from dondolo._fortran.library import as_text, constants
@@ -128,7 +128,7 @@ def _page(
     if hazard is not None:
         instance_of("hazard", hazard, HazardCurve)
     if hazard is not None and isinstance(run.results, Response):
-        raise InputError("hazard: must be left out for a single motion, which has no fragility")
+        raise argument_error("not_together", "hazard", ": must be left out for a single motion, which has no fragility")
     if hazard is not None and hazard.rigid_ground:
         _check_ground(run)
     # Choose the backend first: that may turn interactive mode on, and ioff restores the mode it finds.

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 
 from numpy.typing import ArrayLike
 
+from dondolo._base.arguments import argument_error
 from dondolo._base.wording import say
 from dondolo._fortran.histories import warnings_of_scales
 from dondolo._storage.run_file import RunFile
@@ -17,7 +18,7 @@ from dondolo.analysis.stripe_fits import States
 from dondolo.analysis.stripes import Stripes
 from dondolo.checks.ntc import CodeCheck
 from dondolo.curves.fragility import Fragility
-from dondolo.errors import DondoloWarning, InputError
+from dondolo.errors import DondoloWarning
 from dondolo.exchange.results import Results
 from dondolo.populations.typology import Typology
 from dondolo.populations.uncertain_wall import UncertainWall
@@ -140,7 +141,9 @@ def run_of(results: Any) -> Run:
     if isinstance(results, Response):
         title = say("{wall} in {record}", wall=results.wall.name, record=results.record.name)
         return Run(results, Population((results.wall,)), title, records=(results.record,))
-    raise InputError(f"results: must be results of an analysis, such as Stripes, not {type(results).__name__}")
+    raise argument_error(
+        "wrong_type", "results", f": must be results of an analysis, such as Stripes, not {type(results).__name__}"
+    )
 
 
 def _of_results(results: Results) -> Run:

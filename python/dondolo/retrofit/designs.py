@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_number, instance_of, tails
+from dondolo._base.arguments import FloatArray, argument_error, as_number, instance_of, tails
 from dondolo._fortran.checks import check_columns
 from dondolo._fortran.records import blank_unit
 from dondolo._fortran.tables import Safety, TableColumns, design_columns, plain
@@ -274,7 +274,7 @@ def compare_designs(
     True
     """
     if not isinstance(designs, Mapping) or not designs:
-        raise InputError("designs: must be a mapping of names to walls, at least one")
+        raise argument_error("wrong_type", "designs", ": must be a mapping of names to walls, at least one")
     names = tuple(str(name) for name in designs)
     walls = [instance_of(f"designs[{name!r}]", wall, Wall) for name, wall in designs.items()]
     several = lasting(records)
@@ -329,10 +329,10 @@ def _known(designs: Mapping[str, Wall], given: object, what: str) -> Iterable[st
     if isinstance(given, Mapping):
         for name in designs:
             if name not in given:
-                raise InputError(f"{what}: none for the design {name!r}")
+                raise argument_error("unknown_name", what, f": none for the design {name!r}")
         for name in given:
             if name not in designs:
-                raise InputError(f"{what}: {name!r} is not a design")
+                raise argument_error("unknown_name", what, f": {name!r} is not a design")
     return designs
 
 
@@ -341,7 +341,7 @@ def _masses(designs: Mapping[str, Wall], steel: Mapping[str, float] | None) -> F
     given = steel or {}
     for name in given:
         if name not in designs:
-            raise InputError(f"steel: {name!r} is not a design")
+            raise argument_error("unknown_name", "steel", f": {name!r} is not a design")
     masses = np.array([as_number(f"steel[{name!r}]", given.get(name, _steel(wall))) for name, wall in designs.items()])
     for name, mass in zip(designs, masses, strict=True):
         if name in given and not 0.0 <= mass < np.inf:

@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 
 import dondolo as dd
-from dondolo._base.arguments import as_number
+from dondolo._base.arguments import argument_error, as_number
 from dondolo._fortran.library import properties
 from dondolo.analysis.stripes import Stripes
 from dondolo.checks.ntc import CodeCheck
@@ -136,7 +136,7 @@ class Bench:
             if not (isinstance(place, int) and 0 <= place < len(self.records)):
                 raise InputError(f"record = {place!r}: must be a number from 0 to {len(self.records) - 1}")
             if not 0.0 < pga <= 10.0:
-                raise InputError(f"PGA = {pga:g} g: must lie between 0 and 10")
+                raise argument_error("out_of_range", "PGA", f" = {pga:g} g: must lie between 0 and 10")
             case, record = (
                 dd.results.Case.from_text(self.text(groups_of(asked.get("settings"))), self.records),
                 self.records[place],
@@ -345,7 +345,7 @@ def _once(found: tuple[DondoloWarning, ...]) -> list[DondoloWarning]:
 def groups_of(given: Any) -> dict[str, dict[str, Any]]:
     """Groups as a page sends them, checked to be groups of values; what they say is checked by the library."""
     if not isinstance(given, dict) or not set(given) <= set(_GROUPS):
-        raise InputError("settings: must be the groups of a case")
+        raise argument_error("wrong_type", "settings", ": must be the groups of a case")
     for group in given.values():
         if not isinstance(group, dict) or not all(map(_is_value, group.values())):
             raise InputError("settings: must be groups of values")

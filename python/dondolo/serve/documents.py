@@ -9,6 +9,7 @@ import tempfile
 from importlib.util import find_spec
 from pathlib import Path
 
+from dondolo._base.arguments import argument_error
 from dondolo._fortran.files import whole_file
 from dondolo.errors import DondoloError, InputError, Problem
 
@@ -51,7 +52,7 @@ def make_document(text: str, kind: str, lang: str) -> bytes:
         The case cannot be run, or its document not be written, with the sentence of the library.
     """
     if kind not in DOCUMENTS or lang not in ("en", "it"):
-        raise InputError(f"kind = {kind!r}: must be one of {', '.join(DOCUMENTS)}")
+        raise argument_error("not_a_word", "kind", f" = {kind!r}: must be one of {', '.join(DOCUMENTS)}")
     with tempfile.TemporaryDirectory(prefix="dondolo-") as folder:
         case, made = (
             Path(folder) / "case.nml",

@@ -9,7 +9,7 @@ from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, as_array, as_number
+from dondolo._base.arguments import FloatArray, argument_error, as_array, as_number
 from dondolo._fortran.library import constants
 from dondolo.errors import InputError
 
@@ -102,7 +102,9 @@ class Triangular:
         _check_numbers(self)
         _check_ends(self.low, self.high)
         if not self.low <= self.mode <= self.high:
-            raise InputError(f"mode = {self.mode:g}: must lie between {self.low:g} and {self.high:g}")
+            raise argument_error(
+                "out_of_range", "mode", f" = {self.mode:g}: must lie between {self.low:g} and {self.high:g}"
+            )
 
     def ppf(self, q: FloatArray, /) -> FloatArray:
         """Values that are exceeded with probability 1 - q, see `Distribution`."""
@@ -157,7 +159,7 @@ class Normal(_CutOff):
     def __post_init__(self) -> None:
         _check_numbers(self)
         if not self.sd > 0.0:
-            raise InputError(f"sd = {self.sd:g}: must be positive")
+            raise argument_error("out_of_range", "sd", f" = {self.sd:g}: must be positive")
         _check_ends(self.low, self.high)
         _check_share(*self._ends())
 
@@ -208,7 +210,7 @@ class Lognormal(_CutOff):
         for what in ("theta", "beta", "low", "high"):
             value = getattr(self, what)
             if value is not None and not value > 0.0:
-                raise InputError(f"{what} = {value:g}: must be positive")
+                raise argument_error("out_of_range", what, f" = {value:g}: must be positive")
         _check_ends(self.low, self.high)
         _check_share(*self._ends())
 
@@ -256,9 +258,11 @@ class Choice:
         if len(shares) != len(values):
             raise InputError(f"{len(values)} values, {len(shares)} probabilities: must be as many")
         if not (np.diff(values) > 0.0).all():
-            raise InputError("values: must rise from one to the next")
+            raise argument_error("not_increasing", "values", ": must rise from one to the next")
         if not ((shares >= 0.0).all() and abs(shares.sum() - 1.0) < 1e-9):
-            raise InputError(f"probabilities: must not be negative and have the sum 1, not {shares.sum():.6g}")
+            raise argument_error(
+                "out_of_range", "probabilities", f": must not be negative and have the sum 1, not {shares.sum():.6g}"
+            )
         object.__setattr__(self, "values", tuple(values.tolist()))
         object.__setattr__(self, "probabilities", tuple(shares.tolist()))
 
@@ -294,14 +298,14 @@ def _check_numbers(distribution: Any) -> None:
             continue
         number = as_number(field.name, value)
         if not math.isfinite(number):
-            raise InputError(f"{field.name} = {number}: must be finite")
+            raise argument_error("out_of_range", field.name, f" = {number}: must be finite")
         object.__setattr__(distribution, field.name, number)
 
 
 def _check_ends(low: float | None, high: float | None) -> None:
     """The ends of a distribution must leave something between them."""
     if low is not None and high is not None and not low < high:
-        raise InputError(f"high = {high:g}: must be greater than low = {low:g}")
+        raise argument_error("out_of_range", "high", f" = {high:g}: must be greater than low = {low:g}")
 
 
 def no_distribution(what: str, given: Any) -> InputError:

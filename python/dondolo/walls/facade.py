@@ -7,8 +7,7 @@ from typing import Literal
 
 import numpy as np
 
-from dondolo._base.arguments import as_array, instance_of
-from dondolo.errors import InputError
+from dondolo._base.arguments import argument_error, as_array, instance_of
 from dondolo.walls.mechanisms import OneSidedWall, wall_from
 from dondolo.walls.population import Population
 from dondolo.walls.wall import described
@@ -19,16 +18,16 @@ def facade(wall: OneSidedWall, *, hinge_level: Sequence[float] | Literal["storey
     instance_of("wall", wall, OneSidedWall)
     if isinstance(hinge_level, str):
         if hinge_level != "storeys":
-            raise InputError(f"hinge_level = {hinge_level!r}: must be heights or 'storeys'")
+            raise argument_error("wrong_type", "hinge_level", f" = {hinge_level!r}: must be heights or 'storeys'")
         if not wall.sections:
-            raise InputError("hinge_level = 'storeys': only with sections")
+            raise argument_error("not_together", "hinge_level", " = 'storeys': only with sections")
         levels = np.append(0.0, np.cumsum([section.height for section in wall.sections])[:-1])
     else:
         levels = as_array("hinge_level", hinge_level)
     if len(levels) == 0:
-        raise InputError("hinge_level: must be given")
+        raise argument_error("not_given", "hinge_level", ": must be given")
     if np.any(np.diff(levels) <= 0.0):
-        raise InputError("hinge_level: must increase")
+        raise argument_error("not_increasing", "hinge_level", ": must increase")
     properties, walls = wall._properties(), []
     for level in levels.tolist():
         own = {"hinge_level": [level], "name": f"{wall.name} at {np.format_float_positional(level, trim='-')} m"}

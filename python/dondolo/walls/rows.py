@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from dondolo._base.arguments import FloatArray, as_array, one_of
+from dondolo._base.arguments import FloatArray, argument_error, as_array, one_of
 from dondolo._fortran.library import as_text, constants
 from dondolo._fortran.walls import EXCLUSIVE, INDEPENDENT, OCCURRENCE
 from dondolo.errors import InputError
@@ -132,8 +132,10 @@ def check_names(
     for i, (wall, facade) in enumerate(zip(walls, facades, strict=True)):
         one, whole = first.setdefault(wall.name, i), "wall"
         if one != i and (walls[i - 1].name != wall.name or facades[i - 1] != facade):
-            raise InputError(
-                f"name = {wall.name!r}: another wall has this name; mechanisms of one wall must be on consecutive rows"
+            raise argument_error(
+                "not_together",
+                "name",
+                f" = {wall.name!r}: another wall has this name; mechanisms of one wall must be on consecutive rows",
             )
         # Exclusive alternatives may have a mechanism in common, each with a hinge of its own.
         alone = of_rows[i][-1] == EXCLUSIVE and not alternatives[i]
@@ -147,7 +149,9 @@ def check_names(
                 raise InputError(f"{wrong}; walls of one facade must be on consecutive rows")
         if of_rows[i] != of_rows[one]:
             same = "weight and group" if of_rows[i][:2] != of_rows[one][:2] else "occurrence"
-            raise InputError(f"name = {wall.name!r}: mechanisms of one {whole} must have the same {same}")
+            raise argument_error(
+                "not_together", "name", f" = {wall.name!r}: mechanisms of one {whole} must have the same {same}"
+            )
     for facade in first_of:
         if facade in first and facades[first[facade]] != facade:
             raise InputError(f"facade = {facade!r}: a wall that is not part of it has this name")

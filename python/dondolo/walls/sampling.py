@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, as_count, as_number, one_of
+from dondolo._base.arguments import FloatArray, argument_error, as_count, as_number, one_of
 from dondolo._fortran.buildings import BUILDING_NAMES
 from dondolo._fortran.library import as_text, constants
 from dondolo._fortran.walls import INDEPENDENT, WALL_LISTS, WALL_NUMBERS, WALL_PROPERTIES, WALL_TEXTS, describe_walls
@@ -83,7 +83,7 @@ def _as_mechanisms(mechanisms: Any) -> dict[str, dict[str, Property]]:
     if isinstance(mechanisms, str):
         mechanisms = (mechanisms,)
     if not isinstance(mechanisms, Iterable):
-        raise InputError(f"mechanisms = {mechanisms!r}: must be names of mechanisms")
+        raise argument_error("not_a_word", "mechanisms", f" = {mechanisms!r}: must be names of mechanisms")
     own: dict[str, dict[str, Property]] = {}
     for mechanism in mechanisms:
         one_of("mechanism", mechanism, MECHANISMS)
@@ -92,14 +92,14 @@ def _as_mechanisms(mechanisms: Any) -> dict[str, dict[str, Property]]:
         extra = mechanisms[mechanism] if isinstance(mechanisms, Mapping) else {}
         own[mechanism] = _as_mapping(mechanism, extra, "properties by their names")
     if not own:
-        raise InputError("mechanisms: must be given")
+        raise argument_error("not_given", "mechanisms", ": must be given")
     return own
 
 
 def _as_mapping(name: str, value: Any, what: str) -> dict[Any, Any]:
     """Turn what a user gives for a mapping into a dictionary of one's own."""
     if not isinstance(value, Mapping):
-        raise InputError(f"{name} = {value!r}: must be a mapping, {what}")
+        raise argument_error("wrong_type", name, f" = {value!r}: must be a mapping, {what}")
     return dict(value)
 
 
@@ -123,7 +123,9 @@ def _check_properties(own: Mapping[str, Mapping[str, Property]], properties: Map
             if what == "weight" and mechanism:
                 raise InputError("weight: belongs to the wall, not to one of its mechanisms")
             if what not in WALL_LISTS and isinstance(value, str) != (what in _TEXTS):
-                raise InputError(f"{what} = {value!r}: must be a {'string' if what in _TEXTS else 'number'}")
+                raise argument_error(
+                    "wrong_type", what, f" = {value!r}: must be a {'string' if what in _TEXTS else 'number'}"
+                )
         for kind in [mechanism] if mechanism else own:
             for what in extra:
                 if kind not in _OWNERS.get(what, (kind,)):
@@ -157,9 +159,10 @@ def draw(
             probabilities = hypercube.random(n)
         probabilities = _reorder(probabilities, matrix)
     elif correlation:
-        raise InputError(
-            f"n_walls = {n}: must be at least {len(names) + 1} for correlations,"
-            f" more than are sampled: {', '.join(names)}"
+        raise argument_error(
+            "out_of_range",
+            "n_walls",
+            f" = {n}: must be at least {len(names) + 1} for correlations, more than are sampled: {', '.join(names)}",
         )
     return {what: _quantiles(what, distributions[what], probabilities[:, i]) for i, what in enumerate(names)}
 
@@ -168,7 +171,7 @@ def _quantiles(what: str, distribution: Distribution, probabilities: FloatArray)
     """Samples of one property or variable."""
     values = np.array(distribution.ppf(probabilities), dtype=np.float64)
     if values.shape != probabilities.shape or not np.isfinite(values).all():
-        raise InputError(f"{what}: its ppf must return {len(probabilities)} finite numbers")
+        raise argument_error("wrong_type", what, f": its ppf must return {len(probabilities)} finite numbers")
     values.flags.writeable = False
     return values
 
@@ -182,7 +185,7 @@ def _matrix(names: Sequence[str], correlation: Mapping[tuple[str, str], float]) 
         for what in pair:
             if what not in names:
                 known = ", ".join(map(repr, names)) or "none"
-                raise InputError(f"correlation: {what!r} is not sampled; these are: {known}")
+                raise argument_error("unknown_name", "correlation", f": {what!r} is not sampled; these are: {known}")
         value = as_number("correlation", given)
         if not -1.0 < value < 1.0:
             raise InputError(f"correlation of {pair[0]} and {pair[1]} = {value:g}: must lie between -1 and 1")
@@ -191,9 +194,11 @@ def _matrix(names: Sequence[str], correlation: Mapping[tuple[str, str], float]) 
         i, k = names.index(pair[0]), names.index(pair[1])
         matrix[i, k] = matrix[k, i] = value
     if names and _is_singular(matrix):
-        raise InputError(
-            "correlation: no quantities can be correlated like this: the smallest eigenvalue of the matrix is "
-            f"{np.linalg.eigvalsh(matrix).min():.3g}, must be positive"
+        raise argument_error(
+            "out_of_range",
+            "correlation",
+            ": no quantities can be correlated like this: the smallest eigenvalue of the matrix is "
+            f"{np.linalg.eigvalsh(matrix).min():.3g}, must be positive",
         )
     return matrix
 
@@ -272,7 +277,7 @@ def _evaluate(
         if callable(value):
             answer = np.asarray(value(_Known(what, {**known, **values})))
             if answer.dtype.kind not in "biuf" or answer.shape not in ((), (n,)):
-                raise InputError(f"{what}: its function must return {n} numbers or one")
+                raise argument_error("wrong_type", what, f": its function must return {n} numbers or one")
             values[what] = np.broadcast_to(answer.astype(np.float64), n)
     return values
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_number, instance_of, one_of
+from dondolo._base.arguments import FloatArray, argument_error, as_number, instance_of, one_of
 from dondolo._base.shown import html_of
 from dondolo._base.wording import in_english, say
 from dondolo._fortran import _core
@@ -334,7 +334,11 @@ class Wall:
 
         angle = 0.5 * self.capacity_angle if rotation is None else as_number("rotation", rotation)
         if not self.two_sided and angle < 0.0:
-            raise InputError(f"rotation = {angle:g}: a one-sided wall rotates outwards only, it must not be negative")
+            raise argument_error(
+                "out_of_range",
+                "rotation",
+                f" = {angle:g}: a one-sided wall rotates outwards only, it must not be negative",
+            )
         # Asked for what it weighs there, a wall refuses rotations that it cannot have.
         self.terms(abs(angle))
         return draw_wall(self, angle, ax, options)

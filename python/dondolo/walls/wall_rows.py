@@ -12,11 +12,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from dondolo._base.arguments import FloatArray, instance_of
+from dondolo._base.arguments import FloatArray, argument_error, instance_of
 from dondolo._base.shown import html_of
 from dondolo._base.wording import decimal, say
 from dondolo._fortran.library import as_text
-from dondolo.errors import InputError
 from dondolo.walls.rows import (
     check_names,
     named_walls,
@@ -46,14 +45,14 @@ class WallRows:
     def __post_init__(self) -> None:
         walls = (self.walls,) if isinstance(self.walls, Wall) else several("walls", self.walls, "walls")
         if not walls:
-            raise InputError("walls: must be given")
+            raise argument_error("not_given", "walls", ": must be given")
         for wall in walls:
             instance_of("walls", wall, Wall)
         if len(walls) > 1:
             walls = named_walls(walls)
         weights = shares_of_rows("weight", self.weights, walls, math.inf)
         if not np.any(weights > 0.0):
-            raise InputError("weight: must be positive for at least one wall")
+            raise argument_error("out_of_range", "weight", ": must be positive for at least one wall")
         p_occ = shares_of_rows("p_occ", self.p_occ, walls, 1.0)
         names = ("groups", "facades", "alternatives")
         groups, facades, alternatives = (words_of_rows(name, getattr(self, name), walls) for name in names)

@@ -7,6 +7,7 @@ import re
 from collections.abc import Sequence
 from typing import Any
 
+from dondolo._base.arguments import argument_error
 from dondolo.errors import InputError
 from dondolo.reporting.blocks import Block, CaptionedTable, Facts, Heading, Note, symbol_of
 from dondolo.reporting.content import Piece, Table
@@ -224,7 +225,7 @@ def _check_level(level: str, one: Subject) -> None:
         return
     named = {found.upper() for found in _LEVEL.findall(level)}
     if len(named) != 1 or not named <= _FACTORS.keys():
-        raise InputError(f"knowledge_level = {level!r}: must name one of {', '.join(_FACTORS)}")
+        raise argument_error("not_a_word", "knowledge_level", f" = {level!r}: must name one of {', '.join(_FACTORS)}")
     least = _FACTORS[named.pop()]
     factor = one.check.value("mechanism", "SLV", "knowledge_factor")
     if factor < least:

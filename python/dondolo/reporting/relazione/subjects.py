@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from dondolo._base.arguments import argument_error
 from dondolo.checks.ntc import CodeCheck
 from dondolo.curves.fragility import Fragility
 from dondolo.errors import InputError, Problem
@@ -103,7 +104,9 @@ def subjects_of(found: Sequence[Results]) -> Subjects:
                 raise InputError(f"{where}: wall '{wall.name}' is not checked: the table of checks has the reason")
             several.append(Subject(_checked(wall), check, curve, results))
     if len(several) > MOST:
-        raise InputError(f"results: have {len(several)} walls, must be at most {MOST}: write several reports")
+        raise argument_error(
+            "out_of_range", "results", f": have {len(several)} walls, must be at most {MOST}: write several reports"
+        )
     first = several[0].check.site
     for one in several:
         if one.check.site != first:

@@ -5,11 +5,11 @@ from __future__ import annotations
 import os
 from collections.abc import Sequence
 
-from dondolo._base.arguments import instance_of
+from dondolo._base.arguments import argument_error, instance_of
 from dondolo._base.files import as_file
 from dondolo._fortran.origins import check_replaced, derived_mark
 from dondolo._storage import tables
-from dondolo.errors import InputError, silent
+from dondolo.errors import silent
 from dondolo.exchange.results import Results
 
 
@@ -84,13 +84,15 @@ def calculation_report(
     target = as_file("path", path, ".docx", ".html", ".htm", ".pdf")
     suffix = target.suffix.lower()
     if template is not None and suffix != ".docx":
-        raise InputError(
-            f"template = {os.fspath(template)!r}: must be left out for {suffix}, which has no styles of Word"
+        raise argument_error(
+            "not_together",
+            "template",
+            f" = {os.fspath(template)!r}: must be left out for {suffix}, which has no styles of Word",
         )
     several = [results] if isinstance(results, Results) else list(results)
     found = [instance_of("results", one, Results) for one in several]
     if not found:
-        raise InputError("results: must be at least one")
+        raise argument_error("not_given", "results", ": must be at least one")
     language = Language(lang)
     document = Document(language, read_project(project), subjects_of(found))
     check_replaced(target, "report")
