@@ -4,7 +4,7 @@ module dondolo_motion_lane_events
    use dondolo_base_kinds, only : wp
    use dondolo_motion_events, only : no_event, turning
    use dondolo_motion_lane_constants, only : lane_constants_type
-   use dondolo_motion_lane_restraints, only : lane_restraints_type
+   use dondolo_motion_lane_restraints, only : lane_restraints_type, longest_without_levels
    use dondolo_motion_lane_series, only : allowed_part, find_first, find_first_level, find_room, find_simple, rate, &
       & undecided, value
    use dondolo_motion_lane_state, only : lane_width, lanes_type, part_if_restrained, step_taken, step_too_long, whole_vectors
@@ -121,8 +121,15 @@ contains
             part = found%last(n)
             call find_first(d, lanes%peak(i), part, event)
          end if
-         if (looks) call restraints%looks_for_levels(i, looks)
-         if (looks) call find_first_level(d, found%low(n), found%high(n), part, event)
+         if (looks) then
+            call restraints%looks_for_levels(i, looks)
+            if (looks) then
+               call find_first_level(d, found%low(n), found%high(n), part, event)
+            else if (part*lanes%step(i) > longest_without_levels*lanes%dt(i)) then
+               event = no_event
+               part = longest_without_levels*lanes%dt(i)/lanes%step(i)
+            end if
+         end if
          ! A motion that begins where it turns does not turn there again: that is rounding, and would be found forever, since no
          ! time passes. It goes on a little instead.
          if (event == turning .and. d(1) == 0.0_wp .and. part*lanes%step(i) <= shortest_motion*lanes%dt(i)) then

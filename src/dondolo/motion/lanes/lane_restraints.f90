@@ -17,7 +17,7 @@ module dondolo_motion_lane_restraints
    implicit none
    private
 
-   public :: lane_restraints_type
+   public :: lane_restraints_type, longest_without_levels
 
    !> The ties and the friction of a wall in one lane
    type :: restrained_lane_type
@@ -61,6 +61,10 @@ module dondolo_motion_lane_restraints
 
    !> Levels in a row, none of which took time, after which a step goes on without them
    integer, parameter :: most_stalled = 8
+
+   !> Longest such step, in sample intervals: a wall that balances at a level moves as if the tie or the friction that begins to
+   !> act there did not
+   real(wp), parameter :: longest_without_levels = 1.0e-3_wp
 
 contains
 
