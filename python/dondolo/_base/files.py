@@ -52,7 +52,7 @@ def as_file(name: str, path: Any, *suffixes: str) -> Path:
     if not valid:
         raise argument_error("wrong_type", name, f" = {path!r}: must be the path of a file")
     if suffixes and target.suffix.lower() not in suffixes:
-        raise InputError(f"{name} = {os.fspath(path)!r}: must end in {' or '.join(suffixes)}")
+        raise argument_error("out_of_range", name, f" = {os.fspath(path)!r}: must end in {' or '.join(suffixes)}")
     return target
 
 

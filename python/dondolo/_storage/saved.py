@@ -37,6 +37,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeVar, Union, get_args, get_or
 
 import numpy as np
 
+from dondolo._base.arguments import argument_error
 from dondolo._base.files import as_file, check_regular
 from dondolo._fortran.files import whole_file
 from dondolo._fortran.library import constants
@@ -131,7 +132,7 @@ class Saved:
 
         target = as_file("path", path)
         if target.suffix != _SUFFIX:
-            raise InputError(f"path = {os.fspath(path)!r}: must end in {_SUFFIX}")
+            raise argument_error("out_of_range", "path", f" = {os.fspath(path)!r}: must end in {_SUFFIX}")
         arrays: list[_Array] = []
         tree = _encode(self, type(self).__name__, arrays, {})
         content = {"format": "dondolo result", "format_version": _VERSION, "dondolo": constants().version}

@@ -71,7 +71,7 @@ def cut(stripes: Stripes, which: Any) -> Stripes:
     kept = _chosen("records", stripes.n_records, records)
     ran = np.asarray(stripes.ran.reshape(len(stripes.levels), -1, stripes.n_records).any(axis=1))[np.ix_(rows, kept)]
     if not ran.any(axis=1).all():
-        raise InputError("stripes: a level is left without records")
+        raise argument_error("not_given", "stripes", ": a level is left without records")
     # A record that runs at none of the levels takes no part.
     part = _Part(stripes, _places(rows, len(stripes.levels)), _places(kept[ran.any(axis=0)], stripes.n_records))
     return _concatenated([part], stripes.levels[rows])
@@ -80,7 +80,7 @@ def cut(stripes: Stripes, which: Any) -> Stripes:
 def join(one: Stripes, other: Stripes) -> Stripes:
     """The stripes of two runs of one wall."""
     if type(other) is not type(one):
-        raise InputError(f"stripes: cannot be joined with {type(other).__name__}")
+        raise argument_error("wrong_type", "stripes", f": cannot be joined with {type(other).__name__}")
     if one.wall != other.wall:
         raise argument_error(
             "not_together",
@@ -95,10 +95,12 @@ def join(one: Stripes, other: Stripes) -> Stripes:
         raise argument_error("not_together", "stripes", ": were run with different polarities: must be the same")
     for name, what in _OPTIONAL.items():
         if (getattr(one, name) is None) != (getattr(other, name) is None):
-            raise InputError(f"stripes: only one {what}")
+            raise argument_error("wrong_length", "stripes", f": only one {what}")
     names = [part.record_names[: part.n_records] for part in (one, other)]
     if any(len(set(own)) < len(own) for own in names):
-        raise InputError("stripes: two records have the same name, so that they cannot be joined")
+        raise argument_error(
+            "not_together", "stripes", ": two records have the same name, so that they cannot be joined"
+        )
     place = {name: i for i, name in enumerate(dict.fromkeys([*names[0], *names[1]]))}
     # The levels of the other, by the names that the first has for them
     nearest = one.levels[np.abs(one.levels[:, None] - other.levels).argmin(axis=0)]
@@ -166,7 +168,9 @@ def _texts(what: str, parts: Sequence[_Part], n_records: int) -> tuple[str, ...]
         for place, text in zip(record.tolist(), getattr(stripes, what), strict=False):
             if place >= 0 and found.setdefault(place, text) != text:
                 name = stripes.record_names[record.tolist().index(place)]
-                raise InputError(f"stripes: record '{name}' differs ({what}), so that they cannot be joined")
+                raise argument_error(
+                    "not_together", "stripes", f": record '{name}' differs ({what}), so that they cannot be joined"
+                )
     return tuple(found.get(place, "") for place in range(n_records)) if found else ()
 
 

@@ -22,7 +22,7 @@ from dondolo._storage import tables
 from dondolo._storage.saved import Saved, part_of_results
 from dondolo.analysis.request import Pace, check_threads, in_blocks, progress_bar
 from dondolo.analysis.solver import Solver, as_solver
-from dondolo.errors import InputError, Interrupted
+from dondolo.errors import Interrupted
 from dondolo.records.record import Record
 from dondolo.records.suite import upload
 from dondolo.walls.wall import Wall
@@ -486,7 +486,7 @@ def _pulse(pulse: Callable[[float, float], Record], frequency: float) -> Record:
     if not isinstance(record, Record):
         raise argument_error("wrong_type", "pulse", f": must return a Record, not {type(record).__name__}")
     if not record.peak_acceleration > 0.0:
-        raise InputError(f"pulse: is zero at {frequency:g} Hz")
+        raise argument_error("out_of_range", "pulse", f": is zero at {frequency:g} Hz")
     return record
 
 

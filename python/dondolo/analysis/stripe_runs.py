@@ -335,7 +335,7 @@ def adaptive_stripes(
     estimate_error, certify = as_flag("estimate_error", estimate_error), as_flag("certify", certify)
     as_flag("progress", progress)
     if isinstance(records, Mapping) or getattr(records, "level", None) is not None:
-        raise InputError("records: have levels of their own, and adaptive_stripes chooses them")
+        raise argument_error("not_together", "records", ": have levels of their own, and adaptive_stripes chooses them")
     request = new_request((wall,), records, [1.0], im, polarity, solver, threads, estimate_error or certify)
     with deferred(as_event(stop)) as interrupts:
         return _finished(_adaptive(request, budget, progress, interrupts), request, certify, progress, interrupts)

@@ -33,7 +33,7 @@ from dondolo.analysis.solver import Solver, as_solver
 from dondolo.analysis.stripe_runs import multiple_stripe
 from dondolo.analysis.stripes import Stripes
 from dondolo.curves.fragility import Fragility
-from dondolo.errors import DondoloWarning, InputError
+from dondolo.errors import DondoloWarning
 from dondolo.records.codes import LimitState, Site
 from dondolo.records.record import Record
 from dondolo.walls.wall import Wall, upload
@@ -106,7 +106,11 @@ class CodeCheck(Shown, Saved):
         row = self._row(method, limit_state, quantity, item)
         if row is not None:
             return row.value
-        raise InputError(f"quantity = {quantity!r}: the check has none for method {method!r}, state {limit_state!r}")
+        raise argument_error(
+            "unknown_name",
+            "quantity",
+            f" = {quantity!r}: the check has none for method {method!r}, state {limit_state!r}",
+        )
 
     def _row(self, method: str, limit_state: str, quantity: str, item: str | None = None) -> SheetRow | None:
         """The first such row, or None."""
@@ -219,7 +223,7 @@ class CodeCheck(Shown, Saved):
         0.0333
         """
         if instance_of("curve", curve, Fragility).im != "pga":
-            raise InputError(f"curve: its measure is {curve.im!r}, must be 'pga'")
+            raise argument_error("not_together", "curve", f": its measure is {curve.im!r}, must be 'pga'")
         return {key: float(curve(level)) for key, level in {**self._of("pga", "site"), **self.capacities}.items()}
 
     def dynamic(
@@ -265,7 +269,7 @@ class CodeCheck(Shown, Saved):
                 how = replace(how, edp_limit=1.0)
             stripes = multiple_stripe(self.wall, stripes, several, polarity=polarity, progress=False, solver=how)
         if stripes.im != "pga" or stripes.wall != self.wall:
-            raise InputError("stripes: must be of the wall of the check, with im = 'pga'")
+            raise argument_error("not_together", "stripes", ": must be of the wall of the check, with im = 'pga'")
         if stripes.edp_limit < 1.0:
             raise argument_error(
                 "out_of_range",
@@ -277,7 +281,9 @@ class CodeCheck(Shown, Saved):
         for state, level in levels.items():
             found = np.flatnonzero(np.abs(stripes.levels - level) <= constants().same_level * level)
             if not len(found):
-                raise InputError(f"stripes: have no level of {level:.10g} g, the peak acceleration of {state}")
+                raise argument_error(
+                    "out_of_range", "stripes", f": have no level of {level:.10g} g, the peak acceleration of {state}"
+                )
             ran = stripes.ran[found[0]]
             edp = stripes.edp[found[0]][ran]
             rows += dynamic_sheet(handle, state, level, len(np.unique(stripes.record_index[ran])), edp)

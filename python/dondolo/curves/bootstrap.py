@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_count, as_generator, as_levels, shaped, tails
+from dondolo._base.arguments import FloatArray, argument_error, as_count, as_generator, as_levels, shaped, tails
 from dondolo._base.shown import Shown
 from dondolo._fortran.curves import fit_curves
 from dondolo._fortran.library import constants
 from dondolo._storage.saved import Saved
 from dondolo.curves.sample import Sample
-from dondolo.errors import DondoloError, InputError
+from dondolo.errors import DondoloError
 
 Interval = tuple[float, float]
 
@@ -126,7 +126,7 @@ def draw_records(labels: Sequence[Any], n_resamples: int, seed: Any) -> FloatArr
     place = [places.setdefault(label, len(places)) for label in labels]
     if len(places) < 2:
         what = "records" if len(labels) < 2 else "events"
-        raise InputError(f"{what}: at least two are needed to draw from, there is {len(places)}")
+        raise argument_error("wrong_length", what, f": at least two are needed to draw from, there is {len(places)}")
     drawn = generator.multinomial(len(places), np.full(len(places), 1.0 / len(places)), size=n_resamples)[:, place]
     # Events with many records must not make a sample count for more histories than there are.
     times: FloatArray = drawn * (len(labels) / drawn.sum(axis=1, keepdims=True))

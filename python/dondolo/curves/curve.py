@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, ClassVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, as_probabilities, shaped
+from dondolo._base.arguments import FloatArray, argument_error, as_probabilities, shaped
 from dondolo.hazard.hazard import HazardCurve
 
 if TYPE_CHECKING:
@@ -220,9 +220,7 @@ class Curve(ABC):
 
     def _fitted(self) -> Fragility:
         """The lognormal whose parameters are compared."""
-        from dondolo.errors import InputError
-
-        raise InputError(f"curves: no standard errors are known of a {type(self).__name__}")
+        raise argument_error("wrong_type", "curves", f": no standard errors are known of a {type(self).__name__}")
 
     @property
     def _corners(self) -> tuple[float, ...]:

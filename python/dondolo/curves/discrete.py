@@ -85,7 +85,7 @@ class DiscreteFragility(Curve, Shown, Saved):
                 "not_increasing", "probability", f" = {p[i]:g}, {p[i + 1]:g}: must not decrease with the level"
             )
         if x[0] == 0.0 and p[0] > 0.0:
-            raise InputError(f"probability = {p[0]:g} at the level 0: must be 0")
+            raise argument_error("out_of_range", "probability", f" = {p[0]:g} at the level 0: must be 0")
         none = None if no_damage_limit is None else as_number("no_damage_limit", no_damage_limit)
         if none is not None and not 0.0 <= none < np.inf:
             raise argument_error("out_of_range", "no_damage_limit", f" = {none:g}: must be finite and not negative")

@@ -13,7 +13,6 @@ from dondolo._base.arguments import argument_error, as_levels, shaped, wrong_typ
 from dondolo._base.shown import Shown
 from dondolo._fortran.records import describe_measure
 from dondolo.curves.curve import Curve, inverse
-from dondolo.errors import InputError
 
 # Where the inverse is sought
 _ENDS = (1e-9, 1e9)
@@ -84,7 +83,11 @@ class FunctionFragility(Curve, Shown):
         except (TypeError, ValueError):
             raise argument_error("wrong_type", "fragility", ": must give numbers for an array of intensities") from None
         if p.shape != flat.shape:
-            raise InputError(f"fragility: gives an array of shape {p.shape} for intensities of shape {flat.shape}")
+            raise argument_error(
+                "wrong_length",
+                "fragility",
+                f": gives an array of shape {p.shape} for intensities of shape {flat.shape}",
+            )
         if not np.all((p >= 0.0) & (p <= 1.0)):
             raise argument_error(
                 "not_a_probability", "fragility", f" = {p[~((p >= 0.0) & (p <= 1.0))][0]:g}: must lie between 0 and 1"

@@ -22,7 +22,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, as_count, as_generator, as_number
+from dondolo._base.arguments import FloatArray, argument_error, as_count, as_generator, as_number
 from dondolo._base.shown import Shown
 from dondolo._fortran.curves import fit_curves
 from dondolo._fortran.library import constants
@@ -168,7 +168,7 @@ def refit(curve: Fragility, low: float, high: float) -> Fragility:
     low, high = as_number("low", low), as_number("high", high)
     kept = (curve.levels >= low) & (curve.levels <= high)
     if not kept.any():
-        raise InputError(f"low = {low:g}, high = {high:g}: there are no levels between them")
+        raise argument_error("out_of_range", "low", f" = {low:g}, high = {high:g}: there are no levels between them")
     sample = curve.sample
     if sample is not None:
         sample = dataclasses.replace(

@@ -112,9 +112,11 @@ def sample_of_outcomes(
     ran = ~np.isnan(flags)
     wrong = ran & (flags != 0.0) & (flags != 1.0)
     if wrong.any():
-        raise InputError(f"collapses = {flags[wrong][0]:g}: the outcome of a history must be 0, 1 or NaN")
+        raise argument_error(
+            "out_of_range", "collapses", f" = {flags[wrong][0]:g}: the outcome of a history must be 0, 1 or NaN"
+        )
     if not ran.any():
-        raise InputError("collapses: no history was run")
+        raise argument_error("not_given", "collapses", ": no history was run")
     several = [f"history {i + 1}" for i in range(len(flags))] if records is None else _as_records(records, len(flags))
     # Name, key and label of each, as stripes label theirs
     told = [_told(one) for one in several]

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from dondolo._base.arguments import as_path, instance_of
+from dondolo._base.arguments import argument_error, as_path, instance_of
 from dondolo._fortran.buildings import BUILDING_NAMES
 from dondolo._fortran.files import whole_file
 from dondolo._fortran.library import properties
@@ -71,8 +71,10 @@ def write_case(
     if target.exists() or target.is_symlink():
         raise InputError(f"{target}: already exists: remove it, or choose another path")
     if study._request.rows is not None:
-        raise InputError(
-            "study: its records have levels of their own, which belong in a catalogue: write the case by hand"
+        raise argument_error(
+            "not_together",
+            "study",
+            ": its records have levels of their own, which belong in a catalogue: write the case by hand",
         )
     job = {"task": "stripes", "title": title, "output": output or f"out/{target.stem}"}
     settings: dict[str, dict[str, Any]] = {"job": job, **wall_settings(wall), **study._settings()}
@@ -117,14 +119,18 @@ def _compare(case: Case, wall: Wall, study: Study) -> None:
         raise InputError(f"wall '{wall.name}': a case cannot contain its {', '.join(differs) or 'gravity'}")
     sums = [[record.checksum for record in records] for records in (case.records, study.records)]
     if sums[0] != sums[1]:
-        raise InputError(f"catalogue: has {len(sums[0])} records, others than the {len(sums[1])} of the study")
+        raise argument_error(
+            "not_together", "catalogue", f": has {len(sums[0])} records, others than the {len(sums[1])} of the study"
+        )
     verticals = ([record.vertical for record in records] for records in (case.records, study.records))
     if not all(_same(*pair) for pair in zip(*verticals, strict=True)):
-        raise InputError("records: a case cannot contain the factors on their vertical components")
+        raise argument_error(
+            "not_together", "records", ": a case cannot contain the factors on their vertical components"
+        )
     for group, values in study._settings().items():
         for name, value in values.items():
             if not _same(case.settings[group][name], value):
-                raise InputError(f"study: a case cannot contain its {name} = {value}")
+                raise argument_error("not_together", "study", f": a case cannot contain its {name} = {value}")
 
 
 def _same(one: Any, other: Any) -> bool:

@@ -8,14 +8,13 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from dondolo._base.arguments import FloatArray, as_path, wrong_type
+from dondolo._base.arguments import FloatArray, argument_error, as_path, wrong_type
 from dondolo._base.shown import Shown
 from dondolo._fortran import _core
 from dondolo._fortran.library import Parcel, as_text, receive, warn_of_notes
 from dondolo._fortran.records import levels_in_words, unpack_records
 from dondolo._fortran.walls import rows_of, unpack_walls
 from dondolo.analysis.stripe_fits import States
-from dondolo.errors import InputError
 from dondolo.exchange.case_text import Settings
 from dondolo.records.codes import Site
 from dondolo.records.record import Record, as_records, record_from
@@ -133,7 +132,9 @@ class Case(Shown):
         if not isinstance(text, str):
             raise wrong_type("text", text, "a string")
         if isinstance(records, RecordSet) and records.level is not None:
-            raise InputError("records: have levels of their own, which a case takes from its catalogue only")
+            raise argument_error(
+                "not_together", "records", ": have levels of their own, which a case takes from its catalogue only"
+            )
         several = tuple(as_records(records))
         suite = upload(several)
         # A text of f2py would end at NUL

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import fields, is_dataclass
 from typing import Any
 
+from dondolo._base.arguments import argument_error
 from dondolo._fortran.library import bibtex
 from dondolo._storage.run_file import RunFile, sources_of_measure
 from dondolo.analysis.cloud import Cloud
@@ -15,7 +16,6 @@ from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import Stripes
 from dondolo.checks.ntc import CodeCheck
 from dondolo.curves.fragility import Fragility
-from dondolo.errors import InputError
 from dondolo.exchange.results import Results
 from dondolo.populations.uncertain_wall import UncertainWall
 from dondolo.records.record import Record
@@ -74,7 +74,7 @@ def cite(*results: Any) -> Citation:
     """
     for one in results:
         if not is_dataclass(one) and not isinstance(one, (list, tuple)):
-            raise InputError(f"results: {type(one).__name__} has no sources to cite")
+            raise argument_error("wrong_type", "results", f": {type(one).__name__} has no sources to cite")
     return Citation("\n".join(bibtex(words_of(*results))))
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from dondolo._base.arguments import argument_error
 from dondolo.errors import InputError
 
 # Parts of figures by the names of their options. docs/printing.md describes them.
@@ -31,7 +32,7 @@ class Options:
         known = ("legend", "title", *parts)
         for name in PARTS:
             if name in given and name not in known:
-                raise InputError(f"{name}: this figure has none; its parts are {', '.join(known)}")
+                raise argument_error("unknown_name", name, f": this figure has none; its parts are {', '.join(known)}")
             value = given.get(name, True)
             if not isinstance(value, bool) and not (name == "title" and isinstance(value, str)):
                 kinds = "True, False or a title" if name == "title" else "True or False"

@@ -11,6 +11,7 @@ from weakref import WeakKeyDictionary, WeakSet
 import numpy as np
 from numpy.typing import NDArray
 
+from dondolo._base.arguments import argument_error
 from dondolo._base.wording import decimal, say
 from dondolo._fortran.records import describe_measure
 from dondolo.errors import InputError
@@ -156,7 +157,7 @@ def panels(ax: Iterable[Axes] | None, rows: int, size: tuple[float, float], colu
         given = np.ravel(np.asarray(ax, dtype=object))
         if len(given) != count or not all(isinstance(one, Axes) for one in given):
             several = "an Axes" if count == 1 else f"{count} Axes"
-            raise InputError(f"ax: must be {several} of Matplotlib")
+            raise argument_error("wrong_type", "ax", f": must be {several} of Matplotlib")
     for one in given:
         if not one.get_title(loc="left"):
             _set_title(one, "")

@@ -61,4 +61,6 @@ def _check_fall(what: str, h: FloatArray, hint: str = "") -> None:
     rises = h[1:] > h[:-1]
     if rises.any():
         i = int(np.argmax(rises))
-        raise InputError(f"{what} = {h[i]:.15g}, {h[i + 1]:.15g}: must not increase with the level{hint}")
+        raise argument_error(
+            "out_of_range", what, f" = {h[i]:.15g}, {h[i + 1]:.15g}: must not increase with the level{hint}"
+        )

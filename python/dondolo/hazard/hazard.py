@@ -130,7 +130,9 @@ class HazardCurve(Shown, Saved):
         x = increasing("levels", levels, why=_WHY_TWO)
         h = checked_frequencies(annual_frequency, len(x))
         if endless and len(x) != 2:
-            raise InputError(f"endless: must have two levels, which give the power law, not {len(x)}")
+            raise argument_error(
+                "wrong_length", "endless", f": must have two levels, which give the power law, not {len(x)}"
+            )
         for what, value in (
             ("levels", x),
             ("annual_frequency", h),

@@ -59,7 +59,7 @@ def imt_of(im: str) -> tuple[str, int]:
     if spectral:
         return f"SA({float(spectral.group(1))!r})", 1
     if im not in _MEASURES:
-        raise InputError(f"im = '{im}': must be 'pga', 'pgv' or 'sa(T)' for OpenQuake")
+        raise argument_error("not_a_word", "im", f" = '{im}': must be 'pga', 'pgv' or 'sa(T)' for OpenQuake")
     return _MEASURES[im]
 
 
@@ -71,7 +71,7 @@ def im_of(imt: str) -> tuple[str, int]:
             return im, unit
     spectral = re.fullmatch(r"SA\(([^)]+)\)", word, re.IGNORECASE)
     if not spectral:
-        raise InputError(f"imt = '{imt}': must be PGA, PGV or SA(T)")
+        raise argument_error("not_a_word", "imt", f" = '{imt}': must be PGA, PGV or SA(T)")
     return describe_measure(f"sa({spectral.group(1)})").name, 1
 
 
@@ -125,7 +125,9 @@ def read_curves(
     means = [one for one in files if one not in quantiles.values()]
     if len(means) != 1 or len(quantiles) != len(files) - 1:
         kinds = ", ".join(repr(one.kind or Path(one.path).name) for one in files)
-        raise InputError(f"paths: must be one mean and its quantiles, each once; there are {kinds}")
+        raise argument_error(
+            "wrong_length", "paths", f": must be one mean and its quantiles, each once; there are {kinds}"
+        )
     poe = np.stack([means[0].poe[row], *(one.poe[row] for one in quantiles.values())])
     curves = [levelled(curve) for curve in poe]
     poe = np.stack([curve for curve, _ in curves])
@@ -264,8 +266,10 @@ def _coordinates(site: Any) -> tuple[float, float]:
     try:
         longitude, latitude = site
     except (TypeError, ValueError):
-        raise InputError(f"site = {site!r}: must be (longitude, latitude) in degrees") from None
+        raise argument_error("wrong_type", "site", f" = {site!r}: must be (longitude, latitude) in degrees") from None
     east, north = as_number("longitude", longitude), as_number("latitude", latitude)
     if not (-180.0 <= east <= 360.0 and -90.0 <= north <= 90.0):
-        raise InputError(f"site = ({east:g}, {north:g}): must be (longitude, latitude) in degrees")
+        raise argument_error(
+            "out_of_range", "site", f" = ({east:g}, {north:g}): must be (longitude, latitude) in degrees"
+        )
     return east, north

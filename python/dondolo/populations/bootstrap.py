@@ -9,11 +9,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dondolo._base.arguments import FloatArray, as_count, as_generator, one_of, tails
+from dondolo._base.arguments import FloatArray, argument_error, as_count, as_generator, one_of, tails
 from dondolo.curves.bootstrap import Bootstrap, draw_records, fit_samples
 from dondolo.curves.occurrence import saturations, wall_probability
 from dondolo.curves.sample import given_labels
-from dondolo.errors import InputError
 from dondolo.populations.flags import Flags
 from dondolo.walls.population import Population
 
@@ -138,13 +137,13 @@ def resample_population(
     """
     kinds = (over,) if isinstance(over, str) or not isinstance(over, Iterable) else tuple(over)
     if not kinds or not all(kind in _KINDS for kind in kinds):
-        raise InputError(f"over = {over!r}: must name 'records', 'walls' or both")
+        raise argument_error("not_a_word", "over", f" = {over!r}: must name 'records', 'walls' or both")
     n_resamples, generator = as_count("n_resamples", n_resamples, 1), as_generator(seed)
     rows = _rows_of(population, mechanism, group)
     if rows.walls == 1 and "walls" in kinds:
         # Drawn from itself a wall would look certain.
         if "records" not in kinds:
-            raise InputError("walls: at least two are needed to draw from, there is 1")
+            raise argument_error("wrong_length", "walls", ": at least two are needed to draw from, there is 1")
         kinds = ("records",)
     records = np.ones((n_resamples, flags.records))
     if "records" in kinds:
@@ -248,5 +247,5 @@ def _histories_behind(rows: _Rows, flags: Flags) -> float:
     histories = np.minimum.reduceat(flags.histories[rows.row], begins)
     weight = rows.weight[begins]
     if not weight.any():
-        raise InputError("group: the weights of its walls are all zero")
+        raise argument_error("out_of_range", "group", ": the weights of its walls are all zero")
     return float(np.count_nonzero(weight) * (weight @ histories) / weight.sum())

@@ -7,10 +7,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, as_array
+from dondolo._base.arguments import FloatArray, argument_error, as_array
 from dondolo._base.wording import decimal, say
 from dondolo.curves.plots import parameters
-from dondolo.errors import InputError
 from dondolo.figures import curves, style
 from dondolo.figures.options import Options
 from dondolo.populations.curve import PopulationCurve
@@ -132,7 +131,7 @@ def draw_groups(typology: Typology, ax: Axes | None, mechanism: str, given: dict
     whole = typology[mechanism]
     names = list(dict.fromkeys(curve.group for curve in typology.groups if curve.group))
     if not names:
-        raise InputError("group: no wall of this population belongs to a group")
+        raise argument_error("not_given", "group", ": no wall of this population belongs to a group")
     known = {(curve.group, curve.mechanism) for curve in typology.groups}
     names = [name for name in names if mechanism == "all" or (name, mechanism) in known]
     parts = [typology[mechanism, name] for name in names]

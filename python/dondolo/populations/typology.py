@@ -268,7 +268,7 @@ class Typology(RowCurves, Shown, Saved):
         from dondolo.populations.plots import draw_union
 
         if not self.unions:
-            raise InputError("unions: there are none; they are of walls with several mechanisms")
+            raise argument_error("not_given", "unions", ": there are none; they are of walls with several mechanisms")
         chosen = next(iter(self.unions)) if name is None and len(self.unions) == 1 else name
         one_of("name", chosen, self.unions)
         return draw_union(self, str(chosen), ax, options)

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from dondolo._base.arguments import FloatArray, as_flag
+from dondolo._base.arguments import FloatArray, argument_error, as_flag
 from dondolo._base.files import as_file, read_bytes, read_text, synchronize, thing
 from dondolo._fortran.files import locked
 from dondolo._fortran.library import constants
@@ -144,12 +144,14 @@ def write_catalogue(records: RecordSet, path: str | os.PathLike[str]) -> None:
     target = as_file("path", path)
     check_replaced(target, "records")
     if not target.suffix:
-        raise InputError(f"path = {os.fspath(path)!r}: must have a suffix, such as .csv")
+        raise argument_error("out_of_range", "path", f" = {os.fspath(path)!r}: must have a suffix, such as .csv")
     each = list(dict.fromkeys(records.records))
     names = [record.name for record in each]
     for name in names:
         if names.count(name) > 1:
-            raise InputError(f"records: two have the name {name!r}: must have names of their own in a catalogue")
+            raise argument_error(
+                "not_together", "records", f": two have the name {name!r}: must have names of their own in a catalogue"
+            )
     folder = target.with_suffix("")
     with locked(target) as killed:
         check_replaced(target, "records")

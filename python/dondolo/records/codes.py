@@ -32,7 +32,6 @@ from dondolo._fortran.checks import (
     site_input,
 )
 from dondolo._storage.saved import part_of_results
-from dondolo.errors import InputError
 from dondolo.records.building import Building
 from dondolo.records.target import TargetSpectrum
 
@@ -212,7 +211,7 @@ def ec8_spectrum(
         raise argument_error("out_of_range", "ag", f" = {a:g}: must be positive")
     one_of("soil", soil, get_args(Soil))
     if kind not in tuple(_EC8_SOILS):
-        raise InputError(f"kind = {kind!r}: must be 1 or 2")
+        raise argument_error("out_of_range", "kind", f" = {kind!r}: must be 1 or 2")
     amplified, *corners = _EC8_SOILS[kind][soil]
     return _spectrum(CodeParameters(a * amplified, 2.5, np.array(corners)), damping, periods)
 

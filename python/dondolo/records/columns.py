@@ -58,9 +58,10 @@ def factors_of(records: RecordSet) -> FloatArray | None:
     unknown = np.isnan(factor) & ~np.isnan(level)
     if unknown.any():
         name = records.records[int(np.argmax(unknown))].name
-        raise InputError(
-            f"records: '{name}' has a level and no factor: must have a factor, or no level (the attribute records"
-            " of the set)"
+        raise argument_error(
+            "not_together",
+            "records",
+            f": '{name}' has a level and no factor: must have a factor, or no level (the attribute records of the set)",
         )
     return np.nan_to_num(factor, nan=1.0)
 

@@ -91,18 +91,26 @@ def evaluate(expression: str, column: Callable[[str], NDArray[Any]], length: int
                     return held
         text = ast.unparse(node)
         hint = f": a name that is none in Python must stand between backticks, `{text}`"
-        raise InputError(
-            f"expression = {expression!r}: cannot be read: {text}{hint if isinstance(node, ast.Call) else ''}"
+        raise argument_error(
+            "out_of_range",
+            "expression",
+            f" = {expression!r}: cannot be read: {text}{hint if isinstance(node, ast.Call) else ''}",
         )
 
     def condition(node: ast.expr) -> NDArray[np.bool_]:
         found = value(node)
         if isinstance(found, list):
             text = "commas make a list, decimals have a point"
-            raise InputError(f"expression = {expression!r}: is not a condition on the records: {text}")
+            raise argument_error(
+                "out_of_range", "expression", f" = {expression!r}: is not a condition on the records: {text}"
+            )
         found = np.asarray(found)
         if found.dtype != bool or found.shape != (length,):
-            raise InputError(f"expression = {expression!r}: {ast.unparse(node)} is not a condition on the records")
+            raise argument_error(
+                "out_of_range",
+                "expression",
+                f" = {expression!r}: {ast.unparse(node)} is not a condition on the records",
+            )
         return found
 
     try:
@@ -110,11 +118,11 @@ def evaluate(expression: str, column: Callable[[str], NDArray[Any]], length: int
         with np.errstate(all="ignore"):
             return condition(tree.body)
     except SyntaxError:
-        raise InputError(f"expression = {expression!r}: cannot be read") from None
+        raise argument_error("out_of_range", "expression", f" = {expression!r}: cannot be read") from None
     except InputError:
         raise
     except (RecursionError, MemoryError):
-        raise InputError(f"expression = {expression!r}: is too long") from None
+        raise argument_error("out_of_range", "expression", f" = {expression!r}: is too long") from None
     except (TypeError, ValueError, OverflowError):
         text = "combines what does not go together, such as numbers with texts or lists"
-        raise InputError(f"expression = {expression!r}: {text}") from None
+        raise argument_error("out_of_range", "expression", f" = {expression!r}: {text}") from None

@@ -15,7 +15,6 @@ from dondolo._fortran.buildings import floor_motion
 from dondolo._fortran.library import receive
 from dondolo._fortran.records import RecordData
 from dondolo._storage.saved import part_of_results
-from dondolo.errors import InputError
 from dondolo.records import processing as process
 from dondolo.records.accelerogram import Accelerogram
 from dondolo.records.building import Building
@@ -377,7 +376,7 @@ class Record(Accelerogram):
         one_of("at", at, ("felt", "base", "top"))
         felt = getattr(wall, "_felt", lambda *_: None)(self.acceleration, self.vertical, self.dt, at)
         if felt is None:
-            raise InputError("wall: must be a wall with a building")
+            raise argument_error("wrong_type", "wall", ": must be a wall with a building")
         values, upwards, parts = felt
         what = "felt by" if at == "felt" else f"at the {at} of"
         return self.processed(values, f"{what} {wall!r}", dt=self.dt / parts, vertical=upwards)

@@ -145,11 +145,13 @@ class RecordSet(Shown, Saved):
         levels = sorted(sets, key=lambda one: as_number("levels", one))
         for one, other in pairwise(levels):
             if other - one <= constants().same_level * other:
-                raise InputError(f"levels = {float(one)!r}, {float(other)!r}: are the same but for rounding")
+                raise argument_error(
+                    "not_together", "levels", f" = {float(one)!r}, {float(other)!r}: are the same but for rounding"
+                )
         for level in levels:
             several = sets[level]
             if isinstance(several, Sequence) and not several:
-                raise InputError(f"levels = {level:g}: no record runs at this level")
+                raise argument_error("not_given", "levels", f" = {level:g}: no record runs at this level")
             part = several if isinstance(several, RecordSet) else RecordSet(several)
             parts.append(RecordSet(part.records, level=float(level), factor=part.factor))
         return sum(parts[1:], start=parts[0])
@@ -218,7 +220,7 @@ class RecordSet(Shown, Saved):
         """
         mask = evaluate(expression, partial(column_of, self), len(self))
         if not mask.any():
-            raise InputError(f"filter: no record meets {expression!r}")
+            raise argument_error("out_of_range", "filter", f": no record meets {expression!r}")
         return self._rows(np.flatnonzero(mask))
 
     def sort(self, by: str, *, descending: bool = False) -> RecordSet:
@@ -452,7 +454,7 @@ class RecordSet(Shown, Saved):
 
     def _rows(self, rows: NDArray[np.int64]) -> RecordSet:
         if not len(rows):
-            raise InputError("records: none are left")
+            raise argument_error("not_given", "records", ": none are left")
         level, factor = (None if values is None else values[rows] for values in (self.level, self.factor))
         return RecordSet([self.records[i] for i in rows], level=level, factor=factor)
 

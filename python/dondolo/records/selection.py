@@ -27,7 +27,6 @@ from numpy.typing import NDArray
 from dondolo._base.arguments import FloatArray, argument_error, as_count, as_generator, as_number, instance_of
 from dondolo._base.shown import Shown
 from dondolo._storage.saved import Saved
-from dondolo.errors import InputError
 from dondolo.records.level_rows import plain_records
 from dondolo.records.record import Record
 from dondolo.records.record_set import RecordSet
@@ -194,9 +193,11 @@ def _nearest(candidates: _Candidates, drawn: FloatArray, most: float) -> NDArray
         distance[~free | np.isnan(distance)] = np.inf
         chosen[i] = np.argmin(distance)
         if distance[chosen[i]] == np.inf:
-            raise InputError(
-                f"n_records = {len(drawn)}: only {i} records can be scaled to the target by factors up to {most:g};"
-                " a larger max_factor, more records, or fewer to select"
+            raise argument_error(
+                "out_of_range",
+                "n_records",
+                f" = {len(drawn)}: only {i} records can be scaled to the target by factors up to {most:g};"
+                " a larger max_factor, more records, or fewer to select",
             )
         free[chosen[i]] = False
     return chosen

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from typing import Any, Literal
 
-from dondolo._base.arguments import as_count, as_number
+from dondolo._base.arguments import argument_error, as_count, as_number
 from dondolo._fortran import _core
 from dondolo._fortran.library import as_text, receive
 from dondolo._fortran.records import unpack_records
-from dondolo.errors import InputError
 from dondolo.records.record import Record
 
 
@@ -74,7 +73,11 @@ def synthetic_records(
     for what, value, least in (("n_records", n_records, 1), ("seed", seed, 1), ("first", first, 0)):
         as_count(what, value, least, 2**31 - 1)
     if int(first) + int(n_records) > 2**31:
-        raise InputError(f"first = {first}, n_records = {n_records}: realisations must have numbers below 2147483648")
+        raise argument_error(
+            "out_of_range",
+            "first",
+            f" = {first}, n_records = {n_records}: realisations must have numbers below 2147483648",
+        )
     place = as_text("site", site)
     return [_realisation(*numbers[:2], place, int(seed), int(first) + i, numbers[2]) for i in range(n_records)]
 

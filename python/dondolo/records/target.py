@@ -25,7 +25,6 @@ from numpy.typing import ArrayLike
 from dondolo._base.arguments import FloatArray, argument_error, as_array, as_number, increasing
 from dondolo._base.shown import Shown
 from dondolo._storage.saved import Saved
-from dondolo.errors import InputError
 
 if TYPE_CHECKING:
     from dondolo.records.codes import Soil
@@ -90,7 +89,9 @@ class TargetSpectrum(Shown, Saved):
         else:
             spread = as_array("dispersion", dispersion)
         if spread.shape != several.shape or not np.all((spread >= 0.0) & (spread < np.inf)):
-            raise InputError("dispersion: must be one number, or one for each period, not negative")
+            raise argument_error(
+                "wrong_length", "dispersion", ": must be one number, or one for each period, not negative"
+            )
         if spread.any() and not 0.01 <= several[0] < several[-1] <= 10.0:
             raise argument_error(
                 "out_of_range",

@@ -19,7 +19,7 @@ from dondolo._storage import tables
 from dondolo.analysis.response import Response
 from dondolo.analysis.stripes import Stripes
 from dondolo.checks.ntc import CodeCheck
-from dondolo.errors import InputError, silent
+from dondolo.errors import silent
 from dondolo.exchange.citing import cite
 from dondolo.exchange.results import Results
 from dondolo.figures import style
@@ -124,7 +124,7 @@ def _page(
     if check is not None:
         run.check = instance_of("check", check, CodeCheck)
         if not isinstance(run.results, Stripes) or run.results.wall != check.wall:
-            raise InputError("check: must be of the one wall of the report")
+            raise argument_error("not_together", "check", ": must be of the one wall of the report")
     if hazard is not None:
         instance_of("hazard", hazard, HazardCurve)
     if hazard is not None and isinstance(run.results, Response):
@@ -153,10 +153,12 @@ def _check_ground(run: Run) -> None:
     """Refuse a hazard curve of rigid ground where the check of the wall has factors of soil or topography."""
     site = next((one.site for one in (run.check, *run.checks) if one is not None), None)
     if site is not None and (site.soil, site.topography) != ("A", "T1"):
-        raise InputError(
-            f"hazard: its levels are ag, of rigid, level ground, and the check has soil {site.soil}, topography"
+        raise argument_error(
+            "not_together",
+            "hazard",
+            f": its levels are ag, of rigid, level ground, and the check has soil {site.soil}, topography"
             f" {site.topography}: multiply each ag by S, the factor of soil and topography at that ag, and title the"
-            " column pga"
+            " column pga",
         )
 
 

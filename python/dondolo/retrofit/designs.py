@@ -159,7 +159,9 @@ class DesignComparison(tables.Tabular, Saved):
             A file cannot be written.
         """
         if self.typology is None:
-            raise InputError("levels: designs with levels of their own have no place in the files of results")
+            raise argument_error(
+                "not_together", "levels", ": designs with levels of their own have no place in the files of results"
+            )
         if self.confidence != _CONFIDENCE:
             raise InputError(f"confidence = {self.confidence:g}: must be {_CONFIDENCE:g} in the files of results")
         more, settings = {"_designs.csv": self._columns()}, {}

@@ -134,7 +134,9 @@ class Bench:
         with self._lock, silent():
             place, pga = asked.get("record"), as_number("PGA", asked.get("pga"))
             if not (isinstance(place, int) and 0 <= place < len(self.records)):
-                raise InputError(f"record = {place!r}: must be a number from 0 to {len(self.records) - 1}")
+                raise argument_error(
+                    "out_of_range", "record", f" = {place!r}: must be a number from 0 to {len(self.records) - 1}"
+                )
             if not 0.0 < pga <= 10.0:
                 raise argument_error("out_of_range", "PGA", f" = {pga:g} g: must lie between 0 and 10")
             case, record = (
@@ -348,10 +350,10 @@ def groups_of(given: Any) -> dict[str, dict[str, Any]]:
         raise argument_error("wrong_type", "settings", ": must be the groups of a case")
     for group in given.values():
         if not isinstance(group, dict) or not all(map(_is_value, group.values())):
-            raise InputError("settings: must be groups of values")
+            raise argument_error("wrong_type", "settings", ": must be groups of values")
         for name in group:
             if not (isinstance(name, str) and name.isidentifier() and name.isascii() and len(name) < 64):
-                raise InputError("settings: names of variables must be words")
+                raise argument_error("wrong_type", "settings", ": names of variables must be words")
     return given
 
 

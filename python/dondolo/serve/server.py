@@ -29,6 +29,7 @@ from starlette.responses import JSONResponse, PlainTextResponse, RedirectRespons
 from starlette.routing import Route
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from dondolo._base.arguments import argument_error
 from dondolo._fortran.library import constants, properties
 from dondolo.errors import DondoloError, InputError, Interrupted
 from dondolo.reporting.properties_it import MEANINGS
@@ -207,7 +208,7 @@ def application(bench: Bench, start: Mapping[str, Any], lang: str, port: int, to
 
     def opened(asked: Mapping[str, Any], _: threading.Event) -> Response:
         if not isinstance(asked.get("text"), str):
-            raise InputError("text: must be that of a case")
+            raise argument_error("wrong_type", "text", ": must be that of a case")
         return JSONResponse({"settings": bench.open(asked["text"])})
 
     def document(asked: Mapping[str, Any], _: threading.Event) -> Response:

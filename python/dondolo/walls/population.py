@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal, overload
 import numpy as np
 from numpy.typing import ArrayLike
 
-from dondolo._base.arguments import FloatArray, one_of
+from dondolo._base.arguments import FloatArray, argument_error, one_of
 from dondolo._base.shown import Shown
 from dondolo._fortran.tables import TableColumns, plain
 from dondolo._fortran.walls import (
@@ -378,9 +378,13 @@ class Population(WallRows, Shown):
         names = {wall.name for wall in self.walls} - {UNNAMED}
         for wall, facade in zip(other.walls, other.facades, strict=True):
             if wall.name in names:
-                raise InputError(f"name = {wall.name!r}: both populations have a wall of this name")
+                raise argument_error(
+                    "not_together", "name", f" = {wall.name!r}: both populations have a wall of this name"
+                )
             if facade and facade in self.facades:
-                raise InputError(f"facade = {facade!r}: both populations have a facade of this name")
+                raise argument_error(
+                    "not_together", "facade", f" = {facade!r}: both populations have a facade of this name"
+                )
         return Population(
             self.walls + other.walls,
             np.concatenate([self.weights, other.weights]),

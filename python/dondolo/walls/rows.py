@@ -141,7 +141,9 @@ def check_names(
         alone = of_rows[i][-1] == EXCLUSIVE and not alternatives[i]
         others = [] if alone else [j for j in range(one, i) if alternatives[j] == alternatives[i]]
         if wall.mechanism in (walls[j].mechanism for j in others):
-            raise InputError(f"name = {wall.name!r}: another wall of this name has the same mechanism")
+            raise argument_error(
+                "not_together", "name", f" = {wall.name!r}: another wall of this name has the same mechanism"
+            )
         if facade:
             one, whole = first_of.setdefault(facade, i), "facade"
             if one != i and facades[i - 1] != facade:
@@ -154,4 +156,6 @@ def check_names(
             )
     for facade in first_of:
         if facade in first and facades[first[facade]] != facade:
-            raise InputError(f"facade = {facade!r}: a wall that is not part of it has this name")
+            raise argument_error(
+                "not_together", "facade", f" = {facade!r}: a wall that is not part of it has this name"
+            )

@@ -88,7 +88,7 @@ def _as_mechanisms(mechanisms: Any) -> dict[str, dict[str, Property]]:
     for mechanism in mechanisms:
         one_of("mechanism", mechanism, MECHANISMS)
         if mechanism in own:
-            raise InputError(f"mechanisms: {mechanism!r} is given twice")
+            raise argument_error("not_together", "mechanisms", f": {mechanism!r} is given twice")
         extra = mechanisms[mechanism] if isinstance(mechanisms, Mapping) else {}
         own[mechanism] = _as_mapping(mechanism, extra, "properties by their names")
     if not own:
@@ -109,7 +109,9 @@ def _check_variables(variables: Mapping[str, Any]) -> None:
         as_text("variables", what)
         # A number of storeys may be one of the population that no wall has of a building
         if what in _PROPERTIES and what not in BUILDING_NAMES:
-            raise InputError(f"variables: {what!r} is a property of the walls, to be given as one")
+            raise argument_error(
+                "not_together", "variables", f": {what!r} is a property of the walls, to be given as one"
+            )
         if not isinstance(value, Distribution):
             raise no_distribution(what, value)
 
@@ -121,7 +123,7 @@ def _check_properties(own: Mapping[str, Mapping[str, Property]], properties: Map
             if what not in _PROPERTIES:
                 raise InputError(f"{what!r}: no such property of walls; there are {', '.join(_PROPERTIES)}")
             if what == "weight" and mechanism:
-                raise InputError("weight: belongs to the wall, not to one of its mechanisms")
+                raise argument_error("not_together", "weight", ": belongs to the wall, not to one of its mechanisms")
             if what not in WALL_LISTS and isinstance(value, str) != (what in _TEXTS):
                 raise argument_error(
                     "wrong_type", what, f" = {value!r}: must be a {'string' if what in _TEXTS else 'number'}"
@@ -129,7 +131,9 @@ def _check_properties(own: Mapping[str, Mapping[str, Property]], properties: Map
         for kind in [mechanism] if mechanism else own:
             for what in extra:
                 if kind not in _OWNERS.get(what, (kind,)):
-                    raise InputError(f"{what}: {kind} walls have none; give it to the mechanism that has it")
+                    raise argument_error(
+                        "not_together", what, f": {kind} walls have none; give it to the mechanism that has it"
+                    )
 
 
 def _distributions(
@@ -181,7 +185,7 @@ def _matrix(names: Sequence[str], correlation: Mapping[tuple[str, str], float]) 
     matrix = np.eye(len(names))
     for pair, given in correlation.items():
         if not isinstance(pair, tuple) or len(pair) != 2 or pair[0] == pair[1]:
-            raise InputError(f"correlation: {pair!r}: must be two names")
+            raise argument_error("wrong_type", "correlation", f": {pair!r}: must be two names")
         for what in pair:
             if what not in names:
                 known = ", ".join(map(repr, names)) or "none"

@@ -8,7 +8,6 @@ from collections.abc import Sequence
 from typing import Any
 
 from dondolo._base.arguments import argument_error
-from dondolo.errors import InputError
 from dondolo.reporting.blocks import Block, CaptionedTable, Facts, Heading, Note, symbol_of
 from dondolo.reporting.content import Piece, Table
 from dondolo.reporting.numerals import NONE, number
@@ -229,7 +228,9 @@ def _check_level(level: str, one: Subject) -> None:
     least = _FACTORS[named.pop()]
     factor = one.check.value("mechanism", "SLV", "knowledge_factor")
     if factor < least:
-        raise InputError(
-            f"knowledge_level = {level!r}: asks for a confidence factor of {least:g}, but wall '{one.wall.name}' is"
-            f" checked with {factor:g}"
+        raise argument_error(
+            "not_together",
+            "knowledge_level",
+            f" = {level!r}: asks for a confidence factor of {least:g}, but wall '{one.wall.name}' is"
+            f" checked with {factor:g}",
         )

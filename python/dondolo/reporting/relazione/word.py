@@ -9,9 +9,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from dondolo._base.arguments import argument_error
 from dondolo._base.files import read_bytes
 from dondolo._fortran.files import whole_file
-from dondolo.errors import DondoloError, InputError
+from dondolo.errors import DondoloError
 from dondolo.figures.layout import lay_out
 from dondolo.reporting.blocks import (
     Annexes,
@@ -71,7 +72,9 @@ def write_word(
         try:
             file = docx.Document(io.BytesIO(read_bytes(template)))
         except (ValueError, KeyError, zipfile.BadZipFile) as error:
-            raise InputError(f"template = {os.fspath(template)!r}: is not a file of Word: {error}") from None
+            raise argument_error(
+                "out_of_range", "template", f" = {os.fspath(template)!r}: is not a file of Word: {error}"
+            ) from None
     _Writer(file, document).write(blocks)
     file.core_properties.comments = mark
     file.core_properties.author = document.project.words.get("designer", "")
