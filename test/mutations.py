@@ -248,14 +248,14 @@ EDITS = [
     # Fractiles over a population, in Fortran
     Edit(
         "a fractile has more than its share of the weight below it, not at least that share",
-        "if (reached(middle) >= (shares(k) - rounding)*total) then",
-        "if (reached(middle) > (shares(k) + rounding)*total) then",
+        ".not. reached >= (shares(from_least(k)) - rounding)*total)",
+        ".not. reached > (shares(from_least(k)) + rounding)*total)",
         "test_typology.f90",
     ),
     Edit(
         "weights do not follow the walls into the order of their probabilities",
-        "reached = weights(order)",
-        "reached = weights",
+        "reached = reached + weights(order(i))",
+        "reached = reached + weights(i)",
         "test_typology.f90",
     ),
     Edit(
@@ -316,8 +316,8 @@ EDITS = [
     # Means and dispersions of a population
     Edit(
         "a mean ignores the weights of the walls",
-        "mean = mean + self%weight(i)*p(:, self%column(i))",
-        "mean = mean + sum(self%weight)/real(size(self%weight), wp)*p(:, self%column(i))",
+        "mean(k) = mean(k) + self%weight(i)*p(i, k)",
+        "mean(k) = mean(k) + sum(self%weight)/real(size(self%weight), wp)*p(i, k)",
         "test_typology.f90",
     ),
     Edit(

@@ -747,7 +747,7 @@ contains
 
    !> Merge with new results
    subroutine merge_anew(case, paths, error)
-      type(case_type), intent(in) :: case
+      type(case_type), intent(inout) :: case
       type(lines_type), intent(in) :: paths
       type(error_type), allocatable, intent(out) :: error
 

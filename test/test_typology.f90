@@ -9,7 +9,7 @@ program test_typology
    use dondolo_fragility_study, only : check_thresholds
    use dondolo_population, only : part_type, population_type
    use dondolo_population_typology, only : combine_population, fractile_shares, typology_type, whole_population
-   use dondolo_population_weights, only : weighted_fractiles, weights_of, weights_type
+   use dondolo_population_weights, only : weighted_fractiles, weights_type
    implicit none
 
    !> Levels of all populations here
@@ -549,33 +549,35 @@ contains
       walls(2) = wall_of([2], ['one_sided'], 1.0_wp, group='b')
       walls(3) = wall_of([4], ['one_sided'], 4.0_wp, group='b')
       population = population_of(walls)
-      call population%probabilities(1, levels, p, error)
+      call population%probabilities(1, [(k, k=1, 7)], levels, p, error)
       call check_ok(error, 'probabilities')
-      call check(all(shape(p) == [6, 7]), 'rows and walls')
+      call check(all(shape(p) == [7, 6]), 'rows and walls')
       do k = 1, size(levels)
-         call check_close(p(k, 3), lines(k), 1.0e-15_wp, 'a wall without a fit', atol=1.0e-16_wp)
-         call check_close(p(k, 5), 1.0_wp - (1.0_wp - 0.3_wp*p(k, 1))*(1.0_wp - 0.8_wp*p(k, 2)), 1.0e-14_wp, &
+         call check_close(p(3, k), lines(k), 1.0e-15_wp, 'a wall without a fit', atol=1.0e-16_wp)
+         call check_close(p(5, k), 1.0_wp - (1.0_wp - 0.3_wp*p(1, k))*(1.0_wp - 0.8_wp*p(2, k)), 1.0e-14_wp, &
             & 'mechanisms in series', atol=1.0e-16_wp)
-         call check_close(p(k, 4), walls(3)%curve(1)%probability(levels(k)), 0.0_wp, 'a wall with a fit')
+         call check_close(p(4, k), walls(3)%curve(1)%probability(levels(k)), 0.0_wp, 'a wall with a fit')
+         call check(all(abs(p(6:, k) - p(3:4, k)) <= 0.0_wp), 'one mechanism that always can occur')
       end do
-      weights = weights_of(population, population%part('all', ''))
-      mean = weights%mean(p)
-      fractiles = weights%fractiles(p, [0.9_wp, 0.1_wp])
+      call weights%take(population, population%part('all', ''))
+      call check(all(weights%column == [5, 6, 7]), 'walls as a whole')
+      mean = weights%mean(p(5:, :))
+      fractiles = weights%fractiles(p(5:, :), [0.9_wp, 0.1_wp])
       do k = 1, size(levels)
-         call check_close(mean(k), (2.0_wp*p(k, 5) + p(k, 6) + 4.0_wp*p(k, 7))/7.0_wp, 1.0e-14_wp, 'mean', atol=1.0e-16_wp)
-         call check(all(abs(fractiles(:, k) - [maxval(p(k, 5:)), minval(p(k, 5:))]) <= 0.0_wp), 'fractiles')
+         call check_close(mean(k), (2.0_wp*p(5, k) + p(6, k) + 4.0_wp*p(7, k))/7.0_wp, 1.0e-14_wp, 'mean', atol=1.0e-16_wp)
+         call check(all(abs(fractiles(:, k) - [maxval(p(5:, k)), minval(p(5:, k))]) <= 0.0_wp), 'fractiles')
       end do
-      weights = weights_of(population, population%part('one_sided', 'b'))
+      call weights%take(population, population%part('one_sided', 'b'))
       call check(all(weights%column == [3, 4]) .and. all(weights%weight >= [1.0_wp, 4.0_wp]), 'a mechanism of a group')
-      weights = weights_of(population, population%part('one_sided', ''))
+      call weights%take(population, population%part('one_sided', ''))
       call check(all(weights%column == [1, 3, 4]), 'a mechanism')
       call check_close(weights%weight(1), 0.6_wp, 1.0e-15_wp, 'counts as often as it can occur')
-      weights = weights_of(population, part_type(group=1))
+      call weights%take(population, part_type(group=1))
       call check(all(weights%column == [6, 7]), 'a group')
-      call population%probabilities(1, levels, p, error, [3])
+      call population%probabilities(1, [3], levels, p, error)
       call check_ok(error, 'some columns')
       do k = 1, size(levels)
-         call check_close(p(k, 3), lines(k), 1.0e-15_wp, 'the column that was asked for', atol=1.0e-16_wp)
+         call check_close(p(1, k), lines(k), 1.0e-15_wp, 'the column that was asked for', atol=1.0e-16_wp)
       end do
 
       ! A row that was not fitted
@@ -585,8 +587,8 @@ contains
       call check_ok(error, 'two levels')
       population%histories = 4
       population%reached(:, 1, 1) = [1, 2]
-      call population%probabilities(1, [0.5_wp, 1.5_wp, 2.5_wp], p, error)
-      call check(all(abs(p(:, 1) - [0.125_wp, 0.375_wp, 0.5_wp]) <= 0.0_wp), 'between two fractions')
+      call population%probabilities(1, [1], [0.5_wp, 1.5_wp, 2.5_wp], p, error)
+      call check(all(abs(p(1, :) - [0.125_wp, 0.375_wp, 0.5_wp]) <= 0.0_wp), 'between two fractions')
    end subroutine test_any_level
 
    !> Damage states: thresholds and who reaches them

@@ -14,7 +14,7 @@ module populations
    use dondolo_population_errors, only : curve_sums_type
    use dondolo_population_row_result, only : bytes_of_flags, row_result_type, shape_type, unpack_flags
    use dondolo_population_typology, only : combine_population, typology_type
-   use dondolo_population_weights, only : weights_of, weights_type
+   use dondolo_population_weights, only : weights_type
    implicit none
    private
 
@@ -62,7 +62,7 @@ contains
       if (.not. allocated(error)) then
          if (.not. allocated(curves%typologies)) allocate (curves%typologies(0, 1))
          call put_curves(parcel, 'row_', population%curve(1, :r))
-         call put_curves(parcel, 'wall_', population%curve(1, population%place(r + 1:)))
+         call put_curves(parcel, 'wall_', population%curve(1, population%place_of_wall))
          call put_fractions(parcel, population)
          call put_groups(parcel, curves%typologies(:, 1))
          if (states > 0) call put_changes(parcel, 'fit_', curves%errors%curve(:, 1))
@@ -264,20 +264,21 @@ contains
          & alternative, rows, error)
       if (.not. allocated(error)) then
          call set_curves(population, theta, beta, statuses)
-         weights = weights_of(population, population%part(mechanism, group))
+         call weights%take(population, population%part(mechanism, group))
          if (probabilities == 1) then
             call check_room(error, reals=4.0_c_double*real(size(weights%column), c_double)*n)
             if (.not. allocated(error)) allocate (all(size(weights%column), n))
          end if
       end if
-      do first = 1, n, population%levels_at_a_time()
-         if (allocated(error)) exit
-         last = min(first + population%levels_at_a_time() - 1, n)
-         call population%probabilities(1, x(first:last), p, error, weights%column)
+      first = 1
+      do while (first <= n .and. .not. allocated(error))
+         last = min(first + weights%levels_at_a_time() - 1, n)
+         call population%probabilities(1, weights%column, x(first:last), p, error)
          if (allocated(error)) exit
          mean(first:last) = weights%mean(p)
          fractiles(:, first:last) = weights%fractiles(p, q)
-         if (probabilities == 1) all(:, first:last) = transpose(p(:, weights%column))
+         if (probabilities == 1) all(:, first:last) = p
+         first = last + 1
       end do
       if (.not. allocated(error) .and. probabilities == 1) then
          call parcel%put('probabilities', reshape(all, [size(all)]), shape(all))

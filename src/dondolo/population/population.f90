@@ -60,18 +60,21 @@ module dondolo_population
       !> Curves (states, places). That of a wall is the lognormal of what can collapse: fitted to its fractions / occurrence,
       !> or that of its mechanism, if one always can occur
       type(fragility_type), allocatable :: curve(:, :)
-      !> Place of the curve of each column: that of a row is its number, and a wall with one mechanism that always can occur
-      !> has the curve of its row
-      integer, allocatable :: place(:)
+      !> Place of the curve of each wall: one with a single mechanism that always can occur has that of its row
+      integer, allocatable :: place_of_wall(:)
    contains
       !> Add a row
       procedure :: add
       !> All rows are there: give back room for more
       procedure :: trim_rows
+      !> Take the rows of another, which has none afterwards
+      procedure :: take_rows
       !> Make room for the histories of all rows
       procedure :: begin
       !> Fit the curves
       procedure :: fit
+      !> Place of the curve of a column
+      procedure :: place
       !> Rows of a wall
       procedure :: rows_of
       !> Has a wall several rows?
@@ -96,8 +99,6 @@ module dondolo_population
       procedure :: fraction
       !> Probabilities of collapse of columns
       procedure :: probabilities
-      !> At how many levels they are computed at a time
-      procedure :: levels_at_a_time
    end type population_type
 
 contains
@@ -141,6 +142,18 @@ contains
       if (size(self%row) > self%rows) self%row = self%row(:self%rows)
    end subroutine trim_rows
 
+   !> Take the rows of another, which has none afterwards: those of many walls are held once
+   subroutine take_rows(self, other)
+      class(population_type), intent(inout) :: self
+      type(population_type), intent(inout) :: other
+
+      self%rows = other%rows
+      self%walls = other%walls
+      self%groups = other%groups
+      call move_alloc(other%row, self%row)
+      other = population_type()
+   end subroutine take_rows
+
    !> Make room for the histories of all rows, of which there are none so far
    subroutine begin(self, levels, states, error)
       class(population_type), intent(inout) :: self
@@ -163,12 +176,12 @@ contains
       do i = self%rows, 1, -1
          self%first(self%row(i)%wall) = i
       end do
-      self%place = [(i, i=1, self%rows), (self%first(i), i=1, self%walls)]
+      self%place_of_wall = self%first(:self%walls)
       curves = self%rows
       do i = 1, self%walls
          if (.not. self%is_several(i) .and. self%row(self%first(i))%p_occ >= 1.0_wp) cycle
          curves = curves + 1
-         self%place(self%rows + i) = curves
+         self%place_of_wall(i) = curves
       end do
       allocate (self%histories(size(levels), self%rows), self%reached(size(levels), states, self%rows), source=0)
       allocate (self%curve(states, curves))
@@ -220,11 +233,21 @@ contains
          if (allocated(error)) return
       end do
       column = self%rows + wall
-      place = self%place(column)
+      place = self%place_of_wall(wall)
       if (place <= self%rows) return
       call fit_share(self%curve(state, place), self%levels, self%fraction(column, state), self%occurrence(column), &
          & real(self%histories_of(column), wp), error)
    end subroutine fit_wall
+
+   !> Place of the curve of a column: that of a row is its number
+   elemental integer function place(self, column)
+      class(population_type), intent(in) :: self
+      !> Number of the column
+      integer, intent(in) :: column
+
+      place = column
+      if (column > self%rows) place = self%place_of_wall(column - self%rows)
+   end function place
 
    !> Rows of a wall, or of a row itself
    pure function rows_of(self, column) result(rows)
@@ -381,55 +404,61 @@ contains
       end associate
    end function fraction
 
-   !> Probabilities of collapse at any levels. A row without a fit takes part with its fractions: between the levels they are
-   !> interpolated linearly, from 0 at x = 0; above the highest level they stay
-   subroutine probabilities(self, state, x, p, error, columns)
+   !> Probabilities of collapse of columns at any levels. A row without a fit takes part with its fractions: between the levels
+   !> they are interpolated linearly, from 0 at x = 0; above the highest level they stay
+   subroutine probabilities(self, state, columns, x, p, error)
       !> The population, fitted
       class(population_type), intent(in) :: self
       !> Number of the damage state
       integer, intent(in) :: state
+      !> Numbers of the columns
+      integer, intent(in) :: columns(:)
       !> Levels of intensity, not negative
       real(wp), intent(in) :: x(:)
-      !> Probabilities (x, columns): of a row if it can occur
+      !> Probabilities (columns, x): of a row if it can occur
       real(wp), allocatable, intent(out) :: p(:, :)
       !> Lack of memory
       type(error_type), allocatable, intent(out) :: error
-      !> Which columns are needed, all if absent; those of other walls are left undefined
-      integer, intent(in), optional :: columns(:)
 
-      logical, allocatable :: needed(:)
-      real(wp), allocatable :: p_occ(:)
+      real(wp), allocatable :: p_occ(:), rows(:, :)
       integer, allocatable :: alternative(:)
       integer :: i, k, of(2)
 
-      call check_room(real(storage_size(p)/8, wp)*real(size(x), wp)*real(self%rows + self%walls, wp), error)
+      call check_room(real(storage_size(p)/8, wp)*real(size(x), wp)*real(size(columns), wp), error)
       if (allocated(error)) return
-      allocate (p(size(x), self%rows + self%walls))
-      allocate (needed(size(p, 2)), source=.not. present(columns))
-      if (present(columns)) needed(columns) = .true.
-      do i = self%rows + 1, self%rows + self%walls
-         of = self%rows_of(i)
-         if (.not. (needed(i) .or. any(needed(of(1):of(2))))) cycle
+      allocate (p(size(columns), size(x)))
+      do i = 1, size(columns)
+         if (self%place(columns(i)) <= self%rows) then
+            p(i, :) = probability_of_row(self, self%place(columns(i)), state, x)
+            cycle
+         end if
+         of = self%rows_of(columns(i))
+         allocate (rows(size(x), of(1):of(2)))
          do k = of(1), of(2)
-            if (self%curve(state, k)%has_fit()) then
-               p(:, k) = self%curve(state, k)%probability(x)
-            else
-               p(:, k) = interpolated(self%levels, self%fraction(k, state), x)
-            end if
+            rows(:, k) = probability_of_row(self, k, state, x)
          end do
-         call self%get_occurrence(i, p_occ, alternative)
-         p(:, i) = wall_probability(p_occ, alternative, p(:, of(1):of(2)))
+         call self%get_occurrence(columns(i), p_occ, alternative)
+         p(i, :) = wall_probability(p_occ, alternative, rows)
+         deallocate (rows)
       end do
    end subroutine probabilities
 
-   !> At how many levels the probabilities of all columns are computed at a time: a few MB, or a single level
-   pure integer function levels_at_a_time(self) result(levels)
+   !> Probability of collapse of a row, if it can occur
+   pure function probability_of_row(self, row, state, x) result(p)
       class(population_type), intent(in) :: self
+      !> Numbers of the row and of the damage state
+      integer, intent(in) :: row, state
+      !> Levels of intensity
+      real(wp), intent(in) :: x(:)
+      !> Probabilities there
+      real(wp) :: p(size(x))
 
-      integer, parameter :: most_numbers = 500000
-
-      levels = max(1, most_numbers/max(1, self%rows + self%walls))
-   end function levels_at_a_time
+      if (self%curve(state, row)%has_fit()) then
+         p = self%curve(state, row)%probability(x)
+      else
+         p = interpolated(self%levels, self%fraction(row, state), x)
+      end if
+   end function probability_of_row
 
    !> Fractions at any levels, on the lines between those that are known
    pure function interpolated(levels, fractions, x) result(p)

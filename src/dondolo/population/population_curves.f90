@@ -76,8 +76,8 @@ contains
       end do
       united = count(population%is_several([(i, i=1, population%walls)]))
       kept = merge(size(share, 2), 0, keeps_changes)
-      call check_room(real(size(share, 1)*8, wp)*(real(2*united, wp)*real(states + 1, wp) &
-         & + real(population%rows + population%walls, wp)) + 16.0_wp*real(kept, wp)*real(united, wp)*real(states, wp), error)
+      call check_room(real(size(share, 1)*8, wp)*real(2*united, wp)*real(states + 1, wp) &
+         & + 16.0_wp*real(kept, wp)*real(united, wp)*real(states, wp), error)
       if (allocated(error)) return
       call share_clusters(clusters, runs, share)
       call self%errors%begin(self%typologies, population, share, error, keeps_changes)

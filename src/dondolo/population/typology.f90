@@ -12,7 +12,7 @@ module dondolo_population_typology
    use dondolo_fragility, only : fragility_type
    use dondolo_population, only : part_type, population_type
    use dondolo_population_occurrence, only : fit_share
-   use dondolo_population_weights, only : weights_of, weights_type
+   use dondolo_population_weights, only : weights_type
    use dondolo_wall, only : mechanism_names
    implicit none
    private
@@ -71,9 +71,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(part_type), allocatable :: parts(:)
-      real(wp), allocatable :: p(:, :)
-      type(weights_type) :: weights
-      integer :: i, first, last
+      integer :: i
 
       call list_parts(parts, population, error)
       if (allocated(error)) return
@@ -81,16 +79,6 @@ contains
       do i = 1, size(parts)
          call make_curve(typologies(i), population, parts(i), state, error)
          if (allocated(error)) return
-      end do
-      do first = 1, size(population%levels), population%levels_at_a_time()
-         last = min(first + population%levels_at_a_time() - 1, size(population%levels))
-         call population%probabilities(state, population%levels(first:last), p, error)
-         if (allocated(error)) return
-         do i = 1, size(parts)
-            weights = weights_of(population, parts(i))
-            typologies(i)%mean_curve(first:last) = weights%mean(p)
-            typologies(i)%fractile(:, first:last) = weights%fractiles(p, fractile_shares)
-         end do
       end do
    end subroutine combine_population
 
@@ -142,7 +130,7 @@ contains
       end do
    end subroutine list_parts
 
-   !> Make the curve of a part, all but the mean of its walls' curves and their fractiles
+   !> Make the curve of a part
    subroutine make_curve(curve, population, part, state, error)
       type(typology_type), intent(out) :: curve
       !> The population, fitted
@@ -150,12 +138,14 @@ contains
       type(part_type), intent(in) :: part
       !> Number of the damage state
       integer, intent(in) :: state
-      !> Fractions that cannot be fitted
+      !> Fractions that cannot be fitted, or lack of memory
       type(error_type), allocatable, intent(out) :: error
 
       type(weights_type) :: weights
+      real(wp), allocatable :: p(:, :)
+      integer :: first, last
 
-      weights = weights_of(population, part)
+      call weights%take(population, part)
       curve%part = part
       curve%group = ''
       if (part%group > 0) curve%group = population%groups%line(part%group)%text
@@ -167,6 +157,14 @@ contains
       allocate (curve%mean_curve(size(curve%levels)), curve%fractile(size(fractile_shares), size(curve%levels)))
       call sum_columns(curve, population, weights, state)
       call fit_share(curve%fit, curve%levels, curve%mean_fraction, curve%saturation, curve%histories, error)
+      do first = 1, size(curve%levels), weights%levels_at_a_time()
+         if (allocated(error)) return
+         last = min(first + weights%levels_at_a_time() - 1, size(curve%levels))
+         call population%probabilities(state, weights%column, curve%levels(first:last), p, error)
+         if (allocated(error)) return
+         curve%mean_curve(first:last) = weights%mean(p)
+         curve%fractile(:, first:last) = weights%fractiles(p, fractile_shares)
+      end do
    end subroutine make_curve
 
    !> Set the fractions of a part, what can occur in it, what has a curve, how its curves scatter, and its histories

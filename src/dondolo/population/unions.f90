@@ -11,11 +11,11 @@ module dondolo_population_unions
    use dondolo_base_lines, only : line_type
    use dondolo_fragility, only : fit_fragility, fragility_type
    use dondolo_fragility_clustered, only : cluster_errors
-   use dondolo_population, only : population_type
+   use dondolo_population, only : part_type, population_type
    use dondolo_population_row_result, only : row_result_type
    use dondolo_population_occurrence, only : fit_share
    use dondolo_population_typology, only : typology_type
-   use dondolo_population_weights, only : weights_of, weights_type
+   use dondolo_population_weights, only : weights_type
    implicit none
    private
 
@@ -304,33 +304,55 @@ contains
       !> Fractions that cannot be fitted
       type(error_type), allocatable, intent(out) :: error
 
-      type(weights_type) :: weights
-      real(wp), allocatable :: fraction(:, :)
       integer, allocatable :: curves(:)
       integer :: i, k
 
       curves = curves_with_mean(population, typologies(:, 1))
-      allocate (unions%mean(size(curves)), fraction(size(population%levels), population%rows + population%walls))
+      allocate (unions%mean(size(curves)))
       do i = 1, size(curves)
          call begin_mean(unions%mean(i), typologies(curves(i), :))
-      end do
-      do k = 1, size(typologies, 2)
-         do i = 1, size(fraction, 2)
-            fraction(:, i) = population%fraction(i, k)
-         end do
-         do i = 1, size(unions%wall)
-            fraction(:, population%rows + unions%wall(i)) = unions%fraction(i, k)
-         end do
-         do i = 1, size(curves)
-            weights = weights_of(population, typologies(curves(i), k)%part)
+         do k = 1, size(typologies, 2)
             associate (mean => unions%mean(i))
-               mean%fraction(:, k) = weights%mean(fraction)
+               mean%fraction(:, k) = mean_fraction(unions, population, typologies(curves(i), k)%part, k)
                call fit_share(mean%curve(k), population%levels, mean%fraction(:, k), mean%saturation, mean%histories, error)
             end associate
             if (allocated(error)) return
          end do
       end do
    end subroutine mean_unions
+
+   !> Weighted mean of the fractions of the walls of a part: of those with several mechanisms, of their unions
+   function mean_fraction(unions, population, part, state) result(mean)
+      type(unions_type), intent(in) :: unions
+      !> The population, fitted
+      type(population_type), intent(in) :: population
+      !> The walls as a whole, of a group or of all
+      type(part_type), intent(in) :: part
+      !> Number of the state
+      integer, intent(in) :: state
+      !> Mean at each level
+      real(wp) :: mean(size(population%levels))
+
+      type(weights_type) :: weights
+      integer :: i, united
+
+      call weights%take(population, part)
+      united = 0
+      mean = 0.0_wp
+      do i = 1, size(weights%column)
+         associate (wall => weights%column(i) - population%rows)
+            if (.not. population%is_several(wall)) then
+               mean = mean + weights%weight(i)*population%fraction(weights%column(i), state)
+               cycle
+            end if
+            ! Unions stand in the order of walls, and each of them with several mechanisms has one.
+            united = united + findloc(unions%wall(united + 1:), wall, dim=1)
+         end associate
+         mean = mean + weights%weight(i)*unions%fraction(united, state)
+      end do
+      ! Rounding must not leave more collapses than histories.
+      mean = min(mean/sum(weights%weight), 1.0_wp)
+   end function mean_fraction
 
    !> Begin a mean
    subroutine begin_mean(union, typologies)

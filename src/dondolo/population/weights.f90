@@ -8,7 +8,7 @@ module dondolo_population_weights
    implicit none
    private
 
-   public :: weights_type, weights_of, weighted_fractiles
+   public :: weights_type, weighted_fractiles
 
    !> The members of a part of a population, whose weighted mean is its curve
    type :: weights_type
@@ -17,6 +17,10 @@ module dondolo_population_weights
       !> Their weights, positive
       real(wp), allocatable :: weight(:)
    contains
+      !> Take the members of a part
+      procedure :: take
+      !> At how many levels the probabilities of all members are computed at a time
+      procedure :: levels_at_a_time
       !> Weighted mean
       procedure :: mean
       !> Weighted fractiles
@@ -25,11 +29,11 @@ module dondolo_population_weights
 
 contains
 
-   !> Weights of a part; what has none is left out
-   pure function weights_of(population, part) result(weights)
+   !> Take the members of a part; what has no weight is left out
+   subroutine take(self, population, part)
+      class(weights_type), intent(out) :: self
       type(population_type), intent(in) :: population
       type(part_type), intent(in) :: part
-      type(weights_type) :: weights
 
       real(wp) :: weight
       integer :: i, n, pass
@@ -42,26 +46,37 @@ contains
             if (.not. weight > 0.0_wp) cycle
             n = n + 1
             if (pass == 1) cycle
-            weights%column(n) = i
-            weights%weight(n) = weight
+            self%column(n) = i
+            self%weight(n) = weight
          end do
-         if (pass == 1) allocate (weights%column(n), weights%weight(n))
+         if (pass == 1) allocate (self%column(n), self%weight(n))
       end do
-   end function weights_of
+   end subroutine take
+
+   !> At how many levels the probabilities of all members are computed at a time: a few MB, or a single level
+   pure integer function levels_at_a_time(self) result(levels)
+      class(weights_type), intent(in) :: self
+
+      integer, parameter :: most_numbers = 500000
+
+      levels = max(1, most_numbers/max(1, size(self%column)))
+   end function levels_at_a_time
 
    !> Weighted mean; of what is at most 1 it is at most 1, whatever rounding does
    pure function mean(self, p)
       class(weights_type), intent(in) :: self
-      !> Fractions or probabilities of the population (x, columns)
+      !> Fractions or probabilities of the members (members, x)
       real(wp), intent(in) :: p(:, :)
       !> Mean at each x
-      real(wp) :: mean(size(p, 1))
+      real(wp) :: mean(size(p, 2))
 
-      integer :: i
+      integer :: i, k
 
       mean = 0.0_wp
-      do i = 1, size(self%column)
-         mean = mean + self%weight(i)*p(:, self%column(i))
+      do k = 1, size(p, 2)
+         do i = 1, size(p, 1)
+            mean(k) = mean(k) + self%weight(i)*p(i, k)
+         end do
       end do
       mean = min(mean/sum(self%weight), 1.0_wp)
    end function mean
@@ -69,20 +84,17 @@ contains
    !> Weighted fractiles
    pure function fractiles(self, p, shares)
       class(weights_type), intent(in) :: self
-      !> Probabilities of the population (x, columns)
+      !> Probabilities of the members (members, x)
       real(wp), intent(in) :: p(:, :)
       !> Shares of the weight, above 0 and up to 1
       real(wp), intent(in) :: shares(:)
       !> Fractiles (shares, x)
-      real(wp) :: fractiles(size(shares), size(p, 1))
+      real(wp) :: fractiles(size(shares), size(p, 2))
 
-      real(wp), allocatable :: numbers(:)
-      integer :: i
+      integer :: k
 
-      if (size(shares) == 0) return
-      do i = 1, size(p, 1)
-         numbers = p(i, self%column)
-         call weighted_fractiles(numbers, self%weight, shares, fractiles(:, i))
+      do k = 1, size(p, 2)
+         call weighted_fractiles(p(:, k), self%weight, shares, fractiles(:, k))
       end do
    end function fractiles
 
@@ -99,32 +111,25 @@ contains
 
       ! Weights such as 0.1 do not add up to a share exactly.
       real(wp), parameter :: rounding = 1.0e-12_wp
-      real(wp), allocatable :: reached(:)
-      real(wp) :: total
-      integer, allocatable :: order(:)
-      integer :: k, low, high, middle
+      real(wp) :: total, reached
+      integer, allocatable :: order(:), from_least(:)
+      integer :: i, k
 
+      if (size(shares) == 0) return
       ! In the order of the population: the fractiles do not depend on how the last digit of another sum is rounded.
       total = sum(weights)
+      call make_order(shares, from_least)
       call make_order(numbers, order)
-      reached = weights(order)
-      do k = 2, size(reached)
-         reached(k) = reached(k - 1) + reached(k)
-      end do
+      ! The first number at which a share is reached; the last one if rounding lets none
+      reached = weights(order(1))
+      i = 1
       do k = 1, size(shares)
-         ! The first place that reaches the share; the last one if rounding lets none
-         low = 1
-         high = size(reached)
-         do while (low < high)
-            middle = low + (high - low)/2
-            if (reached(middle) >= (shares(k) - rounding)*total) then
-               high = middle
-            else
-               low = middle + 1
-            end if
+         do while (i < size(order) .and. .not. reached >= (shares(from_least(k)) - rounding)*total)
+            i = i + 1
+            reached = reached + weights(order(i))
          end do
          ! A zero with a sign is a zero
-         fractiles(k) = abs(numbers(order(low)))
+         fractiles(from_least(k)) = abs(numbers(order(i)))
       end do
    end subroutine weighted_fractiles
 

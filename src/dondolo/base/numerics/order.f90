@@ -15,11 +15,13 @@ contains
       !> Their places, from that of the smallest
       integer, allocatable, intent(out) :: order(:)
 
-      integer, allocatable :: merged(:)
+      integer, allocatable :: merged(:), before(:)
       integer :: width, first, middle, last, i, j, k
 
-      order = [(i, i=1, size(numbers))]
-      allocate (merged(size(numbers)))
+      allocate (order(size(numbers)), merged(size(numbers)))
+      do i = 1, size(order)
+         order(i) = i
+      end do
       width = 1
       do while (width < size(order))
          do first = 1, size(order), 2*width
@@ -43,7 +45,9 @@ contains
                end if
             end do
          end do
-         order = merged
+         call move_alloc(order, before)
+         call move_alloc(merged, order)
+         call move_alloc(before, merged)
          width = 2*width
       end do
    end subroutine make_order

@@ -27,7 +27,7 @@ module dondolo_case_survey
    implicit none
    private
 
-   public :: survey_type, survey_population, check_size, add_wall_words
+   public :: survey_type, survey_population, hand_rows_over, check_size, add_wall_words
 
    !> What a survey has found
    type :: survey_type
@@ -45,7 +45,7 @@ module dondolo_case_survey
       logical :: is_part = .false.
       !> Histories of these rows, all levels
       integer(int64) :: histories = 0
-      !> Its rows, without histories
+      !> Its rows, without histories, until they are handed over
       type(population_type) :: population
       !> Warnings of scale factors
       type(scale_warnings_type) :: scales
@@ -103,8 +103,7 @@ contains
          if (.not. allocated(error)) then
             if (.not. row%continues) survey%walls = survey%walls + 1
             survey%has_facades = survey%has_facades .or. len(row%facade) > 0
-            call survey%population%add(row%wall%mechanism_name(), row%group, row%weight, row%p_occ, &
-               & row%number_of_alternative, row%continues)
+            call add_row(survey%population, row)
             call survey%occurrence_warnings%look(row)
             survey%has_alternatives = survey%has_alternatives .or. row%number_of_alternative > 0
             survey%lengths = max(survey%lengths, row%wall%input%lengths())
@@ -136,6 +135,40 @@ contains
       call problems%take(error)
       call problems%raise(error)
    end subroutine survey_population
+
+   !> Hand the rows over to a population: those of many walls would not fit twice. A further run of the same case reads them again
+   subroutine hand_rows_over(survey, table, population, error)
+      type(survey_type), intent(inout) :: survey
+      !> What it is taken from
+      type(population_table_type), intent(in) :: table
+      !> The population, empty: it gets the rows
+      type(population_type), intent(inout) :: population
+      !> A row is wrong
+      type(error_type), allocatable, intent(out) :: error
+
+      type(population_reader_type) :: reader
+      type(wall_row_type) :: row
+      logical :: found
+
+      if (survey%population%rows > 0) then
+         call population%take_rows(survey%population)
+         return
+      end if
+      reader%names%is_checked = .false.
+      do
+         call reader%next(table, row, found, error)
+         if (.not. found .or. allocated(error)) exit
+         call add_row(population, row)
+      end do
+   end subroutine hand_rows_over
+
+   !> Add a row to a population
+   subroutine add_row(population, row)
+      type(population_type), intent(inout) :: population
+      type(wall_row_type), intent(in) :: row
+
+      call population%add(row%wall%mechanism_name(), row%group, row%weight, row%p_occ, row%number_of_alternative, row%continues)
+   end subroutine add_row
 
    !> Add the methods that a wall uses, unless they are listed: its mechanism, with its model of restitution, its building
    subroutine add_wall_words(used, wall)

@@ -7,6 +7,7 @@ module dondolo_case_combine_rows
    use dondolo_case_motion_warnings, only : warn_of_events, warn_of_records
    use dondolo_case_result_warnings, only : fit_warnings_type, warn_of_union
    use dondolo_case_results, only : results_type, shown_rows
+   use dondolo_case_survey, only : hand_rows_over
    use dondolo_check_safety, only : new_safety
    use dondolo_check_sheet, only : sheet_type
    use dondolo_fragility_study, only : runs_of, study_type
@@ -27,7 +28,8 @@ contains
 
    !> Curves of the population, and what there is to warn of
    subroutine combine_rows(case, results, error)
-      type(case_type), intent(in), target :: case
+      !> The case: it hands its rows over
+      type(case_type), intent(inout), target :: case
       !> Its results: the stores are there; counts, curves and warnings are set
       type(results_type), intent(inout) :: results
       !> What cannot be combined
@@ -38,8 +40,8 @@ contains
       integer :: states
 
       states = size(case%stripes%thresholds)
-      results%population = case%survey%population
-      call results%population%begin(case%stripes%levels, states, error)
+      call hand_rows_over(case%survey, case%table, results%population, error)
+      if (.not. allocated(error)) call results%population%begin(case%stripes%levels, states, error)
       call case%make_study(study)
       if (.not. allocated(error)) call gather(results, study%share(), error)
       if (.not. allocated(error)) call results%population%fit(error)

@@ -26,7 +26,8 @@ contains
 
    !> Run the rows of a population that the case asks for, or those that an earlier run has left
    subroutine run_population_case(case, results, error, team, in_memory, progress)
-      type(case_type), intent(in), target :: case
+      !> The case: its rows are handed over to the results
+      type(case_type), intent(inout), target :: case
       type(results_type), intent(inout) :: results
       !> What cannot be run
       type(error_type), allocatable, intent(out) :: error
@@ -61,7 +62,8 @@ contains
 
    !> Take the stores that hold the parts of a population together
    subroutine merge_population(case, paths, results, error)
-      type(case_type), intent(in) :: case
+      !> The case: its rows are handed over to the results
+      type(case_type), intent(inout) :: case
       !> Paths of the stores, in any order
       type(lines_type), intent(in) :: paths
       !> Results: stores, work, curves and warnings
@@ -103,6 +105,8 @@ contains
             & ' is missing from the files')
          return
       end if
+      ! Places of many rows would not fit twice.
+      deallocate (stores)
       call combine_rows(case, results, error)
    end subroutine merge_population
 

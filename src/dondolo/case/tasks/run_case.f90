@@ -35,7 +35,8 @@ contains
 
    !> Run a case
    subroutine run_case(case, results, error, threads, progress, in_memory)
-      type(case_type), intent(in) :: case
+      !> The case; the rows of its population are handed over to the results
+      type(case_type), intent(inout) :: case
       type(results_type), intent(out) :: results
       !> What cannot be run
       type(error_type), allocatable, intent(out) :: error
