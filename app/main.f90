@@ -132,20 +132,23 @@ contains
       end if
       ! The rows of a part go into a file of counts, which has a lock of its own.
       has_results = .not. (case%job%task == typology_task .and. case%survey%is_part)
-      if (has_results) call describe_replaced(case%job%output, replaced)
-      call print_lines('note', replaced)
       threads = team(case%job%threads)
       call end_in_order()
       if (has_results) call files%claim(case%job%output, table_suffixes(), error)
       if (allocated(error)) return
+      if (has_results) call describe_replaced(case%job%output, replaced)
       call system_clock(start, rate)
+      ! Said before a run, which may take hours; a merge replaces nothing before its parts have been found to be whole.
       if (arguments%action == 'merge') then
          call merge_population(case, arguments%parts, results, error)
+         if (.not. allocated(error)) call print_lines('note', replaced)
       else if (stderr_is_terminal() .and. .not. arguments%quiet) then
+         call print_lines('note', replaced)
          call start_progress()
          call run_case(case, results, error, threads, show_progress)
          call erase_progress()
       else
+         call print_lines('note', replaced)
          call run_case(case, results, error, threads)
       end if
       call system_clock(finish)

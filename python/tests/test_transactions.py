@@ -83,6 +83,7 @@ def test_two_runs_at_one_output(executable, folder):
 
 def test_a_second_run_is_refused_while_the_first_goes_on(executable, folder):
     """The first is stopped where it holds the lock, however fast the machine."""
+    start(executable, folder, "a").communicate()
     first = start(executable, folder, "a")
     lock = folder / "out/x.lock"
     while not (lock.exists() and lock.read_text()):
@@ -90,7 +91,9 @@ def test_a_second_run_is_refused_while_the_first_goes_on(executable, folder):
         time.sleep(0.001)
     first.send_signal(signal.SIGSTOP)
     second = start(executable, folder, "b")
-    assert "out/x: is being written by another run" in second.communicate()[1]
+    said = second.communicate()[1]
+    assert "out/x: is being written by another run" in said
+    assert "replaces the results" not in said
     assert second.returncode == 2
     first.send_signal(signal.SIGCONT)
     assert (first.wait(), whose(folder), sorted(os.listdir(folder / "out"))) == (0, "a", FILES)
