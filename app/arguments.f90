@@ -271,7 +271,7 @@ contains
          arguments%rows = [first, last]
       else
          call raise_input(error, '--walls '//value//': must be the first and the last row of the population that are '// &
-            & 'to be run, such as --walls 1:500')
+            & 'to be run, counted from 1, such as --walls 1:500')
       end if
    end subroutine take_rows
 

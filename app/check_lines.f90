@@ -42,9 +42,14 @@ contains
             write (output_unit, '(a)') '  not applicable: an anchor gives way before its bar yields'
          end if
       end do
-      if (sheet%value('nonlinear', 'SLV', 'return_period_capacity') > 0.0_wp) write (output_unit, '(a)') 'return period of '// &
-         & 'the capacity, nonlinear SLV: '//trim(shown_years(new_safety(sheet)))//', of the hazard '// &
-         & rounded(sheet%value('site', 'SLV', 'return_period_demand'))//' years'
+      if (sheet%value('nonlinear', 'SLV', 'return_period_capacity') > 0.0_wp) then
+         write (output_unit, '(a)', advance='no') 'return period of '// &
+            & 'the capacity, nonlinear SLV: '//trim(shown_years(new_safety(sheet)))//', of the hazard '// &
+            & rounded(sheet%value('site', 'SLV', 'return_period_demand'))//' years'
+         if (sheet%value('nonlinear', 'SLV', 'extrapolated') > 0.0_wp) write (output_unit, '(a)', advance='no') &
+            & '; extrapolated beyond the hazards of the limit states'
+         write (output_unit, '(a)') ''
+      end if
       call print_ties(sheet)
       do k = 2, size(state_names)
          if (sheet%value('dynamic', state_names(k), 'histories') > 0.0_wp) then

@@ -79,6 +79,17 @@ def case(more: str = "", **groups: str) -> str:
         (case(wall="mechanism = 'one_sided\u00a0', height = 2.4, thickness = 0.3"), "it has a no-break space (U+00A0)"),
         (case(stripes="im = 'pga\u00a0', levels = 0.3, 0.5"), "it has a no-break space (U+00A0)"),
         (case("edge_radius = \u22120.02"), "a dash that is not an ordinary - (U+2212)"),
+        (
+            case(wall="mechanism = 'one_sided'\u00a0, height = 2.4, thickness = 0.3"),
+            "a no-break space (U+00A0) right after 'one_sided': must be an ordinary character of the keyboard",
+        ),
+        # Names of other variables
+        (
+            case("restitution = 0.9"),
+            "restitution = 0.9: must be text in quotes; a number is given as restitution_value = 0.9",
+        ),
+        # Only what was typed, not what is left without it
+        (case(f"{TIE}, tie_area = 2e-5, tie_strength = 1,8e8"), "tie_strength"),
         # Comments of other languages
         ("# a wall\n" + case(), "# is no comment: comments begin with !"),
         ("// a wall\n" + case(), "// is no comment: comments begin with !"),
@@ -298,3 +309,41 @@ def test_levels_are_the_nearest_short_numbers():
             between = [((count - 1 - i) * a + i * b) / (count - 1) for i in range(1, count - 1)]
             expected = [a, *(float(f"{x:.13e}") for x in between), b]
             assert _core.stripes.settle(levels).tolist() == expected
+
+
+def test_all_rows_of_a_catalogue_that_are_wrong_are_reported(folder, run):
+    (folder / "wall.nml").write_text(case())
+    rows = ["none.txt,0.01,g", "r0.txt,0.01,m/s2", "other.txt,0.01,g", "r1.txt,abc,g", "r2.txt,0.01,m/s2"]
+    (folder / "records.csv").write_text("file,dt_s,units\n" + "\n".join(rows) + "\n")
+    told = run("--check", "wall.nml").stderr.splitlines()
+    assert ["line 2" in told[0], "line 4" in told[1], "line 5" in told[2], len(told)] == [True, True, True, 3]
+    assert ["no such file" in line for line in told] == [True, True, False]
+    # Many are counted, and files that are missing alone remain so
+    many = "".join(f"none{i}.txt,0.01,g\n" for i in range(100))
+    (folder / "records.csv").write_text("file,dt_s,units\n" + many)
+    with pytest.raises(dd.errors.MissingFileError) as caught:
+        dd.read_catalogue(folder / "records.csv")
+    *lines, last = str(caught.value).splitlines()
+    assert len(lines) > 3
+    assert all("no such file" in line for line in lines)
+    assert last == f"and {100 - len(lines)} more"
+
+
+def test_rows_of_a_part_begin_at_one(folder, run):
+    assert "counted from 1, such as --walls 1:500" in run("--walls", "0:10", "walls.nml").stderr
+
+
+def test_a_merge_that_fails_replaces_nothing(folder, run):
+    (folder / "walls.csv").write_text("mechanism,height,thickness\none_sided,2.4,0.3\none_sided,3.0,0.3\n")
+    groups = {"population": "file = 'walls.csv'", "job": "task = 'typology', output = 'out/x'"}
+    (folder / "walls.nml").write_text("".join(f"&{name} {text} /\n" for name, text in (PARTS | groups).items() if text))
+    assert run("walls.nml").returncode == 0
+    published = set(folder.glob("out/*"))
+    for rows in ("1:1", "2:2"):
+        assert "replaces the results" not in run("--walls", rows, "walls.nml").stderr
+    parts = sorted(map(str, set(folder.glob("out/*")) - published))
+    failed = run("--merge", "walls.nml", parts[0])
+    assert failed.returncode == 2
+    assert "row 2 of 2 is missing" in failed.stderr
+    assert "replaces the results" not in failed.stderr
+    assert "replaces the results" in run("--merge", "walls.nml", *parts).stderr

@@ -9,7 +9,7 @@
 !> extensions of the files; where these are the same too, the folders, as the catalogue writes them.
 module dondolo_record_catalogue
    use dondolo_base_csv_reader, only : csv_row_type, csv_table_type
-   use dondolo_base_error, only : add_place, error_type, problems_type, raise_input
+   use dondolo_base_error, only : add_place, error_type, problems_type, raise_input, status_input, status_missing
    use dondolo_base_kinds, only : wp
    use dondolo_base_limits, only : most_records
    use dondolo_base_lines, only : lines_type
@@ -44,7 +44,7 @@ module dondolo_record_catalogue
       type(lines_type) :: place
    end type record_rows_type
 
-   !> What is wrong with one of several files
+   !> What is wrong with one of several rows
    type :: failure_type
       !> Not allocated: nothing
       type(error_type), allocatable :: error
@@ -58,7 +58,7 @@ contains
       character(len=*), intent(in) :: file
       !> The records, each once
       type(record_type), allocatable, intent(out) :: records(:)
-      !> The catalogue or one of its records is wrong: the first that is
+      !> What is wrong with the catalogue, or with each of its rows
       type(error_type), allocatable, intent(out) :: error
       !> How the catalogue was read: a note, or empty
       character(len=:), allocatable, intent(out), optional :: note
@@ -73,7 +73,7 @@ contains
       type(lines_type) :: paths, places, names
       type(record_rows_type) :: runs
       type(source_type), allocatable :: sources(:)
-      type(error_type), allocatable :: later
+      type(failure_type), allocatable :: failures(:)
       integer :: number, count, row, asked
 
       call table%read(file, error)
@@ -94,14 +94,13 @@ contains
          return
       end if
       if (present(note)) note = table%note()
-      allocate (sources(number))
-      call take_rows(table, present(vertical_factor), runs, sources, count, later)
+      allocate (sources(number), failures(number))
+      call take_rows(table, present(vertical_factor), runs, sources, count, failures)
       allocate (records(count))
       asked = 0
       if (present(threads)) asked = threads
-      call read_files(sources(:count), team_of(asked, count), records, error, vertical_factor)
-      ! A row that is wrong comes after those whose files were read
-      if (.not. allocated(error)) call move_alloc(later, error)
+      call read_files(sources(:count), team_of(asked, count), records, failures, vertical_factor)
+      call join_failures(failures, error)
       if (.not. allocated(error)) then
          do row = 1, count
             call paths%add(sources(row)%written)
@@ -117,8 +116,8 @@ contains
       end if
    end subroutine read_catalogue
 
-   !> Take the rows, up to one that is wrong
-   subroutine take_rows(table, with_verticals, runs, sources, count, error)
+   !> Take the rows
+   subroutine take_rows(table, with_verticals, runs, sources, count, failures)
       !> The catalogue
       type(csv_table_type), intent(in) :: table
       !> Are vertical components read?
@@ -127,10 +126,10 @@ contains
       type(record_rows_type), intent(out) :: runs
       !> Where the records are, as many as there are rows at least
       type(source_type), intent(inout) :: sources(:)
-      !> How many records there are before an error
+      !> How many records there are, those of rows that are wrong left aside
       integer, intent(out) :: count
-      !> What is wrong
-      type(error_type), allocatable, intent(out) :: error
+      !> What is wrong with each row
+      type(failure_type), intent(inout) :: failures(:)
 
       type(csv_row_type) :: row
       type(name_index_type) :: known
@@ -143,9 +142,11 @@ contains
       allocate (runs%level(size(sources)), runs%factor(size(sources)), source=0.0_wp)
       count = 0
       do i = 1, size(sources)
-         call table%next(row, found, error)
-         if (.not. allocated(error)) call read_run(table, row, runs%level(i), runs%factor(i), error)
-         if (allocated(error)) return
+         call table%next(row, found, failures(i)%error)
+         ! What follows cannot be told into rows
+         if (allocated(failures(i)%error)) return
+         call read_run(table, row, runs%level(i), runs%factor(i), failures(i)%error)
+         if (allocated(failures(i)%error)) cycle
          ! Of a record at several levels the first row reads it.
          earlier = 0
          if (runs%have_levels) then
@@ -153,9 +154,10 @@ contains
             call known%note(described, count + 1, earlier)
          end if
          if (earlier == 0) then
-            call take_source(table, row, with_verticals, sources(count + 1), error)
-            if (allocated(error)) return
+            call take_source(table, row, with_verticals, sources(count + 1), failures(i)%error)
+            if (allocated(failures(i)%error)) cycle
             count = count + 1
+            sources(count)%row = i
             earlier = count
          end if
          runs%record(i) = earlier
@@ -164,36 +166,54 @@ contains
    end subroutine take_rows
 
    !> Read the files of records side by side
-   subroutine read_files(sources, threads, records, error, vertical_factor)
+   subroutine read_files(sources, threads, records, failures, vertical_factor)
       !> Where they are
       type(source_type), intent(in) :: sources(:)
       !> Threads
       integer, intent(in) :: threads
       type(record_type), intent(inout) :: records(:)
-      !> What is wrong with the first that cannot be read, for any number of threads
-      type(error_type), allocatable, intent(out) :: error
+      !> What is wrong with each row; what is wrong with files is added
+      type(failure_type), intent(inout) :: failures(:)
       !> Factor on the vertical components; absent: they are not read
       real(wp), intent(in), optional :: vertical_factor
 
-      type(failure_type) :: failures(size(sources))
-      integer :: i, first, wrong
+      integer :: i
 
-      first = size(sources) + 1
-      !$omp parallel do num_threads(threads) default(none) shared(sources, records, failures, first, &
-      !$omp & vertical_factor) private(wrong) schedule(dynamic)
+      !$omp parallel do num_threads(threads) default(none) shared(sources, records, failures, vertical_factor) schedule(dynamic)
       do i = 1, size(sources)
-         !$omp atomic read
-         wrong = first
-         ! Those after one that is wrong are of no use
-         if (i > wrong) cycle
-         call read_source(sources(i), records(i), failures(i)%error, vertical_factor)
-         if (.not. allocated(failures(i)%error)) cycle
-         !$omp atomic
-         first = min(first, i)
+         call read_source(sources(i), records(i), failures(sources(i)%row)%error, vertical_factor)
       end do
       !$omp end parallel do
-      if (first <= size(sources)) call move_alloc(failures(first)%error, error)
    end subroutine read_files
+
+   !> Report what is wrong with rows, in their order
+   subroutine join_failures(failures, error)
+      !> What is wrong with each row; not allocated afterwards
+      type(failure_type), intent(inout) :: failures(:)
+      !> All of it that there is room for
+      type(error_type), allocatable, intent(out) :: error
+
+      type(problems_type) :: problems
+      logical :: are_missing
+      integer :: i
+
+      are_missing = .true.
+      do i = 1, size(failures)
+         if (.not. allocated(failures(i)%error)) cycle
+         select case (failures(i)%error%stat)
+         case (status_missing)
+         case (status_input)
+            are_missing = .false.
+         case default
+            ! No memory, say: it is the machine's fault and not the catalogue's
+            call move_alloc(failures(i)%error, error)
+            return
+         end select
+         call problems%take(failures(i)%error)
+      end do
+      call problems%raise(error)
+      if (allocated(error) .and. are_missing) error%stat = status_missing
+   end subroutine join_failures
 
    !> Read the level and the factor of a row
    subroutine read_run(table, row, level, factor, error)

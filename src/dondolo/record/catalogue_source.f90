@@ -32,7 +32,8 @@ module dondolo_record_catalogue_source
 
    !> Where a record is
    type :: source_type
-      !> The row, for messages
+      !> The row: its number, and for messages
+      integer :: row = 0
       character(len=:), allocatable :: place
       !> Path of the file as the catalogue writes it, and from the current folder
       character(len=:), allocatable :: written, path

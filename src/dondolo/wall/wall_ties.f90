@@ -310,13 +310,15 @@ contains
             & 'outside for a plate'//trim(unit_question('m', tie%depth, 0.0_wp, faces(2), 0.5_wp*faces(2))), &
             & out_of_range, 'tie_depth')
       end if
-      if (.not. tie%preload < tie%strength) then
+      ! A strength or a modulus that is not positive has an error of its own
+      if (.not. tie%preload < tie%strength .and. tie%strength > 0.0_wp) then
          call problems%note(name//': its tie_preload = '//to_text(tie%preload)//' must be less than its tie_strength = '// &
             & to_text(tie%strength)//' Pa, at which it yields', out_of_range, 'tie_preload')
       else if (.not. tie%preload*tie%area < tie%anchor_force) then
          call problems%note(name//': its tie_preload = '//to_text(tie%preload)//' must be less than '// &
             & rounded(tie%anchor_force/tie%area)//' Pa, at which its anchor gives way', out_of_range, 'tie_preload')
       end if
+      if (.not. tie%modulus > 0.0_wp) return
       if (.not. tie%strain > tie%strength/tie%modulus) call problems%note(name//': its tie_strain = '// &
          & to_text(tie%strain)//' must be more than '//rounded(tie%strength/tie%modulus)//', at which it yields', &
          & out_of_range, 'tie_strain')

@@ -305,7 +305,7 @@ contains
    end function is_unit
 
    !> Take a text
-   subroutine get_text(self, name, value, error)
+   subroutine get_text(self, name, value, error, of_number)
       class(group_type), intent(in) :: self
       !> Name of the variable
       character(len=*), intent(in) :: name
@@ -313,13 +313,20 @@ contains
       character(len=:), allocatable, intent(inout) :: value
       !> Not one text in quotes
       type(error_type), allocatable, intent(out) :: error
+      !> Name of the variable that a number belongs to; empty: there is none
+      character(len=*), intent(in) :: of_number
 
       type(value_type) :: found
-      logical :: given
+      real(wp) :: number
+      logical :: given, is_number
 
       call single(self, name, given, found, error)
       if (allocated(error) .or. .not. given) return
-      if (.not. found%quoted) then
+      call to_real(found, number, is_number)
+      if (is_number .and. len(of_number) > 0) then
+         call self%refuse(name, 'must be text in quotes; a number is given as '//of_number//' = '//found%text, not_a_string, &
+            & error)
+      else if (.not. found%quoted) then
          call self%refuse(name, 'must be text in quotes, such as '''//found%text//'''', not_a_string, error)
       else if (len_trim(name_problem(found%text)) > 0) then
          call self%refuse(name, trim(name_problem(found%text)), not_a_string, error)

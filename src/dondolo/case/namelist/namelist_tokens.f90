@@ -2,7 +2,7 @@
 module dondolo_case_namelist_tokens
    use dondolo_base_error, only : error_type, raise_input
    use dondolo_base_limits, only : most_tokens
-   use dondolo_base_odd_character, only : odd_character
+   use dondolo_base_odd_character, only : odd_character, odd_length
    use dondolo_base_plain, only : shown
    use dondolo_base_text, only : lower, to_text
    use dondolo_base_text_file, only : text_file_type
@@ -185,6 +185,7 @@ contains
       !> The quote is not closed, or text follows it
       type(error_type), allocatable, intent(out) :: error
 
+      character(len=odd_length) :: strange
       character(len=1) :: quote
       integer :: length, first, doubled, from, i
 
@@ -212,6 +213,13 @@ contains
       end do
       if (at > len(line)) return
       if (index(word_ends, line(at:at)) > 0) return
+      ! UTF-8 has up to four bytes a character
+      strange = odd_character(line(at:min(at + 3, len(line))))
+      if (len_trim(strange) > 0) then
+         call raise_input(error, trim(strange)//' right after '//shown(line(first:at - 1))// &
+            & ': must be an ordinary character of the keyboard')
+         return
+      end if
       call raise_input(error, 'text right after the quote that closes '//shown(line(first:at - 1))// &
          & ': a quote inside is doubled, ''L''''Aquila''')
    end subroutine take_quoted

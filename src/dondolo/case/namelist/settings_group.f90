@@ -37,34 +37,39 @@ contains
       call group%check_names(names, error)
       call problems%take(error)
       do i = 1, size(table)
-         if (group%has(trim(table(i)%name))) call read_value(group, table(i), settings, error)
+         if (group%has(trim(table(i)%name))) call read_value(group, table, i, settings, error)
          call problems%take(error)
       end do
       call problems%raise(error)
    end subroutine read_values
 
    !> Read a value
-   subroutine read_value(group, property, settings, error)
+   subroutine read_value(group, table, i, settings, error)
       !> The group as read from the file
       type(group_type), intent(in) :: group
-      !> A property that it gives
-      type(property_type), intent(in) :: property
+      !> Its properties
+      type(property_type), intent(in) :: table(:)
+      !> Number of one that it gives
+      integer, intent(in) :: i
       class(settings_type), intent(inout) :: settings
       !> It is of the wrong type
       type(error_type), allocatable, intent(out) :: error
 
-      character(len=:), allocatable :: name, text
+      character(len=:), allocatable :: name, of_number, text
       real(wp), allocatable :: list(:)
       real(wp) :: number
       integer :: kind, whole
       logical :: yes
 
-      name = trim(property%name)
-      kind = property%kind
+      name = trim(table(i)%name)
+      kind = table(i)%kind
       if (kind == is_number_or_name) kind = merge(is_text, is_integer, group%has_text(name))
       select case (kind)
       case (is_text)
-         call group%get_text(name, text, error)
+         ! Of a model that a number can take the place of, the property of the number is named after it
+         of_number = ''
+         if (find_property(table, name//'_value') > 0) of_number = name//'_value'
+         call group%get_text(name, text, error, of_number)
          if (.not. allocated(error)) call settings%set(name, text)
       case (is_words)
          call group%get_words(name, text, error)
