@@ -322,3 +322,35 @@ def test_figure(tmp_path):
     assert PEOPLE.plot(first.figure.axes) is first
     with pytest.raises(dd.errors.InputError, match="by = 'colour'"):
         PEOPLE.plot(by="colour")
+
+
+def test_a_data_frame_is_read_as_its_file_is(tmp_path):
+    pd = pytest.importorskip("pandas")
+    storeys = [dd.Section(3.0, 0.5), dd.Section(2.5, 0.3)]
+    walls = [
+        dd.OneSidedWall(2.4, 0.3, name="=a, b"),
+        dd.TwoBlockWall(3.0, 0.25, name="c", hinge=0.6),
+        dd.OneSidedWall(sections=storeys, name="d"),
+    ]
+    population = dd.Population(walls, [1.5, 2.0, 1.0 / 3.0], groups=["x", "", "y"], p_occ=[0.2, 1.0, 0.5])
+    population.to_csv(tmp_path / "walls.csv")
+    frame = pd.read_csv(tmp_path / "walls.csv", comment="#")
+    again = dd.Population.from_frame(frame)
+    assert again.walls == population.walls
+    assert (again.weights == population.weights).all()
+    assert (again.p_occ == population.p_occ).all()
+    assert (again.groups, again.occurrence) == (population.groups, population.occurrence)
+    with pytest.raises(dd.errors.InputError, match=r"Population\.from_frame makes them of a data frame"):
+        dd.Population(frame)
+    with pytest.raises(dd.errors.InputError, match="must be a pandas DataFrame"):
+        dd.Population.from_frame("walls.csv")
+    frame["height"] = [2.4, -1.0, float("nan")]
+    with pytest.raises(dd.errors.InputError, match=r"^frame\.iloc\[1\]: .*height = -1") as caught:
+        dd.Population.from_frame(frame)
+    assert caught.value.errors[0].place.startswith("frame.iloc[1]")
+    with pytest.raises(dd.errors.InputError, match=r"^frame: column 'hight': no such column; did you mean 'height'"):
+        dd.Population.from_frame(frame.rename(columns={"height": "hight"}))
+    with pytest.raises(
+        dd.errors.InputError, match=r"frame\.iloc\[0\]: thickness = \[1\]: must be a number or a string"
+    ):
+        dd.Population.from_frame(pd.DataFrame({"thickness": [[1]]}))

@@ -13,6 +13,8 @@ from dondolo.errors import Code, InputError, Problem
 
 FloatArray = NDArray[np.float64]
 _T = TypeVar("_T")
+# What Python or NumPy would turn into a number, and what is most likely a mistake
+_NO_NUMBERS = (str, bytes, bool, np.bool_)
 
 
 def argument_error(code: Code, variable: str, sentence: str) -> InputError:
@@ -22,12 +24,18 @@ def argument_error(code: Code, variable: str, sentence: str) -> InputError:
 
 def as_number(name: str, value: Any) -> float:
     """Turn what a user gives for a number into one."""
-    if isinstance(value, (str, bytes)):
+    if isinstance(value, _NO_NUMBERS):
         raise argument_error("not_a_number", name, f" = {value!r}: must be a number")
     try:
         return float(value)
     except (TypeError, ValueError, OverflowError):
         raise argument_error("not_a_number", name, f" = {value!r}: must be a number") from None
+
+
+def shortened(value: Any) -> str:
+    """What a user gives in place of something else, for a message: what a long object contains does not help."""
+    text = repr(value)
+    return text if len(text) <= 80 and "\n" not in text else f"a {type(value).__name__}"
 
 
 def as_count(name: str, value: Any, least: int, most: int | None = None) -> int:
@@ -130,7 +138,7 @@ def as_path(path: str | os.PathLike[str]) -> bytes:
     try:
         return os.fsencode(path).replace(os.fsencode(os.sep), b"/")
     except TypeError:
-        raise argument_error("wrong_type", "path", f" = {path!r}: must be the path of a file") from None
+        raise argument_error("wrong_type", "path", f" = {shortened(path)}: must be the path of a file") from None
 
 
 def as_generator(seed: Any) -> np.random.Generator:
@@ -145,9 +153,17 @@ def as_generator(seed: Any) -> np.random.Generator:
 def as_levels(x: ArrayLike) -> FloatArray:
     """Turn what a user gives for levels of intensity into an array; its shape is kept."""
     try:
-        values = np.asarray(x, dtype=np.float64)
+        given = np.asarray(x)
+        # NumPy would turn texts and flags into numbers
+        if given.dtype.kind not in "iufO" or (
+            given.dtype == object and any(isinstance(one, _NO_NUMBERS) for one in given.flat)
+        ):
+            raise TypeError
+        values = given.astype(np.float64)
     except (TypeError, ValueError, OverflowError):
         raise argument_error("not_numbers", "x", ": must be numbers") from None
+    if np.isnan(values).any():
+        raise argument_error("not_a_number", "x", " = nan: must be a number")
     if not np.all(values >= 0.0):
         raise argument_error("out_of_range", "x", ": must be levels of intensity, not negative")
     return values

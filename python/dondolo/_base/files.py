@@ -12,7 +12,7 @@ import zlib
 from pathlib import Path
 from typing import Any
 
-from dondolo._base.arguments import argument_error
+from dondolo._base.arguments import argument_error, shortened
 from dondolo.errors import InputError, MissingFileError
 
 #: A name of a run
@@ -50,7 +50,7 @@ def as_file(name: str, path: Any, *suffixes: str) -> Path:
     except (TypeError, UnicodeEncodeError):
         valid = False
     if not valid:
-        raise argument_error("wrong_type", name, f" = {path!r}: must be the path of a file")
+        raise argument_error("wrong_type", name, f" = {shortened(path)}: must be the path of a file")
     if suffixes and target.suffix.lower() not in suffixes:
         raise argument_error("out_of_range", name, f" = {os.fspath(path)!r}: must end in {' or '.join(suffixes)}")
     return target

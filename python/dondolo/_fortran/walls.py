@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 import os
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -181,12 +181,15 @@ def join_walls(walls: Sequence[FlatWall]) -> FlatWall:
 
 
 def read_walls(
-    path: str | os.PathLike[str], gravity: float | None, occurrence: str
+    path: str | os.PathLike[str], gravity: float | None, occurrence: str, noted: Callable[[str], str] = str
 ) -> tuple[list[WallData], dict[str, Any]]:
-    """Read a population: its walls, and what `Population` has of each; occurrence: where the table does not say it."""
+    """Read a population: its walls, and what `Population` has of each.
+
+    occurrence: where the table does not say it; noted: the words of a note on how the table was read.
+    """
     pull = constants().gravity if gravity is None else as_number("gravity", gravity)
     parcel = receive(_core.walls.read_walls(as_path(path), pull, as_text("occurrence", occurrence)))
-    warn_of_notes(parcel["notes"])
+    warn_of_notes(map(noted, parcel["notes"]))
     return unpack_walls(parcel), rows_of(parcel)
 
 

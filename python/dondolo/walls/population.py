@@ -149,6 +149,47 @@ class Population(WallRows, Shown):
         return Population(tuple(wall_from(data) for data in walls), **of_rows, origin=origin)
 
     @classmethod
+    def from_frame(cls, frame: Any, *, gravity: float | None = None, occurrence: str = INDEPENDENT) -> Population:
+        """Make the walls of a data frame.
+
+        Parameters
+        ----------
+        frame : pandas.DataFrame
+            Columns and rows as in the table of `Population.from_csv`; NaN and None for what is not given.
+        gravity : float, optional
+            [m/s2], 9.81 if left out.
+        occurrence : {'independent', 'exclusive'}
+            As in `Population.from_csv`.
+
+        Returns
+        -------
+        Population
+
+        Raises
+        ------
+        InputError
+            The frame or one of its walls is wrong; its row is named as in ``frame.iloc[2]``.
+
+        Notes
+        -----
+        What `Population.to_csv` writes and pandas reads makes the same walls again. `Population.to_frame` is another
+        table, of results.
+
+        Examples
+        --------
+        >>> import pandas as pd
+        >>> import dondolo as dd
+        >>> frame = pd.DataFrame({"mechanism": "one_sided", "height": [2.4, 3.0], "thickness": 0.3, "weight": [3, 5]})
+        >>> dd.Population.from_frame(frame)
+        <Population: walls 2, mechanisms 2, sum of the weights 8>
+        """
+        from dondolo.walls.frames import read_frame
+
+        one_of("occurrence", occurrence, OCCURRENCE)
+        walls, of_rows = read_frame(frame, gravity, occurrence)
+        return cls(tuple(wall_from(data) for data in walls), **of_rows, origin=("read from a data frame",))
+
+    @classmethod
     def sample(
         cls,
         mechanisms: str | Iterable[str] | Mapping[str, Mapping[str, Property]],

@@ -43,6 +43,9 @@ class WallRows:
     origin: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
+        if hasattr(self.walls, "notna"):
+            sentence = ": must be walls; Population.from_frame makes them of a data frame"
+            raise argument_error("wrong_type", "walls", sentence)
         walls = (self.walls,) if isinstance(self.walls, Wall) else several("walls", self.walls, "walls")
         if not walls:
             raise argument_error("not_given", "walls", ": must be given")
