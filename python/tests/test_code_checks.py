@@ -421,3 +421,13 @@ def test_notes():
     assert "not at the weakest hinge" in notes(dd.TwoBlockWall(3.0, 0.25, **{**loaded, "hinge": 0.8}))
     assert "decreases with the height of the hinge" in notes(dd.TwoBlockWall(3.0, 0.25))
     assert "beyond T_E" in notes(dd.OneSidedWall(20.0, 0.4))
+
+
+def test_levels_that_are_not_those_of_the_site_are_told(records):
+    site = dd.Site(ag=[0.08, 0.2, 0.26], f0=[2.5, 2.5, 2.5], tc_star=[0.3, 0.35, 0.36], soil="B")
+    check = dd.check_ntc(dd.OneSidedWall(9.0, 0.5), site)
+    stripes = dd.multiple_stripe(check.wall, records[:3], [0.1, check.pga], progress=False)
+    with pytest.raises(dd.errors.InputError, match=r"of SLC: levels must have check.site.pga\(limit_state='SLC'\)"):
+        check.dynamic(stripes)
+    levels = [check.pga, site.pga(limit_state="SLC")]
+    assert "dynamic" in {row.method for row in check.dynamic(dd.multiple_stripe(check.wall, records[:3], levels)).rows}

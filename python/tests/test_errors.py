@@ -1,10 +1,12 @@
 """Errors for programs: what is wrong, of which variable, and where."""
 
 import ast
+import math
 import pickle
 import re
 import typing
 
+import numpy as np
 import pytest
 
 import dondolo as dd
@@ -179,3 +181,22 @@ def test_arguments_of_python(call, code, variable):
     error = raised(call)
     assert [(one.code, one.variable, one.message) for one in error.errors] == [(code, variable, str(error))]
     assert str(error).startswith(variable)
+
+
+def test_what_is_no_number_is_refused_alike():
+    curve = dd.DiscreteFragility([0.2, 0.4, 0.6], [0.1, 0.6, 0.9])
+    for wrong in ("0.5", True, ["0.5"], [True], np.array([0.5, "x"], dtype=object)):
+        with pytest.raises(dd.errors.InputError, match="x: must be numbers"):
+            curve(wrong)
+    with pytest.raises(dd.errors.InputError, match="x = nan: must be a number"):
+        curve([0.5, math.nan])
+    for wrong in ("6", True, np.True_):
+        with pytest.raises(dd.errors.InputError, match=r"height = .*: must be a number"):
+            dd.OneSidedWall(wrong, 0.3)
+    with pytest.raises(dd.errors.InputError, match="prefix = a list: must be the path of a file"):
+        dd.read_results([curve] * 50)
+
+
+def test_a_record_is_found_by_its_number(few):
+    with pytest.raises(dd.errors.InputError, match=r"is the name of a record, not of a column: records\[1\]"):
+        dd.RecordSet(few)[few[1].name]

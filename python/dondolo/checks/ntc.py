@@ -282,7 +282,10 @@ class CodeCheck(Shown, Saved):
             found = np.flatnonzero(np.abs(stripes.levels - level) <= constants().same_level * level)
             if not len(found):
                 raise argument_error(
-                    "out_of_range", "stripes", f": have no level of {level:.10g} g, the peak acceleration of {state}"
+                    "out_of_range",
+                    "stripes",
+                    f": have no level of {level:.10g} g, the peak acceleration of {state}: levels must have "
+                    f"check.site.pga(limit_state={state!r}) among them",
                 )
             ran = stripes.ran[found[0]]
             edp = stripes.edp[found[0]][ran]

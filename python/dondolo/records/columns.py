@@ -33,6 +33,10 @@ def column_of(records: RecordSet, name: str) -> NDArray[Any]:
         return np.array([getattr(record, name) for record in records.records])
     if any(name in record.metadata for record in records.records):
         return _numbers([record.metadata.get(name, "") for record in records.records])
+    names = [record.name for record in records.records]
+    if name in names:
+        sentence = f": is the name of a record, not of a column: records[{names.index(name)}] is the record"
+        raise argument_error("unknown_name", repr(name), sentence)
     try:
         return intensities_of(records, name)
     except InputError as error:
