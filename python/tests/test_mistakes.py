@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 from dondolo._fortran import _core
@@ -347,3 +349,17 @@ def test_a_merge_that_fails_replaces_nothing(folder, run):
     assert "row 2 of 2 is missing" in failed.stderr
     assert "replaces the results" not in failed.stderr
     assert "replaces the results" in run("--merge", "walls.nml", *parts).stderr
+
+
+def test_a_return_period_beyond_the_hazards_is_said_to_be_extrapolated(folder, run):
+    hazards = "ag = 0.08, 0.2, 0.26, f0 = 2.5, 2.5, 2.5, tc_star = 0.3, 0.35, 0.36, soil = 'B'"
+    hazards += ", reference_life = 50, exceedance = 0.63, 0.1, 0.05"
+    shown = {}
+    for thickness in ("0.5", "1.5"):
+        wall = f"mechanism = 'one_sided', height = 6.0, thickness = {thickness}"
+        (folder / "wall.nml").write_text(case(wall=wall, check=hazards))
+        (shown[thickness],) = re.findall("(?m)^return period .*$", run("--check", "wall.nml").stdout)
+    assert shown["0.5"].endswith("of the hazard 474.6 years")
+    assert shown["1.5"].endswith(
+        "> 2475 years, of the hazard 474.6 years; extrapolated beyond the hazards of the limit states"
+    )
