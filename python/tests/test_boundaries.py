@@ -81,7 +81,8 @@ def test_limits(table, content, sentence, tmp_path):
     with pytest.raises(dd.errors.InputError, match=sentence) as caught:
         readers[table](path)
     assert str(caught.value).startswith(f"{path}: ")
-    assert len(str(caught.value)) < len(str(path)) + 200
+    # Other things that are wrong have lines of their own
+    assert all(len(line) < len(str(path)) + 200 for line in str(caught.value).splitlines())
 
 
 def test_limits_of_records(tmp_path):
@@ -280,8 +281,9 @@ def in_files_of_the_executable(name, run, folder):
     lines = (folder / "x_walls.csv").read_text(encoding="utf-8").splitlines()
     (row,) = csv.DictReader(line for line in lines if line[0] != "#")
     assert row["wall"] == ("'" if name.startswith(tuple("=+-@")) else "") + name
-    with pytest.warns(dd.errors.DondoloWarning, match="no collapse"):
-        assert dd.read_results(folder / "x").population[0].name == name
+    results = dd.read_results(folder / "x")
+    assert results.population[0].name == name
+    assert any("no collapse" in str(warning) for warning in results.run.warnings)
 
 
 def on_a_terminal(name, run, _):
