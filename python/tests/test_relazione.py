@@ -624,7 +624,7 @@ def test_a_check_that_is_not_applicable_has_no_number(brittle):
     place, results = brittle
     check = results[1].check
     assert check.not_applicable == (("linear", "SLV"),)
-    void = {quantity: check.value("linear", "SLV", quantity) for quantity in ("ratio", "capacity_pga")}
+    void = {quantity: check.value("linear", "SLV", quantity) for quantity in ("ratio", "capacity_ag", "capacity_pga")}
     dd.calculation_report(results, place / "void.html", lang="en")
     dd.report(results[1], place / "page.html")
     for name in ("void", "page"):

@@ -53,7 +53,7 @@ _OPEN = {
 # What a check comes to in words
 Verdict = Literal["verified", "verified if its ties are", "not verified", "not applicable"]
 # The same in numbers
-_OUTCOMES = ("ratio", "zeta_e", "capacity_pga", "return_period_capacity", "probability")
+_OUTCOMES = ("ratio", "zeta_e", "capacity_ag", "capacity_pga", "return_period_capacity", "probability")
 
 
 @dataclass(frozen=True, eq=False, repr=False, kw_only=True)
