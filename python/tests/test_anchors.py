@@ -376,6 +376,32 @@ def test_formulas_with_numbers(one, site):
         assert computed(row.numbers) == pytest.approx(row.value, rel=2e-6), row
 
 
+@pytest.mark.parametrize("above", [2.0, 0.4, 0.1])
+@pytest.mark.parametrize("rubs", [False, True])
+@pytest.mark.parametrize("is_round", [False, True])
+@pytest.mark.parametrize("spacing", [2.5, 0.5])
+def test_formulas_of_an_anchor(above, rubs, is_round, spacing):
+    """All of its forces have formulas, near the top of the wall too, where the top leaves less of the surfaces."""
+    size = {"plate_width": None, "plate_height": None, "plate_diameter": 0.35} if is_round else {"plate_width": 0.3}
+    friction = {"compression": 5e4} if rubs else {}
+    plate = tie(height=7.2 - above - 0.175, spacing=spacing, **size, **friction)
+    check = dd.check_ntc(wall(plate, **({"masonry_friction": 0.4} if rubs else {})), SITE)
+    rows = {row.quantity: row for row in check.rows if row.item == "tie 1"}
+    forces = {name for name in rows if name.endswith("_force")}
+    assert forces >= {"bar_force", "bearing_force", "shear_force", "cone_force", "anchor_force"}
+    assert ("band_force" in forces) == (spacing == 0.5)
+    letters = {"pi": np.pi, "min": min, "t": 0.55, "a": 0.3, "b": 0.35, "c": above, "D": 0.35, "s": spacing}
+    letters |= {"f_v0d": 4e4 / 2.7, "f_td": 5e4 / 2.7, "mu": 0.4, "sigma_0": 5e4}
+    for name in forces:
+        row = rows[name]
+        assert row.expression, name
+        assert computed(row.numbers) == pytest.approx(row.value, rel=2e-6), row
+        if name in ("shear_force", "cone_force", "band_force"):
+            # Symbols side by side, or beside brackets, are multiplied.
+            text = re.sub(r"(?<=[\w)]) (?=[\w(])", "*", row.expression.replace("[", "(").replace("]", ")"))
+            assert eval(text, letters) == pytest.approx(row.value, rel=1e-12), row
+
+
 def test_return_periods():
     """Along straight lines in the logarithms of a_g and T_R, flagged where they are prolonged."""
     bare, tied = (

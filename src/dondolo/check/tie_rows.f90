@@ -150,7 +150,7 @@ contains
       !> Name of the tie
       character(len=*), intent(in) :: item
 
-      character(len=:), allocatable :: plate, plate_numbers, least, least_numbers, size_numbers
+      character(len=:), allocatable :: plate, plate_numbers, least, least_numbers, size_numbers, faces, faces_numbers
       real(wp) :: bearing
 
       associate (masonry => anchor%masonry)
@@ -164,6 +164,13 @@ contains
          plate_numbers = trim(shown(anchor%width))//' * '//trim(shown(anchor%height))
          size_numbers = trim(shown(min(anchor%width, anchor%height)))
       end if
+      ! Horizontal faces: near the top of the wall the upper one is missing
+      faces = ''
+      faces_numbers = ''
+      if (.not. anchor%is_at_edge()) then
+         faces = '2 '
+         faces_numbers = '2 * '
+      end if
       call put('bar_force', anchor%bar_force, 'pi D_bar^2/4 f_yd', 'pi * '//trim(shown(anchor%bar))//'^2/4 * '// &
          & trim(shown(anchor%strength)))
       call put('bearing_force', anchor%bearing_force, 'k f_d '//trim(plate), trim(shown(bearing))//' * '//plate_numbers)
@@ -174,7 +181,7 @@ contains
          & trim(shown(anchor%cone_force))
       ! Plates that are far from each other do not pull out a band
       if (anchor%band_force <= anchor%force) then
-         call put('band_force', anchor%band_force, '', '')
+         call put_band()
          least = least//', T_band'
          least_numbers = least_numbers//', '//trim(shown(anchor%band_force))
       end if
@@ -200,7 +207,24 @@ contains
          call sheet%add('tie', '', name, value, item=item, working=working_type(expression, numbers))
       end subroutine put
 
-      !> Put a force at which masonry comes out; near the top of the wall its surface has no simple formula
+      !> Put the force of a band of masonry that goes from plate to plate
+      subroutine put_band()
+         character(len=:), allocatable :: shear, shear_numbers
+         real(wp) :: friction
+
+         shear = 'f_v0d'
+         shear_numbers = trim(shown(anchor%masonry%design_strength(anchor%masonry%shear)))
+         friction = anchor%masonry%friction*anchor%compression
+         if (friction > 0.0_wp) then
+            shear = shear//' + mu sigma_0'
+            shear_numbers = shear_numbers//' + '//trim(shown(friction))
+         end if
+         call put('band_force', anchor%band_force, faces//'t s min('//shear//', f_td)', faces_numbers//trim(shown(anchor%leaf))// &
+            & ' * '//trim(shown(anchor%spacing))//' * min('//shear_numbers//', '// &
+            & trim(shown(anchor%masonry%design_strength(anchor%masonry%tension)))//')')
+      end subroutine put_band
+
+      !> Put a force at which masonry comes out, with the surface that the top of the wall leaves of it
       subroutine put_pulled(name, value, symbol, strength, has_shear_surface)
          !> Name of the quantity
          character(len=*), intent(in) :: name
@@ -215,27 +239,65 @@ contains
          character(len=:), allocatable :: expression, numbers, t
          real(wp) :: friction
 
-         expression = ''
-         numbers = ''
-         if (.not. anchor%edge < merge(0.5_wp, 1.0_wp, has_shear_surface)*anchor%leaf) then
+         if (anchor%diameter > 0.0_wp) then
+            call find_round_surface(has_shear_surface, expression, numbers)
+         else
+            call find_surface(has_shear_surface, expression, numbers)
+         end if
+         expression = expression//' '//symbol
+         numbers = numbers//' * '//trim(shown(anchor%masonry%design_strength(strength)))
+         friction = anchor%masonry%friction*anchor%compression
+         if (has_shear_surface .and. friction > 0.0_wp) then
             t = trim(shown(anchor%leaf))
-            if (anchor%diameter > 0.0_wp) then
-               expression = 'pi t (t + D) '//symbol
-               numbers = 'pi * '//t//' * ('//t//' + '//trim(shown(anchor%diameter))//')'
-            else
-               expression = '2 t (a + b + 2 t) '//symbol
-               numbers = '2 * '//t//' * ('//trim(shown(anchor%width))//' + '//trim(shown(anchor%height))//' + 2 * '//t//')'
-            end if
-            numbers = numbers//' * '//trim(shown(anchor%masonry%design_strength(strength)))
-            friction = anchor%masonry%friction*anchor%compression
-            if (has_shear_surface .and. friction > 0.0_wp) then
-               expression = expression//' + 2 t ('//trim(merge('D', 'a', anchor%diameter > 0.0_wp))//' + t) mu sigma_0'
-               numbers = numbers//' + 2 * '//t//' * ('//trim(shown(max(anchor%width, anchor%diameter)))//' + '//t//') * '// &
-                  & trim(shown(friction))
-            end if
+            expression = expression//' + '//faces//'t ('//trim(merge('D', 'a', anchor%diameter > 0.0_wp))//' + t) mu sigma_0'
+            numbers = numbers//' + '//faces_numbers//t//' * ('//trim(shown(max(anchor%width, anchor%diameter)))//' + '//t// &
+               & ') * '//trim(shown(friction))
          end if
          call put(name, value, expression, numbers)
       end subroutine put_pulled
+
+      !> Surface of a plate with edges, in symbols and in numbers
+      subroutine find_surface(has_shear_surface, expression, numbers)
+         !> Is it the surface at t/2 round the plate? Else the frustum
+         logical, intent(in) :: has_shear_surface
+         character(len=:), allocatable, intent(out) :: expression, numbers
+
+         character(len=:), allocatable :: a, b, t, c
+
+         a = trim(shown(anchor%width))
+         b = trim(shown(anchor%height))
+         t = trim(shown(anchor%leaf))
+         c = trim(shown(anchor%edge))
+         if (anchor%is_at_edge()) then
+            ! The lower face, and side faces that end at the top of the wall
+            expression = 't [a + t + 2 (b + t/2 + c)]'
+            numbers = t//' * ('//a//' + '//t//' + 2 * ('//b//' + '//t//'/2 + '//c//'))'
+            return
+         end if
+         expression = '2 t (a + b + 2 t)'
+         numbers = '2 * '//t//' * ('//a//' + '//b//' + 2 * '//t//')'
+         if (has_shear_surface .or. .not. anchor%edge < anchor%leaf) return
+         ! The top of the wall cuts off the upper edge of the frustum
+         expression = '['//expression//' - (a + 2 t) (t - c)]'
+         numbers = '('//numbers//' - ('//a//' + 2 * '//t//') * ('//t//' - '//c//'))'
+      end subroutine find_surface
+
+      !> Surface of a circular plate, in symbols and in numbers
+      subroutine find_round_surface(has_shear_surface, expression, numbers)
+         !> Is it the surface at t/2 round the plate? Else the frustum
+         logical, intent(in) :: has_shear_surface
+         character(len=:), allocatable, intent(out) :: expression, numbers
+
+         character(len=:), allocatable :: t
+
+         t = trim(shown(anchor%leaf))
+         expression = 'pi t (t + D)'
+         numbers = 'pi * '//t//' * ('//t//' + '//trim(shown(anchor%diameter))//')'
+         if (anchor%is_at_edge() .or. (.not. has_shear_surface .and. anchor%edge < anchor%leaf)) then
+            expression = expression//'/2'
+            numbers = numbers//'/2'
+         end if
+      end subroutine find_round_surface
 
    end subroutine put_forces
 

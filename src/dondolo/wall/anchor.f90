@@ -65,6 +65,8 @@ module dondolo_wall_anchor
       procedure :: has_strength
       !> Does the anchor give way before the bar yields?
       procedure :: is_brittle
+      !> Is the top of the wall nearer to the plate than the surface at t/2?
+      procedure :: is_at_edge
       !> Yield force of the bar per metre of wall
       procedure :: bar_force_per_metre
       procedure, private :: shear_area
@@ -145,10 +147,10 @@ contains
    end subroutine compute_anchor
 
    !> Is the upper face of the surface at t/2 round the plate missing, since the top of the wall is nearer?
-   elemental logical function is_at_edge(anchor)
-      class(anchor_type), intent(in) :: anchor
+   elemental logical function is_at_edge(self)
+      class(anchor_type), intent(in) :: self
 
-      is_at_edge = anchor%edge < 0.5_wp*anchor%leaf
+      is_at_edge = self%edge < 0.5_wp*self%leaf
    end function is_at_edge
 
    !> Surface at t/2 round the plate through the masonry; of a circular plate at the top half of it is left [m2]
@@ -160,10 +162,10 @@ contains
       associate (t => self%leaf, a => self%width, b => self%height)
          if (self%diameter > 0.0_wp) then
             area = pi*t*(t + self%diameter)
-            if (is_at_edge(self)) area = 0.5_wp*area
+            if (self%is_at_edge()) area = 0.5_wp*area
          else
             area = 2.0_wp*t*(a + b + 2.0_wp*t)
-            if (is_at_edge(self)) area = t*(a + t) + 2.0_wp*t*(b + 0.5_wp*t + self%edge)
+            if (self%is_at_edge()) area = t*(a + t) + 2.0_wp*t*(b + 0.5_wp*t + self%edge)
          end if
       end associate
    end function shear_area
@@ -172,7 +174,7 @@ contains
    elemental real(wp) function horizontal_area(self) result(area)
       class(anchor_type), intent(in) :: self
 
-      area = merge(1.0_wp, 2.0_wp, is_at_edge(self))*self%leaf*(self%leaf + max(self%width, self%diameter))
+      area = merge(1.0_wp, 2.0_wp, self%is_at_edge())*self%leaf*(self%leaf + max(self%width, self%diameter))
    end function horizontal_area
 
    !> Projection of the frustum on the wall, the same where the top of the wall is far. The frustum reaches the inner face at t from
@@ -182,7 +184,7 @@ contains
 
       area = self%shear_area()
       associate (t => self%leaf)
-         if (is_at_edge(self) .or. .not. self%edge < t) return
+         if (self%is_at_edge() .or. .not. self%edge < t) return
          if (self%diameter > 0.0_wp) area = 0.5_wp*area
          if (.not. self%diameter > 0.0_wp) area = area - (self%width + 2.0_wp*t)*(t - self%edge)
       end associate
@@ -192,7 +194,7 @@ contains
    elemental real(wp) function band_area(self) result(area)
       class(anchor_type), intent(in) :: self
 
-      area = merge(1.0_wp, 2.0_wp, is_at_edge(self))*self%leaf*self%spacing
+      area = merge(1.0_wp, 2.0_wp, self%is_at_edge())*self%leaf*self%spacing
    end function band_area
 
 end module dondolo_wall_anchor
