@@ -608,6 +608,26 @@ def test_ties_that_break_one_after_the_other(executable, root, tmp_path):
     assert f"{acceleration:.6g}" in text
 
 
+def test_forces_have_one_name(brittle):
+    """In both formats, in the language of the document."""
+    docx = pytest.importorskip("docx")
+    place, results = brittle
+    names = {
+        "it": ("Tschiacciamento", "Ttaglio", "Tcono", "Tancoraggio", "Tbarra", "Dbarra"),
+        "en": ("Tbearing", "Tshear", "Tcone", "Tanchor", "Tbar", "Dbar"),
+    }
+    for lang, other in (("it", "en"), ("en", "it")):
+        dd.calculation_report(results, place / "names.html", lang=lang)
+        dd.calculation_report(results, place / "names.docx", lang=lang)
+        found = docx.Document(str(place / "names.docx"))
+        cells = " ".join(cell.text for table in found.tables for row in table.rows for cell in row.cells)
+        page = re.sub(r"<[^>]*>", "", (place / "names.html").read_text())
+        for text in (cells, page):
+            assert [name for name in names[lang] if not re.search(rf"\b{name}\b", text)] == []
+            assert [name for name in names[other] if re.search(rf"\b{name}\b", text)] == []
+        assert ("Mrib" in page, "Mov" in page) == (lang == "it", lang == "en")
+
+
 def test_states_beside_each_other(brittle):
     """Differences to the state as it stands are those of the two checks."""
     place, results = brittle

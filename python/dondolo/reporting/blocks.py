@@ -15,6 +15,10 @@ _LETTERS = {
     "alpha": "\N{GREEK SMALL LETTER ALPHA}", "gamma": "\N{GREEK SMALL LETTER GAMMA}", "eta": "η", "mu": "μ", "pi": "π",
     "sigma": "\N{GREEK SMALL LETTER SIGMA}", "xi": "ξ", "zeta": "ζ",
 }  # fmt: skip
+# What sentences that are said elsewhere are marked by for the catalogues
+_ = str
+# Words below symbols, which documents have in their language
+_INDICES = (_("anchor"), _("band"), _("bar"), _("bearing"), _("cone"), _("ov"), _("shear"))
 # Words in formulas, which are upright
 _UPRIGHT = ("FC", "ln", "max", "min", "sqrt")
 _TOKEN = re.compile(r"([^\W\d_]+)(?:_([A-Za-z0-9,]+))?(\*?)|([\W\d_]+)")

@@ -71,7 +71,8 @@ class Language:
         if isinstance(piece, Numeral):
             return self.decimal(piece.text) + (f"·10^{piece.power}" if piece.power else "") + piece.unit
         if isinstance(piece, Symbol):
-            return f"{piece.letter}{'_' if piece.index else ''}{piece.index}{piece.mark}"
+            index = f"_{self.text(piece.index)}" if piece.index else ""
+            return f"{piece.letter}{index}{piece.mark}"
         return "".join(map(self.plain, piece)) if isinstance(piece, tuple) else str(getattr(piece, "text", piece))
 
     def date(self, moment: datetime) -> str:

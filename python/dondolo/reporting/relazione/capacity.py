@@ -45,7 +45,7 @@ def end_of(document: Document, one: Subject) -> list[Block]:
                                " terms that the sums lack."),
                              d0=symbol_of("d_0*"), value=shown(d0))]  # fmt: skip
     moment = UNITS["N m/m"]
-    top: list[Any] = [symbol_of("M_stab,P"), " - ", symbol_of("M_rib")]
+    top: list[Any] = [symbol_of("M_stab,P"), " - ", symbol_of("M_ov")]
     numbers: list[Any] = [shown(sums.weights, moment), " - ", shown(sums.thrusts, moment)]
     total, first, second = _sum("P", "z"), shown(sums.first, moment), shown(sums.second, UNITS["N m2/m"])
     lowered, lowered_numbers = _lowered(sums, with_ties=False)
@@ -149,7 +149,7 @@ def capacity_of(document: Document, one: Subject, state: str) -> list[Block]:
         *blocks,
         Formula((("sin ", theta), (symbol_of("d_C"), " ", Fraction(total, (*total, "²"))),
                  (shown(d), " · ", Fraction(first, second)), shown(sine))),
-        Formula((rest, (name, " - ", symbol_of("M_rib")), (shown(at_rest, moment), " kNm/m"))),
+        Formula((rest, (name, " - ", symbol_of("M_ov")), (shown(at_rest, moment), " kNm/m"))),
         Formula((fall, lowered, lowered_numbers, (shown(falling, moment), " kNm/m"))),
         *symbols[:1],
         Formula((left, top_numbers, (over, " kNm/m"))),

@@ -201,7 +201,7 @@ def _formulas(document: Document, one: Subject) -> list[Block]:
     sums = sums_of(check.items)
     lever = "d_x" if isinstance(wall, TwoBlockWall) else "z"
     moment, second = UNITS["N m/m"], UNITS["N m2/m"]
-    total, top = ("Σ", symbol_of("P"), " ", symbol_of(lever)), (symbol_of("M_stab"), " - ", symbol_of("M_rib"))
+    total, top = ("Σ", symbol_of("P"), " ", symbol_of(lever)), (symbol_of("M_stab"), " - ", symbol_of("M_ov"))
     factor = check.value("mechanism", "SLV", "knowledge_factor")
     alpha, mass, ratio, a0 = (
         check.value("mechanism", "SLV", name) for name in ("alpha_0", "mass", "mass_ratio", "a_0")

@@ -189,7 +189,7 @@ class _Writer:
         elif isinstance(piece, Symbol):
             self._run(paragraph, piece.letter, italic=True, **look)
             if piece.index:
-                self._run(paragraph, piece.index, subscript=True, **look)
+                self._run(paragraph, self._document.text(piece.index), subscript=True, **look)
             if piece.mark:
                 self._run(paragraph, piece.mark, **look)
         elif isinstance(piece, Field):
@@ -360,7 +360,7 @@ class _Writer:
             made = _child(parent, name)
             _math_text(_child(made, "m:e"), part.letter)
             if part.index:
-                _math_text(_child(made, "m:sub"), part.index, upright=True)
+                _math_text(_child(made, "m:sub"), self._document.text(part.index), upright=True)
             if part.mark:
                 _math_text(_child(made, "m:sup"), part.mark, upright=True)
         elif isinstance(part, Numeral):
