@@ -418,6 +418,8 @@ def test_wrong_input(both, tmp_path, stripes_of):
         dd.calculation_report(both, tmp_path / "a.odt")
     with pytest.raises(dd.errors.InputError, match="at least one"):
         dd.calculation_report([], target)
+    with pytest.raises(dd.errors.InputError, match="is given twice: a wall as it stands and its design are two runs"):
+        dd.calculation_report([both[0], both[0]], target)
     target.write_text("notes of the office")
     with pytest.raises(dd.errors.InputError, match="is not a report of dondolo"):
         dd.calculation_report(both, target)

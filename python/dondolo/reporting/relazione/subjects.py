@@ -84,8 +84,13 @@ def subjects_of(found: Sequence[Results]) -> Subjects:
     """
     several: list[Subject] = []
     facade, union = "", None
+    runs: set[str] = set()
     for results in found:
         where = results.run.path or "results"
+        if results.run.run and results.run.run in runs:
+            sentence = f"{where}: is given twice: a wall as it stands and its design are two runs"
+            raise InputError(sentence, errors=[Problem(sentence, "not_together", "results", where)])
+        runs.add(results.run.run)
         if "check" not in results.run.settings:
             sentence = f"{where}: has no check: run the case with a group &check, which a calculation report is of"
             raise InputError(sentence, errors=[Problem(sentence, "not_given", "check", where)])
