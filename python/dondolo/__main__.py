@@ -24,6 +24,7 @@ from dondolo.figures.saving import mark_end, save_figure
 from dondolo.populations.nrml_functions import taxonomy_of
 from dondolo.records.catalogues import build_catalogue
 from dondolo.reporting.language import Language
+from dondolo.reporting.pdf import check_printer
 
 # An animation: frames per second, and the longest film [s]
 _FRAMES, _FILM = 15, 30.0
@@ -249,22 +250,38 @@ def _import_matplotlib() -> None:
     gc.freeze()
 
 
+def _make_folder(path: str) -> None:
+    """Make the folder of a document, as the executable makes that of its results."""
+    folder = Path(path).parent
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise dd.errors.DondoloError(f"{folder}: cannot be made: {error.strerror}") from None
+
+
 def _report(options: argparse.Namespace) -> None:
     """Write the report of a run."""
-    _import_matplotlib()
     path = options.output or f"{options.prefix}_report.{'pdf' if options.pdf else 'html'}"
     if options.pdf and not path.lower().endswith(".pdf"):
         raise dd.errors.InputError(f"--output {path}: must end in .pdf with --pdf")
+    if path.lower().endswith(".pdf"):
+        check_printer()
+    _import_matplotlib()
     hazard = None if options.hazard is None else dd.HazardCurve.from_csv(options.hazard)
-    dd.report(dd.read_results(options.prefix), path, hazard=hazard, lang=options.lang)
+    results = dd.read_results(options.prefix)
+    _make_folder(path)
+    dd.report(results, path, hazard=hazard, lang=options.lang)
     _report_done("written", path)
 
 
 def _relazione(options: argparse.Namespace) -> None:
     """Write the calculation report of runs."""
-    _import_matplotlib()
     path = options.output or f"{options.prefixes[0]}_relazione.html"
+    if path.lower().endswith(".pdf"):
+        check_printer()
+    _import_matplotlib()
     results = [dd.read_results(prefix) for prefix in options.prefixes]
+    _make_folder(path)
     given = {"lang": options.lang, "project": options.data, "template": options.template}
     left = dd.calculation_report(results, path, **given)
     _report_done("written", path)
@@ -275,6 +292,7 @@ def _relazione(options: argparse.Namespace) -> None:
 def _workbook(options: argparse.Namespace) -> None:
     """Write the tables of a run into a workbook."""
     path = options.output or f"{options.prefix}_tables.xlsx"
+    _make_folder(path)
     dd.write_workbook(options.prefix, path, lang=options.lang)
     _report_done("written", path)
 
@@ -283,6 +301,7 @@ def _nrml(options: argparse.Namespace) -> None:
     """Write the curves of a run for OpenQuake."""
     path = options.output or f"{options.prefix}_fragility.xml"
     results = dd.read_results(options.prefix)
+    _make_folder(path)
     functions: Mapping[str, Mapping[str, Function]]
     sentences: list[str] = []
     if results.typology is not None:

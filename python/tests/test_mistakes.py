@@ -275,6 +275,9 @@ def test_prefixes_that_are_nearly_right(folder, run, monkeypatch):
         dd.read_results("out")
     with pytest.raises(dd.errors.InputError, match=r"must be the prefix of result files, 'out/wall'$"):
         dd.read_results("out/wall_")
+    for name in ("out/wall.nml", "out/wall.txt"):
+        with pytest.raises(dd.errors.InputError, match=r"must be the prefix of result files, such as 'out/wall'$"):
+            dd.read_results(name)
     assert dd.read_results("out/wall").stripes is not None
 
 

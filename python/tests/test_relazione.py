@@ -12,6 +12,7 @@ import zipfile
 import matplotlib
 import matplotlib.pyplot
 import pytest
+from dondolo.__main__ import main
 from dondolo.reporting.blocks import Fraction, linear, symbol_of
 from dondolo.reporting.content import Symbol
 from dondolo.reporting.language import Language
@@ -701,6 +702,38 @@ def test_command(folder, executable, root, tmp_path):
     )
     again = subprocess.run([executable, "--quiet", "a.nml"], cwd=tmp_path, capture_output=True, text=True, check=True)
     assert "a_relazione.html" in again.stderr + again.stdout
+
+
+def test_what_cannot_be_printed_is_refused_first(both, tmp_path, monkeypatch):
+    """Before chapters are written and drawn."""
+    monkeypatch.setattr("dondolo.reporting.pdf._browser", lambda: None)
+    monkeypatch.setitem(sys.modules, "weasyprint", None)
+    monkeypatch.setattr("dondolo.reporting.relazione.subjects.subjects_of", lambda found: pytest.fail("has begun"))
+    with pytest.raises(dd.errors.DondoloError, match="needs Chromium or WeasyPrint"):
+        dd.calculation_report(both, tmp_path / "a.pdf")
+    assert main(["relazione", "there_is_none", "-o", str(tmp_path / "b.pdf")]) == 1
+    monkeypatch.setattr("dondolo.reporting.page._page", lambda *rest: pytest.fail("has begun"))
+    with pytest.raises(dd.errors.DondoloError, match="needs Chromium or WeasyPrint"):
+        dd.report(both[0], tmp_path / "a.pdf")
+
+
+def test_folders_and_languages_of_the_command(brittle, tmp_path):
+    """A folder is made, as by the executable, and languages are known in capitals."""
+    place, _results = brittle
+    path = tmp_path / "new" / "folder" / "a.html"
+    assert main(["relazione", str(place / "fatto"), "--lang", "IT", "-o", str(path)]) == 0
+    assert '<html lang="it">' in path.read_text()
+    (tmp_path / "file").touch()
+    assert main(["report", str(place / "fatto"), "-o", str(tmp_path / "file" / "a.html")]) == 1
+
+
+def test_a_file_of_the_project_that_is_no_toml(both, tmp_path):
+    for line in ("date = 28 novembre", 'client = "C:\\new"', "latitude = 42,35"):
+        (tmp_path / "p.toml").write_text(f"[project]\n{line}\n")
+        with pytest.raises(
+            dd.errors.InputError, match=r"p.toml: .*line 2.*texts are in quotes, Windows paths in single"
+        ):
+            dd.calculation_report(both, tmp_path / "a.html", project=tmp_path / "p.toml")
 
 
 # --- Catalogues and tables

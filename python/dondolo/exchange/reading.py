@@ -77,7 +77,7 @@ def read_results(prefix: str | os.PathLike[str]) -> Results:
 
 
 def _refuse_other(prefix: str) -> None:
-    """Refuse a case, another file, a folder or a prefix with an underscore, and name the prefix that is meant."""
+    """Refuse a case, another file, a folder, a prefix with an underscore or a suffix: name the prefix that is meant."""
     path, what = Path(prefix), f"prefix = {prefix!r}"
     if prefix.endswith("_") and Path(prefix[:-1] + RUN_FILE).is_file():
         raise InputError(f"{what}: must be the prefix of result files, {prefix[:-1]!r}")
@@ -88,6 +88,11 @@ def _refuse_other(prefix: str) -> None:
         if found:
             raise InputError(f"{what}: is a folder, must be the prefix of result files, such as {names}")
     if not path.is_file():
+        start = os.path.splitext(prefix)[0]
+        if path.suffix.lower() == ".nml" or (path.suffix and Path(start + RUN_FILE).is_file()):
+            raise argument_error(
+                "wrong_type", "prefix", f" = {prefix!r}: must be the prefix of result files, such as {start!r}"
+            )
         return
     if path.suffix.lower() != ".nml":
         raise InputError(f"{what}: is a file, must be the prefix of result files")

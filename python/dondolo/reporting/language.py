@@ -33,6 +33,7 @@ class Language:
 
     def __init__(self, code: str | None = None) -> None:
         given, name = (os.environ.get("DONDOLO_LANG", "en"), "DONDOLO_LANG") if code is None else (code, "lang")
+        given = given.lower() if isinstance(given, str) else given
         one_of(name, given, LANGUAGES)
         self.code = given
         self._catalogue = gettext.NullTranslations()

@@ -29,10 +29,10 @@ from dondolo.populations.typology import Typology
 from dondolo.populations.uncertain_wall import UncertainWall
 from dondolo.reporting import designs, facade, inputs, typology, uncertain, wall
 from dondolo.reporting.code_check import code_check, code_checks, verdict
-from dondolo.reporting.content import BETA, THETA, Symbol, date_in_words
+from dondolo.reporting.content import BETA, THETA, Symbol, date_in_words, measure_name
 from dondolo.reporting.language import Language
 from dondolo.reporting.numerals import NONE, whole
-from dondolo.reporting.pdf import write_pdf
+from dondolo.reporting.pdf import check_printer, write_pdf
 from dondolo.reporting.relazione.terms import warning
 from dondolo.reporting.risk import risk_facts
 from dondolo.reporting.run import Run, run_of
@@ -102,6 +102,8 @@ def report(
     >>> dd.report(response, "report.html", title="Parapet")
     """
     target = as_file("path", path, ".html", ".htm", ".pdf")
+    if target.suffix.lower() == ".pdf":
+        check_printer()
     check_replaced(target, "report")
     language = Language(lang)
     with language.in_force():

@@ -6,6 +6,7 @@ import os
 import shutil
 import sys
 from pathlib import Path
+from typing import Any
 
 from dondolo._fortran.files import whole_file
 from dondolo.errors import DondoloError
@@ -49,6 +50,18 @@ def write_pdf(path: str | os.PathLike[str], html: str, mark: str) -> None:
             file.write(f"% {mark}\n")
 
 
+def check_printer() -> None:
+    """Refuse to make a report for PDF, which takes seconds, where nothing can print it.
+
+    Raises
+    ------
+    DondoloError
+        Neither a browser nor WeasyPrint is here.
+    """
+    if _browser() is None:
+        _weasyprint()
+
+
 def sets_formulas() -> bool:
     """Whether the program that prints sets formulas of MathML: browsers do, WeasyPrint does not."""
     return _browser() is not None
@@ -86,6 +99,11 @@ def _print_by_browser(browser: str, page: Path, part: Path) -> None:
 
 def _print_by_weasyprint(page: Path, part: Path) -> None:
     """Print by WeasyPrint."""
+    _weasyprint().HTML(filename=str(page)).write_pdf(str(part))
+
+
+def _weasyprint() -> Any:
+    """WeasyPrint, whose libraries may be missing too."""
     try:
         import weasyprint
     except (ImportError, OSError):
@@ -93,4 +111,4 @@ def _print_by_weasyprint(page: Path, part: Path) -> None:
             "a report as PDF needs Chromium or WeasyPrint (pip install weasyprint), and neither is installed: write it "
             "as HTML, and print that in any browser"
         ) from None
-    weasyprint.HTML(filename=str(page)).write_pdf(str(part))
+    return weasyprint

@@ -31,6 +31,9 @@ TEXTS = (
     "judgement",
 )
 
+# How values are written
+_NOTATION = "texts are in quotes, Windows paths in single quotes, and numbers have a decimal point"
+
 
 @dataclass(frozen=True)
 class Project:
@@ -62,7 +65,7 @@ def read_project(path: str | os.PathLike[str] | None) -> Project:
     try:
         content = tomllib.loads(read_text(path))
     except tomllib.TOMLDecodeError as error:
-        raise InputError(f"{os.fspath(path)}: {error}") from None
+        raise InputError(f"{os.fspath(path)}: {error}; {_NOTATION}") from None
     allowed = {"project": (*WORDS, *NUMBERS), "texts": TEXTS}
     for group, values in content.items():
         if group not in allowed or not isinstance(values, dict):

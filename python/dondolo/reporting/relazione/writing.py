@@ -74,7 +74,7 @@ def calculation_report(
 
     from dondolo.reporting.blocks import fields_of
     from dondolo.reporting.language import Language
-    from dondolo.reporting.pdf import sets_formulas, write_pdf
+    from dondolo.reporting.pdf import check_printer, sets_formulas, write_pdf
     from dondolo.reporting.relazione.chapters import CHAPTERS
     from dondolo.reporting.relazione.document import Document
     from dondolo.reporting.relazione.project import read_project
@@ -89,6 +89,8 @@ def calculation_report(
             "template",
             f" = {os.fspath(template)!r}: must be left out for {suffix}, which has no styles of Word",
         )
+    if suffix == ".pdf":
+        check_printer()
     several = [results] if isinstance(results, Results) else list(results)
     found = [instance_of("results", one, Results) for one in several]
     if not found:
