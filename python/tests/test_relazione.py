@@ -11,13 +11,14 @@ import zipfile
 
 import matplotlib
 import matplotlib.pyplot
+import numpy as np
 import pytest
 from dondolo.__main__ import main
 from dondolo.reporting.blocks import Fraction, linear, symbol_of
 from dondolo.reporting.content import Symbol
 from dondolo.reporting.language import Language
 from dondolo.reporting.numerals import Numeral
-from dondolo.reporting.relazione import project, terms
+from dondolo.reporting.relazione import drawings, project, terms
 from dondolo.reporting.relazione.document import Document
 from dondolo.reporting.relazione.drawings import draw_anchor
 from dondolo.reporting.relazione.subjects import subjects_of
@@ -275,6 +276,59 @@ def test_plate_and_frustum(brittle):
     colours = [one.get_facecolor() for one in drawn.figure.findobj(matplotlib.patches.Polygon)]
     assert all(len(set(colour[:3])) == 1 for colour in colours)
     matplotlib.pyplot.close(drawn.figure)
+
+
+def test_figures_keep_their_words_apart(brittle):
+    """Nothing crosses the dimensions, reactions are clear of the hinge, and curves end together, dashed beyond."""
+    subjects = subjects_of(brittle[1])
+    document = Document(Language("it"), project.Project(), subjects)
+    rest, moved = drawings.draw_wall(document, subjects.several[1]).figure.axes
+    at = min(note.xy[0] for note in rest.texts if note.get_text() in ("340", "380"))
+    reach = [min(line.get_xdata()) for line in rest.lines if len(line.get_xdata()) > 1]
+    assert at < min(reach)
+    (reaction,) = (note for note in moved.texts if note.get_text().startswith("H = "))
+    assert reaction.xy[1] < 0.0
+    ax = drawings.draw_fragility(document)
+    curves = [line for line in ax.lines if len(line.get_xdata()) > 2]
+    ends = {float(line.get_xdata()[-1]) for line in curves}
+    last = max(subjects.several[0].curve.levels)
+    assert ends == {last, ax.get_xlim()[1]}
+    labels = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert labels.count("oltre il livello massimo") == 1
+    shown = drawings.draw_spectra(document)
+    indices = drawings.draw_indices(document)
+    for text in (*labels, shown.get_ylabel(), indices.get_xlabel()):
+        assert "_" not in re.sub(r"\$[^$]*\$", "", text), text
+    assert not any(line.get_visible() for line in indices.get_ygridlines())
+    for drawn in (rest, ax, shown, indices):
+        matplotlib.pyplot.close(drawn.figure)
+
+
+@pytest.mark.parametrize(("height", "is_cut", "is_open"), [(4.0, False, False), (6.6, True, False), (7.0, True, True)])
+@pytest.mark.parametrize("is_round", [False, True])
+def test_plates_near_the_top(height, is_cut, is_open, is_round, brittle):
+    """The top of the wall and its distance where it decides, and the surface at t/2 where shear governs."""
+    size = {"plate_diameter": 0.3} if is_round else {"plate_width": 0.3, "plate_height": 0.3}
+    tie = dd.Tie(height, bar=0.024, spacing=2.5, length=10.0, strength=2.2e8, plate_thickness=0.02, **size)
+    strengths = {"masonry_compression": 2e6, "masonry_shear": 4e4, "masonry_tension": 5e4}
+    wall = dd.OneSidedWall(7.2, 0.55, density=2000.0, ties=[tie], **strengths)
+    subjects = subjects_of(brittle[1])
+    one = dataclasses.replace(subjects.several[1], wall=wall, check=dd.check_ntc(wall, subjects.several[1].check.site))
+    section = draw_anchor(Document(Language("it"), project.Project(), subjects), one, "tie 1")
+    _section, front = section.figure.axes
+    texts = [text.get_text() for text in section.texts]
+    above = 7.2 - height - 0.15
+    assert ("sommità della parete" in texts, f"c = {100 * above:.4g}".replace(".", ",") in texts) == (is_cut, is_cut)
+    dotted = [line for line in section.lines if line.get_linestyle() == ":"]
+    assert len(dotted) == (1 if is_open else 2)
+    (round_it,) = (line for line in front.lines if line.get_linestyle() == ":")
+    top = float(round_it.get_ydata().max())
+    expected = (0.0 if is_round else 0.15 + above) if is_open else 0.15 + 0.275
+    assert top == pytest.approx(expected)
+    # Both panels have one scale, so that their titles have one height.
+    assert np.ptp(section.get_xlim()) == pytest.approx(np.ptp(front.get_xlim()))
+    assert section.get_ylim() == front.get_ylim()
+    matplotlib.pyplot.close(section.figure)
 
 
 ONE_HAZARD = "&check ag = 0.2, f0 = 2.5, tc_star = 0.35, soil = 'B', knowledge_factor = 1.2 /\n"

@@ -26,6 +26,10 @@ _CHECKS = {
 }
 
 
+# What keeps a number clear of the lines behind it
+_CLEAR = {"facecolor": "white", "edgecolor": "none", "pad": 0.3}
+
+
 def check_name(method: str, state: str) -> str:
     """A check in words."""
     return say(_CHECKS[method], state=state)
@@ -57,7 +61,7 @@ def draw_check(check: CodeCheck, curve: Fragility, ax: Axes | None, given: dict[
                 "linestyle": style.LINES[i % len(style.LINES)],
             }
         )
-        ax.axvline(level, label=label, zorder=1, **look)
+        ax.axvline(level, label=style.in_math(label), gid=style.FORMULA, zorder=1, **look)
         ax.plot(level, chance, marker="x", markersize=6, color=look["color"], zorder=4)
     ax.set_xlim(0.0, right)
     style.legend(ax, options)
@@ -97,9 +101,11 @@ def draw_safety(
         )
         for height, (_row, index) in zip(at, found, strict=True):
             ax.annotate(decimal(f"{index:.3g}"), (index, height), (3, 0), textcoords="offset points", va="center",
-                        fontsize=theme().note)  # fmt: skip
+                        fontsize=theme().note, bbox=_CLEAR)  # fmt: skip
+    # Lines at the names would strike through the numbers.
+    ax.grid(visible=False, axis="y")
     ax.axvline(1.0, color=style.BLACK, linewidth=1.0, linestyle="--")
     ax.set_yticks(range(len(names)), [style.in_lines(style.label(name), ax, 0.4) for name in names], parse_math=False)
     ax.invert_yaxis()
     ax.set_xlim(0.0, 1.12 * max(1.0, *ax.get_xlim()))
-    ax.set_xlabel("ζ_E")
+    ax.set_xlabel(style.in_math("ζ_E"))

@@ -62,6 +62,10 @@ _NAMES = {
 }
 # Periods in the names of measures
 _NUMBER = re.compile(r"\d+(?:\.\d+)?")
+# Symbols with an index
+_INDEXED = re.compile(r"\b([^\W\d_])_([A-Za-z0-9]+)")
+# Mark of what has a label with formulas in the legend
+FORMULA = "formula"
 # Label of the axis of rotations
 EDP = _("EDP = largest rotation / capacity")
 
@@ -303,6 +307,11 @@ def count_texts(ax: Axes, x: NDArray[np.float64], y: float, counts: Iterable[int
             )
 
 
+def in_math(text: str) -> str:
+    """A text whose symbols with an index, such as a_g S, are set as such; it may hold no names that a user gives."""
+    return _INDEXED.sub(lambda found: rf"${found[1]}_\mathrm{{{found[2]}}}$", text)
+
+
 def note(ax: Axes, text: str) -> None:
     """Explain something in the legend, once, that has no line of its own."""
     if text not in ax.get_legend_handles_labels()[1]:
@@ -345,8 +354,8 @@ def legend(ax: Axes, options: Options, also: Sequence[Axes] = ()) -> None:
         borderaxespad=0.0,
         borderpad=0.2,
     )
-    for text in drawn.get_texts():
-        text.set_parse_math(False)
+    for text, (handle, _label) in zip(drawn.get_texts(), found, strict=True):
+        text.set_parse_math(getattr(handle, "get_gid", lambda: None)() == FORMULA)
 
 
 def _in_columns(labels: list[str], size: float, room: float) -> tuple[list[str], int]:

@@ -82,6 +82,8 @@ _DYNAMIC = {
 }
 
 
+# Symbols of the hazard of a site
+_SITE = {"ag": Symbol("a", "g"), "f0": Symbol("F", "0"), "tc_star": Symbol("T", "C", "*"), "V_R": Symbol("V", "R")}
 # Walls that are named where they do not pass a check
 _NAMED = 4
 # Kinematic checks of the walls of a population: method and limit state
@@ -117,7 +119,7 @@ def code_checks(
         (_name(*key, ", "), whole(sum(check._verdict(key) == "verified" for check, _ in made)), len(made))
         for key in _KINEMATIC
     ]
-    site = _site_in_words(made[0][0]) if made else ""
+    site = _site_in_words(made[0][0]) if made else ()
     together: Piece | None = None
     if made and facade is not None and facade.has_fit and facade.im == "pga":
         # Far below the levels a curve that is fitted on its own may be less than that of a mechanism, which bounds it.
@@ -264,17 +266,17 @@ def _method(name: str) -> str:
     return name if in_english() else headings.in_words("method", name)
 
 
-def _site_in_words(check: CodeCheck) -> str:
+def _site_in_words(check: CodeCheck) -> tuple[Any, ...]:
     """The hazard of the site and its ground."""
     site = check.site
     facts = dict(site._facts())
     if not in_english():
         facts = {name: decimal(text.replace(", ", "; ")) for name, text in facts.items()}
-    ground = say("soil {soil}, topography {topography}", soil=site.soil, topography=site.topography)
-    facts = {say("ground") if name == "ground" else name: text for name, text in (facts | {"ground": ground}).items()}
+    facts["ground"] = say("soil {soil}, topography {topography}", soil=site.soil, topography=site.topography)
     if "V_R" in facts:
         facts["V_R"] = say("{years:g} years", years=site.reference_life)
-    return ", ".join(f"{name} {text}" for name, text in facts.items())
+    words = [(_SITE.get(name) or say("ground"), f" {text}") for name, text in facts.items()]
+    return tuple(piece for place, fact in enumerate(words) for piece in (*([", "] if place else []), *fact))
 
 
 def _site(check: CodeCheck, state: str) -> float:

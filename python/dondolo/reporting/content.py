@@ -29,6 +29,8 @@ _SHORT, _WIDE = 14, 11
 # A drawing is embedded as SVG up to this size, and as pixels beyond: many thin curves make large drawings
 _SVG_BYTES = 600_000
 _DOTS_PER_INCH = 180
+# Measures that sentences have in capitals
+_ABBREVIATIONS = ("pga", "pgv", "pgd", "cav", "hi")
 # Around a drawing [inch]
 _MARGIN = 0.1
 
@@ -192,6 +194,11 @@ def state_name(edp: float, limit: float) -> str:
 def level_unit(im: str) -> str:
     """Unit of a measure for the head of a column."""
     return unit_of(im) or "-"
+
+
+def measure_name(im: str) -> str:
+    """A measure in a sentence: abbreviations in capitals."""
+    return im.upper() if im in _ABBREVIATIONS else im
 
 
 def level_head(im: str) -> str:

@@ -28,6 +28,7 @@ from dondolo.reporting.content import (
     date_in_words,
     figure,
     level_unit,
+    measure_name,
     pieces,
     state_name,
 )
@@ -84,7 +85,7 @@ def _levels(run: Run) -> Facts:
         return []
     return [
         (
-            say("levels of {im}", im=run.results.im),
+            say("levels of {im}", im=measure_name(run.results.im)),
             (", " if in_english() else "; ").join(decimal(f"{level:g}") for level in run.results.levels),
         )
     ]

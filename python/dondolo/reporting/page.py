@@ -341,7 +341,7 @@ def _lead(run: Run) -> str:
         )
     else:
         levels = results.levels
-        span = {"im": results.im, "first": levels[0], "last": levels[-1], "unit": blank_unit(results.im)}
+        span = {"im": measure_name(results.im), "first": levels[0], "last": levels[-1], "unit": blank_unit(results.im)}
         parts.append(
             say("{levels} levels of {im}, {first:g} to {last:g}{unit}", levels=len(levels), **span)
             if len(levels) > 1

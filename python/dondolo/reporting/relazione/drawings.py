@@ -29,6 +29,8 @@ _STATES: tuple[LimitState, ...] = ("SLD", "SLV", "SLC")
 _DARK, _MIDDLE, _PALE, _LINES = "#000000", "#6e6e6e", "#e2e2e2", ("-", "--", ":", "-.", (0, (5, 1)), (0, (1, 1)))
 _POINTS = 400
 _CENTIMETRES = 100.0
+# A curve beyond its levels
+_BEYOND: dict[str, Any] = {"color": _MIDDLE, "linestyle": (0, (2, 2)), "linewidth": 0.9}
 # Least rotation that is drawn [rad]
 _SEEN = 0.08
 
@@ -57,10 +59,10 @@ def draw_wall(document: Document, one: Subject) -> Any:
         for block in now.blocks:
             ax.fill(*block.T, facecolor=_PALE if ax is rest else "none", edgecolor=_DARK if ax is rest else _MIDDLE,
                     linewidth=0.9, linestyle="-" if ax is rest else "--")  # fmt: skip
-        ax.plot([-reach, wall.thickness + reach], [0.0, 0.0], color=_DARK, linewidth=1.4)
+        ax.plot([-0.85 * reach, wall.thickness + reach], [0.0, 0.0], color=_DARK, linewidth=1.4)
         ax.set_aspect("equal")
         ax.axis("off")
-        ax.set_xlim(-1.25 * reach, wall.thickness + 1.5 * reach)
+        ax.set_xlim(-1.3 * reach, wall.thickness + 1.5 * reach)
         ax.set_ylim(-0.13 * wall.height, 1.14 * wall.height)
     for block in later.blocks:
         moved.fill(*block.T, facecolor=_PALE, edgecolor=_DARK, linewidth=0.9)
@@ -73,10 +75,12 @@ def draw_wall(document: Document, one: Subject) -> Any:
         forces = reactions_of(one)
         _arrow(moved, base, (base[0], -0.11 * wall.height), f"V = {_kilo(document, forces.vertical)} kN/m", up=True)
         words = f"H = {_kilo(document, abs(forces.activated))} kN/m"
-        # The base holds the wall against the force that it takes from it.
-        side = -1.0 if forces.activated >= 0.0 else 1.0
-        moved.annotate("", base, (base[0] - side * 0.7 * reach, 0.0), arrowprops=_ARROW)
-        moved.annotate(words, (base[0] - side * 0.42 * reach, 0.015 * wall.height), ha="center", fontsize=7.5)
+        # The base holds the wall against the force that it takes from it: below the ground, clear of the hinge.
+        side, low = 1.0 if forces.activated >= 0.0 else -1.0, -0.05 * wall.height
+        start = (base[0] + side * 0.6 * reach, low)
+        moved.annotate("", (base[0] + side * 0.08 * reach, low), start, arrowprops=_ARROW)
+        moved.annotate(words, start, (4.0 * side, 0), textcoords="offset points", ha="left" if side > 0.0 else "right",
+                       va="center", fontsize=7.5)  # fmt: skip
     rest.set_title(document.text(_("at rest")), fontsize=9)
     moved.set_title(document.text(_("displaced, not to scale")), fontsize=9)
     rest.annotate(document.text(_("hinge")), hinge, (6, -11), textcoords="offset points", fontsize=7.5)
@@ -100,8 +104,8 @@ def _arrow(ax: Axes, to: Any, start: Any, words: str, *, up: bool = False) -> No
 
 
 def _dimensions(document: Document, ax: Axes, one: Subject, reach: float) -> None:
-    """Heights of the storeys and thicknesses, in centimetres."""
-    x, bottom = -0.55 * reach, 0.0
+    """Heights of the storeys and thicknesses, in centimetres, beyond what pushes and holds the wall."""
+    x, bottom = -1.05 * reach, 0.0
     parts = getattr(one.wall, "sections", ()) or ()
     sizes = [(part.height, part.thickness) for part in parts] or [(one.wall.height, one.wall.thickness)]
     right = one.wall.thickness
@@ -130,10 +134,10 @@ def _items(document: Document, ax: Axes, one: Subject, reach: float) -> None:
         words = f"{letter}{count} = {_kilo(document, item.force)}"
         x, z = right - item.depth, item.lever
         if word == "thrust":
-            _arrow(ax, (x, z), (x - 0.75 * reach, z), "")
-            ax.annotate(words, (x - 0.75 * reach, z), (0, 3), textcoords="offset points", fontsize=7.5)
+            _arrow(ax, (x, z), (-0.7 * reach, z), "")
+            ax.annotate(words, (-0.7 * reach, z), (0, -9), textcoords="offset points", fontsize=7.5)
         elif is_held(item):
-            ax.plot([right, -0.9 * reach], [z, z], color=_DARK, linewidth=1.4)
+            ax.plot([right, -0.75 * reach], [z, z], color=_DARK, linewidth=1.4)
             ax.plot(
                 [right + 0.02, right + 0.02], [z - 0.03 * wall.height, z + 0.03 * wall.height], color=_DARK, linewidth=3
             )
@@ -200,8 +204,9 @@ def draw_anchor(document: Document, one: Subject, item: str) -> Any:
     # A frustum that meets the top of the wall ends there.
     above = min(depth, found.get("edge_distance", depth))
     top, bottom, reach = 0.5 * height + above, -0.5 * height - depth, 0.5 * width + depth
+    is_cut = above < depth
     # Section: the inner face is at 0, the plate outside
-    floor, roof = 1.15 * bottom, top if above < depth else 1.15 * top
+    floor, roof = 1.15 * bottom, top if is_cut else 1.15 * top
     ax.fill([0.0, depth, depth, 0.0], [floor, floor, roof, roof], facecolor="none", edgecolor=_MIDDLE, linewidth=0.8)
     outline = [depth, depth - min(above, depth), 0.0, 0.0, depth], [0.5 * height, top, top, bottom, -0.5 * height]
     ax.fill(*outline, facecolor=_PALE, edgecolor=_DARK, linestyle="--", linewidth=0.9)
@@ -217,36 +222,77 @@ def draw_anchor(document: Document, one: Subject, item: str) -> Any:
             x, y = half * np.cos(circle), np.minimum(half * np.sin(circle), most)
         front.fill(x, y, facecolor=face, edgecolor=_DARK, linestyle=line, linewidth=0.9)
     size = document.language.decimal
-    sizes = [(ax, (0.0, depth), 1.28 * bottom, f"t = {size(f'{_CENTIMETRES * depth:.4g}')}")]
+    sizes = [(ax, (0.0, depth), f"t = {size(f'{_CENTIMETRES * depth:.4g}')}")]
     name = "D" if round_plate else "a"
-    sizes.append((front, (-0.5 * width, 0.5 * width), 1.28 * bottom, f"{name} = {size(f'{_CENTIMETRES * width:.4g}')}"))
-    for panel, (start, end), at, words in sizes:
-        panel.annotate("", (start, at), (end, at), arrowprops=_SIZE)
-        panel.annotate(words, (0.5 * (start + end), at), (0, -9), textcoords="offset points", ha="center", fontsize=7.5)
+    sizes.append((front, (-0.5 * width, 0.5 * width), f"{name} = {size(f'{_CENTIMETRES * width:.4g}')}"))
+    if found["shear_force"] == found["anchor_force"]:
+        _shear_surface(ax, front, (width, height, depth), above, is_round=bool(round_plate))
+        sizes.append((front, (0.5 * width, 0.5 * (width + depth)), "t/2"))
+    low = 1.28 * bottom
+    for panel, (start, end), words in sizes:
+        panel.annotate("", (start, low), (end, low), arrowprops=_SIZE)
+        panel.annotate(
+            words, (0.5 * (start + end), low), (0, -9), textcoords="offset points", ha="center", fontsize=7.5
+        )
     beside = depth + 4.0 * thick
-    ax.annotate("", (beside, -0.5 * height), (beside, 0.5 * height), arrowprops=_SIZE)
-    label = "D" if round_plate else "b"
-    ax.annotate(
-        f"{label} = {size(f'{_CENTIMETRES * height:.4g}')}",
-        (beside, 0.25 * height),
-        (4, 0),
-        textcoords="offset points",
-        fontsize=7.5,
-    )
+    heights = [((-0.5 * height, 0.5 * height), height, "D" if round_plate else "b")]
+    if is_cut:
+        heights.append(((0.5 * height, top), above, "c"))
+        for panel, ends in ((ax, (-0.5 * depth, beside)), (front, (-1.05 * reach, 1.05 * reach))):
+            panel.plot(ends, [top, top], color=_DARK, linewidth=1.4)
+        ax.annotate(document.text(_("top of the wall")), (-0.5 * depth, top), (0, 3), textcoords="offset points",
+                    fontsize=7.5)  # fmt: skip
+    for (start, end), length, name in heights:
+        ax.annotate("", (beside, start), (beside, end), arrowprops=_SIZE)
+        ax.annotate(f"{name} = {size(f'{_CENTIMETRES * length:.4g}')}", (beside, 0.5 * (start + end)), (4, 0),
+                    textcoords="offset points", fontsize=7.5, va="center")  # fmt: skip
     names = {
         "bar_force": _("bar"), "bearing_force": _("bearing"), "shear_force": _("shear"), "cone_force": _("frustum"),
         "band_force": _("band"),
     }  # fmt: skip
     lines = [f"{document.text(words)} {_kilo(document, found[one])} kN" for one, words in names.items() if one in found]
-    front.annotate("\n".join(lines), (1.05 * reach, 0.0), fontsize=7.5, va="center")
-    for panel, words in ((ax, _("section")), (front, _("front"))):
+    front.annotate("\n".join(lines), (1.1 * reach, -0.3 * depth), fontsize=7.5, va="center")
+    # One scale: the panels have the same ends, and their titles one height.
+    room, middle = 3.3 * reach, 0.5 * depth
+    for panel, words, left, at in (
+        (ax, _("section"), middle - 0.5 * room, middle),
+        (front, _("front"), -1.05 * reach, 0.0),
+    ):
         panel.set_aspect("equal")
         panel.axis("off")
-        panel.set_ylim(1.5 * bottom, 1.25 * max(top, -bottom))
-        panel.set_title(document.text(words), fontsize=9)
-    ax.set_xlim(-0.6 * depth, depth + 12.0 * thick)
-    front.set_xlim(-1.05 * reach, 2.3 * reach)
+        panel.set_xlim(left, left + room)
+        panel.set_ylim(1.5 * bottom, roof + 0.35 * depth)
+        panel.annotate(document.text(words), (at, roof), (0, 16), textcoords="offset points", ha="center", fontsize=9)
     return ax
+
+
+def _shear_surface(ax: Axes, front: Axes, sizes: tuple[float, float, float], above: float, *, is_round: bool) -> None:
+    """The surface at t/2 round a plate: where the top of the wall is nearer the upper face is missing.
+
+    Parameters
+    ----------
+    ax, front : Axes
+        Section and front.
+    sizes : tuple
+        Width and height of the plate, or twice its diameter, and thickness of the masonry.
+    above : float
+        Distance from the plate to the top of the wall, or the thickness if that is farther.
+    is_round : bool
+        Whether the plate is circular: at the top half of its surface is left.
+    """
+    width, height, depth = sizes
+    look: dict[str, Any] = {"color": _DARK, "linestyle": ":", "linewidth": 1.5}
+    is_open = above < 0.5 * depth
+    half, least = 0.5 * (width + depth), -0.5 * (height + depth)
+    most = 0.5 * height + above if is_open else -least
+    for level in (least,) if is_open else (least, most):
+        ax.plot([0.0, depth], [level, level], **look)
+    if is_round:
+        angle = np.linspace(-np.pi if is_open else 0.0, 0.0 if is_open else 2.0 * np.pi, 181)
+        front.plot(half * np.cos(angle), half * np.sin(angle), **look)
+        return
+    x, y = [-half, -half, half, half], [most, least, least, most]
+    front.plot(x if is_open else [*x, -half], y if is_open else [*y, most], **look)
 
 
 def draw_spectra(document: Document) -> Any:
@@ -259,7 +305,7 @@ def draw_spectra(document: Document) -> Any:
         ax.plot(periods, check.site.spectrum(periods=periods, limit_state=state).sa, color=_DARK, linestyle=line,
                 label=state if len(states) > 1 else None)  # fmt: skip
     ax.set_xlabel("T [s]")
-    ax.set_ylabel("S_e [g]")
+    ax.set_ylabel(style.in_math("S_e [g]"))
     ax.set_xlim(0.0, 4.0)
     ax.set_ylim(bottom=0.0)
     if len(states) > 1:
@@ -273,17 +319,22 @@ def draw_fragility(document: Document) -> Any:
     named = [(name, one.curve) for name, one in document.each()]
     if document.subjects.facade:
         named.append((document.subjects.facade, document.subjects.union))
-    right = 0.0
-    for place, (name, curve) in enumerate(named):
-        if curve is None or not curve.has_fit:
-            continue
-        right = max(right, float(curve.ppf(0.98)))
-        x = np.linspace(0.0, right, _POINTS)[1:]
-        ax.plot(x, curve(x), color=_DARK, linestyle=_LINES[place % len(_LINES)], linewidth=1.5, label=name)
+    drawn = [(name, curve) for name, curve in named if curve is not None and curve.has_fit]
     pga = document.subjects.several[0].check.pga
+    right = max([1.2 * pga, *(float(curve.ppf(0.98)) for _name, curve in drawn)])
+    is_beyond = False
+    for place, (name, curve) in enumerate(drawn):
+        last = float(np.max(curve.levels, initial=0.0))
+        x = np.linspace(0.0, min(last, right), _POINTS)[1:]
+        ax.plot(x, curve(x), color=_DARK, linestyle=_LINES[place % len(_LINES)], linewidth=1.5, label=name)
+        if last < right:
+            x, is_beyond = np.linspace(last, right, _POINTS), True
+            ax.plot(x, curve(x), **_BEYOND)
+    if is_beyond:
+        ax.plot([], [], label=document.text(_("beyond the highest level")), **_BEYOND)
     words = document.text(_("a_g S of the site, SLV"))
-    ax.axvline(pga, color=_MIDDLE, linewidth=1.0, linestyle=(0, (6, 3)), label=words)
-    ax.set_xlim(0.0, max(right, 1.2 * pga))
+    ax.axvline(pga, color=_MIDDLE, linewidth=1.0, linestyle=(0, (6, 3)), label=style.in_math(words), gid=style.FORMULA)
+    ax.set_xlim(0.0, right)
     ax.set_ylim(0.0, 1.0)
     ax.set_xlabel("PGA [g]")
     ax.set_ylabel(document.text(_("probability of collapse")))
@@ -294,7 +345,7 @@ def draw_fragility(document: Document) -> Any:
 def draw_indices(document: Document) -> Any:
     """Safety indices of the states."""
     several = document.each()
-    ax = _axes(document, (6.0, 0.5 + 0.4 * len(several)))
+    ax = _axes(document, (6.0, 0.6 + 0.6 * len(several)))
     words = {
         (method, state): f"{document.text(name)} {state}"
         for method, state, name in (
