@@ -21,7 +21,7 @@ _ = str
 _INDICES = (_("anchor"), _("band"), _("bar"), _("bearing"), _("cone"), _("ov"), _("shear"))
 # Words in formulas, which are upright
 _UPRIGHT = ("FC", "ln", "max", "min", "sqrt")
-_TOKEN = re.compile(r"([^\W\d_]+)(?:_([A-Za-z0-9,]+))?(\*?)|([\W\d_]+)")
+_TOKEN = re.compile(r"([^\W\d_]+)(?:_([A-Za-z0-9]+(?:,[A-Za-z0-9]+)*))?(\*?)|([\W\d_]+)")
 
 
 @dataclass(frozen=True)
