@@ -685,6 +685,24 @@ def test_forces_have_one_name(brittle):
         assert ("Mrib" in page, "Mov" in page) == (lang == "it", lang == "en")
 
 
+def test_contents_and_records_once(brittle):
+    """Word has a table of contents that it updates; records of two runs that are the same are listed once."""
+    docx = pytest.importorskip("docx")
+    place, results = brittle
+    dd.calculation_report(results, place / "contents.docx", lang="it")
+    file = docx.Document(str(place / "contents.docx"))
+    texts = [paragraph.text for paragraph in file.paragraphs]
+    titles = [one.text for one in file.paragraphs if one.style.name == "Heading 1"]
+    place_of = texts.index("Indice")
+    assert texts[place_of + 1 : place_of + 1 + len(titles)] == titles
+    xml = file.element.xml
+    assert len(re.findall(r'w:fldCharType="begin" w:dirty="true"', xml)) == 1
+    assert 'TOC \\o "1-2"' in xml
+    assert sum(text.endswith("sono quelli di stato di fatto (facciata).") for text in texts) == 1
+    name = results[0].run.records[0]["name"]
+    assert sum(cell.text == name for table in file.tables for cell in table.columns[0].cells) == 1
+
+
 def test_states_beside_each_other(brittle):
     """Differences to the state as it stands are those of the two checks."""
     place, results = brittle
@@ -782,7 +800,7 @@ def test_folders_and_languages_of_the_command(brittle, tmp_path):
 
 
 def test_a_file_of_the_project_that_is_no_toml(both, tmp_path):
-    for line in ("date = 28 novembre", 'client = "C:\\new"', "latitude = 42,35"):
+    for line in ("date = 28 novembre", 'client = "C:\\Users"', "latitude = 42,35"):
         (tmp_path / "p.toml").write_text(f"[project]\n{line}\n")
         with pytest.raises(
             dd.errors.InputError, match=r"p.toml: .*line 2.*texts are in quotes, Windows paths in single"

@@ -305,13 +305,21 @@ def annexes(document: Document) -> list[Block]:
         text = case_text(one.settings)
         if text:
             blocks += [Heading(document.text(_("Data of the calculation: {wall}"), wall=title), 2), Listing(text)]
+    listed: list[tuple[str, RunFile, Mapping[str, tuple[float, float]]]] = []
     for title, one in _runs(document):
         if one.inputs:
             blocks.append(Heading(document.text(_("Files and checksums: {wall}"), wall=title), 2))
             blocks.append(_files(document, one))
         if one.records:
             blocks.append(Heading(document.text(_("Records: {wall}"), wall=title), 2))
-            blocks.append(_records(document, one, _factors(document, one)))
+            factors = _factors(document, one)
+            same = next((name for name, other, its in listed if (other.records, its) == (one.records, factors)), None)
+            if same is not None:
+                blocks.append(document.say(_("The records, and the range of their factors, are those of {wall}."),
+                                           wall=same))  # fmt: skip
+                continue
+            listed.append((title, one, factors))
+            blocks.append(_records(document, one, factors))
     return blocks
 
 

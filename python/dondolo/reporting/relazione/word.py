@@ -33,6 +33,7 @@ from dondolo.reporting.content import Symbol
 from dondolo.reporting.numerals import Numeral
 from dondolo.reporting.relazione.document import Document, _
 from dondolo.reporting.relazione.web import numbered
+from dondolo.reporting.relazione.word_fields import add_contents, add_number
 
 _DOTS_PER_INCH = 300
 # Of figures [cm], of what is between the margins [cm], and of cells [points]
@@ -106,21 +107,7 @@ def _set_page(file: Any) -> None:
     file.styles["Normal"].paragraph_format.space_after = Pt(5)
     paragraph = section.footer.paragraphs[0]
     paragraph.alignment = 1
-    _add_number(paragraph, "PAGE", "1")
-
-
-def _add_number(paragraph: Any, instruction: str, shown: str) -> None:
-    """A number that Word keeps up to date."""
-    from docx.oxml import OxmlElement
-    from docx.oxml.ns import qn
-
-    field = OxmlElement("w:fldSimple")
-    field.set(qn("w:instr"), instruction)
-    run, text = OxmlElement("w:r"), OxmlElement("w:t")
-    text.text = shown
-    run.append(text)
-    field.append(run)
-    paragraph._p.append(field)
+    add_number(paragraph, "PAGE", "1")
 
 
 class _Writer:
@@ -141,8 +128,20 @@ class _Writer:
             language = OxmlElement("w:lang")
             normal.append(language)
         language.set(qn("w:val"), _LANGUAGES[self._document.language.code])
-        for block in numbered(blocks, self._document):
+        shown = numbered(blocks, self._document)
+        chapters = [block for block in shown if isinstance(block, Heading) and block.level == 1]
+        for block in shown:
+            if chapters and block is chapters[0]:
+                self._contents([chapter.text for chapter in chapters])
             self._write(block)
+
+    def _contents(self, chapters: Sequence[str]) -> None:
+        """The table of contents, on a page of its own before the first chapter."""
+        self._file.add_page_break()
+        paragraph = self._file.add_paragraph()
+        self._run(paragraph, self._document.text(_("Contents")), bold=True)
+        add_contents(self._file, chapters)
+        self._file.add_page_break()
 
     def _write(self, block: Block) -> None:
         if isinstance(block, Heading):
@@ -226,7 +225,7 @@ class _Writer:
         paragraph = self._file.add_paragraph(style="Caption" if "Caption" in self._styles else None)
         number, _blank, rest = text.removeprefix(f"{word} ").partition(". ")
         paragraph.add_run(f"{word} ")
-        _add_number(paragraph, f"SEQ {word} \\* ARABIC", number)
+        add_number(paragraph, f"SEQ {word} \\* ARABIC", number)
         paragraph.add_run(f". {rest}")
         return paragraph
 
