@@ -104,12 +104,17 @@ def of_page(path):
 
 
 def of_word(path):
-    """The same of a file of Word."""
+    """The same of a file of Word, but for its contents, which the others lack."""
     import docx
 
     lines = []
+    is_contents = False
     for paragraph in docx.Document(path).element.body.iter("{*}p"):
         runs = [*paragraph.iter("{*}t")]
+        is_contents = is_contents or 'w:fldCharType="begin"' in paragraph.xml
+        if is_contents:
+            is_contents = 'w:fldCharType="end"' not in paragraph.xml
+            continue
         if "Courier New" in paragraph.xml:
             continue
         is_math = paragraph.find(".//{*}oMath") is not None
@@ -288,11 +293,12 @@ def test_figures_keep_their_words_apart(brittle):
     assert at < min(reach)
     (reaction,) = (note for note in moved.texts if note.get_text().startswith("H = "))
     assert reaction.xy[1] < 0.0
-    ax = drawings.draw_fragility(document)
+    curve = dd.fit_fragility([0.1, 0.2, 0.3], [1, 8, 20], 40, im="pga")
+    several = tuple(dataclasses.replace(one, curve=curve) for one in subjects.several)
+    ax = drawings.draw_fragility(dataclasses.replace(document, subjects=dataclasses.replace(subjects, several=several)))
     curves = [line for line in ax.lines if len(line.get_xdata()) > 2]
     ends = {float(line.get_xdata()[-1]) for line in curves}
-    last = max(subjects.several[0].curve.levels)
-    assert ends == {last, ax.get_xlim()[1]}
+    assert ends == {0.3, ax.get_xlim()[1]}
     labels = [text.get_text() for text in ax.get_legend().get_texts()]
     assert labels.count("oltre il livello massimo") == 1
     shown = drawings.draw_spectra(document)
@@ -320,6 +326,10 @@ def test_plates_near_the_top(height, is_cut, is_open, is_round, brittle):
     above = 7.2 - height - 0.15
     assert ("sommità della parete" in texts, f"c = {100 * above:.4g}".replace(".", ",") in texts) == (is_cut, is_cut)
     dotted = [line for line in section.lines if line.get_linestyle() == ":"]
+    if is_round and is_cut and not is_open:
+        # The frustum, of which half is left, governs.
+        assert not dotted
+        return
     assert len(dotted) == (1 if is_open else 2)
     (round_it,) = (line for line in front.lines if line.get_linestyle() == ":")
     top = float(round_it.get_ydata().max())
@@ -678,7 +688,8 @@ def test_forces_have_one_name(brittle):
         dd.calculation_report(results, place / "names.docx", lang=lang)
         found = docx.Document(str(place / "names.docx"))
         cells = " ".join(cell.text for table in found.tables for row in table.rows for cell in row.cells)
-        page = re.sub(r"<[^>]*>", "", (place / "names.html").read_text())
+        page = re.sub(r"</?t[hd]\b[^>]*>", " ", (place / "names.html").read_text())
+        page = re.sub(r"<[^>]*>", "", page)
         for text in (cells, page):
             assert [name for name in names[lang] if not re.search(rf"\b{name}\b", text)] == []
             assert [name for name in names[other] if re.search(rf"\b{name}\b", text)] == []
