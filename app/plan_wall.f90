@@ -122,8 +122,9 @@ contains
    subroutine print_ties(wall)
       type(wall_type), intent(in) :: wall
 
-      integer :: i
+      integer :: i, number
 
+      number = 0
       do i = 1, size(wall%mechanism%restraints)
          associate (tie => wall%mechanism%restraints(i))
             if (tie%is_friction) then
@@ -131,7 +132,9 @@ contains
                   & ' m high, gone at '//trim(rotation(tie%fracture)))
                cycle
             end if
-            call print_line('tie', 'stiffness '//rounded(tie%stiffness)//' N/m per m, at rest '//rounded(tie%preload)// &
+            number = number + 1
+            call print_line('tie', to_text(number)//', '//rounded(tie%edge + tie%f)//' m above the hinge: stiffness '// &
+               & rounded(tie%stiffness)//' N/m per m, at rest '//rounded(tie%preload)// &
                & ' N/m, yields at '//rounded(tie%strength)//' N/m and '//trim(rotation(tie%yield))//', breaks at '// &
                & trim(rotation(tie%fracture)))
          end associate

@@ -639,7 +639,7 @@ s/engine/motor/|bad.nml: &solver: motor (line 24): no such variable; there are '
 s/polarity/sign/|bad.nml: &records: sign (line 16): no such variable; there are 'catalogue', 'polarity'
 s/im =/measure =/|bad.nml: &stripes: measure (line 19): no such variable; there are 'im', 'levels', 'first'
 s/thickness = 0.25/thickness = 0.25 height = 2/|bad.nml: &wall: height: given twice, in lines 11 and 12
-s/height = 3.0/height = 3,0/|bad.nml: &wall: height = 3, 0: must be one number; a decimal point is needed: 3.0 (line 11)
+s/height = 3.0/height = 3,0/|bad.nml: &wall: height = 3,0: must be one number; a decimal point is needed: 3.0 (line 11)
 s/height = 3.0/height = 3.0 4.0/|bad.nml: &wall: height = 3.0, 4.0: must be one value, not 2
 s/height = 3.0/height = '3.0'/|bad.nml: &wall: height = '3.0': must be a number without quotes
 s/height = 3.0/height = tall/|bad.nml: &wall: height = tall: must be a number, such as 0.25
@@ -719,7 +719,10 @@ s/0.1, 0.2/0.2, 0.2/|bad.nml: &stripes: levels = 0.2, 0.2: must increase strictl
 s/0.1, 0.2/-0.1, 0.2/|bad.nml: &stripes: levels = -0.1: must be positive
 s/0.1, 0.2/0.1,, 0.2/|bad.nml: &stripes: levels (line 20): a value is missing before a comma
 s/0.1, 0.2/, 0.1, 0.2/|bad.nml: &stripes: levels (line 20): a value is missing before a comma
-s/0.1, 0.2/0,1, 0,2/|bad.nml: &stripes: levels = 0, 1, 0, 2, 0.4, 0.6, ...: a decimal point is needed, such as 0.1
+s/0.1, 0.2/0,1, 0,2/|bad.nml: &stripes: levels = 0,1, 0,2, 0.4, 0.6, ...: a decimal point is needed, such as 0.1
+s/0.1, 0.2, 0.4,/1,5/;/0.6, 1.0/d|bad.nml: &stripes: levels = 1,5: a decimal comma, or several values? Write 1.5, or 1, 5 with a blank after the comma (line 20)
+s/0.1, 0.2, 0.4,/0.5, 1,5/;/0.6, 1.0/d|bad.nml: &stripes: levels = 0.5, 1,5: a decimal comma, or several values? Write 1.5, or 1, 5 with
+s/height = 3.0/height = 3.0, load_height = 2.5 load = 12,5e3/|bad.nml: &wall: load = 12,5e3: a decimal comma, or several values? Write 12.5e3, or 12, 5e3 with
 s/0.1, 0.2/0.1, 0.2g/|bad.nml: &stripes: levels: value 2 = 0.2g: must be a number
 s/0.1, 0.2/0.1, nan/|bad.nml: &stripes: levels: value 2 = nan: must be a number, such as 0.25 (line 20)
 s/0.1, 0.2/0.1, '0.2'/|bad.nml: &stripes: levels: value 2 = '0.2': must be a number without quotes
@@ -740,7 +743,7 @@ s/edp_limit = 1.0/estimate_error = yes/|bad.nml: &solver: estimate_error = yes: 
 s/edp_limit = 1.0/estimate_error = '.true.'/|bad.nml: &solver: estimate_error = '.true.': must be .true. or .false.
 s/one_sided/two_block/;s/edp_limit = 1.0/edp_limit = 1000/|bad.nml: &solver: edp_limit = 1000: must be less than
 s/gravity = 9.81/gravity = -9.81/|bad.nml: &solver: gravity = -9.81: must be positive (line 27)
-s/gravity = 9.81/gravity = 9,81/|bad.nml: &solver: gravity = 9, 81: must be one number; a decimal point is needed: 9.81
+s/gravity = 9.81/gravity = 9,81/|bad.nml: &solver: gravity = 9,81: must be one number; a decimal point is needed: 9.81
 s/^(&wall)/\&population file = 'walls.csv' \/\n\1/|bad.nml: &population (line 8): not for task = 'stripes', which takes &wall
 8,13d|bad.nml: &wall: must be given for task = 'stripes' (line 3)
 14,17d|bad.nml: &records: catalogue: must be given

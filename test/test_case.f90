@@ -47,6 +47,7 @@ program test_case
    call write_inputs()
    call test_values()
    call test_grammar()
+   call test_commas()
    call test_defaults()
    call test_levels()
    call test_population()
@@ -144,6 +145,79 @@ contains
       call check_accepted('&a x = 1 &end')
       call check_accepted('&a x = 1/! comment')
    end subroutine test_grammar
+
+   !> Commas between the values of a list, and those of decimals
+   subroutine test_commas()
+
+      call suite('commas of lists')
+      call check_doubtful('8,5', 'x = 8,5: a decimal comma, or several values? Write 8.5, or 8, 5 with a blank')
+      call check_doubtful('12,5e3', 'x = 12,5e3: a decimal comma')
+      call check_doubtful('-2,5', 'x = -2,5: a decimal comma')
+      call check_doubtful('2,5, 7,5', 'x = 2,5, 7,5: a decimal comma')
+      call check_doubtful('2,5 7,5', 'x = 2,5, 7,5: a decimal comma')
+      call check_doubtful('0.5, 1,5', 'Write 1.5, or 1, 5 with a blank')
+      call check_list('8, 5', [8.0_wp, 5.0_wp])
+      call check_list('8 ,5', [8.0_wp, 5.0_wp])
+      call check_list('8 5', [8.0_wp, 5.0_wp])
+      call check_list('8.0,5.0', [8.0_wp, 5.0_wp])
+      call check_list('8.,5', [8.0_wp, 5.0_wp])
+      call check_list('8e0,5', [8.0_wp, 5.0_wp])
+      call check_list('8,-5', [8.0_wp, -5.0_wp])
+      call check_list('1,2,3', [1.0_wp, 2.0_wp, 3.0_wp])
+      call check_list('1,2,3, 4,5', [1.0_wp, 2.0_wp, 3.0_wp, 4.0_wp, 5.0_wp])
+      call check_list('1,'//lf//'2', [1.0_wp, 2.0_wp])
+   end subroutine test_commas
+
+   !> Check that a list is refused
+   subroutine check_doubtful(typed, message)
+      !> The list as it is typed, and part of what must be said of it
+      character(len=*), intent(in) :: typed, message
+
+      type(error_type), allocatable :: error
+      real(wp), allocatable :: values(:)
+
+      call read_list(typed, values, error)
+      call check_error(error, message, typed)
+   end subroutine check_doubtful
+
+   !> Check that a list is read
+   subroutine check_list(typed, expected)
+      !> The list as it is typed
+      character(len=*), intent(in) :: typed
+      !> Its values
+      real(wp), intent(in) :: expected(:)
+
+      type(error_type), allocatable :: error
+      real(wp), allocatable :: values(:)
+      integer :: i
+
+      call read_list(typed, values, error)
+      call check_ok(error, typed)
+      if (allocated(error)) return
+      call check(size(values) == size(expected), typed//': number of values')
+      if (size(values) /= size(expected)) return
+      do i = 1, size(values)
+         call check_close(values(i), expected(i), 0.0_wp, typed)
+      end do
+   end subroutine check_list
+
+   !> Read a list
+   subroutine read_list(typed, values, error)
+      !> The list as it is typed
+      character(len=*), intent(in) :: typed
+      !> Its values
+      real(wp), allocatable, intent(out) :: values(:)
+      !> It is refused
+      type(error_type), allocatable, intent(out) :: error
+
+      type(namelist_type) :: namelist
+      type(group_type) :: group
+
+      call read_namelist('case.nml', namelist, error, '&a x = '//typed//' /')
+      if (allocated(error)) return
+      group = namelist%group('a')
+      call group%get_reals('x', values, error)
+   end subroutine read_list
 
    !> Defaults as the documentation says
    subroutine test_defaults()

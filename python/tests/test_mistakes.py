@@ -62,6 +62,12 @@ def case(more: str = "", **groups: str) -> str:
         (case(building="period = 0.25, participation = 1.2, damping = 3"), "is it in per cent?"),
         # Numbers that are not written as here
         (case(stripes="levels = 0,3; 0,5"), "a comma separates values, a point decimals"),
+        (
+            case(f"{TIE}, tie_area = 2e-5".replace("2.3", "2,3")),
+            "tie_height = 2,3: a decimal comma, or several values? Write 2.3, or 2, 3 with",
+        ),
+        (case(stripes="levels = 1,5, 2,5"), "levels = 1,5, 2,5: a decimal comma, or several values"),
+        (case(stripes="levels = 0.5, 1,5"), "levels = 0.5, 1,5: a decimal comma, or several values"),
         (case(stripes="levels = 0.3; 0.5"), "a comma separates values, a point decimals"),
         (case(stripes="levels = linspace(0.3, 0.7, 3)"), "first, last and count give equally spaced levels"),
         (case(stripes="levels = 0.3:0.2:0.7"), "first, last and count give equally spaced levels"),
@@ -124,6 +130,14 @@ def test_warning(folder, run, text, message):
     done = run("--check", "wall.nml")
     assert done.returncode == 0
     assert message in done.stdout
+
+
+def test_ties_are_counted(folder, run):
+    ties = "tie_height = 2.3, 1.5, tie_length = 5.0, tie_area = 2e-5"
+    (folder / "wall.nml").write_text(case(ties))
+    shown = run("--check", "wall.nml").stdout
+    assert "1, 2.3 m above the hinge: stiffness" in shown
+    assert "2, 1.5 m above the hinge: stiffness" in shown
 
 
 def test_records_that_are_too_few(folder, run):

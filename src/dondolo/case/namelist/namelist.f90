@@ -261,6 +261,7 @@ contains
                value%text = token%text
                value%quoted = token%kind == quoted
                value%line = token%line
+               value%touches = after_comma .and. token%touches .and. tokens(at - 1)%touches
             end associate
             after_comma = .false.
          case (comma)

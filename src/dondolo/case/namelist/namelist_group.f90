@@ -28,6 +28,8 @@ module dondolo_case_namelist_group
       logical :: quoted = .false.
       !> Its line in the file
       integer :: line = 0
+      !> Is there only a comma between the value before and this one, and no blank?
+      logical :: touches = .false.
    end type value_type
 
    !> One variable and its values
@@ -241,7 +243,9 @@ contains
       i = position(self, name)
       typed = shown(self%variables(i)%values(1)%typed)
       do j = 2, min(size(self%variables(i)%values), 6)
-         typed = typed//', '//shown(self%variables(i)%values(j)%typed)
+         typed = typed//','
+         if (.not. self%variables(i)%values(j)%touches) typed = typed//' '
+         typed = typed//shown(self%variables(i)%values(j)%typed)
       end do
       if (size(self%variables(i)%values) > 6) typed = typed//', ...'
       call raise_input(error, name//' = '//typed//': '//allowed, code, name)
@@ -287,12 +291,34 @@ contains
       type(value_type), intent(in) :: first
       !> The text after it
       type(value_type), intent(in) :: second
-      !> Both are whole numbers without quotes, the second one unsigned
+      !> Both are whole numbers without quotes, the second one unsigned; it may have an exponent
       logical :: split_number
 
+      integer :: last
+
+      last = scan(second%text, 'eEdD') - 1
+      if (last < 0) last = len(second%text)
       split_number = .not. (first%quoted .or. second%quoted) .and. verify(first%text, figures//'+-') == 0 &
-         & .and. verify(second%text, figures) == 0
+         & .and. last > 0 .and. verify(second%text(:last), figures) == 0
    end function split_number
+
+   !> Which values of a list may be one number that was typed with a decimal comma: `2,5` or `2,5, 7,5`. Where three values
+   !> have no blank between them, as in `1,2,3`, commas separate values
+   pure integer function split_in_list(values) result(first)
+      type(value_type), intent(in) :: values(:)
+
+      integer :: i
+
+      first = 0
+      do i = 1, size(values) - 1
+         if (.not. values(i + 1)%touches) cycle
+         if (values(i)%touches) then
+            first = 0
+            return
+         end if
+         if (first == 0 .and. split_number(values(i), values(i + 1))) first = i
+      end do
+   end function split_in_list
 
    !> Does a second value look like the unit of the first?
    pure logical function is_unit(first, second)
@@ -445,6 +471,12 @@ contains
                return
             end if
          end do
+         j = split_in_list(given)
+         if (j > 0) then
+            call self%refuse(name, 'a decimal comma, or several values? Write '//given(j)%text//'.'//given(j + 1)%text// &
+               & ', or '//given(j)%text//', '//given(j + 1)%text//' with a blank after the comma', not_a_number, error)
+            return
+         end if
       end associate
       call move_alloc(numbers, values)
    end subroutine get_reals

@@ -37,6 +37,8 @@ module dondolo_case_namelist_tokens
       character(len=:), allocatable :: text
       !> Its line
       integer :: line = 0
+      !> Does it follow the token before without a blank?
+      logical :: touches = .false.
    end type token_type
 
 contains
@@ -71,6 +73,7 @@ contains
             end if
             count = count + 1
             tokens(count)%line = number
+            if (at > 1) tokens(count)%touches = index(blanks, line(at - 1:at - 1)) == 0
             call take_token(line, at, tokens(count), error)
             if (allocated(error)) then
                error%message = text%place(number)//': '//error%message
