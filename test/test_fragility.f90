@@ -8,7 +8,7 @@ program test_fragility
    use dondolo_base_student, only : student_cdf, student_quantile
    use dondolo_base_warning, only : warnings_type
    use dondolo_case_result_warnings, only : warn_of_fit
-   use dondolo_fragility, only : fit_fragility, fit_status_names, fragility_type, normal_cdf
+   use dondolo_fragility, only : fit_fragility, fit_status_names, fragility_type, normal_cdf, refuse_fractions
    use dondolo_fragility_clustered, only : cluster_errors, parameter_intervals
    use dondolo_fragility_even_levels, only : even_levels, settle_levels
    use dondolo_fragility_logit, only : fit_logit, logit_type
@@ -298,6 +298,14 @@ contains
       call check_error(error, 'there are none', 'no histories')
       call fit_fragility(curve, one, [ieee_value(0.0_wp, ieee_quiet_nan)], one, error)
       call check_error(error, 'collapses = NaN', 'not a number')
+      call refuse_fractions([0.0_wp, 0.2_wp, 1.0_wp], [44.0_wp, 44.0_wp, 44.0_wp], error)
+      call check_error(error, 'collapses: look like fractions of the histories: must be counts', 'fractions')
+      call refuse_fractions([0.2_wp, 0.8_wp], [1.0_wp, 1.0_wp], error)
+      call check(.not. allocated(error), 'fractions of one history')
+      call refuse_fractions([0.2_wp, 8.5_wp], [44.0_wp, 44.0_wp], error)
+      call check(.not. allocated(error), 'weighted counts')
+      call refuse_fractions([0.0_wp, 1.0_wp], [44.0_wp, 44.0_wp], error)
+      call check(.not. allocated(error), 'counts of at most one')
    end subroutine test_wrong_counts
 
    !> Clustered standard errors: changes are those of fits without each cluster, copies add nothing, and what has no

@@ -364,6 +364,9 @@ def test_fit_of_counts(c, error):
     assert c.status(error) == 0
     assert c.fit_counts(error, 3, levels, histories, collapses) is None
     assert c.status(error) == 2
+    c.clear_error(error)
+    assert c.fit_counts(error, 3, levels, (ctypes.c_double * 3)(0.1, 0.5, 0.9), histories) is None
+    assert b"look like fractions of the histories" in c.message(error)
 
 
 def test_warnings(c, error, catalogue, records):

@@ -87,6 +87,16 @@ def test_counts_that_hardly_rise_warn():
     assert dd.fit_fragility([0.15, 0.3, 0.45, 0.6, 0.75], [8, 12, 15, 18, 22], 30).status == "ok"
 
 
+def test_fractions_in_place_of_counts_are_refused():
+    with pytest.raises(dd.errors.InputError, match="collapses: look like fractions of the histories") as caught:
+        dd.fit_fragility([0.2, 0.4, 0.6], [0.1, 0.5, 1.0], 44)
+    assert [(one.code, one.variable) for one in caught.value.errors] == [("out_of_range", "collapses")]
+    counted = dd.fit_fragility([0.2, 0.4, 0.6], [4.4, 22.0, 40.5], 44)
+    assert counted.has_fit
+    weighted = dd.fit_fragility([0.2, 0.4, 0.6], counted.collapses / 44.0, 1.0)
+    assert weighted.theta == pytest.approx(counted.theta, rel=1e-9)
+
+
 @pytest.mark.parametrize(
     ("collapses", "status", "bracket"),
     [

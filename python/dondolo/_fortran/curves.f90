@@ -9,7 +9,7 @@ module curves
    use dondolo_boundary, only : check_room
    use dondolo_case_result_warnings, only : warn_of_fit, warn_of_the_union => warn_of_union
    use dondolo_curve_parcel, only : put_curves, put_fits
-   use dondolo_fragility, only : error_names, fit_fragility, fit_ok, fragility_type
+   use dondolo_fragility, only : error_names, fit_fragility, fit_ok, fragility_type, refuse_fractions
    use dondolo_fragility_clustered, only : cluster_errors
    use dondolo_fragility_logit, only : fit_one_logit => fit_logit, logit_type
    use dondolo_fragility_ordinal, only : ordinal_fit => fit_ordinal, ordinal_errors
@@ -31,10 +31,11 @@ module curves
 
 contains
 
-   !> Fit k curves, each to m levels: what is sent is named as put_fits has it. The error is that of the first that goes wrong
-   subroutine fit_curves(levels, collapses, histories, m, k, sent)
+   !> Fit k curves, each to m levels: what is sent is named as put_fits has it. The error is that of the first that goes wrong.
+   !> Counts that somebody gives (given: 1) must not be fractions
+   subroutine fit_curves(levels, collapses, histories, given, m, k, sent)
       !f2py threadsafe
-      integer(c_int), intent(in) :: m, k
+      integer(c_int), intent(in) :: given, m, k
       real(c_double), intent(in) :: levels(m), collapses(m, k), histories(m, k)
       integer(c_int64_t), intent(out) :: sent(5)
       type(fragility_type), allocatable :: curves(:)
@@ -48,9 +49,10 @@ contains
          worst = k + 1
          team = team_of(0, k/fits_of_thread)
          !$omp parallel do num_threads(team) default(none) private(error) &
-         !$omp & shared(k, levels, collapses, histories, curves, worst, first)
+         !$omp & shared(k, given, levels, collapses, histories, curves, worst, first)
          do i = 1, k
             call fit_fragility(curves(i), levels, collapses(:, i), histories(:, i), error)
+            if (given == 1 .and. .not. allocated(error)) call refuse_fractions(collapses(:, i), histories(:, i), error)
             if (allocated(error)) then
                !$omp critical (first_error)
                if (i < worst) then

@@ -43,10 +43,15 @@ class FittedCurve(NamedTuple):
     degrees_of_freedom: float
 
 
-def fit_curves(levels: FloatArray, collapses: FloatArray, histories: FloatArray) -> list[CurveData]:
-    """Fit many curves in one call: collapses and histories are (curves, levels)."""
+def fit_curves(
+    levels: FloatArray, collapses: FloatArray, histories: FloatArray, *, given: bool = False
+) -> list[CurveData]:
+    """Fit many curves in one call: collapses and histories are (curves, levels).
+
+    Counts that a user gives are refused if they look like fractions.
+    """
     z, n = np.ascontiguousarray(collapses), np.ascontiguousarray(histories)
-    return _curves(receive(_core.curves.fit_curves(levels, z.T, n.T)), "")
+    return _curves(receive(_core.curves.fit_curves(levels, z.T, n.T, given)), "")
 
 
 def fitted_curves(parcel: Parcel, prefix: str) -> list[FittedCurve]:

@@ -60,7 +60,8 @@ def fit_fragility(
     Raises
     ------
     InputError
-        Impossible counts or outcomes, a measure that is not a string, records or labels that are not one per history.
+        Impossible counts or outcomes, fractions in place of counts, a measure that is not a string, records or labels
+        that are not one per history.
 
     Warns
     -----
@@ -96,7 +97,7 @@ def fit_fragility(
                 )
         if histories is None:
             raise argument_error("not_given", "histories", ": must be given with counts of collapses")
-        curve = fit(*_counts(levels, collapses, histories), im=measure)
+        curve = fit(*_counts(levels, collapses, histories), given=True, im=measure)
     if curve.has_fit:
         warn(warnings_of_fit(curve))
     return curve
@@ -114,9 +115,11 @@ def counts_are_flat(levels: FloatArray, collapses: ArrayLike, histories: int) ->
     return found.status == "nearly_flat"
 
 
-def fit(levels: FloatArray, collapses: FloatArray, histories: FloatArray, **origin: Any) -> Fragility:
-    """Fit without a warning; with a sample in `origin`, its standard errors are clustered."""
-    (data,) = fit_curves(levels, collapses[None, :], histories[None, :])
+def fit(
+    levels: FloatArray, collapses: FloatArray, histories: FloatArray, *, given: bool = False, **origin: Any
+) -> Fragility:
+    """Fit without a warning, to given counts or others; with a sample in `origin`, standard errors are clustered."""
+    (data,) = fit_curves(levels, collapses[None, :], histories[None, :], given=given)
     curve = curve_of(data, levels, collapses, histories, **origin)
     if curve.has_fit and curve.sample is not None:
         return with_errors(curve, errors_of_sample(curve.sample, (curve.theta, curve.beta)))

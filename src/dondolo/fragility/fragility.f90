@@ -14,7 +14,7 @@ module dondolo_fragility
    implicit none
    private
 
-   public :: fragility_type, fit_fragility
+   public :: fragility_type, fit_fragility, refuse_fractions
    public :: fit_ok, fit_extrapolated, fit_nearly_flat, fit_no_collapse, fit_all_collapse, fit_separated, fit_single_level, &
       & fit_decreasing, fit_not_converged, fit_status_names, statuses_with_curve
    public :: deviance_of, error_names, is_flat, least_ratio, log_normal_cdf, log_share, mills, normal_cdf, outer
@@ -393,6 +393,19 @@ contains
       end do
       if (.not. sum(n) > 0.0_wp) call raise_input(error, 'histories: there are none', not_given, 'histories')
    end subroutine check_counts
+
+   !> Refuse fractions that somebody gives for counts: none exceeds 1, some are not whole, and there are more histories. Counts
+   !> that are computed, such as weighted means of many walls, may be as small
+   subroutine refuse_fractions(collapses, histories, error)
+      !> Collapses and histories at each level, as they are given
+      real(wp), intent(in) :: collapses(:), histories(:)
+      !> They look like fractions
+      type(error_type), allocatable, intent(out) :: error
+
+      if (any(collapses > 1.0_wp) .or. all(histories <= 1.0_wp)) return
+      if (any(collapses > 0.0_wp .and. collapses < 1.0_wp)) call raise_input(error, 'collapses: look like fractions of the '// &
+         & 'histories: must be counts, fraction times histories', out_of_range, 'collapses')
+   end subroutine refuse_fractions
 
    !> Is there a curve?
    elemental function has_fit(self)

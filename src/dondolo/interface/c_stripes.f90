@@ -14,7 +14,7 @@ module dondolo_interface_c_stripes
    use dondolo_case_motion_warnings, only : scale_warnings_type, warn_of_events, warn_of_records
    use dondolo_case_result_warnings, only : warn_of_errors, warn_of_fit
    use dondolo_case_wall_warnings, only : wall_warnings_type
-   use dondolo_fragility, only : fit_fragility, fragility_type
+   use dondolo_fragility, only : fit_fragility, fragility_type, refuse_fractions
    use dondolo_fragility_even_levels, only : settle_levels
    use dondolo_fragility_scaling, only : new_scaling, scaling_type
    use dondolo_fragility_stripe_counts, only : stripe_counts_type
@@ -215,6 +215,7 @@ contains
       if (.not. allocated(problem)) call take_numbers(collapses, count, 'collapses', z, problem)
       if (.not. allocated(problem)) call take_numbers(histories, count, 'histories', n, problem)
       if (.not. allocated(problem)) call fit_fragility(fragility, real(x, wp), real(z, wp), real(n, wp), problem)
+      if (.not. allocated(problem)) call refuse_fractions(real(z, wp), real(n, wp), problem)
       if (.not. allocated(problem)) then
          stripes%levels = x
          ! The status gives the reason for a missing curve: the sentence would refer to EDPs, which are not known
