@@ -44,6 +44,11 @@ def cut():
         (lambda: run(records=times(1.0 / 9.81)), "scale_factors_large", "above 10 in 48 of 48 histories"),
         (lambda: run(records=times(100.0)), "record_pga", "more than 3 g: wrong units?"),
         (lambda: run(records=times(1.0, 1.0)), "record_pgv_pga", "wrong time step"),
+        (
+            lambda: run(records=times(1.0, 0.001)),
+            "records_pgv_pga",
+            "of 12 records = * time step too small, 0.001 s of",
+        ),
         (lambda: run(records=cut()), "record_start", "begins at * % of its PGA: triggered late, or cut? (12 of 12"),
         (lambda: run(records=RECORDS[0]).fit(), "separated", "no curve is fitted"),
         (lambda: run().fit_damage_states([0.02, 0.05]), "all_collapse", "damage state 0.02 in place of collapse"),

@@ -197,7 +197,7 @@ def test_a_wrong_time_step_warns(sine):
     right = dd.Record(sine.acceleration, sine.dt, "right", metadata={"event": "A"})
     for dt, limit, why in (
         (10.0 * sine.dt, "more than 0.5", ", or a baseline that drifts"),
-        (0.01 * sine.dt, "less than 0.01", ""),
+        (0.01 * sine.dt, "less than 0.015", ""),
     ):
         wrong = dd.Record(sine.acceleration, dt, "wrong", metadata={"event": "B"})
         ratio = wrong.intensity("pgv") / wrong.peak_acceleration

@@ -3,6 +3,7 @@ module dondolo_record_table
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_lines, only : lines_type
+   use dondolo_base_order, only : make_order
    use dondolo_base_plain, only : visible
    use dondolo_base_text, only : left, rounded, to_text
    use dondolo_record, only : record_type
@@ -12,6 +13,7 @@ module dondolo_record_table
    private
 
    public :: record_table, find_problems, pga_limit, describe_pga, pace_limit, describe_pace, start_limit, describe_start
+   public :: set_is_quick, least_median_pace
 
    !> First acceleration that is odd, as a part of the peak: the recorder was triggered late
    real(wp), parameter :: abrupt = 0.1_wp
@@ -25,9 +27,12 @@ module dondolo_record_table
    !> PGA that hardly any accelerograph has measured, or that nobody would use [g]: the units may be wrong
    real(wp), parameter :: strongest = 3.0_wp, weakest = 0.005_wp
 
-   !> PGV / PGA that hardly any earthquake has [s]: the time step may be wrong. That of 44 components recorded in Italy is 0.04
-   !> to 0.23 s
-   real(wp), parameter :: slowest = 0.5_wp, quickest = 0.01_wp
+   !> PGV / PGA that hardly any earthquake has [s], and its least median in a set: the time step may be wrong. Measured values
+   !> are in docs/ground_motions.md
+   real(wp), parameter :: slowest = 0.5_wp, quickest = 0.015_wp, least_median_pace = 0.03_wp
+
+   !> Fewest records that are a set: one alone does not decide their median
+   integer, parameter :: fewest_of_set = 3
 
    !> Widest column of names, and of events and stations
    integer, parameter :: widest = 40
@@ -223,6 +228,27 @@ contains
       if (ratio > slowest) pace_limit = slowest
       if (ratio < quickest) pace_limit = quickest
    end function pace_limit
+
+   !> Is the median of PGV / PGA lower than that of any set of records?
+   pure subroutine set_is_quick(ratios, is_quick, median)
+      !> PGV / PGA of each record that moves [s]
+      real(wp), intent(in) :: ratios(:)
+      !> It is
+      logical, intent(out) :: is_quick
+      !> The median [s], 0 if there are too few records
+      real(wp), intent(out) :: median
+
+      integer, allocatable :: order(:)
+      integer :: n
+
+      is_quick = .false.
+      median = 0.0_wp
+      n = size(ratios)
+      if (n < fewest_of_set) return
+      call make_order(ratios, order)
+      median = 0.5_wp*(ratios(order((n + 1)/2)) + ratios(order(n/2 + 1)))
+      is_quick = median < least_median_pace
+   end subroutine set_is_quick
 
    !> What looks odd about PGV / PGA
    pure subroutine describe_pace(ratio, limit, text)

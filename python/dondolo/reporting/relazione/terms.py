@@ -131,6 +131,8 @@ WARNINGS = {
     " da controllare se la registrazione è tagliata",
     "record_pgv_pga": "accelerogramma {record}: rapporto PGV/PGA di {ratio_s} s fuori dal campo usuale (limite"
     " {limit_s} s)",
+    "records_pgv_pga": "mediana del rapporto PGV/PGA di {records} accelerogrammi di {median_s} s, sotto il limite"
+    " {limit_s} s: da controllare il passo temporale, {dt_s} s per {record}",
     "vertical_beyond_g": "accelerazione verticale verso il basso maggiore di g in {histories_beyond} analisi su"
     " {histories} (accelerogramma"
     " {record} dal livello {level})",

@@ -8,7 +8,8 @@ module dondolo_case_motion_warnings
    use dondolo_fragility_study, only : study_type
    use dondolo_record, only : record_type
    use dondolo_record_suite, only : suite_type
-   use dondolo_record_table, only : describe_pace, describe_pga, describe_start, pace_limit, pga_limit, start_limit
+   use dondolo_record_table, only : describe_pace, describe_pga, describe_start, least_median_pace, pace_limit, pga_limit, &
+      & set_is_quick, start_limit
    use dondolo_wall, only : wall_type
    implicit none
    private
@@ -19,7 +20,7 @@ module dondolo_case_motion_warnings
    character(len=*), parameter :: levels_above_usual = 'levels_above_usual', scale_factors_large = 'scale_factors_large', &
       & factors_off_levels = 'factors_off_levels', vertical_beyond_g = 'vertical_beyond_g', &
       & record_without_motion = 'record_without_motion', record_pga = 'record_pga', record_pgv_pga = 'record_pgv_pga', &
-      & record_start = 'record_start', records_without_event = 'records_without_event'
+      & records_pgv_pga = 'records_pgv_pga', record_start = 'record_start', records_without_event = 'records_without_event'
 
    !> A record scaled by more than this hardly is the earthquake it was
    real(wp), parameter :: large_scale = 10.0_wp
@@ -359,6 +360,7 @@ contains
          call describe_pace(ratio, pace_limit(ratio), text)
          call add_first(warning, suite%records(strange(2))%name, text, beyond(2), last - first + 1, warnings)
       end if
+      if (.not. present(number)) call warn_of_set(suite, warnings)
       if (beyond(3) > 0) then
          ratio = start_of(strange(3))
          warning = warning_type(record_start)
@@ -381,6 +383,33 @@ contains
       end function start_of
 
    end subroutine warn_of_records
+
+   !> Warn of records whose PGV / PGA is too low all in all, though that of each might be
+   subroutine warn_of_set(suite, warnings)
+      type(suite_type), intent(in) :: suite
+      !> Warnings to add to
+      type(warnings_type), intent(inout) :: warnings
+
+      type(warning_type) :: warning
+      real(wp) :: median
+      logical :: is_quick
+      integer :: first
+
+      associate (moves => suite%peaks > 0.0_wp)
+         call set_is_quick(pack(suite%velocities, moves)/pack(suite%peaks, moves), is_quick, median)
+         if (.not. is_quick) return
+         first = findloc(moves, .true., dim=1)
+         warning = warning_type(records_pgv_pga)
+         call warning%about('record', suite%records(first)%name)
+         call warning%with('median_s', median)
+         call warning%with('limit_s', least_median_pace)
+         call warning%with('dt_s', suite%records(first)%dt)
+         call warning%with('records', count(moves))
+         call warnings%add(warning, 'median PGV / PGA of '//to_text(count(moves))//' records = '//rounded(median)//' s, less '// &
+            & 'than '//to_text(least_median_pace)//' s: is their time step too small, '//to_text(suite%records(first)%dt)// &
+            & ' s of record '''//suite%records(first)%name//'''?')
+      end associate
+   end subroutine warn_of_set
 
    !> Add a warning of the first of some records, and how many there are
    subroutine add_first(warning, name, text, beyond, records, warnings)
