@@ -24,26 +24,6 @@ module dondolo
    use dondolo_base_error, only : error_type
    use dondolo_base_kinds, only : wp
    use dondolo_base_version, only : dondolo_version_text
-   use dondolo_case, only : case_type
-   use dondolo_case_population_case, only : merge_population
-   use dondolo_case_read_case, only : read_case
-   use dondolo_case_reports, only : check_reports, write_reports
-   use dondolo_case_results, only : results_type
-   use dondolo_case_run_case, only : run_case
-   use dondolo_fragility, only : fit_fragility, fragility_type
-   use dondolo_fragility_scaling, only : new_scaling, scaling_names, scaling_type
-   use dondolo_fragility_stripes, only : multiple_stripe, stripes_type
-   use dondolo_fragility_study, only : new_study, polarity_names, study_type
-   use dondolo_motion_initial_state, only : initial_state_type
-   use dondolo_motion_queue, only : progress_interface
-   use dondolo_motion_response, only : response_type, tie_response_type, trace_type
-   use dondolo_motion_simulate, only : simulate
-   use dondolo_motion_solver, only : check_limit, check_solver, engine_names, solver_type
-   use dondolo_population, only : population_type
-   use dondolo_population_reader, only : population_reader_type, read_population
-   use dondolo_population_table, only : population_table_type
-   use dondolo_population_typology, only : combine_population, typology_type
-   use dondolo_population_wall_row, only : wall_row_type
    use dondolo_record, only : new_record, record_type
    use dondolo_record_catalogue, only : read_catalogue
    use dondolo_record_ground_motion, only : ground_displacement, ground_velocity
@@ -56,6 +36,26 @@ module dondolo
    use dondolo_wall, only : mechanism_names, new_wall, wall_input_type, wall_type
    use dondolo_wall_mechanism, only : mechanism_type
    use dondolo_wall_restraint, only : restraint_type
+   use dondolo_motion_initial_state, only : initial_state_type
+   use dondolo_motion_queue, only : progress_interface
+   use dondolo_motion_response, only : response_type, tie_response_type, trace_type
+   use dondolo_motion_simulate, only : simulate
+   use dondolo_motion_solver, only : check_limit, check_solver, engine_names, solver_type
+   use dondolo_fragility, only : fit_fragility, fragility_type
+   use dondolo_fragility_scaling, only : new_scaling, scaling_names, scaling_type
+   use dondolo_fragility_stripes, only : multiple_stripe, stripes_type
+   use dondolo_fragility_study, only : new_study, polarity_names, study_type
+   use dondolo_population, only : population_type
+   use dondolo_population_reader, only : population_reader_type, read_population
+   use dondolo_population_table, only : population_table_type
+   use dondolo_population_typology, only : combine_population, typology_type
+   use dondolo_population_wall_row, only : wall_row_type
+   use dondolo_case, only : case_type
+   use dondolo_case_population_case, only : merge_population
+   use dondolo_case_read_case, only : read_case
+   use dondolo_case_reports, only : check_reports, write_reports
+   use dondolo_case_results, only : results_type
+   use dondolo_case_run_case, only : run_case
    implicit none
    private
 

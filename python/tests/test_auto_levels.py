@@ -115,7 +115,7 @@ def test_wrong_budgets(wall, few, budget, message):
 def test_records_with_levels(wall, few):
     with pytest.raises(dd.errors.InputError, match="records: have levels of their own"):
         dd.adaptive_stripes(wall, {0.4: few}, budget=100, progress=False)
-    with refused("not_numbers", "levels"):
+    with refused("wrong_type", "levels"):
         dd.multiple_stripe(wall, few, "auto", progress=False)
 
 

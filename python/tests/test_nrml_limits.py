@@ -122,7 +122,7 @@ def test_discrete_functions_are_curves(path):
     np.testing.assert_allclose(ax.lines[0].get_ydata(), crack(ax.lines[0].get_xdata()))
     assert ax.get_legend().get_texts()[0].get_text() == "crack"
     for wrong in (-0.1, np.nan, "x"):
-        with pytest.raises(dd.errors.InputError, match="x: must be"):
+        with pytest.raises(dd.errors.InputError, match=r"^x.*: must be"):
             crack(wrong)
     for wrong in (-0.1, np.nan, "x"):
         with pytest.raises(dd.errors.InputError, match="no_damage_limit"):

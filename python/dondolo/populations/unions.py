@@ -72,5 +72,4 @@ def mean_curve(typology: Typology, group: Group, fraction: FloatArray) -> Fragil
     histories, saturation = group.fit.histories, group.saturation
     share = np.minimum(fraction / saturation, 1.0) if saturation > 0.0 else fraction
     edp = float(typology.edp_thresholds[-1])
-    origin = {"im": typology.im, "edp_threshold": edp, "saturation": saturation}
-    return fit(typology.levels, histories * share, histories, **origin)
+    return fit(typology.levels, histories * share, histories, im=typology.im, edp_threshold=edp, saturation=saturation)

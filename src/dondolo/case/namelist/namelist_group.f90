@@ -209,7 +209,7 @@ contains
       type(error_type), allocatable, intent(out) :: error
 
       type(problems_type) :: problems
-      character(len=:), allocatable :: allowed
+      character(len=:), allocatable :: allowed, line
       integer :: i
 
       if (.not. allocated(self%variables)) return
@@ -217,9 +217,10 @@ contains
          if (any(self%variables(i)%name == names)) cycle
          allowed = trim(meant(self%variables(i)%name, names))
          if (problems%count == 0) call say_allowed(self%variables(i)%name, names, '--template', allowed)
-         call raise_input(error, self%place()//': '//self%variables(i)%name//' (line '// &
-            & to_text(self%variables(i)%line)//'): no such variable'//allowed, unknown_name, self%variables(i)%name, &
-            & self%place()//self%in_line(self%variables(i)%name))
+         ! Not by in_line, which looks for the name among all of them
+         line = ' (line '//to_text(self%variables(i)%line)//')'
+         call raise_input(error, self%place()//': '//self%variables(i)%name//line//': no such variable'//allowed, &
+            & unknown_name, self%variables(i)%name, self%place()//line)
          call problems%take(error)
       end do
       call problems%raise(error)
